@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# One room of the house: a static library hx_NAME from the sources listed by hand.
+#   hx_room(io SOURCES ply.cpp stl.cpp LINKS hx_core hx_geometry)
+# Before it has sources, a room is an interface library, so that others can link to it.
+function(hx_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  set(target hx_${name})
+  if(ROOM_SOURCES)
+    add_library(${target} STATIC ${ROOM_SOURCES})
+    target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/src)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow)
+    target_link_libraries(${target} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
+  else()
+    add_library(${target} INTERFACE)
+    target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR}/src)
+    target_link_libraries(${target} INTERFACE ${ROOM_LINKS})
+  endif()
+endfunction()
+
+# The tests of one room: an executable test_NAME, each of its cases one CTest.
+#   hx_test(io SOURCES ply_test.cpp LINKS hx_io)
+# Cases may read real data under ${CMAKE_SOURCE_DIR}/../shared and must skip where it is absent.
+function(hx_test name)
+  cmake_parse_arguments(T "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(test_${name} ${T_SOURCES})
+  target_include_directories(test_${name} PRIVATE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/tests)
+  target_compile_options(test_${name} PRIVATE -Wall -Wextra -Wshadow)
+  target_compile_definitions(test_${name} PRIVATE
+    HYPEREX_SOURCE_DIR="${CMAKE_SOURCE_DIR}" HYPEREX_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared"
+    HYPEREX_PROGRAM="${CMAKE_BINARY_DIR}/bin/hyperex")
+  target_link_libraries(test_${name} PRIVATE ${T_LINKS} GTest::gtest_main GTest::gmock)
+  include(GoogleTest)
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 600)
+endfunction()

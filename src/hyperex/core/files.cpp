@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/files.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "hyperex/core/error.hpp"
+
+namespace hyperex {
+namespace fs = std::filesystem;
+
+namespace {
+fs::path temporary_beside(const fs::path& target) {
+  return target.parent_path() /
+         fmt::format(".{}.{}.tmp", target.filename().string(), static_cast<long>(::getpid()));
+}
+}  // namespace
+
+void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  const fs::path temporary = temporary_beside(path);
+  std::error_code ignored;
+  const auto fail = [&](const std::string& why) {
+    fs::remove(temporary, ignored);
+    throw InputError(path, "cannot be written (" + why + ")");
+  };
+  {
+    errno = 0;
+    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    if (!stream) fail(std::strerror(errno));
+    try {
+      write(stream);
+    } catch (...) {
+      stream.close();
+      fs::remove(temporary, ignored);
+      throw;
+    }
+    stream.flush();
+    if (!stream) fail(errno ? std::strerror(errno) : "the disk may be full");
+  }
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) fail(error.message());
+}
+
+OutputDirectory::OutputDirectory(fs::path target, std::string marker)
+    : target_(fs::absolute(target).lexically_normal()), marker_(std::move(marker)) {
+  if (!target_.has_filename()) target_ = target_.parent_path();
+  std::error_code error;
+  if (fs::exists(target_)) {
+    if (!fs::is_directory(target_))
+      throw InputError(target_, "is a file; expected the name of a folder for the outputs");
+    if (!fs::is_empty(target_) && !fs::exists(target_ / marker_))
+      throw InputError(target_, fmt::format("holds other files and no earlier run's {}; expected a "
+                                            "new or empty folder, or one of an earlier run",
+                                            marker_));
+  }
+  fs::create_directories(target_.parent_path(), error);
+  temporary_ = temporary_beside(target_);
+  fs::remove_all(temporary_, error);
+  error.clear();
+  fs::create_directory(temporary_, error);
+  if (error) throw InputError(target_, "cannot be created (" + error.message() + ")");
+}
+
+OutputDirectory::~OutputDirectory() {
+  if (committed_) return;
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+}
+
+void OutputDirectory::commit() {
+  std::error_code error;
+  fs::remove_all(target_, error);
+  error.clear();
+  fs::rename(temporary_, target_, error);
+  if (error) throw InputError(target_, "cannot be written (" + error.message() + ")");
+  committed_ = true;
+}
+
+std::string read_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) throw InputError(path, "no such file");
+  if (fs::is_directory(path, error)) throw InputError(path, "is a folder; expected a file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(path, "cannot be read");
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  return bytes.str();
+}
+
+}  // namespace hyperex

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+
+namespace hyperex {
+namespace {
+std::atomic<bool> silenced{false};
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
+}  // namespace
+
+void Progress::silence(bool silent) { silenced = silent; }
+
+Progress::Progress(std::string label, long total)
+    : label_(std::move(label)), total_(total), start_(Clock::now()), last_draw_(start_) {
+  // On a terminal the label stands at once: some work is one long call that cannot report.
+  if (!silenced && ::isatty(2)) draw(0, false);
+}
+
+Progress::~Progress() {
+  if (shown_) draw(total_, true);
+}
+
+double Progress::seconds() const { return seconds_since(start_); }
+
+void Progress::update(long done) {
+  if (silenced) return;
+  const bool terminal = ::isatty(2);
+  if (seconds_since(last_draw_) < (terminal ? 0.1 : 1.0)) return;
+  if (!terminal && shown_) return;
+  draw(done, false);
+}
+
+void Progress::draw(long done, bool last) {
+  if (silenced) return;
+  shown_ = true;
+  last_draw_ = Clock::now();
+  constexpr int width = 30;
+  const double share = last ? 1.0 : total_ > 0 ? std::clamp(double(done) / double(total_), 0., 1.) : 0.;
+  const int filled = int(share * width);
+  const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
+  if (::isatty(2)) {
+    std::fputs(fmt::format("\r{:<28} [{}] {:3.0f} % {:6.1f} s{}", label_, bar, 100 * share, seconds(),
+                           last ? "\n" : "").c_str(), stderr);
+  } else {
+    std::fputs(fmt::format("{:<28} {:3.0f} % {:6.1f} s\n", label_, 100 * share, seconds()).c_str(), stderr);
+  }
+  std::fflush(stderr);
+}
+
+}  // namespace hyperex

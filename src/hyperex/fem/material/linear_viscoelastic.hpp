@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Dense>
+#include <vector>
+
+namespace hyperex::fem {
+
+/// Which viscous tensor C' relates viscous stress to the rate of engineering strain.
+///  isotropic: Stokes' law s' = 2 eta dev(e'): eta/3 ([4 -2 -2; ...] (+) 3 I)
+///  printed:   the source's [4.26], not isotropic: eta/3 ([2 -1 -1; ...] (+) 3 I)
+enum class ViscousForm { isotropic, printed };
+
+/// Linear viscoelastic material, one value an element.
+struct Material {
+  std::vector<double> young_pa;           ///< > 0
+  std::vector<double> poisson;            ///< in (-1, 0.5)
+  std::vector<double> viscosity_pa_s;     ///< >= 0
+  std::vector<double> density_kg_m3;      ///< > 0
+  ViscousForm viscous_form = ViscousForm::isotropic;
+};
+
+using Voigt = Eigen::Matrix<double, 6, 6>;
+/// Strain order (e_x, e_y, e_z, g_xy, g_yz, g_zx), engineering shear.
+Voigt elastic_tensor(double young_pa, double poisson);
+Voigt viscous_tensor(double viscosity_pa_s, ViscousForm form);
+
+}  // namespace hyperex::fem

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/motion/motion.hpp"
+
+namespace hyperex::reenact {
+
+/// A face in motion: the contract between the simulation and every output. Scan frame, metres.
+struct Performance {
+  /// The scan at rest: its own vertices in their order, then those that a cut along the lips
+  /// duplicated; the triangles of the (cut) scan in the order of the scan's own.
+  TriMesh skin_rest;
+  Eigen::Index scan_vertices = 0;    ///< the first so many of skin_rest.points are the scan's own
+  std::vector<int> duplicated_from;  ///< for each appended vertex, the scan vertex it was cut from
+  /// Rows: triangles of skin_rest; the scan's triangle each stands for (a cut keeps the order).
+  std::vector<double> frame_time_s;
+  std::vector<PointsF> skin_displacement_m;  ///< per frame, |skin_rest| x 3
+  int peak_frame = 0;                        ///< where the driven points moved most in the mean
+
+  /// The simulated tissue; empty where everything was measured.
+  Points nodes;
+  Tetrahedra tets;
+  std::vector<PointsF> node_displacement_m;  ///< per frame
+  std::vector<float> tet_young_pa, tet_viscosity_pa_s;  ///< per tetrahedron
+
+  /// Landmarks of the scan as the moved skin carries them, at the frame times.
+  motion::Motion landmarks;
+  /// Positions at rest of the driven points and of some held nodes, and the line of the lip cut (polyline;
+  /// empty where none was made): for pictures.
+  Points driven_points_rest, held_points_rest, lip_cut_rest;
+  std::vector<std::string> driven_names;
+};
+
+}  // namespace hyperex::reenact
