@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A scene: everything one run needs, as plain options. Lengths in metres, SI throughout; the units
+// in the names of the file's keys (docs/scene.md) are converted when the file is read.
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/fem/material/linear_viscoelastic.hpp"
+#include "hyperex/io/scan.hpp"
+
+namespace hyperex::scene {
+
+/// A file of the user's, or what the program carries inside ("embedded" in the scene file).
+struct Source {
+  bool embedded = false;
+  std::filesystem::path file;  ///< empty where embedded
+};
+
+struct ScanOptions {
+  Source source;                       ///< required; embedded: the canonical face
+  std::optional<io::LengthUnit> unit;  ///< none: guessed from the size ("guess")
+  std::filesystem::path landmarks;     ///< required unless the face is embedded; else empty
+  std::optional<io::LengthUnit> landmarks_unit;  ///< none: as the file says ("file")
+};
+
+struct MotionOptions {
+  Source source;                          ///< required; embedded: a mouth opening, 2.7 s
+  std::optional<io::LengthUnit> unit;     ///< none: as the file says ("file")
+  std::vector<std::string> rigid_points;  ///< carry the head's pose; empty: chosen automatically
+  double max_gap_s = 0.2;                 ///< longest gap that is interpolated, 0 to 10
+  double gain = 1;                        ///< on all displacements, 0 to 5
+};
+
+enum class AlignmentMethod { nonrigid, similarity, normalised };
+struct AlignmentOptions {
+  AlignmentMethod method = AlignmentMethod::nonrigid;
+};
+
+enum class Measured { none, all, points };
+struct RegionOptions {
+  Measured measured = Measured::none;
+  std::vector<std::string> measured_points;  ///< at least one where measured is `points`
+  double measured_radius_m = 0.015;          ///< 1 to 200 mm
+  double blend_m = 0.005;                    ///< 0 to 100 mm
+};
+
+enum class CutLips { automatic, always, never };
+struct ThicknessPoint {
+  std::string landmark;
+  double thickness_m = 0.01;  ///< 1 to 40 mm
+};
+struct MeshOptions {
+  double element_size_m = 0.005;  ///< 1 to 30 mm
+  int layers = 2;                 ///< 1 to 8
+  double thickness_m = 0;         ///< 0: published depths, else the same everywhere (1 to 40 mm)
+  CutLips cut_lips = CutLips::automatic;
+  double trim_border_m = 0;                      ///< 0 to 50 mm
+  std::vector<ThicknessPoint> thickness_points;  ///< empty unless thickness_m is 0
+};
+
+enum class Element { tet4 };
+struct TissueOptions {
+  double young_pa = 192.4e3;      ///< > 0, to 1 GPa
+  double poisson = 0.495;         ///< -0.99 to 0.4999
+  double viscosity_pa_s = 476.8;  ///< 0 to 1e7
+  double density_kg_m3 = 1100;    ///< > 0, to 20000
+  fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
+  Element element = Element::tet4;
+};
+
+enum class Hold { held, free };
+enum class Mandible { follow, held, free };
+struct SupportOptions {
+  Hold border = Hold::held;
+  Hold skull = Hold::held;
+  Mandible mandible = Mandible::follow;
+  std::vector<std::string> jaw_points;  ///< empty: chosen automatically
+};
+
+struct DriveOptions {
+  bool all_points = false;  ///< every point of the motion; `points` is then empty
+  std::vector<std::string> points = {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57",
+                                     "ibug68_8",  "ibug68_58", "ibug68_56"};
+  double patch_radius_m = 0.004;          ///< 0 to 30 mm
+  std::vector<std::string> still_points;  ///< held still on the skin
+};
+
+struct TimeOptions {
+  double step_s = 0.002;      ///< 1e-6 to 0.1
+  double end_s = 0;           ///< 0: the end of the motion; to 600
+  double frame_rate_hz = 30;  ///< 1 to 1000
+};
+
+struct OutputOptions {
+  double peak_time_s = -1;  ///< below 0: where the driven points moved most in the mean; to 600
+  bool vtu = true, glb = true, report = true;
+  double symmetry_floor = 1e-6;                                 ///< > 0, to 1
+  std::vector<double> contact_times_s = {0, 0.7, 1.3, 2, 2.7};  ///< 1 to 12, rising, 0 to 600
+};
+
+/// Where a value came from.
+struct Origin {
+  std::filesystem::path file;  ///< the scene file, or "--set"
+  int line = 0;                ///< 1-based; 0 where a line means nothing
+};
+
+struct Scene {
+  std::string title;
+  ScanOptions scan;
+  MotionOptions motion;
+  AlignmentOptions alignment;
+  RegionOptions region;
+  MeshOptions mesh;
+  TissueOptions tissue;
+  SupportOptions support;
+  DriveOptions drive;
+  TimeOptions time;
+  OutputOptions output;
+
+  std::filesystem::path file;             ///< the scene file
+  std::map<std::string, Origin> origins;  ///< of each key that was given, e.g. "time.step_s"
+};
+
+/// Reads a scene file (TOML, docs/scene.md), then `overrides` ("KEY=VALUE", the last wins, VALUE in
+/// TOML or a bare string). Paths in the file are relative to it, those of overrides to the current
+/// folder. Throws InputError with all problems at once, a line each: a torn file, unknown keys,
+/// wrong types, values out of range, keys or files that are missing.
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same problems, not thrown; empty for a sound scene.
+std::vector<InputProblem> problems_of(const std::filesystem::path& file,
+                                      const std::vector<std::string>& overrides = {});
+
+/// A problem found later (e.g. a point that the motion does not hold) with the value of `key`,
+/// pointing to where that was given.
+InputProblem problem_at(const Scene& scene, const std::string& key, const std::string& expected);
+
+/// All options by section and key, in the units of the key names, defaults included.
+nlohmann::json options_json(const Scene& scene);
+
+/// The page docs/scene.md: every key with its type, unit, default and allowed values.
+std::string reference_markdown();
+
+}  // namespace hyperex::scene
