@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/geometry/closest_point.hpp"
+
+#include <embree3/rtcore.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace hyperex {
+namespace {
+
+// The nearest point of segment (a, b), as the share of b.
+double share_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 edge = b - a;
+  const double length2 = edge.squaredNorm();
+  if (!(length2 > 0)) return 0;
+  return std::clamp((p - a).dot(edge) / length2, 0.0, 1.0);
+}
+
+}  // namespace
+
+ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 corner[3] = {a, b, c};
+  ClosestPoint best;
+  best.squared_distance = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const Vec3& weights) {
+    const Vec3 point = weights[0] * a + weights[1] * b + weights[2] * c;
+    const double d2 = (p - point).squaredNorm();
+    if (d2 < best.squared_distance) best = {0, point, weights, d2};
+  };
+  const Vec3 normal = (b - a).cross(c - a);
+  const double area2 = normal.squaredNorm();
+  if (area2 > 0) {
+    Vec3 weights;
+    weights[1] = (p - a).cross(c - a).dot(normal) / area2;
+    weights[2] = (b - a).cross(p - a).dot(normal) / area2;
+    weights[0] = 1 - weights[1] - weights[2];
+    if (weights.minCoeff() >= 0) offer(weights);
+  }
+  // The edges are tried even where the foot seems inside: in a sliver that is decided by rounding.
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const double share = share_on_segment(p, corner[k], corner[next]);
+    Vec3 weights = Vec3::Zero();
+    weights[k] = 1 - share;
+    weights[next] = share;
+    offer(weights);
+  }
+  return best;
+}
+
+struct SurfaceTree::Impl {
+  TriMesh mesh;
+  Vec3 centre = Vec3::Zero();  // the tree is built about it, to lose no digits in single precision
+  double slack = 0;            // how far a bound may be off by rounding
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  ~Impl() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+
+  Vec3 corner(int triangle, int k) const {
+    return mesh.points.row(mesh.triangles(triangle, k)).transpose();
+  }
+
+  static void bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& self = *static_cast<const Impl*>(args->geometryUserPtr);
+    float low[3], high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto coordinate = [&](int k) {
+        const int vertex = self.mesh.triangles(static_cast<int>(args->primID), k);
+        return self.mesh.points(vertex, axis) - self.centre[axis];
+      };
+      const auto [least, most] = std::minmax({coordinate(0), coordinate(1), coordinate(2)});
+      low[axis] = static_cast<float>(least - self.slack);
+      high[axis] = static_cast<float>(most + self.slack);
+    }
+    *args->bounds_o = {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
+  }
+
+  struct Search {
+    const Impl* self;
+    Vec3 p;
+    ClosestPoint best;
+  };
+
+  static bool visit(RTCPointQueryFunctionArguments* args) {
+    auto& search = *static_cast<Search*>(args->userPtr);
+    const int triangle = static_cast<int>(args->primID);
+    ClosestPoint found = closest_point_on_triangle(search.p, search.self->corner(triangle, 0),
+                                                   search.self->corner(triangle, 1),
+                                                   search.self->corner(triangle, 2));
+    found.triangle = triangle;
+    const ClosestPoint& best = search.best;
+    if (found.squared_distance > best.squared_distance) return false;
+    if (found.squared_distance == best.squared_distance && triangle > best.triangle) return false;
+    search.best = found;
+    // A little wider than the best distance, so that every triangle at that distance is visited.
+    const double radius = std::sqrt(found.squared_distance) * (1 + 1e-5) + search.self->slack;
+    args->query->radius = static_cast<float>(radius);
+    return true;
+  }
+};
+
+namespace {
+
+void check(const TriMesh& mesh) {
+  if (mesh.triangles.rows() == 0) throw std::invalid_argument("closest point: no triangles");
+  if (!mesh.points.allFinite()) throw std::invalid_argument("closest point: a point is not finite");
+  if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.points.rows())
+    throw std::invalid_argument("closest point: a triangle's index is out of range");
+}
+
+}  // namespace
+
+SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) {
+  check(mesh);
+  impl_->mesh = mesh;
+  const Vec3 low = mesh.points.colwise().minCoeff(), high = mesh.points.colwise().maxCoeff();
+  impl_->centre = (low + high) / 2;
+  impl_->slack = 1e-6 * std::max((high - low).norm(), 1e-12);
+  impl_->device = rtcNewDevice(nullptr);
+  if (!impl_->device) throw std::runtime_error("closest point: Embree does not start");
+  impl_->scene = rtcNewScene(impl_->device);
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(mesh.triangles.rows()));
+  rtcSetGeometryUserData(geometry, impl_.get());
+  rtcSetGeometryBoundsFunction(geometry, &Impl::bounds, nullptr);
+  rtcSetGeometryPointQueryFunction(geometry, &Impl::visit);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(impl_->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(impl_->scene);
+  if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
+    throw std::runtime_error("closest point: Embree cannot build its tree");
+}
+SurfaceTree::~SurfaceTree() = default;
+SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
+SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
+
+ClosestPoint SurfaceTree::query(const Vec3& p) const {
+  Impl::Search search{impl_.get(), p, {}};
+  search.best.squared_distance = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3f about = (p - impl_->centre).cast<float>();
+  RTCPointQuery query{about[0], about[1], about[2], 0, std::numeric_limits<float>::infinity()};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl_->scene, &query, &context, nullptr, &search);
+  return search.best;
+}
+
+std::vector<ClosestPoint> SurfaceTree::query(const Points& points) const {
+  std::vector<ClosestPoint> found(points.rows());
+  tbb::parallel_for(Eigen::Index{0}, points.rows(), [&](Eigen::Index row) {
+    found[row] = query(Vec3(points.row(row).transpose()));
+  });
+  return found;
+}
+
+}  // namespace hyperex

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tissue/volume_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+
+namespace hyperex::tissue {
+namespace {
+
+using Tet = std::array<int, 4>;
+
+double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return (b - a).cross(c - a).dot(d - a);
+}
+
+/// The three tetrahedra of the prism with top corners (level `l`) and bottom corners (level `l`+1),
+/// as (corner, level) pairs. Diagonals of the side faces run from the top at the corner of the
+/// lower vertex number to the bottom at the other, so that neighbours agree.
+struct Corner {
+  int corner, below;
+};
+std::array<std::array<Corner, 4>, 3> split_prism(const std::array<int, 3>& v) {
+  int k = 0;
+  if (v[1] < v[0] && v[1] < v[2]) k = 1;
+  if (v[2] < v[0] && v[2] < v[1]) k = 2;
+  const int a = k, b = (k + 1) % 3, c = (k + 2) % 3;  // a has the lowest number
+  // The top at a joins the bottoms at b and c; the diagonal over b-c depends on their order.
+  if (v[b] < v[c])
+    return {{{{{a, 0}, {b, 1}, {a, 1}, {c, 1}}},
+             {{{a, 0}, {b, 0}, {b, 1}, {c, 1}}},
+             {{{a, 0}, {b, 0}, {c, 1}, {c, 0}}}}};
+  return {{{{{a, 0}, {b, 1}, {a, 1}, {c, 1}}},
+           {{{a, 0}, {b, 1}, {c, 1}, {c, 0}}},
+           {{{a, 0}, {b, 0}, {b, 1}, {c, 0}}}}};
+}
+
+class LayerBuilder {
+ public:
+  LayerBuilder(const TriMesh& outer, const Eigen::VectorXd& thickness,
+               const VolumeMeshOptions& options)
+      : outer_(outer),
+        options_(options),
+        around_(vertex_neighbours(outer.triangles, outer.points.rows())),
+        fans_(vertex_triangles(outer.triangles, outer.points.rows())) {
+    normals_ = vertex_normals(outer);
+    visible_ = most_visible_directions();
+    inward_ = -(thickness.asDiagonal() * normals_);
+    smooth_all(3, 0.5);
+    wanted_ = inward_.rowwise().norm();
+  }
+
+  int untangle();
+  const Points& inward() const { return inward_; }
+  int thinned(double share) const {
+    int count = 0;
+    for (Eigen::Index v = 0; v < inward_.rows(); ++v)
+      count += inward_.row(v).norm() < share * wanted_[v];
+    return count;
+  }
+
+ private:
+  void smooth_all(int rounds, double weight) {
+    for (int r = 0; r < rounds; ++r) {
+      const Points old = inward_;
+      for (Eigen::Index v = 0; v < old.rows(); ++v) {
+        if (around_[v].empty()) continue;
+        Vec3 mean = Vec3::Zero();
+        for (int w : around_[v]) mean += old.row(w).transpose();
+        mean /= double(around_[v].size());
+        inward_.row(v) = (1 - weight) * old.row(v) + weight * mean.transpose();
+      }
+    }
+  }
+
+  /// The direction whose least dot product with the normals of the fan is greatest, roughly: the
+  /// normal is pushed towards its worst face until none is worse than the others.
+  Points most_visible_directions() const {
+    Points directions = normals_;
+    for (Eigen::Index v = 0; v < directions.rows(); ++v) {
+      Vec3 d = directions.row(v);
+      for (int round = 0; round < 60; ++round) {
+        double worst = 2;
+        Vec3 worst_normal = d;
+        for (int f : fans_[v]) {
+          const Vec3 n = face_normal(f);
+          if (n.dot(d) < worst) {
+            worst = n.dot(d);
+            worst_normal = n;
+          }
+        }
+        d = (d + worst_normal / (round + 2.0)).normalized();
+      }
+      directions.row(v) = d;
+    }
+    return directions;
+  }
+
+  Vec3 face_normal(int f) const {
+    const Vec3 a = point(f, 0), b = point(f, 1), c = point(f, 2);
+    return (b - a).cross(c - a).normalized();
+  }
+  Vec3 point(int f, int k) const { return outer_.points.row(outer_.triangles(f, k)); }
+  bool sound(int f) const;
+
+  const TriMesh& outer_;
+  VolumeMeshOptions options_;
+  std::vector<std::vector<int>> around_, fans_;
+  Points normals_, visible_, inward_;
+  Eigen::VectorXd wanted_;
+};
+
+/// Every tetrahedron of every sub-prism of triangle f is far enough from flat.
+bool LayerBuilder::sound(int f) const {
+  const std::array<int, 3> v{outer_.triangles(f, 0), outer_.triangles(f, 1),
+                             outer_.triangles(f, 2)};
+  const auto tets = split_prism(v);
+  const double area = 0.5 * (point(f, 1) - point(f, 0)).cross(point(f, 2) - point(f, 0)).norm();
+  for (int layer = 0; layer < options_.layers; ++layer) {
+    const double height =
+        (inward_.row(v[0]).norm() + inward_.row(v[1]).norm() + inward_.row(v[2]).norm()) /
+        (3 * options_.layers);
+    const double least = options_.least_volume_share * 6 * area * height / 3;
+    for (const auto& tet : tets) {
+      Vec3 x[4];
+      for (int i = 0; i < 4; ++i) {
+        const double share = double(layer + tet[i].below) / options_.layers;
+        x[i] = outer_.points.row(v[tet[i].corner]) + share * inward_.row(v[tet[i].corner]);
+      }
+      if (!(six_volumes(x[0], x[1], x[2], x[3]) > least)) return false;
+    }
+  }
+  return true;
+}
+
+/// Returns how many vertices had to be changed. Each round turns the vertices of unsound prisms
+/// towards the mean of their neighbours (first) or towards their most visible direction (later),
+/// and thins them.
+int LayerBuilder::untangle() {
+  std::vector<char> touched(inward_.rows(), 0);
+  constexpr int rounds = 120;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<char> bad(inward_.rows(), 0);
+    bool any = false;
+    for (Eigen::Index f = 0; f < outer_.triangles.rows(); ++f)
+      if (!sound(static_cast<int>(f))) {
+        any = true;
+        for (int k = 0; k < 3; ++k)
+          bad[outer_.triangles(f, k)] = touched[outer_.triangles(f, k)] = 1;
+      }
+    if (!any) return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
+    const Points old = inward_;
+    for (Eigen::Index v = 0; v < old.rows(); ++v) {
+      if (!bad[v]) continue;
+      Vec3 mean = Vec3::Zero();
+      for (int w : around_[v]) mean += old.row(w).transpose();
+      mean /= double(around_[v].size());
+      const Vec3 clear = -visible_.row(v).transpose() * old.row(v).norm();
+      const double turn = std::min(1.0, round / 40.0);
+      const Vec3 target = (1 - turn) * mean + turn * clear;
+      inward_.row(v) = 0.96 * (0.5 * old.row(v) + 0.5 * target.transpose());
+    }
+  }
+  int left = 0;
+  Eigen::Index example = 0;
+  for (Eigen::Index f = 0; f < outer_.triangles.rows(); ++f)
+    if (!sound(static_cast<int>(f))) {
+      ++left;
+      example = f;
+    }
+  if (left == 0) return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
+  const Vec3 where = outer_.points.row(outer_.triangles(example, 0)) * 1e3;
+  throw NumericalError(
+      fmt::format("no layer of tissue with positive volume under {} triangles of the skin, one at "
+                  "({:.1f}, {:.1f}, {:.1f}) mm: "
+                  "the surface is folded there",
+                  left, where.x(), where.y(), where.z()));
+}
+
+}  // namespace
+
+VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
+                             const VolumeMeshOptions& options) {
+  LayerBuilder builder(outer, thickness_m, options);
+  VolumeMesh mesh;
+  const int changed = builder.untangle();
+  if (changed > 0)
+    mesh.notes.push_back(
+        fmt::format("the layer was turned or thinned at {} of {} skin nodes, to below half of its "
+                    "thickness at {}",
+                    changed, outer.points.rows(), builder.thinned(0.5)));
+  const Eigen::Index n = outer.points.rows();
+  mesh.outer = outer;
+  mesh.layers = options.layers;
+  mesh.thickness_m = builder.inward().rowwise().norm();
+  mesh.nodes.resize(n * (options.layers + 1), 3);
+  for (int level = 0; level <= options.layers; ++level)
+    mesh.nodes.middleRows(level * n, n) =
+        outer.points + (double(level) / options.layers) * builder.inward();
+  mesh.tets.resize(outer.triangles.rows() * options.layers * 3, 4);
+  Eigen::Index t = 0;
+  for (Eigen::Index f = 0; f < outer.triangles.rows(); ++f) {
+    const std::array<int, 3> v{outer.triangles(f, 0), outer.triangles(f, 1), outer.triangles(f, 2)};
+    const auto split = split_prism(v);
+    for (int layer = 0; layer < options.layers; ++layer)
+      for (const auto& tet : split) {
+        for (int i = 0; i < 4; ++i)
+          mesh.tets(t, i) = static_cast<int>((layer + tet[i].below) * n) + v[tet[i].corner];
+        ++t;
+      }
+  }
+  return mesh;
+}
+
+MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets) {
+  MeshQuality q;
+  q.least_volume_mm3 = 1e300;
+  q.least_dihedral_deg = 180;
+  q.worst_radius_ratio = 1;
+  constexpr int bins = std::size(dihedral_bounds_deg) - 1;
+  q.least_dihedral_shares.assign(bins, 0.0);
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    Vec3 x[4];
+    for (int i = 0; i < 4; ++i) x[i] = nodes.row(tets(t, i)) * 1e3;
+    const double volume = six_volumes(x[0], x[1], x[2], x[3]) / 6;
+    q.least_volume_mm3 = std::min(q.least_volume_mm3, volume);
+    q.total_volume_mm3 += volume;
+    // Face k lies opposite corner k; its area vector points outwards.
+    constexpr int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    Vec3 area[4];
+    double surface = 0;
+    for (int k = 0; k < 4; ++k) {
+      area[k] = 0.5 * (x[face[k][1]] - x[face[k][0]]).cross(x[face[k][2]] - x[face[k][0]]);
+      surface += area[k].norm();
+    }
+    double least = 180;
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j) {
+        const double cosine = -area[i].dot(area[j]) / (area[i].norm() * area[j].norm());
+        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+        least = std::min(least, angle);
+        q.greatest_dihedral_deg = std::max(q.greatest_dihedral_deg, angle);
+      }
+    q.least_dihedral_deg = std::min(q.least_dihedral_deg, least);
+    for (int b = 0; b < bins; ++b)
+      if (least >= dihedral_bounds_deg[b] && least < dihedral_bounds_deg[b + 1])
+        q.least_dihedral_shares[b] += 1.0 / double(tets.rows());
+    const double inradius = 3 * volume / surface;
+    const double a = (x[1] - x[0]).norm() * (x[3] - x[2]).norm(),
+                 b = (x[2] - x[0]).norm() * (x[3] - x[1]).norm(),
+                 c = (x[3] - x[0]).norm() * (x[2] - x[1]).norm();
+    const double product = std::max(0.0, (a + b + c) * (a + b - c) * (a - b + c) * (-a + b + c));
+    const double circumradius = std::sqrt(product) / (24 * volume);
+    q.worst_radius_ratio = std::min(q.worst_radius_ratio, 3 * inradius / circumradius);
+  }
+  q.mean_volume_mm3 = q.total_volume_mm3 / double(std::max<Eigen::Index>(1, tets.rows()));
+  return q;
+}
+
+}  // namespace hyperex::tissue
