@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/fem/solve/static_solve.hpp"
+
+#include <cassert>
+
+#include "hyperex/fem/solve/partitioned_factor.hpp"
+
+namespace hyperex::fem {
+
+struct StaticSolver::Impl {
+  PartitionedFactor factor;
+};
+
+StaticSolver::StaticSolver(const SparseMatrix& stiffness, std::vector<int> prescribed)
+    : impl_(std::make_unique<Impl>(
+          Impl{PartitionedFactor(stiffness, std::move(prescribed), "static solution")})) {}
+
+StaticSolver::~StaticSolver() = default;
+StaticSolver::StaticSolver(StaticSolver&&) noexcept = default;
+
+Eigen::VectorXd StaticSolver::solve(const Eigen::VectorXd& prescribed_values,
+                                    const Eigen::VectorXd& force) const {
+  const auto& free = impl_->factor.free();
+  const auto& prescribed = impl_->factor.prescribed();
+  Eigen::VectorXd all(static_cast<Eigen::Index>(free.size() + prescribed.size()));
+  assert(force.size() == 0 || force.size() == all.size());
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
+  if (force.size() > 0) x = force(free);
+  impl_->factor.solve(prescribed_values, x);
+  all(free) = x;
+  all(prescribed) = prescribed_values;
+  return all;
+}
+
+}  // namespace hyperex::fem
