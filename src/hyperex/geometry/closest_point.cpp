@@ -155,7 +155,7 @@ ClosestPoint SurfaceTree::query(const Vec3& p) const {
   return search.best;
 }
 
-std::vector<ClosestPoint> SurfaceTree::query(const Points& points) const {
+std::vector<ClosestPoint> SurfaceTree::query_all(const Points& points) const {
   std::vector<ClosestPoint> found(points.rows());
   tbb::parallel_for(Eigen::Index{0}, points.rows(), [&](Eigen::Index row) {
     found[row] = query(Vec3(points.row(row).transpose()));

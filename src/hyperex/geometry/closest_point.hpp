@@ -38,7 +38,7 @@ class SurfaceTree {
   /// `p` finite.
   ClosestPoint query(const Vec3& p) const;
   /// One answer a row, computed in parallel; the same numbers as query().
-  std::vector<ClosestPoint> query(const Points& points) const;
+  std::vector<ClosestPoint> query_all(const Points& points) const;
 
  private:
   struct Impl;

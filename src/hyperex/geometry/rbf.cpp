@@ -82,7 +82,7 @@ Vec3 Rbf::at(const Vec3& x) const {
   return sum.transpose();
 }
 
-Points Rbf::at(const Points& x) const {
+Points Rbf::at_all(const Points& x) const {
   Points values(x.rows(), 3);
   tbb::parallel_for(Eigen::Index{0}, x.rows(), [&](Eigen::Index row) {
     values.row(row) = at(Vec3(x.row(row).transpose())).transpose();

@@ -28,7 +28,7 @@ class Rbf {
 
   Vec3 at(const Vec3& x) const;
   /// One value a row, computed in parallel.
-  Points at(const Points& x) const;
+  Points at_all(const Points& x) const;
   /// Centres left after merging.
   Eigen::Index centre_count() const { return centres_.rows(); }
 
