@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/render/colour.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hyperex::render {
+
+Colour viridis(double share) {
+  static constexpr std::array<int, 11> tenths = {0x440154, 0x482576, 0x414487, 0x35608d,
+                                                 0x2a788e, 0x21908c, 0x22a884, 0x43bf71,
+                                                 0x7ad151, 0xbbdf27, 0xfde725};
+  const double position = 10 * std::clamp(std::isnan(share) ? 0.0 : share, 0.0, 1.0);
+  const int low = std::min(9, static_cast<int>(position));
+  const double t = position - low;
+  const auto channel = [&](int shift) {
+    const double from = tenths[low] >> shift & 0xff, to = tenths[low + 1] >> shift & 0xff;
+    return ((1 - t) * from + t * to) / 255;
+  };
+  return {channel(16), channel(8), channel(0)};
+}
+
+double share_in(const Range& range, double value) {
+  return std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
+}
+
+double linear_from_srgb(double value) {
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+double srgb_from_linear(double value) {
+  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+}
+
+}  // namespace hyperex::render

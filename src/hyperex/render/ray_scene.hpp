@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Inside the room: Embree's scene of some surfaces as one camera sees it.
+#include <embree3/rtcore.h>
+
+#include <optional>
+#include <vector>
+
+#include "hyperex/render/camera.hpp"
+#include "hyperex/render/render.hpp"
+
+namespace hyperex::render {
+
+/// Where a ray met a surface.
+struct Hit {
+  int surface = -1, triangle = -1;
+  double weight[3] = {0, 0, 0};  // barycentric
+  Eigen::Vector3f normal;        // of the facet, camera frame, unit
+};
+
+/// All in the camera's frame (x right, y up, z to the viewer, origin at the target), where rays run
+/// along -z.
+class RayScene {
+ public:
+  RayScene(const std::vector<Surface>& surfaces, const Camera& camera);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  std::optional<Hit> look_at(float x, float y) const;
+  /// Whether a surface lies more than `bias` in front of the point (camera frame).
+  bool hides(const Eigen::Vector3f& point, float bias) const;
+
+ private:
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+  float above_ = 1;  // z above everything
+};
+
+}  // namespace hyperex::render

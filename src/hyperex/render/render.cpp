@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/render/render.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "hyperex/render/canvas.hpp"
+#include "ray_scene.hpp"
+
+namespace hyperex::render {
+namespace {
+
+using Vec3f = Eigen::Vector3f;
+using ColourTable = std::vector<Vec3f>;  // linear light
+
+Vec3f linear(const Colour& colour) {
+  return Eigen::Vector3d(linear_from_srgb(colour.r), linear_from_srgb(colour.g),
+                         linear_from_srgb(colour.b))
+      .cast<float>();
+}
+
+// A surface made ready: normals in the camera's frame, and per vertex either the scalar (mapped
+// where the ray lands, so that colours do not mix through the map) or a colour.
+struct Prepared {
+  const Surface* surface;
+  PointsF normals;
+  ColourTable colours;
+
+  Prepared(const Surface& s, const Eigen::Matrix3d& camera_from_world) : surface(&s) {
+    const TriMesh& mesh = s.mesh;
+    const Eigen::Index vertices = mesh.points.rows();
+    if (s.scalar.size() != 0 && s.scalar.size() != vertices)
+      throw std::invalid_argument("render: one scalar a vertex is needed");
+    if (s.colours.rows() != 0 && s.colours.rows() != vertices)
+      throw std::invalid_argument("render: one colour a vertex is needed");
+    if (mesh.triangles.rows() > 0 &&
+        (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= vertices))
+      throw std::invalid_argument("render: a triangle's index is out of range");
+    if (s.smooth) {
+      Points sum = Points::Zero(vertices, 3);
+      for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const Vec3 a = mesh.points.row(mesh.triangles(f, 0));
+        const Vec3 b = mesh.points.row(mesh.triangles(f, 1));
+        const Vec3 c = mesh.points.row(mesh.triangles(f, 2));
+        const Vec3 normal = (b - a).cross(c - a);  // weighs by area
+        for (int k = 0; k < 3; ++k) sum.row(mesh.triangles(f, k)) += normal.transpose();
+      }
+      normals = (sum * camera_from_world.transpose()).rowwise().normalized().cast<float>();
+    }
+    if (s.scalar.size() == 0)
+      for (Eigen::Index i = 0; i < s.colours.rows(); ++i)
+        colours.push_back(
+            linear({s.colours(i, 0) / 255.0, s.colours(i, 1) / 255.0, s.colours(i, 2) / 255.0}));
+  }
+
+  Vec3f colour_at(const Hit& hit) const {
+    const auto corners = surface->mesh.triangles.row(hit.triangle);
+    if (surface->scalar.size() != 0) {
+      double value = 0;
+      for (int k = 0; k < 3; ++k) value += hit.weight[k] * surface->scalar[corners[k]];
+      return linear(std::isnan(value) ? surface->plain : viridis(share_in(surface->range, value)));
+    }
+    if (colours.empty()) return linear(surface->plain);
+    Vec3f colour = Vec3f::Zero();
+    for (int k = 0; k < 3; ++k) colour += static_cast<float>(hit.weight[k]) * colours[corners[k]];
+    return colour;
+  }
+
+  Vec3f normal_at(const Hit& hit) const {
+    if (!surface->smooth) return hit.normal;
+    Vec3f normal = Vec3f::Zero();
+    for (int k = 0; k < 3; ++k)
+      normal += static_cast<float>(hit.weight[k]) *
+                normals.row(surface->mesh.triangles(hit.triangle, k)).transpose();
+    const float length = normal.norm();
+    return length > 1e-6f ? Vec3f(normal / length) : hit.normal;
+  }
+};
+
+// Key lamp up left of the camera, fill lamp at its right, and light from all around.
+Vec3f shaded(const Vec3f& colour, Vec3f normal, bool back) {
+  static const Vec3f key = Vec3f(-0.42f, 0.52f, 0.74f).normalized();
+  static const Vec3f fill = Vec3f(0.75f, 0.05f, 0.66f).normalized();
+  if (back) normal = -normal;
+  const float light = 0.26f + 0.10f * (0.5f + 0.5f * normal.y()) +
+                      0.66f * std::max(0.f, normal.dot(key)) +
+                      0.16f * std::max(0.f, normal.dot(fill));
+  return colour * light * (back ? 0.4f : 1.f);
+}
+
+void cast_rays(const std::vector<Prepared>& prepared, const RayScene& scene, const Camera& camera,
+               const RenderOptions& options, Image& image) {
+  const double m_per_px = camera.height_m / options.height_px;
+  const Vec3f background = linear(options.background);
+  const int n = options.samples;
+  tbb::parallel_for(0, options.height_px, [&](int y) {
+    for (int x = 0; x < options.width_px; ++x) {
+      Vec3f sum = Vec3f::Zero();
+      int hits = 0;
+      for (int s = 0; s < n * n; ++s) {
+        const double px = x + (s % n + 0.5) / n - options.width_px / 2.0;
+        const double py = options.height_px / 2.0 - y - (s / n + 0.5) / n;
+        const auto hit =
+            scene.look_at(static_cast<float>(px * m_per_px), static_cast<float>(py * m_per_px));
+        if (!hit) continue;
+        const Prepared& p = prepared[hit->surface];
+        sum += shaded(p.colour_at(*hit), p.normal_at(*hit), hit->normal.z() < 0);
+        ++hits;
+      }
+      if (hits == 0) continue;
+      sum = (sum + static_cast<float>(n * n - hits) * background) / static_cast<float>(n * n);
+      for (int k = 0; k < 3; ++k)
+        image.pixel(x, y)[k] = static_cast<std::uint8_t>(
+            std::lround(255 * std::clamp(srgb_from_linear(std::min(sum[k], 1.f)), 0.0, 1.0)));
+    }
+  });
+}
+
+// Visible stretches of a line, tested piece by piece of about two pixels.
+void draw_line(const Polyline& line, const RayScene& scene, const Camera& camera,
+               const RenderOptions& options, Canvas& canvas) {
+  const Eigen::Matrix3d camera_from_world = camera.axes();
+  const double px_per_m = options.height_px / camera.height_m;
+  const Eigen::Index segments = line.points.rows() - (line.closed ? 0 : 1);
+  for (Eigen::Index s = 0; s < segments; ++s) {
+    const Vec3 a = line.points.row(s), b = line.points.row((s + 1) % line.points.rows());
+    const int pieces = std::clamp(static_cast<int>((b - a).norm() * px_per_m / 2), 1, 10000);
+    for (int i = 0; i < pieces; ++i) {
+      const Vec3 from = a + (b - a) * i / pieces, to = a + (b - a) * (i + 1) / pieces;
+      const Vec3 middle = camera_from_world * ((from + to) / 2 - camera.target);
+      if (scene.hides(middle.cast<float>(), static_cast<float>(options.overlay_bias_m))) continue;
+      const Projected p = project(camera, options.width_px, options.height_px, from);
+      const Projected q = project(camera, options.width_px, options.height_px, to);
+      canvas.line(p.x, p.y, q.x, q.y, line.colour, line.width_px);
+    }
+  }
+}
+
+void draw_marker(const Marker& marker, const RayScene& scene, const Camera& camera,
+                 const RenderOptions& options, Canvas& canvas) {
+  const Vec3 local = camera.axes() * (marker.at - camera.target);
+  if (!local.allFinite()) return;
+  if (scene.hides(local.cast<float>(), static_cast<float>(options.overlay_bias_m))) return;
+  const Projected p = project(camera, options.width_px, options.height_px, marker.at);
+  canvas.disc(p.x, p.y, marker.radius_px + 1, {1, 1, 1});
+  canvas.disc(p.x, p.y, marker.radius_px, marker.colour);
+}
+
+}  // namespace
+
+Image render(const std::vector<Surface>& surfaces, const Camera& camera,
+             const RenderOptions& options, const std::vector<Marker>& markers,
+             const std::vector<Polyline>& lines) {
+  if (options.width_px < 1 || options.height_px < 1 || options.samples < 1)
+    throw std::invalid_argument("render: a picture needs at least one pixel and one sample");
+  std::vector<Prepared> prepared;
+  for (const Surface& surface : surfaces) prepared.emplace_back(surface, camera.axes());
+  const RayScene scene(surfaces, camera);
+  Image image(options.width_px, options.height_px, options.background);
+  cast_rays(prepared, scene, camera, options, image);
+  if (markers.empty() && lines.empty()) return image;
+  Canvas canvas(image);
+  for (const Polyline& line : lines) draw_line(line, scene, camera, options, canvas);
+  for (const Marker& marker : markers) draw_marker(marker, scene, camera, options, canvas);
+  return canvas.image();
+}
+
+}  // namespace hyperex::render
