@@ -17,8 +17,8 @@ struct SheetPicture {
 /// Pictures side by side under one title, with one colour bar for all of them.
 struct ContactSheet {
   std::string title = {};
-  std::string note = {};               ///< one line under the title; may be empty
-  std::vector<SheetPicture> pictures;  ///< row by row; cells are as large as the largest
+  std::string note = {};                    ///< one line under the title; may be empty
+  std::vector<SheetPicture> pictures = {};  ///< row by row; cells are as large as the largest
   int columns = 2;
   std::optional<ColourBar> bar = {};
 };

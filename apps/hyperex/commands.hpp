@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// One file a subcommand: parse, call, print. Each function adds its subcommand to the program;
+// what the subcommand does is its callback, run once all options are parsed. Wrong input: throw
+// InputError (exit status 2); a computation that failed: any other exception (exit status 1).
+#include <CLI/CLI.hpp>
+
+namespace hyperex::cli {
+
+void add_compare(CLI::App& program);
+void add_symmetry(CLI::App& program);
+
+}  // namespace hyperex::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "commands.hpp"
+#include "hyperex/core/error.hpp"
+
+namespace {
+
+// One line a problem, each with the program's name.
+void print_error(const std::string& text) {
+  size_t begin = 0;
+  while (begin <= text.size()) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    std::cerr << "hyperex: " << text.substr(begin, end - begin) << '\n';
+    begin = end + 1;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program{
+      "Recorded expressions, re-enacted on scanned faces through simulated soft tissue.",
+      "hyperex"};
+  program.set_version_flag("--version", "hyperex " HYPEREX_VERSION);
+  program.require_subcommand(1);
+  program.footer("hyperex SUBCOMMAND --help tells more, with an example.");
+  hyperex::cli::add_compare(program);
+  hyperex::cli::add_symmetry(program);
+  try {
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& done) {  // --help, --version
+    return program.exit(done);
+  } catch (const CLI::ParseError& error) {
+    print_error(error.what());
+    return 2;
+  } catch (const hyperex::InputError& error) {
+    print_error(error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    print_error(error.what());
+    return 1;
+  }
+}

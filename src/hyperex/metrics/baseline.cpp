@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/baseline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/rbf.hpp"
+
+namespace hyperex::metrics {
+namespace {
+
+std::vector<int> run(int first, int last) {
+  std::vector<int> numbers;
+  for (int k = first; k <= last; ++k) numbers.push_back(k);
+  return numbers;
+}
+
+struct Carried {
+  Points at, displacement;  // |points| x 3
+};
+
+Carried landmarks_carried(const TriMesh& rest, const Points& truth, const io::Landmarks& landmarks,
+                          const std::vector<int>& points, const std::vector<int>& moving) {
+  Carried carried{Points(points.size(), 3), Points::Zero(points.size(), 3)};
+  std::string missing;
+  const SurfaceTree tree(rest);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const std::string name = fmt::format("ibug68_{}", points[i]);
+    const auto found = landmarks.find(name);
+    if (found == landmarks.end()) {
+      missing += (missing.empty() ? "" : ", ") + name;
+      continue;
+    }
+    carried.at.row(i) = found->second.transpose();
+    if (std::find(moving.begin(), moving.end(), points[i]) == moving.end()) continue;
+    const ClosestPoint on_skin = tree.query(found->second);
+    for (int k = 0; k < 3; ++k) {
+      const int vertex = rest.triangles(on_skin.triangle, k);
+      carried.displacement.row(i) +=
+          on_skin.weights[k] * (truth.row(vertex) - rest.points.row(vertex));
+    }
+  }
+  if (!missing.empty())
+    throw InputError("landmarks", "the baseline needs points that are not there: " + missing);
+  return carried;
+}
+
+Points warped(const TriMesh& rest, const Carried& carried) {
+  return rest.points + Rbf(carried.at, carried.displacement).at_all(rest.points);
+}
+
+}  // namespace
+
+const std::vector<int>& driven_ibug_points() {
+  static const std::vector<int> points = {48, 54, 51, 57, 8, 58, 56};
+  return points;
+}
+
+const std::vector<int>& still_ibug_points() {
+  static const std::vector<int> points = [] {
+    std::vector<int> all = run(0, 3);
+    for (const int k : run(13, 47)) all.push_back(k);
+    return all;
+  }();
+  return points;
+}
+
+std::vector<Baseline> baselines(const TriMesh& rest, const Points& truth,
+                                const io::Landmarks& landmarks) {
+  std::vector<int> seven_and_still = driven_ibug_points();
+  seven_and_still.insert(seven_and_still.end(), still_ibug_points().begin(),
+                         still_ibug_points().end());
+  const Carried seven =
+      landmarks_carried(rest, truth, landmarks, seven_and_still, driven_ibug_points());
+  const Carried all = landmarks_carried(rest, truth, landmarks, run(0, 67), run(0, 67));
+  return {{"standing still", "standing_still", rest.points},
+          {"warp, 7 points", "warp_7", warped(rest, seven)},
+          {"warp, all 68", "warp_68", warped(rest, all)}};
+}
+
+}  // namespace hyperex::metrics

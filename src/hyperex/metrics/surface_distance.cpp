@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/surface_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "hyperex/geometry/closest_point.hpp"
+
+namespace hyperex::metrics {
+namespace {
+
+double quantile(const std::vector<double>& sorted, double share) {
+  const double position = share * static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<size_t>(position);
+  const size_t high = std::min(low + 1, sorted.size() - 1);
+  return sorted[low] + (position - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+}
+
+DistanceStatistics summary(std::vector<double> values_m) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (values_m.empty()) return {nan, nan, nan, nan, nan, 0};
+  std::sort(values_m.begin(), values_m.end());
+  double sum = 0, squares = 0;
+  for (const double value : values_m) {
+    sum += value;
+    squares += value * value;
+  }
+  const double n = static_cast<double>(values_m.size());
+  return {1e3 * sum / n,
+          1e3 * quantile(values_m, 0.5),
+          1e3 * std::sqrt(squares / n),
+          1e3 * quantile(values_m, 0.95),
+          1e3 * values_m.back(),
+          static_cast<Eigen::Index>(values_m.size())};
+}
+
+}  // namespace
+
+DistanceStatistics statistics_of(const Eigen::VectorXd& distance_m) {
+  return summary({distance_m.begin(), distance_m.end()});
+}
+
+DistanceStatistics statistics_of(const Eigen::VectorXd& distance_m,
+                                 const std::vector<int>& vertices) {
+  std::vector<double> values;
+  values.reserve(vertices.size());
+  for (const int vertex : vertices) values.push_back(distance_m[vertex]);
+  return summary(std::move(values));
+}
+
+Eigen::VectorXd distance_to_surface(const Points& a, const TriMesh& b) {
+  const auto found = SurfaceTree(b).query_all(a);
+  Eigen::VectorXd distance(a.rows());
+  for (Eigen::Index i = 0; i < a.rows(); ++i) distance[i] = std::sqrt(found[i].squared_distance);
+  return distance;
+}
+
+Eigen::VectorXd distance_to_corresponding(const Points& a, const Points& b, Eigen::Index count) {
+  if (a.rows() < count || b.rows() < count)
+    throw std::invalid_argument("corresponding points: one surface has too few");
+  return (a.topRows(count) - b.topRows(count)).rowwise().norm();
+}
+
+}  // namespace hyperex::metrics

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/symmetry.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+
+namespace hyperex::metrics {
+namespace {
+
+struct Definition {
+  const char* name;
+  std::vector<int> ibug_right, ibug_left;
+};
+
+const std::array<Definition, 5>& definitions() {
+  static const std::array<Definition, 5> all = {{{"cheilion", {48}, {54}},
+                                                 {"exocanthion", {36}, {45}},
+                                                 {"palpebrale_inferius", {40, 41}, {46, 47}},
+                                                 {"alare", {31}, {35}},
+                                                 {"crista_philtri_inferior", {50}, {52}}}};
+  return all;
+}
+
+// Columns of the motion whose mean is the point.
+using Columns = std::vector<int>;
+
+struct Points10 {
+  std::array<std::array<Columns, 5>, 2> of;  // side (left, right), definition
+  std::vector<std::string> stand_ins;
+};
+
+int ibug_column(const motion::Motion& motion, int point) {
+  for (const char* form : {"ibug68_{}", "{}", "p{}"}) {
+    const int column = motion.index_of(fmt::format(fmt::runtime(form), point));
+    if (column >= 0) return column;
+  }
+  return -1;
+}
+
+Points10 find_points(const motion::Motion& motion) {
+  Points10 found;
+  std::string missing;
+  for (int side = 0; side < 2; ++side)
+    for (int d = 0; d < 5; ++d) {
+      const Definition& definition = definitions()[d];
+      const std::string name = fmt::format("{}_{}", definition.name, side == 0 ? 'L' : 'R');
+      Columns& columns = found.of[side][d];
+      if (const int own = motion.index_of(name); own >= 0) {
+        columns = {own};
+        continue;
+      }
+      std::string names;
+      const std::vector<int>& points = side == 0 ? definition.ibug_left : definition.ibug_right;
+      for (const int point : points)
+        if (const int column = ibug_column(motion, point); column >= 0) {
+          columns.push_back(column);
+          names += (names.empty() ? "" : " and ") + motion.names[column];
+        }
+      if (columns.size() == points.size()) {
+        found.stand_ins.push_back(
+            fmt::format("{}: {}{}", name, points.size() > 1 ? "mean of " : "", names));
+      } else {
+        missing += fmt::format("{}{} (or {})", missing.empty() ? "" : ", ", name,
+                               fmt::format("ibug68_{}", fmt::join(points, " and ibug68_")));
+      }
+    }
+  if (!missing.empty())
+    throw InputError("motion", "symmetry needs points that are not there: " + missing);
+  return found;
+}
+
+Vec3 position(const Points& sample, const Columns& columns) {
+  Vec3 sum = Vec3::Zero();
+  for (const int column : columns) sum += sample.row(column).transpose();
+  return sum / static_cast<double>(columns.size());
+}
+
+// From cheilion to the four others.
+std::array<Vec3, 4> rays(const Points& sample, const std::array<Columns, 5>& side) {
+  const Vec3 cheilion = position(sample, side[0]);
+  std::array<Vec3, 4> all;
+  for (int k = 0; k < 4; ++k) all[k] = position(sample, side[k + 1]) - cheilion;
+  return all;
+}
+
+std::array<std::array<Vec3, 4>, 2> rest_rays(const motion::Motion& motion, const Points10& points) {
+  if (motion.positions.empty()) throw InputError("motion", "symmetry needs at least one sample");
+  std::array<std::array<Vec3, 4>, 2> rest;
+  for (int side = 0; side < 2; ++side) {
+    rest[side] = rays(motion.positions.front(), points.of[side]);
+    for (const Vec3& ray : rest[side])
+      if (!(ray.norm() > 0))
+        throw InputError("motion",
+                         "symmetry needs its points measured, and apart, at the first sample");
+  }
+  return rest;
+}
+
+}  // namespace
+
+SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor) {
+  if (!(floor > 0) || !std::isfinite(floor))
+    throw InputError(
+        InputProblem{"symmetry", 0, "floor", fmt::format("{}", floor), "a number above 0"});
+  const Points10 points = find_points(landmarks);
+  const auto rest = rest_rays(landmarks, points);
+  SymmetryCurve curve;
+  curve.floor = floor;
+  curve.stand_ins = points.stand_ins;
+  curve.time_s = landmarks.time_s;
+  for (const Points& sample : landmarks.positions) {
+    std::array<double, 2> xi = {0, 0};
+    for (int side = 0; side < 2; ++side) {
+      const auto now = rays(sample, points.of[side]);
+      for (int k = 0; k < 4; ++k) xi[side] += now[k].norm() / rest[side][k].norm() - 1;
+    }
+    curve.xi_left.push_back(xi[0]);
+    curve.xi_right.push_back(xi[1]);
+    const double apart = std::abs(xi[0] - xi[1]);
+    curve.s.push_back(std::isnan(apart) ? apart : std::log(std::max(apart, floor)));
+  }
+  curve.s.front() = std::log(floor);
+  return curve;
+}
+
+double floor_from_accuracy(const motion::Motion& landmarks, double accuracy_m) {
+  if (!(accuracy_m > 0) || !std::isfinite(accuracy_m))
+    throw InputError(InputProblem{"symmetry", 0, "accuracy", fmt::format("{}", accuracy_m),
+                                  "a number above 0 (m)"});
+  const auto rest = rest_rays(landmarks, find_points(landmarks));
+  double variance = 0;
+  for (const auto& side : rest) {
+    Vec3 of_cheilion = Vec3::Zero();
+    for (const Vec3& ray : side) {
+      of_cheilion += ray / ray.squaredNorm();
+      variance += 1 / ray.squaredNorm();
+    }
+    variance += of_cheilion.squaredNorm();
+  }
+  return accuracy_m * std::sqrt(2 * variance);
+}
+
+void write_symmetry_csv(const std::filesystem::path& file, const SymmetryCurve& curve) {
+  write_file_atomically(file, [&](std::ostream& stream) {
+    stream << "time_s,xi_L,xi_R,S_ln,floor\n";
+    const auto field = [](double value) {
+      return std::isnan(value) ? std::string() : fmt::format("{:.9g}", value);
+    };
+    for (size_t i = 0; i < curve.time_s.size(); ++i)
+      fmt::print(stream, "{},{},{},{},{:.9g}\n", field(curve.time_s[i]), field(curve.xi_left[i]),
+                 field(curve.xi_right[i]), field(curve.s[i]), curve.floor);
+  });
+}
+
+}  // namespace hyperex::metrics
