@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Dense>
+#include <vector>
+
+#include "hyperex/motion/motion.hpp"
+
+namespace hyperex::motion {
+
+enum class Interpolation {
+  linear,  ///< velocity jumps at the samples
+  /// Cubic spline through the samples, C2, at rest (zero velocity) at both ends: a motion that
+  /// starts from rest and is held after its last sample has no jump of velocity anywhere. May
+  /// overshoot.
+  cubic,
+  /// Cubic Hermite with the slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984), C1:
+  /// never leaves the range of the two samples beside it.
+  monotone
+};
+
+/// The positions of a motion as functions of time: built once, evaluated often. Before the first
+/// and after the last sample, that sample is held.
+class MotionCurve {
+ public:
+  /// Throws InputError where a position is NaN (fill gaps first) or there are no samples.
+  explicit MotionCurve(const Motion& motion, Interpolation interpolation = Interpolation::cubic);
+  Points at(double t_s) const;
+
+ private:
+  std::vector<double> time_s_;
+  Eigen::MatrixXd value_, slope_;  // N x 3P; slope empty for linear
+};
+
+/// The motion at other times (strictly rising): positions by `interpolation`; head poses by
+/// spherical linear interpolation.
+Motion resample(const Motion& motion, const std::vector<double>& time_s,
+                Interpolation interpolation = Interpolation::cubic);
+
+}  // namespace hyperex::motion
