@@ -34,6 +34,8 @@ struct PartitionedFactor::Impl {
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
     common.nmethods = 1;
+    // Measured against AMD: a little slower to order, but a step is 1.2 times (layers) to twice
+    // (blocks) as quick.
     common.method[0].ordering = CHOLMOD_METIS;
     common.postorder = 1;
   }
