@@ -21,6 +21,7 @@ using Landmarks = std::map<std::string, Vec3>;
 Landmarks read_landmarks(const std::filesystem::path& file,
                          std::optional<LengthUnit> stated = std::nullopt);
 
-void write_landmarks(const std::filesystem::path& file, const Landmarks& landmarks, LengthUnit unit);
+void write_landmarks(const std::filesystem::path& file, const Landmarks& landmarks,
+                     LengthUnit unit);
 
 }  // namespace hyperex::io

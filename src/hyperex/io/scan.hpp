@@ -12,14 +12,17 @@ namespace hyperex::io {
 
 enum class LengthUnit { millimetre, centimetre, metre };
 double metres_per(LengthUnit unit);
-std::string name_of(LengthUnit unit);                             ///< "mm", "cm" or "m"
-std::optional<LengthUnit> length_unit(const std::string& name);   ///< from "mm", "cm" or "m"
+std::string name_of(LengthUnit unit);                            ///< "mm", "cm" or "m"
+std::optional<LengthUnit> length_unit(const std::string& name);  ///< from "mm", "cm" or "m"
 
 /// A picture file as it was in the scan: encoded bytes, not pixels.
 struct Image {
   std::vector<std::uint8_t> bytes;
   std::string mime_type;  ///< "image/png" or "image/jpeg"
 };
+
+/// |V| x 4 RGBA.
+using VertexColours = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
 /// A face scan as read: the file's own vertices in the file's order, scaled to metres.
 struct Scan {
@@ -30,28 +33,29 @@ struct Scan {
   /// 3|F| x 2, one row a triangle corner (row 3 f + k), v up as in glTF (0 at the picture's top);
   /// empty (0 rows) where the scan has no texture coordinates.
   Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> corner_uv;
-  /// |V| x 4 RGBA; empty where the scan has no vertex colours.
-  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 4, Eigen::RowMajor> vertex_colour;
+  /// Empty (0 rows) where the scan has no vertex colours.
+  VertexColours vertex_colour;
   std::optional<Image> texture;
 };
 
 /// Reads PLY (ascii, binary of both endians), OBJ (with .mtl and texture), STL (ascii, binary;
 /// equal corners joined) or glTF/GLB, chosen by the extension. Polygons are cut into triangles.
-/// The unit is `stated`, else (glTF is metres by definition) guessed: the middle extent of the
-/// bounding box of a face is 10 to 30 cm. Throws InputError: torn file, NaN, index out of range, no
-/// triangles, implausible size.
+/// The unit is `stated`, else (glTF is metres by definition) guessed: the middle side of the
+/// bounding box of a face is 10 to 30 cm. A stated unit, or glTF's, is believed from 8 to 45 cm.
+/// Throws InputError: torn file, NaN, index out of range, no triangles, implausible size. A texture
+/// that cannot be had is a warning in the log.
 Scan read_scan(const std::filesystem::path& file, std::optional<LengthUnit> stated = std::nullopt);
 
 /// Same checks, same unit rule, but any length: for meshes that are no whole faces.
 TriMesh read_mesh(const std::filesystem::path& file, LengthUnit unit);
 
 /// Binary little-endian PLY of `mesh` (metres) in `unit`; one float property a named scalar
-/// (units in the name), optional colours.
+/// (units in the name, no blanks), and colours where given. The file says its unit in a comment.
 struct VertexScalar {
   std::string name;
   Eigen::VectorXf values;
 };
 void write_ply(const std::filesystem::path& file, const TriMesh& mesh, LengthUnit unit,
-               const std::vector<VertexScalar>& scalars = {});
+               const std::vector<VertexScalar>& scalars = {}, const VertexColours& colours = {});
 
 }  // namespace hyperex::io

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/io/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/io/number.hpp"
+
+namespace hyperex::io {
+namespace {
+
+char separator_of(std::string_view header) {
+  for (const char separator : {',', ';', '\t'})
+    if (header.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+std::vector<std::string> read_names(const std::filesystem::path& file, int line,
+                                    std::string_view header, char separator) {
+  std::vector<std::string> names;
+  std::set<std::string> known;
+  bool all_numbers = true;
+  for (std::string_view cell : split(header, separator)) {
+    cell = trimmed(cell);
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+      cell = trimmed(cell.substr(1, cell.size() - 2));
+    all_numbers = all_numbers && parse_number(cell);
+    names.emplace_back(cell);
+  }
+  if (all_numbers)
+    throw InputError({file, line, "", quotable(header), "the names of the columns, not numbers"});
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (names[c].empty())
+      throw InputError({file, line, fmt::format("column {}", c + 1), "", "a name; it is empty"});
+    if (!known.insert(names[c]).second)
+      throw InputError({file, line, fmt::format("column {}", c + 1), quotable(names[c]),
+                        "each name once; it stands twice"});
+  }
+  return names;
+}
+
+double read_cell(const CsvTable& table, int line, std::size_t column, std::string_view cell) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  cell = trimmed(cell);
+  if (cell.empty()) return nan;
+  const auto number = parse_number(cell);
+  if (!number || std::isinf(*number))
+    throw InputError({table.file, line,
+                      fmt::format("column {} ({})", column + 1, quotable(table.names[column])),
+                      quotable(cell), "a finite number, nan or nothing"});
+  return std::isnan(*number) ? nan : *number;
+}
+
+}  // namespace
+
+std::optional<int> CsvTable::find(const std::string& name) const {
+  const auto place = std::find(names.begin(), names.end(), name);
+  if (place == names.end()) return std::nullopt;
+  return static_cast<int>(place - names.begin());
+}
+
+int CsvTable::column(const std::string& name) const {
+  if (const auto found = find(name)) return *found;
+  throw InputError({file, 0, "", "", fmt::format("a column \"{}\"; there is none", name)});
+}
+
+CsvTable read_csv(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  CsvTable table;
+  table.file = file;
+  std::vector<double> values;
+  char separator = ',';
+  Lines lines(text);
+  std::string_view line;
+  while (lines.next(line)) {
+    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
+    if (table.names.empty()) {
+      separator = separator_of(line);
+      table.names = read_names(file, lines.number(), line, separator);
+      continue;
+    }
+    const auto cells = split(line, separator);
+    if (cells.size() != table.names.size())
+      throw InputError({file, lines.number(), "", fmt::format("{} cells", cells.size()),
+                        fmt::format("{}, as the first line names them", table.names.size())});
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      values.push_back(read_cell(table, lines.number(), c, cells[c]));
+    table.lines.push_back(lines.number());
+  }
+  if (table.names.empty())
+    throw InputError(file, "is empty; expected a table whose first line names its columns");
+  table.values = Eigen::Map<const decltype(table.values)>(
+      values.data(), static_cast<Eigen::Index>(table.lines.size()),
+      static_cast<Eigen::Index>(table.names.size()));
+  return table;
+}
+
+void write_csv(const std::filesystem::path& file, const std::vector<std::string>& names, long rows,
+               const std::function<void(long, std::vector<double>&)>& fill) {
+  for (const auto& name : names)
+    if (name.empty() || name.find_first_of(",\"\r\n") != std::string::npos)
+      throw std::invalid_argument("write_csv: a name is empty or holds a comma or quote: " + name);
+  write_file_atomically(file, [&](std::ostream& stream) {
+    stream << fmt::format("{}\n", fmt::join(names, ","));
+    std::vector<double> values(names.size());
+    for (long row = 0; row < rows; ++row) {
+      fill(row, values);
+      stream << fmt::format("{}\n", fmt::join(values, ","));
+    }
+  });
+}
+
+void write_csv(const std::filesystem::path& file, const std::vector<std::string>& names,
+               const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+  if (rows.cols() != static_cast<Eigen::Index>(names.size()))
+    throw std::invalid_argument("write_csv: as many columns as names");
+  write_csv(file, names, rows.rows(), [&](long row, std::vector<double>& values) {
+    for (Eigen::Index c = 0; c < rows.cols(); ++c) values[c] = rows(row, c);
+  });
+}
+
+}  // namespace hyperex::io

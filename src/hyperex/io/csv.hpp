@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Dense>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyperex::io {
+
+/// A table of numbers with a name a column.
+struct CsvTable {
+  std::filesystem::path file;
+  std::vector<std::string> names;
+  /// rows x columns; NaN where a cell is empty or "nan".
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values;
+  std::vector<int> lines;  ///< of each row in the file, 1-based, for messages
+
+  /// Where the column of that name is.
+  std::optional<int> find(const std::string& name) const;
+  /// The same; InputError naming file and column where there is none.
+  int column(const std::string& name) const;
+};
+
+/// Reads a table whose first line holds the names. Cells are separated by commas (or by semicolons
+/// or tabs, where the first line has no comma); blanks around cells, quotes around names, a
+/// byte-order mark, "\r\n", empty lines and lines beginning with '#' are put up with. No rows at
+/// all is a table of none. Throws InputError naming line and column: no names, a name twice or
+/// empty, numbers in place of names, a row of another length, a cell that is no finite number.
+CsvTable read_csv(const std::filesystem::path& file);
+
+/// Writes a row a line, each number in the fewest digits that give it back exactly; NaN as "nan".
+void write_csv(const std::filesystem::path& file, const std::vector<std::string>& names,
+               const Eigen::Ref<const Eigen::MatrixXd>& rows);
+
+/// The same for rows made one by one: `fill(row, values)` is called for 0 ... rows - 1 in order,
+/// `values` as long as `names`.
+void write_csv(const std::filesystem::path& file, const std::vector<std::string>& names, long rows,
+               const std::function<void(long, std::vector<double>&)>& fill);
+
+}  // namespace hyperex::io

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/io/vtu.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <stdexcept>
+
+#include "hyperex/core/files.hpp"
+
+namespace hyperex::io {
+namespace {
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::size_t block_bytes = 1 << 18;
+constexpr int vtk_tetra = 10;
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
+/// Collects the XML's DataArray lines and the bytes behind them.
+class AppendedData {
+ public:
+  /// The line that declares an array whose bytes begin at the present offset; appends the bytes.
+  std::string add(const std::string& type, const std::string& name, Eigen::Index components,
+                  const void* bytes, std::size_t size) {
+    std::string names;
+    if (components == 6) {
+      constexpr const char* tensor[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+      for (int k = 0; k < 6; ++k) names += fmt::format(" ComponentName{}=\"{}\"", k, tensor[k]);
+    }
+    const std::string line = fmt::format(
+        "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} "
+        "format=\"appended\" "
+        "offset=\"{}\"/>\n",
+        type, escaped(name), components, names, bytes_.size());
+    compress(static_cast<const Bytef*>(bytes), size);
+    return line;
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  /// VTK's layout: number of blocks, bytes of a block, bytes of a shorter last one (or 0), bytes
+  /// of each block once compressed, then the blocks.
+  void compress(const Bytef* data, std::size_t size) {
+    const std::size_t full = size / block_bytes, rest = size % block_bytes;
+    std::vector<std::uint64_t> head{full + (rest > 0), block_bytes, rest};
+    std::string packed;
+    std::vector<Bytef> room(compressBound(block_bytes));
+    for (std::size_t at = 0; at < size; at += block_bytes) {
+      uLongf length = room.size();
+      if (compress2(room.data(), &length, data + at, std::min(block_bytes, size - at), 1) != Z_OK)
+        throw std::runtime_error("zlib could not compress a block");
+      head.push_back(length);
+      packed.append(reinterpret_cast<const char*>(room.data()), length);
+    }
+    bytes_.append(reinterpret_cast<const char*>(head.data()), 8 * head.size());
+    bytes_ += packed;
+  }
+  std::string bytes_;
+};
+
+std::string section(const char* name, const std::vector<VtuArray>& arrays, Eigen::Index rows,
+                    AppendedData& data) {
+  std::string xml = fmt::format("      <{}>\n", name);
+  for (const auto& array : arrays) {
+    if (array.values.rows() != rows || array.values.cols() == 0)
+      throw std::invalid_argument(fmt::format("write_vtu: \"{}\" needs {} rows", array.name, rows));
+    xml += data.add("Float32", array.name, array.values.cols(), array.values.data(),
+                    sizeof(float) * static_cast<std::size_t>(array.values.size()));
+  }
+  return xml + fmt::format("      </{}>\n", name);
+}
+
+template <class T>
+std::string numbers(const char* type, const char* name, Eigen::Index components,
+                    const std::vector<T>& values, AppendedData& data) {
+  return data.add(type, name, components, values.data(), sizeof(T) * values.size());
+}
+
+}  // namespace
+
+void write_vtu(const std::filesystem::path& file, const Points& points,
+               const Tetrahedra& tetrahedra, const std::vector<VtuArray>& point_arrays,
+               const std::vector<VtuArray>& cell_arrays) {
+  AppendedData data;
+  std::string xml = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+      "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+      points.rows(), tetrahedra.rows());
+  xml += section("PointData", point_arrays, points.rows(), data);
+  xml += section("CellData", cell_arrays, tetrahedra.rows(), data);
+
+  const PointsF single = points.cast<float>();
+  xml += "      <Points>\n" +
+         data.add("Float32", "Points", 3, single.data(),
+                  sizeof(float) * static_cast<std::size_t>(single.size())) +
+         "      </Points>\n";
+
+  const std::vector<std::int32_t> nodes(tetrahedra.data(), tetrahedra.data() + tetrahedra.size());
+  std::vector<std::int32_t> ends(static_cast<std::size_t>(tetrahedra.rows()));
+  for (std::size_t t = 0; t < ends.size(); ++t) ends[t] = static_cast<std::int32_t>(4 * (t + 1));
+  const std::vector<std::uint8_t> types(ends.size(), vtk_tetra);
+  xml +=
+      "      <Cells>\n" + numbers("Int32", "connectivity", 1, nodes, data) +
+      numbers("Int32", "offsets", 1, ends, data) + numbers("UInt8", "types", 1, types, data) +
+      "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
+
+  write_file_atomically(file, [&](std::ostream& stream) {
+    stream << xml << data.bytes() << "\n  </AppendedData>\n</VTKFile>\n";
+  });
+}
+
+void write_pvd(const std::filesystem::path& file,
+               const std::vector<std::pair<double, std::filesystem::path>>& frames) {
+  write_file_atomically(file, [&](std::ostream& stream) {
+    stream << "<?xml version=\"1.0\"?>\n"
+              "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+              "  <Collection>\n";
+    for (const auto& [time_s, frame] : frames)
+      stream << fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
+                            time_s, escaped(frame.generic_string()));
+    stream << "  </Collection>\n</VTKFile>\n";
+  });
+}
+
+}  // namespace hyperex::io

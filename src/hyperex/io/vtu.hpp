@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+
+namespace hyperex::io {
+
+/// Named numbers at points or in cells. 1 column is a scalar, 3 a vector, 6 a symmetric tensor in
+/// ParaView's order xx, yy, zz, xy, yz, xz (its own shear strain, half the engineering one).
+struct VtuArray {
+  std::string name;  ///< with its unit, e.g. "von Mises stress (kPa)"
+  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values;
+};
+
+/// An unstructured grid of linear tetrahedra for ParaView: VTK's XML format (version 1.0),
+/// little-endian, appended raw data in blocks compressed by zlib. Points are written in metres, as
+/// float32. `point_arrays` have a row a point, `cell_arrays` a row a tetrahedron
+/// (std::invalid_argument otherwise). Throws InputError where the file cannot be written.
+void write_vtu(const std::filesystem::path& file, const Points& points,
+               const Tetrahedra& tetrahedra, const std::vector<VtuArray>& point_arrays = {},
+               const std::vector<VtuArray>& cell_arrays = {});
+
+/// A time series for ParaView: the time of each file in s; the files as paths relative to `file`.
+void write_pvd(const std::filesystem::path& file,
+               const std::vector<std::pair<double, std::filesystem::path>>& frames);
+
+}  // namespace hyperex::io
