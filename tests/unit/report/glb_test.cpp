@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/report/glb.hpp"
+
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+
+#include <filesystem>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/report/skin_view.hpp"
+#include "unit/report/made_up_face.hpp"
+
+namespace hyperex::report {
+namespace {
+
+using testing::made_up_face;
+using testing::Surface;
+
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::path(::testing::TempDir()) / name;
+}
+
+tinygltf::Model read_back(const std::filesystem::path& file) {
+  tinygltf::Model model;
+  std::string error, warning;
+  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, file.string()))
+      << error << warning;
+  return model;
+}
+
+template <typename T, int Columns>
+auto rows_of(const tinygltf::Model& model, int accessor) {
+  const auto& a = model.accessors.at(accessor);
+  const auto& view = model.bufferViews.at(a.bufferView);
+  const auto* data = reinterpret_cast<const T*>(model.buffers[0].data.data() + view.byteOffset);
+  using Rows = Eigen::Matrix<T, Eigen::Dynamic, Columns, Columns == 1 ? 0 : Eigen::RowMajor>;
+  return Rows(Eigen::Map<const Rows>(data, static_cast<Eigen::Index>(a.count), Columns));
+}
+
+/// What a player shows in a frame, from the file alone.
+PointsF played(const tinygltf::Model& model, const std::string& attribute, int frame) {
+  const auto& skin = model.meshes[0].primitives[0];
+  const auto& sampler = model.animations.at(0).samplers.at(0);
+  const auto weights = rows_of<float, 1>(model, sampler.output);
+  PointsF out = rows_of<float, 3>(model, skin.attributes.at(attribute));
+  for (std::size_t k = 0; k < skin.targets.size(); ++k)
+    out += weights[frame * static_cast<Eigen::Index>(skin.targets.size()) + k] *
+           rows_of<float, 3>(model, skin.targets[k].at(attribute));
+  return out;
+}
+
+TEST(Glb, PlaysThePerformance) {
+  const auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const auto file = scratch("plays.glb");
+  write_glb(file, face.performance, face.scan, modes);
+  const auto model = read_back(file);
+  const auto times = rows_of<float, 1>(model, model.animations.at(0).samplers.at(0).input);
+  ASSERT_EQ(times.size(), 31);
+  EXPECT_FLOAT_EQ(times[30], 1.0f);
+  for (const int f : {0, 7, 15, 30}) {
+    const PointsF truth =
+        face.performance.skin_rest.points.cast<float>() + face.performance.skin_displacement_m[f];
+    EXPECT_LT((played(model, "POSITION", f) - truth).rowwise().norm().maxCoeff(), 2.1e-5) << f;
+    const PointsF shown = played(model, "NORMAL", f).rowwise().normalized();
+    const PointsF normals = vertex_normals(truth, face.performance.skin_rest.triangles);
+    // Fitted normals: within 3 degrees of the true ones, where those at rest are off by 14.
+    EXPECT_GT(shown.cwiseProduct(normals).rowwise().sum().minCoeff(), std::cos(0.052)) << f;
+  }
+}
+
+TEST(Glb, SplitsVerticesAtSeamsAndKeepsThePicture) {
+  const auto face = made_up_face(Surface::textured);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const auto file = scratch("textured.glb");
+  write_glb(file, face.performance, face.scan, modes);
+  const auto model = read_back(file);
+  const auto& skin = model.meshes[0].primitives[0];
+  const auto position = rows_of<float, 3>(model, skin.attributes.at("POSITION"));
+  const auto uv = rows_of<float, 2>(model, skin.attributes.at("TEXCOORD_0"));
+  const auto corner = rows_of<unsigned, 1>(model, skin.indices);
+  EXPECT_GT(position.rows(), face.performance.skin_rest.points.rows());
+  ASSERT_EQ(corner.size(), face.performance.skin_rest.triangles.size());
+  for (Eigen::Index c = 0; c < corner.size(); ++c) {
+    const int vertex = face.performance.skin_rest.triangles.data()[c];
+    ASSERT_TRUE(position.row(corner[c]) ==
+                face.performance.skin_rest.points.row(vertex).cast<float>());
+    ASSERT_TRUE(uv.row(corner[c]) == face.scan.corner_uv.row(c));
+  }
+  ASSERT_EQ(model.images.size(), 1u);
+  EXPECT_EQ(model.images[0].mimeType, "image/png");
+  EXPECT_EQ(model.images[0].width, 64);  // decoded by the reader
+}
+
+TEST(Glb, KeepsVertexColoursAlsoOnTheCut) {
+  const auto face = made_up_face(Surface::coloured);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const auto file = scratch("coloured.glb");
+  write_glb(file, face.performance, face.scan, modes);
+  const auto model = read_back(file);
+  const auto colour =
+      rows_of<std::uint16_t, 4>(model, model.meshes[0].primitives[0].attributes.at("COLOR_0"));
+  ASSERT_EQ(colour.rows(), face.performance.skin_rest.points.rows());
+  EXPECT_EQ(colour(0, 0), 37852);  // sRGB 200 is 0.577580 in linear light
+  const auto cut = face.performance.duplicated_from.at(2);
+  EXPECT_TRUE(colour.row(face.performance.scan_vertices + 2) == colour.row(cut));
+}
+
+TEST(Glb, StillSkinHasNoAnimation) {
+  auto face = made_up_face(Surface::plain);
+  for (auto& frame : face.performance.skin_displacement_m) frame.setZero();
+  const auto file = scratch("still.glb");
+  write_glb(file, face.performance, face.scan,
+            displacement_modes(face.performance.skin_displacement_m));
+  EXPECT_TRUE(read_back(file).animations.empty());
+}
+
+TEST(Glb, RefusesWhatDoesNotBelongTogetherAndUnwritablePlaces) {
+  const auto face = made_up_face(Surface::plain);
+  const auto other = made_up_face(Surface::plain, 21);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  EXPECT_THROW(write_glb(scratch("x.glb"), other.performance, other.scan, modes),
+               std::invalid_argument);
+  EXPECT_THROW(write_glb("/nowhere/x.glb", face.performance, face.scan, modes), InputError);
+}
+
+}  // namespace
+}  // namespace hyperex::report

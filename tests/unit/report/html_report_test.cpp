@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/report/html_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "unit/report/made_up_face.hpp"
+
+namespace hyperex::report {
+namespace {
+
+using nlohmann::json;
+using testing::made_up_face;
+using testing::MadeUpFace;
+using testing::Surface;
+
+std::string element(const std::string& page, const std::string& id) {
+  const auto tag = page.find("<script id=\"" + id + "\"");
+  const auto begin = page.find('>', tag) + 1;
+  return page.substr(begin, page.find("</script>", begin) - begin);
+}
+
+std::vector<std::uint8_t> from_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint8_t> bytes;
+  unsigned bits = 0, held = 0;
+  for (const char c : text) {
+    const auto value = digits.find(c);
+    if (value == std::string::npos) break;
+    bits = bits << 6 | static_cast<unsigned>(value);
+    if ((held += 6) >= 8) bytes.push_back(static_cast<std::uint8_t>(bits >> (held -= 8)));
+  }
+  return bytes;
+}
+
+template <typename T>
+std::vector<T> stretch(const std::vector<std::uint8_t>& bytes, const json& at) {
+  std::vector<T> out(at.at("count").get<std::size_t>());
+  EXPECT_LE(at.at("offset").get<std::size_t>() + out.size() * sizeof(T), bytes.size());
+  std::memcpy(out.data(), bytes.data() + at.at("offset").get<std::size_t>(),
+              out.size() * sizeof(T));
+  return out;
+}
+
+std::string written(const MadeUpFace& face, const DisplacementModes& modes, std::string title = "t",
+                    json summary = json::object()) {
+  const auto file = std::filesystem::path(::testing::TempDir()) / "report_test.html";
+  write_html_report(file, {face.performance,
+                           face.scan,
+                           modes,
+                           &face.symmetry,
+                           std::move(summary),
+                           {"a note"},
+                           std::move(title)});
+  return read_file(file);
+}
+
+TEST(HtmlReport, HoldsTheMotionWithinToleranceAndQuantisation) {
+  const auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const std::string page = written(face, modes);
+  const json manifest = json::parse(element(page, "hyperex-manifest"));
+  const auto bytes = from_base64(element(page, "hyperex-binary"));
+  const auto& motion = manifest.at("motion");
+  const auto weights = stretch<float>(bytes, motion.at("weights"));
+  const std::size_t count = motion.at("modes").size();
+  ASSERT_EQ(count, modes.modes.size());
+  double worst = 0;
+  for (std::size_t f = 0; f < face.performance.frame_time_s.size(); ++f) {
+    PointsF sum = PointsF::Zero(face.performance.skin_rest.points.rows(), 3);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto values = stretch<std::int16_t>(bytes, motion["modes"][k].at("values"));
+      const float factor = weights[f * count + k] * motion["modes"][k].at("step_m").get<float>();
+      for (Eigen::Index i = 0; i < sum.size(); ++i) sum.data()[i] += factor * values[i];
+    }
+    const PointsF error = sum - face.performance.skin_displacement_m[f];
+    worst = std::max<double>(worst, error.rowwise().norm().maxCoeff());
+  }
+  EXPECT_LT(worst, 2.2e-5);
+  EXPECT_NEAR(motion.at("max_displacement_mm").get<double>(),
+              1e3 * face.performance.skin_displacement_m[15].rowwise().norm().maxCoeff(), 1e-6);
+  const auto triangles = stretch<int>(bytes, manifest.at("skin").at("triangles"));
+  EXPECT_TRUE(
+      std::equal(triangles.begin(), triangles.end(), face.performance.skin_rest.triangles.data()));
+  EXPECT_EQ(manifest.at("symmetry").at("s").size(), face.symmetry.s.size());
+  EXPECT_EQ(manifest.at("lip_cut").size(),
+            static_cast<std::size_t>(face.performance.lip_cut_rest.rows()));
+}
+
+TEST(HtmlReport, CarriesPictureAndColours) {
+  const auto textured = made_up_face(Surface::textured);
+  auto modes = displacement_modes(textured.performance.skin_displacement_m);
+  std::string page = written(textured, modes);
+  json skin = json::parse(element(page, "hyperex-manifest")).at("skin");
+  EXPECT_EQ(stretch<std::uint8_t>(from_base64(element(page, "hyperex-binary")),
+                                  skin.at("texture").at("image")),
+            textured.scan.texture->bytes);
+  const auto coloured = made_up_face(Surface::coloured);
+  modes = displacement_modes(coloured.performance.skin_displacement_m);
+  page = written(coloured, modes);
+  skin = json::parse(element(page, "hyperex-manifest")).at("skin");
+  const auto colour =
+      stretch<std::uint8_t>(from_base64(element(page, "hyperex-binary")), skin.at("colour"));
+  EXPECT_EQ(colour.size(), 4u * coloured.performance.skin_rest.points.rows());
+}
+
+TEST(HtmlReport, TextCannotEndTheScriptElement) {
+  const auto face = made_up_face(Surface::plain, 11);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const std::string title = "</script><b>\"&<!--\xff", clean = "</script><b>\"&<!--\uFFFD";
+  const std::string page = written(face, modes, title, {{"scan", "</script>"}});
+  const json manifest = json::parse(element(page, "hyperex-manifest"));
+  EXPECT_EQ(manifest.at("title"), clean);
+  EXPECT_EQ(manifest.at("summary").at("scan"), "</script>");
+  EXPECT_EQ(page.find("</script><b>"), std::string::npos);
+}
+
+TEST(HtmlReport, LoadsNothingFromOutside) {
+  const auto face = made_up_face(Surface::plain, 11);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const std::string page = written(face, modes);
+  EXPECT_THAT(page, ::testing::Not(::testing::ContainsRegex("(src|href)=\"(https?:)?//")));
+  EXPECT_EQ(page.find("src=\"./"), std::string::npos);
+}
+
+TEST(HtmlReport, RefusesWhatDoesNotBelongTogetherAndUnwritablePlaces) {
+  const auto face = made_up_face(Surface::plain, 11);
+  const auto other = made_up_face(Surface::plain, 13);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  EXPECT_THROW(written(other, modes), std::invalid_argument);
+  EXPECT_THROW(write_html_report("/nowhere/r.html",
+                                 {face.performance, face.scan, modes, nullptr, {}, {}, ""}),
+               InputError);
+}
+
+}  // namespace
+}  // namespace hyperex::report

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// write_report_fixtures FOLDER: reports and models of the made-up face, for the tests in web/tests.
+#include <filesystem>
+#include <iostream>
+
+#include "hyperex/report/glb.hpp"
+#include "hyperex/report/html_report.hpp"
+#include "unit/report/made_up_face.hpp"
+
+int main(int argc, char** argv) {
+  using namespace hyperex::report;
+  using testing::Surface;
+  if (argc != 2) {
+    std::cerr << "usage: write_report_fixtures FOLDER\n";
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, surface] : {std::pair{"plain", Surface::plain},
+                                      {"coloured", Surface::coloured},
+                                      {"textured", Surface::textured}}) {
+    const auto face = testing::made_up_face(surface);
+    const auto modes = displacement_modes(face.performance.skin_displacement_m);
+    write_glb(folder / (std::string(name) + ".glb"), face.performance, face.scan, modes);
+    const nlohmann::json summary = {
+        {"title", "made-up face"},
+        {"dt_s", 0.002},
+        {"frames", face.performance.frame_time_s.size()},
+        {"seconds", {{"mesh", 1.25}, {"simulate", 12.5}}},
+        {"mesh_quality", {{"dihedral_deg", {{"least", 8.1}, {"most", 163.2}}}}}};
+    write_html_report(folder / (std::string(name) + ".html"),
+                      {face.performance,
+                       face.scan,
+                       modes,
+                       &face.symmetry,
+                       summary,
+                       {"The lips of the scan were joined and were cut along the line shown."},
+                       std::string("A made-up face, ") + name});
+  }
+  return 0;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words and numbers as people read them.
+
+export function number(value: number): string {
+  if (!Number.isFinite(value)) return '–';
+  if (Number.isInteger(value)) return value.toLocaleString('en');
+  const magnitude = Math.abs(value);
+  if (magnitude < 1e-3 || magnitude >= 1e6) return value.toExponential(2).replace('-', '−');
+  return String(Number(value.toPrecision(4))).replace('-', '−');
+}
+
+const units: [string, string][] = [
+  ['_pa_s', 'Pa s'], ['_kg_m3', 'kg/m³'], ['_kpa', 'kPa'], ['_pa', 'Pa'], ['_mm', 'mm'], ['_deg', '°'],
+  ['_hz', 'Hz'], ['_ms', 'ms'], ['_m', 'm'], ['_s', 's'],
+];
+
+/** "max_displacement_mm" is "max displacement" in "mm". */
+export function nameAndUnit(key: string): { name: string; unit: string } {
+  for (const [suffix, unit] of units)
+    if (key.endsWith(suffix) && key.length > suffix.length)
+      return { name: words(key.slice(0, -suffix.length)), unit };
+  return { name: words(key), unit: '' };
+}
+
+export const words = (key: string): string => key.replaceAll('_', ' ');
+
+/** "ibug68_48" is "iBUG 48", "cheilion_L" is "cheilion L". */
+export const landmarkName = (name: string): string => words(name.replace(/^ibug68_/, 'iBUG '));

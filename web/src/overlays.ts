@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What can be shown over the skin: the cut along the lips, driven and held points.
+import {
+  Color, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Object3D, SphereGeometry,
+} from 'three';
+import { Line2 } from 'three/examples/jsm/lines/Line2.js';
+import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
+import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
+import type { Replay, Vec3 } from './data';
+import { nearestVertex } from './deform';
+
+export type OverlayName = 'cut' | 'driven' | 'held';
+
+export interface Overlay {
+  name: OverlayName;
+  label: string;
+  colour: string;
+  object: Object3D;
+  /** Follow the skin's displacement (metres, x y z a vertex). */
+  follow(displacement: Float32Array): void;
+}
+
+const drawnLast = { depthTest: false, depthWrite: false, transparent: true };
+
+function spheres(points: Vec3[], radius: number, colour: string, opacity: number): InstancedMesh {
+  const material = new MeshBasicMaterial({ color: colour, opacity, ...drawnLast });
+  const mesh = new InstancedMesh(new SphereGeometry(radius, 16, 12), material, points.length);
+  points.forEach((p, i) => mesh.setMatrixAt(i, new Matrix4().setPosition(...p)));
+  mesh.frustumCulled = false;
+  mesh.renderOrder = 2;
+  return mesh;
+}
+
+function drivenOverlay(replay: Replay): Overlay {
+  const colour = '#e8453c';
+  const { points } = replay.driven;
+  const mesh = spheres(points, 0.0016, colour, 0.95);
+  const vertex = points.map((p) => nearestVertex(replay.points, p).vertex);
+  const matrix = new Matrix4();
+  return {
+    name: 'driven', label: 'Driven points', colour, object: mesh,
+    follow(d) {
+      points.forEach((p, i) => {
+        const v = 3 * vertex[i];
+        mesh.setMatrixAt(i, matrix.setPosition(p[0] + d[v], p[1] + d[v + 1], p[2] + d[v + 2]));
+      });
+      mesh.instanceMatrix.needsUpdate = true;
+    },
+  };
+}
+
+function heldOverlay(replay: Replay): Overlay {
+  const colour = '#3b82d6';
+  const mesh = spheres(replay.held, 0.0008, colour, 0.6);
+  return { name: 'held', label: 'Held points', colour, object: mesh, follow() {} };
+}
+
+/** Both lips of the cut: the scan's own vertices along it, and those that the cut appended. */
+function cutOverlay(replay: Replay): Overlay {
+  const colour = '#ff9f1c';
+  const count = replay.points.length / 3;
+  const material = new LineMaterial({ color: new Color(colour).getHex(), linewidth: 3, ...drawnLast });
+  const group = new Group();
+  const lips = [0, 1].map((side) => {
+    const vertex = replay.lipCut.map((p) => {
+      const own = nearestVertex(replay.points, p, 0, replay.scanVertices);
+      if (side === 0 || replay.scanVertices >= count) return own.vertex;
+      // The corners of the mouth have no second vertex.
+      const added = nearestVertex(replay.points, p, replay.scanVertices);
+      return added.distance < own.distance + 0.001 ? added.vertex : own.vertex;
+    });
+    const flat = new Float32Array(3 * vertex.length);
+    const geometry = new LineGeometry();
+    const line = new Line2(geometry, material);
+    line.frustumCulled = false;
+    line.renderOrder = 3;
+    group.add(line);
+    return { vertex, flat, geometry };
+  });
+  const follow = (d: Float32Array) => {
+    for (const { vertex, flat, geometry } of lips) {
+      replay.lipCut.forEach((p, i) => {
+        for (let k = 0; k < 3; ++k) flat[3 * i + k] = p[k] + d[3 * vertex[i] + k];
+      });
+      geometry.setPositions(flat);
+    }
+  };
+  follow(new Float32Array(replay.points.length));
+  return { name: 'cut', label: 'Lip cut', colour, object: group, follow };
+}
+
+export function overlaysOf(replay: Replay): Overlay[] {
+  const overlays: Overlay[] = [];
+  if (replay.lipCut.length > 1) overlays.push(cutOverlay(replay));
+  if (replay.driven.points.length > 0) overlays.push(drivenOverlay(replay));
+  if (replay.held.length > 0) overlays.push(heldOverlay(replay));
+  return overlays;
+}

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Opens report.html in Chromium as a user would, from the disk, and uses it.
+//   REPORT=out/a/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/report.test.mjs
+// Without REPORT it takes the reports of a made-up face that write_report_fixtures wrote.
+import assert from 'node:assert/strict';
+import { mkdir } from 'node:fs/promises';
+import { basename, join, resolve } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+import { fixture } from './fixtures.mjs';
+
+const reports = process.env.REPORT
+  ? [resolve(process.env.REPORT)]
+  : ['plain.html', 'coloured.html', 'textured.html'].map(fixture);
+const pictures = process.env.SCREENSHOTS;
+
+let browser;
+before(async () => {
+  if (pictures) await mkdir(pictures, { recursive: true });
+  browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: [
+      '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
+      '--disable-background-networking', '--disable-component-update', '--no-first-run',
+    ],
+  });
+});
+after(() => browser?.close());
+
+/** A page on the report that remembers everything that should not happen. */
+async function open(report, options = {}) {
+  const context = await browser.newContext({
+    viewport: { width: 1360, height: 900 }, reducedMotion: 'reduce', ...options,
+  });
+  const page = await context.newPage();
+  const complaints = [];
+  const address = pathToFileURL(report).href;
+  page.on('console', (message) => {
+    // Reading pixels back for a screenshot is slow, and software drivers say so.
+    if (message.text().includes('GPU stall due to ReadPixels')) return;
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('request', (request) => {
+    const url = request.url();
+    if (url !== address && !/^(data|blob):/.test(url)) complaints.push(`request to ${url}`);
+  });
+  await page.goto(address);
+  await page.waitForSelector('html[data-ready]', { timeout: 60_000 });
+  await page.waitForSelector('#face[data-frame]', { timeout: 60_000 });
+  return { page, complaints, close: () => context.close() };
+}
+
+const drawnFrame = (page) => page.locator('#face').getAttribute('data-frame').then(Number);
+
+/** Pixels of the canvas as people see them, decoded by the browser itself. */
+async function look(page) {
+  const png = await page.locator('#face').screenshot();
+  return page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    return [...context.getImageData(0, 0, image.width, image.height).data];
+  }, png.toString('base64'));
+}
+
+function changedShare(a, b) {
+  assert.equal(a.length, b.length);
+  let changed = 0;
+  for (let i = 0; i < a.length; i += 4)
+    if (Math.abs(a[i] - b[i]) + Math.abs(a[i + 1] - b[i + 1]) + Math.abs(a[i + 2] - b[i + 2]) > 12) ++changed;
+  return changed / (a.length / 4);
+}
+
+function distinctColours(pixels) {
+  const seen = new Set();
+  for (let i = 0; i < pixels.length; i += 4)
+    seen.add((pixels[i] >> 3) * 1024 + (pixels[i + 1] >> 3) * 32 + (pixels[i + 2] >> 3));
+  return seen.size;
+}
+
+async function goTo(page, frame) {
+  await page.locator('#frame').fill(String(frame));
+  await page.waitForFunction((f) => Number(document.getElementById('face').dataset.frame) === f, frame);
+}
+
+for (const report of reports) {
+  describe(basename(report), () => {
+    let page, complaints, close;
+    before(async () => ({ page, complaints, close } = await open(report)));
+    after(() => close?.());
+
+    test('shows a face, not a blank canvas', async () => {
+      const pixels = await look(page);
+      assert.ok(distinctColours(pixels) > 40, `only ${distinctColours(pixels)} colours`);
+      await page.locator('#face').evaluate((c) => (c.style.opacity = '0'));
+      const share = changedShare(pixels, await look(page));
+      await page.locator('#face').evaluate((c) => (c.style.opacity = ''));
+      assert.ok(share > 0.08, `the face fills ${(100 * share).toFixed(1)} % of the canvas`);
+    });
+
+    test('the slider moves face, label and cursors', async () => {
+      const last = Number(await page.locator('#frame').getAttribute('max'));
+      assert.ok(last > 0);
+      await goTo(page, 0);
+      const atRest = await look(page);
+      const label = await page.locator('#frame-label').textContent();
+      const cursor = () => page.locator('.now').last().evaluate((e) => e.getBoundingClientRect().x);
+      const cursorAtRest = await cursor();
+      const middle = Math.round(last / 2);
+      await goTo(page, middle);
+      assert.ok(changedShare(atRest, await look(page)) > 0.01);
+      assert.notEqual(await page.locator('#frame-label').textContent(), label);
+      assert.match(await page.locator('#frame-label').textContent(), new RegExp(`frame ${middle} / ${last}`));
+      assert.ok((await cursor()) > cursorAtRest + 20);
+      await page.locator('#frame').press('ArrowRight');
+      await page.waitForFunction((f) => Number(document.getElementById('face').dataset.frame) === f, middle + 1);
+    });
+
+    test('colouring, views and overlays change the picture', async () => {
+      await page.locator('#to-peak').click();
+      const mapped = await look(page);
+      assert.equal(await page.locator('#colour-bar').isVisible(), true);
+      await page.getByRole('button', { name: 'Skin' }).click();
+      const skin = await look(page);
+      assert.ok(changedShare(mapped, skin) > 0.08);
+      assert.equal(await page.locator('#colour-bar').isVisible(), false);
+      await page.getByRole('button', { name: 'Three-quarter' }).click();
+      const turned = await look(page);
+      assert.ok(changedShare(skin, turned) > 0.05);
+      await page.getByRole('button', { name: 'Front' }).click();
+      const boxes = page.locator('#overlays input');
+      for (let i = 0; i < (await boxes.count()); ++i) {
+        const without = await look(page);
+        await boxes.nth(i).check();
+        assert.ok(changedShare(without, await look(page)) > 1e-4, `overlay ${i} shows nothing`);
+        await boxes.nth(i).uncheck();
+      }
+      await page.getByRole('button', { name: 'Displacement' }).click();
+      assert.ok(changedShare(mapped, await look(page)) < 0.01, 'back to the first picture');
+    });
+
+    test('pressing on a plot seeks', async () => {
+      await goTo(page, 0);
+      const over = page.locator('.u-over').last();
+      await over.scrollIntoViewIfNeeded();
+      const box = await over.boundingBox();
+      await page.mouse.click(box.x + 0.7 * box.width, box.y + 0.5 * box.height);
+      const last = Number(await page.locator('#frame').getAttribute('max'));
+      const frame = Number(await page.locator('#frame').inputValue());
+      assert.ok(Math.abs(frame - 0.7 * last) <= 1.5, `frame ${frame} of ${last}`);
+    });
+
+    test('plays and pauses', async () => {
+      await goTo(page, 0);
+      await page.locator('#play').click();
+      await page.waitForFunction(() => Number(document.getElementById('face').dataset.frame) > 0);
+      await page.getByRole('button', { name: 'Pause' }).click();
+      const label = await page.locator('#frame-label').textContent();
+      await page.waitForTimeout(200);
+      assert.equal(await page.locator('#frame-label').textContent(), label);
+    });
+
+    test('says nothing on the console and asks nothing of the network', () => {
+      assert.deepEqual(complaints, []);
+    });
+
+    for (const [name, options] of [
+      ['light', {}],
+      ['dark', { colorScheme: 'dark' }],
+      ['phone', { viewport: { width: 390, height: 840 }, hasTouch: true, isMobile: true }],
+    ]) {
+      test(`fits the window (${name})`, async () => {
+        const view = await open(report, options);
+        await view.page.locator('#to-peak').click();
+        const wide = await view.page.evaluate(
+          () => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+        assert.ok(wide <= 0, `${wide} px too wide`);
+        assert.ok((await drawnFrame(view.page)) >= 0);
+        if (pictures) {
+          await view.page.waitForTimeout(300);
+          const file = `${basename(report, '.html')}_${name}.png`;
+          await view.page.screenshot({ path: join(pictures, file), fullPage: true });
+        }
+        assert.deepEqual(view.complaints, []);
+        await view.close();
+      });
+    }
+  });
+}
