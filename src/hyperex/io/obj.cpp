@@ -22,12 +22,17 @@ constexpr std::size_t most_corners = 255;  // tinyobjloader keeps the number in 
 
 class LineChecker {
  public:
-  LineChecker(const std::filesystem::path& file, std::string_view text)
+  LineChecker(const std::filesystem::path& file, const std::string& text)
       : file_(file), lines_(text) {}
 
-  void check() {
+  /// The text without comments behind its vertices and faces, which tinyobjloader trips over.
+  std::string check() {
+    std::string checked;
     std::string_view line;
     while (lines_.next(line)) {
+      if (const auto kind = trimmed(line); kind.starts_with('v') || kind.starts_with("f"))
+        line = line.substr(0, line.find('#'));
+      checked.append(line).append("\n");
       const auto word = words(line);
       if (word.empty()) continue;
       if (word[0] == "v") {
@@ -46,6 +51,7 @@ class LineChecker {
       if (open.index > count)
         fail(open.line, std::to_string(open.index), range_text(open.is_texcoord, count));
     }
+    return checked;
   }
 
  private:
@@ -69,17 +75,13 @@ class LineChecker {
       fail(lines_.number(), word[0],
            fmt::format("{} numbers behind it, not {}", needed, word.size() - 1));
     for (std::size_t k = 1; k < word.size(); ++k) {
-      if (word[k].starts_with('#')) {
-        if (k > needed) return;
-      }
       const auto number = parse_number(word[k]);
       if (!number || !std::isfinite(*number)) fail(lines_.number(), word[k], "a finite number");
     }
   }
 
   void check_face(std::string_view line, const std::vector<std::string_view>& word) {
-    std::size_t corners = 0;
-    while (corners + 1 < word.size() && !word[corners + 1].starts_with('#')) ++corners;
+    const std::size_t corners = word.size() - 1;
     if (corners < 3 || corners > most_corners)
       fail(lines_.number(), line, fmt::format("a face of 3 to {} corners", most_corners));
     for (std::size_t k = 1; k <= corners; ++k) {
@@ -146,8 +148,7 @@ void take_vertices(const tinyobj::attrib_t& attributes, RawMesh& raw) {
 }  // namespace
 
 RawMesh read_obj(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
-  LineChecker(file, text).check();
+  const std::string text = LineChecker(file, read_file(file)).check();
 
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hyperex {
+namespace {
+
+TEST(InputProblem, SentenceNamesFileLineKeyValueAndRange) {
+  const InputProblem problem{"scene.toml", 12, "time.step_s", "-1", "a number above 0 (s)"};
+  EXPECT_EQ(problem.sentence(), "scene.toml:12: time.step_s = -1: expected a number above 0 (s)");
+}
+
+TEST(InputProblem, SentenceWithoutItsParts) {
+  EXPECT_EQ((InputProblem{"a.json", 0, "units", "", "\"mm\""}.sentence()),
+            "a.json: units: expected \"mm\"");
+  EXPECT_EQ((InputProblem{"a.csv", 3, "", "x", "a number"}.sentence()),
+            "a.csv:3: x: expected a number");
+  EXPECT_EQ((InputProblem{"", 0, "dt", "0", "more"}.sentence()), "dt = 0: expected more");
+  EXPECT_EQ((InputProblem{"", 0, "", "", "a face"}.sentence()), "expected a face");
+}
+
+TEST(InputError, OneLineAProblem) {
+  const std::vector<InputProblem> problems{{"s.toml", 1, "a", "1", "2"},
+                                           {"s.toml", 2, "b", "3", "4"}};
+  EXPECT_STREQ(InputError(problems).what(),
+               "s.toml:1: a = 1: expected 2\ns.toml:2: b = 3: expected 4");
+  EXPECT_STREQ(InputError("scan.ply", "is torn").what(), "scan.ply: is torn");
+}
+
+}  // namespace
+}  // namespace hyperex

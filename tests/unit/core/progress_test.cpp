@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/progress.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace hyperex {
+namespace {
+
+std::string shown(int wait_ms) {
+  ::testing::internal::CaptureStderr();
+  {
+    Progress progress("factor", 4);
+    progress.update(1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+    progress.update(2);
+    progress.update(3);
+    EXPECT_GE(progress.seconds(), 1e-3 * wait_ms);
+  }
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(Progress, ShortWorkShowsNothing) {
+  EXPECT_EQ(shown(5), "");
+}
+
+TEST(Progress, LongWorkShowsOneLineUnderWayAndOneAtTheEnd) {
+  const std::string text = shown(1050);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+  EXPECT_THAT(text, ::testing::HasSubstr(" 50 %"));
+  EXPECT_THAT(text, ::testing::HasSubstr("100 %"));
+}
+
+TEST(Progress, SilencedShowsNothing) {
+  Progress::silence(true);
+  const std::string text = shown(1050);
+  Progress::silence(false);
+  EXPECT_EQ(text, "");
+}
+
+}  // namespace
+}  // namespace hyperex

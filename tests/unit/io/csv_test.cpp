@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/io/csv.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "unit/io/io_testing.hpp"
+
+namespace hyperex::io {
+namespace {
+using testing::expect_refused;
+using Csv = testing::FileTest;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST_F(Csv, RoundTripIsExact) {
+  Eigen::MatrixXd rows(3, 2);
+  rows << 0, 1.0 / 3, nan, -1e-300, 1e22, 0.1 + 0.2;
+  write_csv(path("t.csv"), {"time_s", "S"}, rows);
+  const CsvTable table = read_csv(path("t.csv"));
+  EXPECT_EQ(table.names, (std::vector<std::string>{"time_s", "S"}));
+  ASSERT_EQ(table.values.rows(), 3);
+  for (int i = 0; i < 6; ++i) {
+    const double written = rows(i / 2, i % 2), read = table.values(i / 2, i % 2);
+    EXPECT_TRUE(written == read || (std::isnan(written) && std::isnan(read))) << i;
+  }
+  write_csv(path("u.csv"), {"row", "square"}, 4, [](long row, std::vector<double>& values) {
+    values = {double(row), double(row * row)};
+  });
+  EXPECT_EQ(read_csv(path("u.csv")).values(3, 1), 9);
+}
+
+TEST_F(Csv, PutsUpWithWhatProgramsWrite) {
+  const CsvTable table = read_csv(
+      write("t.csv",
+            "\xEF\xBB\xBF# a comment\r\n\"time_s\", x0 ,y0\r\n\r\n0, 1.5 ,\r\n# between\r\n"
+            "+1,NaN,-2e3"));
+  EXPECT_EQ(table.names, (std::vector<std::string>{"time_s", "x0", "y0"}));
+  ASSERT_EQ(table.values.rows(), 2);
+  EXPECT_EQ(table.values(0, 1), 1.5);
+  EXPECT_TRUE(std::isnan(table.values(0, 2)));
+  EXPECT_TRUE(std::isnan(table.values(1, 1)));
+  EXPECT_EQ(table.values(1, 0), 1);
+  EXPECT_EQ(table.values(1, 2), -2000);
+  EXPECT_EQ(table.lines, (std::vector<int>{4, 6}));
+  EXPECT_EQ(table.find("y0"), 2);
+  EXPECT_FALSE(table.find("z0"));
+  expect_refused(table.file, "a column \"z0\"", [&] { table.column("z0"); });
+  EXPECT_EQ(read_csv(write("s.csv", "a;b\n1;2\n")).values(0, 1), 2);
+  EXPECT_EQ(read_csv(write("r.csv", "a,b\n")).values.rows(), 0);
+}
+
+TEST_F(Csv, RefusesEachFaultWithOneLine) {
+  const std::vector<std::pair<std::string, std::string>> faults = {
+      {"", "is empty"},
+      {"# only\n", "is empty"},
+      {"1,2,3\n4,5,6\n", ":1: 1,2,3: expected the names of the columns"},
+      {"a,b,a\n1,2,3\n", ":1: column 3 = a: expected each name once"},
+      {"a,,c\n1,2,3\n", ":1: column 2: expected a name"},
+      {"a,b\n1,2\n3\n", ":3: 1 cells: expected 2"},
+      {"a,b\n1,2,3\n", ":2: 3 cells: expected 2"},
+      {"a,b\n\n1,two\n", ":3: column 2 (b) = two: expected a finite number"},
+      {"a,b\n1,inf\n", ":2: column 2 (b) = inf"},
+      {"a,b\n1,1.5mm\n", ":2: column 2 (b) = 1.5mm"},
+      {"a;b\n1;2,5\n", ":2: column 2 (b) = 2,5"},
+  };
+  for (const auto& [text, part] : faults) {
+    const auto file = write("bad.csv", text);
+    expect_refused(file, part, [&] { read_csv(file); });
+  }
+}
+
+}  // namespace
+}  // namespace hyperex::io
