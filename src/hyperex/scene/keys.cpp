@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/keys.hpp"
+
+#include "hyperex/scene/fields.hpp"
+
+namespace hyperex::scene {
+namespace {
+
+// The field `member` of whatever options struct is handed in, const or not.
+#define AT(member)             \
+  [](auto& options) -> auto& { \
+    return options.member;     \
+  }
+
+using io::LengthUnit;
+using MaybeUnit = std::optional<LengthUnit>;
+const Unit none{""}, millimetres{"mm", 1, 1000}, seconds{"s"};
+
+std::vector<std::pair<std::string, MaybeUnit>> units_or(const std::string& otherwise) {
+  return {{"mm", LengthUnit::millimetre},
+          {"cm", LengthUnit::centimetre},
+          {"m", LengthUnit::metre},
+          {otherwise, std::nullopt}};
+}
+
+std::vector<Key> input_keys() {
+  return {
+      text<Scene>("title", AT(title), 0, "Heads the report."),
+      source<Scene>("scan.file", AT(scan.source),
+                    "The scan: PLY, OBJ, STL, glTF or GLB; or the canonical face that the program "
+                    "carries inside."),
+      choice<Scene, MaybeUnit>("scan.unit", AT(scan.unit), units_or("guess"),
+                               "The scan's unit of length. A guess takes the one that makes the "
+                               "face 10 to 30 cm wide, and says so."),
+      path<Scene>("scan.landmarks", AT(scan.landmarks),
+                  "Named points on the scan: JSON as in the README, or 3D Slicer's .mrk.json. "
+                  "Required unless the scan is embedded."),
+      choice<Scene, MaybeUnit>("scan.landmarks_unit", AT(scan.landmarks_unit), units_or("file"),
+                               "The landmarks' unit of length, where it is not the one that their "
+                               "file states."),
+      source<Scene>("motion.file", AT(motion.source),
+                    "The recording of named points: CSV or TRC; or the mouth opening of 2.7 s that "
+                    "the program carries inside."),
+      choice<Scene, MaybeUnit>("motion.unit", AT(motion.unit), units_or("file"),
+                               "The recording's unit of length, where it is not the one that the "
+                               "file states."),
+      names<Scene>("motion.rigid_points", AT(motion.rigid_points), 3,
+                   "Points that move with the skull: the head's pose is found from them and taken "
+                   "out. Empty: eye corners, nose bridge and the like, those that there are."),
+      number<Scene>("motion.max_gap_s", seconds, AT(motion.max_gap_s), {0, 10},
+                    "The longest gap in a point's track that is interpolated; a longer one is "
+                    "refused."),
+      number<Scene>("motion.gain", none, AT(motion.gain), {0, 5},
+                    "Multiplies all displacements; 1 as recorded."),
+      choice<Scene, AlignmentMethod>(
+          "alignment.method", AT(alignment.method),
+          {{"nonrigid", AlignmentMethod::nonrigid},
+           {"similarity", AlignmentMethod::similarity},
+           {"normalised", AlignmentMethod::normalised}},
+          "How the recording is laid on the scan: by a similarity of the landmarks and a smooth "
+          "correction, by the similarity alone, or by the widths and heights of face parts about "
+          "the nose apex."),
+      choice<Scene, Measured>(
+          "region.measured", AT(region.measured),
+          {{"none", Measured::none}, {"all", Measured::all}, {"points", Measured::points}},
+          "Which part of the face follows the recording directly, the rest being physical: none, "
+          "all of it, or the surroundings of region.measured_points."),
+      names<Scene>("region.measured_points", AT(region.measured_points), 0,
+                   "Points whose surroundings are measured. At least one where region.measured is "
+                   "\"points\"."),
+      number<Scene>("region.measured_radius_mm", millimetres, AT(region.measured_radius_m),
+                    {1, 200}, "How far the surroundings of a measured point reach."),
+      number<Scene>("region.blend_mm", millimetres, AT(region.blend_m), {0, 100},
+                    "Width of the transition from measured to physical."),
+  };
+}
+
+std::vector<Key> model_keys() {
+  return {
+      number<Scene>("mesh.element_size_mm", millimetres, AT(mesh.element_size_m), {1, 30},
+                    "Edge length of the tetrahedra along the skin."),
+      integer<Scene>("mesh.layers", AT(mesh.layers), {1, 8},
+                     "Layers of elements between the skin and the inner surface."),
+      number<Scene>("mesh.thickness_mm", millimetres, AT(mesh.thickness_m), {1, 40, false, true},
+                    "Thickness of the soft tissue, the same everywhere. 0: from published depths "
+                    "at landmarks, interpolated."),
+      choice<Scene, CutLips>(
+          "mesh.cut_lips", AT(mesh.cut_lips),
+          {{"auto", CutLips::automatic}, {"always", CutLips::always}, {"never", CutLips::never}},
+          "Whether the scan is cut between the lips: \"auto\" cuts where they are joined."),
+      number<Scene>("mesh.trim_border_mm", millimetres, AT(mesh.trim_border_m), {0, 50},
+                    "Takes off a strip of this width along the scan's outer border."),
+      rows<Scene, ThicknessPoint>(
+          "mesh.thickness_point", AT(mesh.thickness_points),
+          {text<ThicknessPoint>("landmark", AT(landmark), 1, "A landmark of the scan."),
+           number<ThicknessPoint>("thickness_mm", millimetres, AT(thickness_m), {1, 40},
+                                  "Thickness of the soft tissue there.")},
+          "Thickness at a landmark, in the place of the published depth there; interpolated in "
+          "between. Only where mesh.thickness_mm is 0."),
+      number<Scene>("tissue.young_kpa", {"kPa", 1000, 1}, AT(tissue.young_pa), {0, 1e6, true},
+                    "Young's modulus E."),
+      number<Scene>("tissue.poisson", none, AT(tissue.poisson), {-0.99, 0.4999},
+                    "Poisson's ratio. Linear tetrahedra move too little near 0.5."),
+      number<Scene>("tissue.viscosity_pa_s", {"Pa s"}, AT(tissue.viscosity_pa_s), {0, 1e7},
+                    "Viscosity eta, of changes of shape."),
+      number<Scene>("tissue.density_kg_m3", {"kg/m^3"}, AT(tissue.density_kg_m3), {0, 20000, true},
+                    "Density."),
+      choice<Scene, fem::ViscousForm>(
+          "tissue.viscous_form", AT(tissue.viscous_form),
+          {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
+          "The viscous tensor: Stokes' law, or the tensor printed in the source, which is not "
+          "isotropic."),
+      choice<Scene, Element>("tissue.element", AT(tissue.element), {{"tet4", Element::tet4}},
+                             "The finite element: linear tetrahedra."),
+      choice<Scene, Hold>("support.border", AT(support.border),
+                          {{"held", Hold::held}, {"free", Hold::free}},
+                          "The tissue's outer border."),
+      choice<Scene, Hold>("support.skull", AT(support.skull),
+                          {{"held", Hold::held}, {"free", Hold::free}},
+                          "The inner surface over the skull."),
+      choice<Scene, Mandible>(
+          "support.mandible", AT(support.mandible),
+          {{"follow", Mandible::follow}, {"held", Mandible::held}, {"free", Mandible::free}},
+          "The inner surface over the mandible: follows the jaw as a rigid "
+          "bone, is held, or is free."),
+      names<Scene>("support.jaw_points", AT(support.jaw_points), 0,
+                   "Points whose motion turns the jaw. Empty: those of the chin that the recording "
+                   "has."),
+  };
+}
+
+std::vector<Key> run_keys() {
+  return {
+      names_or_all<Scene>("drive.points", AT(drive.points), AT(drive.all_points),
+                          "Points of the recording that drive the skin."),
+      number<Scene>("drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m), {0, 30},
+                    "Radius of the patch of skin that a driven point moves; 0 takes the nearest "
+                    "node alone."),
+      names<Scene>("drive.still_points", AT(drive.still_points), 0,
+                   "Points that are held still on the skin."),
+      number<Scene>("time.step_s", seconds, AT(time.step_s), {1e-6, 0.1}, "The time step."),
+      number<Scene>("time.end_s", seconds, AT(time.end_s), {0, 600},
+                    "Where the simulation ends; the last sample of the recording is held. 0: at "
+                    "the end of the recording."),
+      number<Scene>("time.frame_rate_hz", {"Hz"}, AT(time.frame_rate_hz), {1, 1000},
+                    "Frames written a second; frames need not fall on steps."),
+      number<Scene>("output.peak_time_s", seconds, AT(output.peak_time_s), {-1, 600},
+                    "Time of skin_peak.ply. Below 0: where the driven points have moved most in "
+                    "the mean."),
+      flag<Scene>("output.vtu", AT(output.vtu), "Write frames.pvd and a .vtu a frame."),
+      flag<Scene>("output.glb", AT(output.glb), "Write performance.glb."),
+      flag<Scene>("output.report", AT(output.report), "Write report.html."),
+      number<Scene>("output.symmetry_floor", none, AT(output.symmetry_floor), {0, 1, true},
+                    "The least difference of xi that S(t) tells apart; perfect symmetry would be "
+                    "minus infinity."),
+      numbers<Scene>("output.contact_times_s", seconds, AT(output.contact_times_s), {0, 600}, 1, 12,
+                     "Times of the pictures in contact_sheet.png."),
+  };
+}
+#undef AT
+
+}  // namespace
+
+const std::vector<Section>& sections() {
+  static const std::vector<Section> all = {
+      {"", "At the top of the file, before any section."},
+      {"scan", "The face at rest."},
+      {"motion", "The recorded expression."},
+      {"alignment", "How the recording is carried to the scan."},
+      {"region", "What is measured and what is physical."},
+      {"mesh", "The volume of soft tissue."},
+      {"tissue", "The material."},
+      {"support", "What holds the tissue from within and at its border."},
+      {"drive", "What moves it."},
+      {"time", "Steps and frames."},
+      {"output", "What is written."},
+  };
+  return all;
+}
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all = [] {
+    std::vector<Key> table = input_keys();
+    for (auto& part : {model_keys(), run_keys()})
+      table.insert(table.end(), part.begin(), part.end());
+    return table;
+  }();
+  return all;
+}
+
+const Key* find_key(const std::string& name) {
+  for (const Key& key : keys())
+    if (key.name == name) return &key;
+  return nullptr;
+}
+
+}  // namespace hyperex::scene

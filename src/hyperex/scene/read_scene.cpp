@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/toml_values.hpp"
+
+namespace hyperex::scene {
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const char* const set_option = "--set";
+
+struct Given {
+  json value;
+  Origin origin;
+};
+
+/// Names of keys in messages: on one line even where someone quoted a strange one.
+std::string plain(const std::string& key) {
+  const bool bare = std::all_of(key.begin(), key.end(), [](unsigned char c) { return c > ' '; });
+  return bare ? key : show(key);
+}
+
+/// A scene being read: what was given, what came of it, what is wrong.
+class Reader {
+ public:
+  explicit Reader(const fs::path& file) { scene.file = file; }
+  /// False where nothing could be read at all.
+  bool take_file();
+  void take_override(const std::string& text);
+  void fill();
+  void check_together();
+
+  Scene scene;
+  std::vector<InputProblem> problems;
+
+ private:
+  void take_section(const std::string& name, const json& value);
+  void take(const std::string& key, const json& value, const Origin& origin);
+  void complain(const Origin& origin, const std::string& key, const json& value,
+                const std::string& expected);
+  void complain_given(const std::string& key, const std::string& expected);
+  Origin in_file(const std::string& name) const;
+
+  std::map<std::string, int> lines_;
+  std::map<std::string, Given> given_;
+};
+
+void Reader::complain(const Origin& origin, const std::string& key, const json& value,
+                      const std::string& expected) {
+  problems.push_back(
+      {origin.file, origin.line, plain(key), value.is_null() ? "" : show(value), expected});
+}
+
+Origin Reader::in_file(const std::string& name) const {
+  const auto line = lines_.find(name);
+  return {scene.file, line == lines_.end() ? 0 : line->second};
+}
+
+std::string unknown_key(const std::string& name) {
+  std::vector<std::string> all;
+  std::string siblings;
+  for (const Key& key : keys()) {
+    all.push_back(key.name);
+    if (!section_of(name).empty() && section_of(key.name) == section_of(name))
+      siblings += (siblings.empty() ? "" : ", ") + key.name.substr(section_of(name).size() + 1);
+  }
+  const std::string near = nearest(name, all);
+  if (!near.empty()) return "a known key (did you mean " + near + "?)";
+  if (!siblings.empty())
+    return fmt::format("a known key ([{}] has {})", section_of(name), siblings);
+  return "a known key (docs/scene.md lists them)";
+}
+
+std::string unknown_section(const std::string& name) {
+  std::vector<std::string> all;
+  std::string list;
+  for (const Section& section : sections()) {
+    if (section.name.empty()) continue;
+    all.push_back(section.name);
+    list += (list.empty() ? "" : ", ") + section.name;
+  }
+  const std::string near = nearest(name, all);
+  return near.empty() ? "a known section (" + list + ")"
+                      : "a known section (did you mean [" + near + "]?)";
+}
+
+bool is_section(const std::string& name) {
+  const auto& all = sections();
+  return !name.empty() &&
+         std::any_of(all.begin(), all.end(), [&](const Section& s) { return s.name == name; });
+}
+
+void Reader::take(const std::string& key, const json& value, const Origin& origin) {
+  if (find_key(key) == nullptr)
+    complain(origin, key, value, unknown_key(key));
+  else
+    given_[key] = {value, origin};
+}
+
+void Reader::take_section(const std::string& name, const json& value) {
+  if (!value.is_object()) {
+    complain(in_file(name), name, value, "a section, [" + name + "]");
+    return;
+  }
+  for (const auto& [key, item] : value.items()) {
+    const std::string full = name + "." + key;
+    take(full, item, in_file(full));
+  }
+}
+
+bool Reader::take_file() {
+  const auto fail = [&](int line, const std::string& expected) {
+    problems.push_back({scene.file, line, "", "", expected});
+    return false;
+  };
+  std::error_code error;
+  if (!fs::exists(scene.file, error)) return fail(0, "an existing scene file");
+  if (fs::is_directory(scene.file, error)) return fail(0, "a scene file; this is a folder");
+  TomlValues values;
+  try {
+    values = parse_toml(read_file(scene.file));
+  } catch (const InputError&) {
+    return fail(0, "a file that can be read");
+  } catch (const TornToml& torn) {
+    return fail(torn.line, "sound TOML (" + torn.why + ")");
+  }
+  lines_ = std::move(values.lines);
+  for (const auto& [name, value] : values.root.items()) {
+    if (is_section(name))
+      take_section(name, value);
+    else if (value.is_object())
+      complain(in_file(name), name, nullptr, unknown_section(name));
+    else
+      take(name, value, in_file(name));
+  }
+  return true;
+}
+
+bool is_utf8(const std::string& text) {
+  try {
+    return !json(text).dump().empty();
+  } catch (const json::type_error&) {
+    return false;
+  }
+}
+
+void Reader::take_override(const std::string& text) {
+  const Origin origin{set_option, 0};
+  const auto equals = text.find('=');
+  std::string name = text.substr(0, equals);
+  name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+  if (equals == std::string::npos || name.empty() || !is_utf8(text)) {
+    complain(origin, "", text, "KEY=VALUE, as in time.step_s=0.001");
+    return;
+  }
+  const std::string value_text = text.substr(equals + 1);
+  const Key* key = find_key(name);
+  json value = parse_toml_value(value_text).value_or(value_text);
+  // A file may well be called 7 or 2024-01-01.
+  const bool wordy =
+      key && (key->kind == Kind::text || key->kind == Kind::choice || key->kind == Kind::path);
+  if (wordy && !value.is_string()) value = value_text;
+  if (is_section(name))
+    complain(origin, name, value, "a key of the section, as in " + name + ".KEY=VALUE");
+  else
+    take(name, value, origin);
+}
+
+void Reader::fill() {
+  for (const Key& key : keys()) {
+    const auto found = given_.find(key.name);
+    if (found == given_.end()) {
+      if (key.required)
+        complain(in_file(section_of(key.name)), key.name, nullptr, key.expected() + ", required");
+      continue;
+    }
+    const auto& [value, origin] = found->second;
+    const bool from_file = origin.file != set_option;
+    const fs::path folder = from_file ? scene.file.parent_path() : fs::path();
+    for (const Complaint& complaint : key.set(scene, value, folder)) {
+      const std::string part = key.name + complaint.below;
+      Origin at = origin;
+      if (from_file && lines_.count(part)) at.line = lines_.at(part);
+      // A missing column has no line of its own: its table has.
+      else if (from_file && lines_.count(part.substr(0, part.rfind('.'))))
+        at.line = lines_.at(part.substr(0, part.rfind('.')));
+      complain(at, part, complaint.value, complaint.expected);
+    }
+    scene.origins[key.name] = origin;
+    if (!from_file) continue;
+    for (auto part = lines_.lower_bound(key.name + "[");
+         part != lines_.end() && part->first.rfind(key.name + "[", 0) == 0; ++part)
+      scene.origins[part->first] = {scene.file, part->second};
+  }
+}
+
+void Reader::complain_given(const std::string& key, const std::string& expected) {
+  const auto found = given_.find(key);
+  if (found == given_.end())
+    complain(in_file(section_of(key)), key, nullptr, expected);
+  else
+    complain(found->second.origin, key, found->second.value, expected);
+}
+
+void Reader::check_together() {
+  if (!scene.scan.source.embedded && !given_.count("scan.landmarks"))
+    complain_given("scan.landmarks",
+                   "the path of a file, required unless scan.file is \"embedded\"");
+  if (scene.region.measured == Measured::points && scene.region.measured_points.empty())
+    complain_given("region.measured_points", "one or more names, as region.measured is \"points\"");
+  if (scene.mesh.thickness_m != 0 && !scene.mesh.thickness_points.empty())
+    complain_given("mesh.thickness_mm", "0, as [[mesh.thickness_point]] is given");
+  if (scene.region.measured == Measured::none && !scene.drive.all_points &&
+      scene.drive.points.empty())
+    complain_given("drive.points", "one or more names, or \"all\", as region.measured is \"none\"");
+  if (scene.time.end_s != 0 && scene.time.end_s < scene.time.step_s)
+    complain_given("time.end_s", "0, or at least one time.step_s");
+}
+
+/// The scene as far as it could be read, and everything that is wrong with it: the file's problems
+/// by line, then those of the overrides.
+Reader read(const fs::path& file, const std::vector<std::string>& overrides) {
+  Reader reader(file);
+  if (reader.take_file()) {
+    for (const auto& text : overrides) reader.take_override(text);
+    reader.fill();
+    reader.check_together();
+  }
+  std::stable_sort(reader.problems.begin(), reader.problems.end(),
+                   [](const InputProblem& a, const InputProblem& b) {
+                     const bool a_set = a.file == set_option, b_set = b.file == set_option;
+                     return a_set != b_set ? b_set : a.line < b.line;
+                   });
+  return reader;
+}
+
+}  // namespace
+
+Scene read_scene(const fs::path& file, const std::vector<std::string>& overrides) {
+  Reader reader = read(file, overrides);
+  if (!reader.problems.empty()) throw InputError(reader.problems);
+  return std::move(reader.scene);
+}
+
+std::vector<InputProblem> problems_of(const fs::path& file,
+                                      const std::vector<std::string>& overrides) {
+  return read(file, overrides).problems;
+}
+
+}  // namespace hyperex::scene

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// docs/scene.md, from the table of keys.
+#include <fmt/format.h>
+
+#include "hyperex/scene/keys.hpp"
+
+namespace hyperex::scene {
+namespace {
+
+const char* const introduction = R"(# The scene file
+
+<!-- Made by `hyperex scene-reference > docs/scene.md`; edit src/hyperex/scene/keys.cpp instead. -->
+
+A scene says what one run needs, in [TOML](https://toml.io). Only the keys marked *required* must be
+there; the smallest scene is
+
+```toml
+[scan]
+file = "embedded"
+
+[motion]
+file = "embedded"
+```
+
+* **Units** are in the names of the keys: `_mm`, `_s`, `_kpa`.
+* **Paths** are relative to the scene file.
+* **On the command line** any key can be overridden: `hyperex run scene.toml --out DIR
+  --set time.step_s=0.001 --set scan.file=my.ply`. The last one wins. Values are written as in the
+  file, lists as `'drive.points=["a", "b"]'`; text needs no quotes. Paths are then relative to the
+  current folder.
+* **Mistakes** (unknown keys, wrong types, numbers out of range or not finite, missing files) are
+  reported all at once, with file, line, key, value and what was expected; nothing is run.
+* **The options used**, defaults included, are in `options` of a run's `summary.json`.
+)";
+
+std::string type_of(const KeyInfo& key) {
+  switch (key.kind) {
+    case Kind::flag:
+      return "true or false";
+    case Kind::integer:
+      return "integer";
+    case Kind::number:
+      return "number";
+    case Kind::numbers:
+      return "list of numbers";
+    case Kind::text:
+    case Kind::choice:
+      return "text";
+    case Kind::path:
+      return "path";
+    case Kind::names:
+      return "list of names";
+    case Kind::rows:
+      break;
+  }
+  return "tables";
+}
+
+std::string code(const std::string& text) {
+  return "`" + text + "`";
+}
+
+std::string allowed(const KeyInfo& key) {
+  std::string text;
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  for (const auto& word : key.choices) add(code('"' + word + '"'));
+  if (key.kind == Kind::integer || key.kind == Kind::number) add(key.range.text());
+  if (key.kind == Kind::numbers)
+    add(fmt::format("{} to {}, rising, each {}", key.least, key.most, key.range.text()));
+  if (key.kind == Kind::names && key.least > 0) add(fmt::format("none, or {} or more", key.least));
+  if (key.kind == Kind::path) add("an existing file");
+  if (key.kind == Kind::text && key.least > 0) add("not empty");
+  return text;
+}
+
+std::string row(const std::string& name, const KeyInfo& key, const std::string& standard) {
+  return fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(name), type_of(key), key.unit,
+                     standard, allowed(key), key.description);
+}
+
+std::string default_of(const Key& key) {
+  if (key.required) return "*required*";
+  const nlohmann::json value = key.get(Scene{});
+  if (key.kind == Kind::rows || (key.kind == Kind::path && value == "")) return "";
+  std::string text;
+  if (!value.is_array()) return code(value.dump());
+  for (const auto& item : value) text += (text.empty() ? "" : ", ") + item.dump();
+  return code("[" + text + "]");
+}
+
+}  // namespace
+
+std::string reference_markdown() {
+  std::string page = introduction;
+  for (const Section& section : sections()) {
+    page += section.name.empty() ? "\n## Top level\n" : "\n## [" + section.name + "]\n";
+    page += section.description +
+            "\n\n| key | type | unit | default | allowed | meaning |\n"
+            "|---|---|---|---|---|---|\n";
+    for (const Key& key : keys()) {
+      if (section_of(key.name) != section.name) continue;
+      const std::string name =
+          section.name.empty() ? key.name : key.name.substr(section.name.size() + 1);
+      page += row(key.kind == Kind::rows ? "[[" + key.name + "]]" : name, key, default_of(key));
+      for (const KeyInfo& column : key.columns)
+        page += row("... " + column.name, column, "*required*");
+    }
+  }
+  return page;
+}
+
+}  // namespace hyperex::scene

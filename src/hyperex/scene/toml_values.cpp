@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/toml_values.hpp"
+
+#include <toml++/toml.h>
+
+#include <sstream>
+
+namespace hyperex::scene {
+namespace {
+using nlohmann::json;
+
+template <class Value>
+json dated(const Value& value) {
+  std::ostringstream text;
+  text << value;
+  return {{"date or time", text.str()}};
+}
+
+json convert(const toml::node& node, const std::string& name, std::map<std::string, int>& lines) {
+  if (!name.empty()) lines[name] = static_cast<int>(node.source().begin.line);
+  if (const auto* table = node.as_table()) {
+    json object = json::object();
+    for (const auto& [key, item] : *table) {
+      const std::string key_text(key.str());
+      object[key_text] = convert(item, name.empty() ? key_text : name + "." + key_text, lines);
+    }
+    return object;
+  }
+  if (const auto* array = node.as_array()) {
+    json list = json::array();
+    for (const auto& item : *array)
+      list.push_back(convert(item, name + "[" + std::to_string(list.size()) + "]", lines));
+    return list;
+  }
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* integer = node.as_integer()) return integer->get();
+  if (const auto* number = node.as_floating_point()) return number->get();
+  if (const auto* flag = node.as_boolean()) return flag->get();
+  if (const auto* date = node.as_date()) return dated(*date);
+  if (const auto* time = node.as_time()) return dated(*time);
+  if (const auto* date_time = node.as_date_time()) return dated(*date_time);
+  return nullptr;
+}
+
+}  // namespace
+
+TomlValues parse_toml(const std::string& text) {
+  try {
+    const toml::table table = toml::parse(text);
+    TomlValues values;
+    values.root = convert(table, "", values.lines);
+    return values;
+  } catch (const toml::parse_error& error) {
+    std::string why(error.description());
+    for (char& c : why)
+      if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    throw TornToml{static_cast<int>(error.source().begin.line), why};
+  }
+}
+
+std::optional<json> parse_toml_value(const std::string& value) {
+  try {
+    const toml::table table = toml::parse("value = " + value);
+    std::map<std::string, int> ignored;
+    // A line break in the value could smuggle in a second key.
+    if (table.size() != 1) return std::nullopt;
+    return convert(table.begin()->second, "", ignored);
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace hyperex::scene

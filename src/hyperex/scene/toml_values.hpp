@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace hyperex::scene {
+
+/// A TOML text as JSON values. Dates and times become {"date or time": text}.
+struct TomlValues {
+  nlohmann::json root;               ///< an object
+  std::map<std::string, int> lines;  ///< of every value: "scan", "scan.file", "drive.points[2]"
+};
+
+struct TornToml {
+  int line = 0;     ///< 1-based
+  std::string why;  ///< one line
+};
+
+/// Throws TornToml where `text` is no TOML.
+TomlValues parse_toml(const std::string& text);
+
+/// VALUE of KEY=VALUE where it is one TOML value, else nothing.
+std::optional<nlohmann::json> parse_toml_value(const std::string& value);
+
+}  // namespace hyperex::scene
