@@ -48,8 +48,9 @@ Carried landmarks_carried(const TriMesh& rest, const Points& truth, const io::La
   return carried;
 }
 
-Points warped(const TriMesh& rest, const Carried& carried) {
-  return rest.points + Rbf(carried.at, carried.displacement).at_all(rest.points);
+Points warped(const TriMesh& rest, const Carried& carried, double smoothing_m = 0) {
+  const Rbf rbf(carried.at, carried.displacement, {.smoothing = smoothing_m});
+  return rest.points + rbf.at_all(rest.points);
 }
 
 }  // namespace
@@ -78,7 +79,8 @@ std::vector<Baseline> baselines(const TriMesh& rest, const Points& truth,
   const Carried all = landmarks_carried(rest, truth, landmarks, run(0, 67), run(0, 67));
   return {{"standing still", "standing_still", rest.points},
           {"warp, 7 points", "warp_7", warped(rest, seven)},
-          {"warp, all 68", "warp_68", warped(rest, all)}};
+          {"warp, all 68", "warp_68", warped(rest, all)},
+          {"the same, smoothed", "warp_68_smoothed", warped(rest, all, 1e-3)}};
 }
 
 }  // namespace hyperex::metrics

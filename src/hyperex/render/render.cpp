@@ -81,15 +81,18 @@ struct Prepared {
   }
 };
 
-// Key lamp up left of the camera, fill lamp at its right, and light from all around.
+// Key lamp up left of the camera, fill lamp at its right, light from all around, and a sheen that
+// keeps the relief visible where the colour is dark.
 Vec3f shaded(const Vec3f& colour, Vec3f normal, bool back) {
   static const Vec3f key = Vec3f(-0.42f, 0.52f, 0.74f).normalized();
   static const Vec3f fill = Vec3f(0.75f, 0.05f, 0.66f).normalized();
+  static const Vec3f half_way = (key + Vec3f::UnitZ()).normalized();
   if (back) normal = -normal;
-  const float light = 0.26f + 0.10f * (0.5f + 0.5f * normal.y()) +
-                      0.66f * std::max(0.f, normal.dot(key)) +
+  const float lit = std::max(0.f, normal.dot(key));
+  const float light = 0.26f + 0.10f * (0.5f + 0.5f * normal.y()) + 0.66f * lit +
                       0.16f * std::max(0.f, normal.dot(fill));
-  return colour * light * (back ? 0.4f : 1.f);
+  const float sheen = 0.03f * lit + 0.07f * std::pow(std::max(0.f, normal.dot(half_way)), 14.f);
+  return (colour * light).array() * (back ? 0.4f : 1.f) + (back ? 0.f : sheen);
 }
 
 void cast_rays(const std::vector<Prepared>& prepared, const RayScene& scene, const Camera& camera,

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/symmetry.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+
+namespace hyperex::metrics {
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<std::string> anatomical = {"cheilion", "exocanthion", "palpebrale_inferius",
+                                             "alare", "crista_philtri_inferior"};
+
+// A face mirrored at x = 0, at rest for two samples.
+motion::Motion mirrored() {
+  motion::Motion motion;
+  Points sample(10, 3);
+  const double left[5][3] = {
+      {25, 0, 0}, {45, 65, -10}, {30, 50, 0}, {17, 30, 15}, {5, 12, 8}};  // mm
+  for (int k = 0; k < 5; ++k)
+    for (int side = 0; side < 2; ++side) {
+      motion.names.push_back(anatomical[k] + (side == 0 ? "_L" : "_R"));
+      const double sign = side == 0 ? 1e-3 : -1e-3;
+      sample.row(2 * k + side) << sign * left[k][0], 1e-3 * left[k][1], 1e-3 * left[k][2];
+    }
+  motion.time_s = {0, 0.1};
+  motion.positions = {sample, sample};
+  return motion;
+}
+
+double length(const Points& sample, int a, int b) {
+  return (sample.row(a) - sample.row(b)).norm();
+}
+
+TEST(Symmetry, FollowsItsFormula) {
+  motion::Motion motion = mirrored();
+  Points& moved = motion.positions[1];
+  moved.row(0) += Eigen::RowVector3d(0.004, 0.006, -0.001);  // the left mouth corner goes up
+  const SymmetryCurve curve = symmetry_of(motion);
+  double xi = 0;
+  for (const int other : {2, 4, 6, 8})
+    xi += length(moved, 0, other) / length(motion.positions[0], 0, other) - 1;
+  EXPECT_NEAR(curve.xi_left[1], xi, 1e-14);
+  EXPECT_EQ(curve.xi_right[1], 0);
+  EXPECT_NEAR(curve.s[1], std::log(std::abs(xi)), 1e-12);
+  EXPECT_TRUE(curve.stand_ins.empty());
+}
+
+TEST(Symmetry, OfAMirroredMotionIsTheFloor) {
+  motion::Motion motion = mirrored();
+  for (const int side : {0, 1}) motion.positions[1](side, 1) -= 0.01;
+  const SymmetryCurve curve = symmetry_of(motion, 1e-5);
+  EXPECT_NE(curve.xi_left[1], 0);
+  EXPECT_DOUBLE_EQ(curve.s[1], std::log(1e-5));
+  EXPECT_DOUBLE_EQ(curve.s[0], std::log(1e-5));
+}
+
+TEST(Symmetry, DoesNotSeeTheHeadMove) {
+  motion::Motion motion = mirrored();
+  motion.positions[1](1, 1) += 0.005;
+  const SymmetryCurve still = symmetry_of(motion);
+  const Eigen::AngleAxisd turn(0.7, Vec3(1, 2, -1).normalized());
+  motion.positions[1] = ((motion.positions[1] * turn.toRotationMatrix().transpose()).rowwise() +
+                         Eigen::RowVector3d(0.2, -0.4, 0.7))
+                            .eval();
+  EXPECT_NEAR(symmetry_of(motion).s[1], still.s[1], 1e-10);
+}
+
+TEST(Symmetry, IbugPointsStandIn) {
+  motion::Motion motion = mirrored();
+  const SymmetryCurve own = symmetry_of(motion);
+  // One lid point becomes two about it.
+  motion.names = {"ibug68_54", "ibug68_48", "ibug68_45", "ibug68_36", "ibug68_46", "ibug68_40",
+                  "ibug68_35", "ibug68_31", "ibug68_52", "ibug68_50", "ibug68_47", "ibug68_41"};
+  for (Points& sample : motion.positions) {
+    sample.conservativeResize(12, 3);
+    sample.bottomRows(2) = sample.middleRows(4, 2);
+    sample.middleRows(4, 2).col(0).array() -= 0.003;
+    sample.bottomRows(2).col(0).array() += 0.003;
+    sample(0, 1) += &sample == &motion.positions[1] ? 0.01 : 0;
+  }
+  const SymmetryCurve curve = symmetry_of(motion);
+  EXPECT_EQ(curve.stand_ins.size(), 10u);
+  EXPECT_THAT(curve.stand_ins, testing::Contains("exocanthion_L: ibug68_45"));
+  EXPECT_THAT(curve.stand_ins,
+              testing::Contains("palpebrale_inferius_R: mean of ibug68_40 and ibug68_41"));
+  motion::Motion named = mirrored();
+  named.positions[1](0, 1) += 0.01;
+  EXPECT_NEAR(curve.xi_left[1], symmetry_of(named).xi_left[1], 1e-14);
+}
+
+TEST(Symmetry, NamesWhatIsMissing) {
+  motion::Motion motion = mirrored();
+  motion.names[2] = "something";  // exocanthion_L
+  try {
+    symmetry_of(motion);
+    FAIL() << "a missing point was accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("exocanthion_L (or ibug68_45)"));
+    EXPECT_THAT(error.what(), testing::Not(HasSubstr("exocanthion_R")));
+  }
+}
+
+TEST(Symmetry, RefusesABadFloorAndAnUnmeasuredStart) {
+  motion::Motion motion = mirrored();
+  EXPECT_THROW(symmetry_of(motion, 0), InputError);
+  EXPECT_THROW(symmetry_of(motion, -1), InputError);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(symmetry_of(motion, nan), InputError);
+  motion.positions[1].row(0).setConstant(nan);
+  EXPECT_TRUE(std::isnan(symmetry_of(motion).s[1]));
+  motion.positions[0].row(0).setConstant(nan);
+  EXPECT_THROW(symmetry_of(motion), InputError);
+}
+
+TEST(Symmetry, FloorIsTheSpreadOfAStillFaceMeasuredWithNoise) {
+  const motion::Motion rest = mirrored();
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0, 1e-4);
+  double squares = 0;
+  constexpr int trials = 4000;
+  for (int i = 0; i < trials; ++i) {
+    motion::Motion noisy = rest;
+    for (Points& sample : noisy.positions)
+      for (Eigen::Index k = 0; k < sample.size(); ++k) sample.data()[k] += noise(generator);
+    const SymmetryCurve curve = symmetry_of(noisy);
+    squares += std::pow(curve.xi_left[1] - curve.xi_right[1], 2);
+  }
+  EXPECT_NEAR(floor_from_accuracy(rest, 1e-4) / std::sqrt(squares / trials), 1, 0.04);
+}
+
+TEST(Symmetry, CsvHoldsTheCurve) {
+  motion::Motion motion = mirrored();
+  motion.positions[1].row(0).setConstant(std::numeric_limits<double>::quiet_NaN());
+  const auto file = std::filesystem::path(testing::TempDir()) / "hyperex_symmetry_test.csv";
+  write_symmetry_csv(file, symmetry_of(motion, 0.5));
+  EXPECT_EQ(read_file(file), "time_s,xi_L,xi_R,S_ln,floor\n0,0,0,-0.693147181,0.5\n0.1,,0,,0.5\n");
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace hyperex::metrics
