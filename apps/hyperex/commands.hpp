@@ -8,6 +8,7 @@
 namespace hyperex::cli {
 
 void add_compare(CLI::App& program);
+void add_scene_reference(CLI::App& program);
 void add_symmetry(CLI::App& program);
 
 }  // namespace hyperex::cli

@@ -140,16 +140,16 @@ void print_table(const Options& options, const std::vector<Row>& rows,
   if (baselines.empty()) return;
   std::cout << "\nMeasured against (mean, mm; in brackets A's mean as a fraction of it)\n"
             << fmt::format("{:<20}", "");
-  for (const Row& row : rows) std::cout << fmt::format(" {:>13}", row.region);
+  for (const Row& row : rows) std::cout << fmt::format(" {:>14}", row.region);
   std::cout << fmt::format("\n{:<20}", "A");
-  for (const Row& row : rows) std::cout << fmt::format(" {:>6.2f}{:7}", row.statistics.mean_mm, "");
+  for (const Row& row : rows) std::cout << fmt::format(" {:>6.2f}{:8}", row.statistics.mean_mm, "");
   for (const BaselineRows& baseline : baselines) {
     std::cout << fmt::format("\n{:<20}", baseline.name);
     for (size_t i = 0; i < rows.size(); ++i) {
       const double mean = baseline.rows[i].statistics.mean_mm;
       const std::string ratio =
           mean > 0 ? fmt::format("({:.2f})", rows[i].statistics.mean_mm / mean) : "";
-      std::cout << fmt::format(" {:>6.2f}{:>7}", mean, ratio);
+      std::cout << fmt::format(" {:>6.2f} {:>7}", mean, ratio);
     }
   }
   std::cout << '\n';

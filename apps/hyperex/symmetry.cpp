@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -13,12 +14,13 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "symmetry_picture.hpp"
 
 namespace hyperex::cli {
 namespace {
 
 struct Options {
-  std::filesystem::path motion, out;
+  std::filesystem::path motion, out, picture;
   double floor = 1e-6, accuracy_mm = 0;
   std::string unit;
 };
@@ -50,7 +52,10 @@ void run(const Options& options) {
     throw InputError(options.motion, error.what());
   }
   for (const std::string& stand_in : curve.stand_ins)
-    std::cerr << "stands in for " << stand_in << '\n';
+    std::cerr << "stand-in for " << stand_in << '\n';
+  if (!options.picture.empty())
+    render::write_png(options.picture,
+                      draw(curve, "Symmetry of " + options.motion.filename().string()));
   if (options.out.empty())
     print_table(curve);
   else
@@ -67,6 +72,7 @@ void add_symmetry(CLI::App& program) {
       "side's eye, lid, nose wing and lip (xi_L, xi_R), and S = ln |xi_L - xi_R|.");
   command->add_option("MOTION", options->motion, "Named points over time, CSV or TRC")->required();
   command->add_option("--out", options->out, "Write CSV (time_s, xi_L, xi_R, S_ln, floor) here");
+  command->add_option("--picture", options->picture, "Write a plot (PNG) here");
   auto* floor = command
                     ->add_option("--floor", options->floor,
                                  "Least |xi_L - xi_R| told apart; S stops at its logarithm")

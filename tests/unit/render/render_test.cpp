@@ -91,7 +91,7 @@ TEST(Render, TheNearerSurfaceIsSeen) {
   for (const auto& both : {std::vector{red, green}, std::vector{green, red}}) {
     const Image image = render(both, front, square);
     EXPECT_GT(image.pixel(100, 100)[1], 100);
-    EXPECT_EQ(image.pixel(100, 100)[0], 0);
+    EXPECT_LT(image.pixel(100, 100)[0], 80);  // the sheen is white
   }
 }
 

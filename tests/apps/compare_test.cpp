@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program as a user calls it: exit status, standard output and error kept apart.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/io/scan.hpp"
+
+namespace hyperex {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Program : public testing::Test {
+ protected:
+  struct Outcome {
+    int status;
+    std::string out, err;
+  };
+
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("hyperex_apps_") + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome call(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && '" HYPEREX_PROGRAM "' " +
+                                arguments + " >out.txt 2>err.txt";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), read_file(folder_ / "out.txt"), read_file(folder_ / "err.txt")};
+  }
+
+  // A flat sheet of 20 cm, moved forward by `forward_m`, with `extra` more vertices at its end.
+  void write_sheet(const std::string& name, double forward_m, int extra = 0) const {
+    constexpr int n = 41;
+    TriMesh mesh{Points(n * n + extra, 3), Triangles(2 * (n - 1) * (n - 1), 3)};
+    mesh.points.setZero();
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        mesh.points.row(n * i + j) << 0.005 * (j - n / 2), 0.005 * (i - n / 2), forward_m;
+    int row = 0;
+    for (int i = 0; i + 1 < n; ++i)
+      for (int j = 0; j + 1 < n; ++j) {
+        mesh.triangles.row(row++) << n * i + j, n * i + j + 1, n * (i + 1) + j + 1;
+        mesh.triangles.row(row++) << n * i + j, n * (i + 1) + j + 1, n * (i + 1) + j;
+      }
+    io::write_ply(folder_ / name, mesh, io::LengthUnit::millimetre);
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Program, TellsItsVersionAndHelp) {
+  const Outcome version = call("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, StartsWith("hyperex "));
+  for (const char* command : {"compare", "symmetry"}) {
+    const Outcome help = call(std::string(command) + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.out, HasSubstr(std::string("Example:\n  hyperex ") + command));
+  }
+}
+
+TEST_F(Program, ComparesBySurfaceWithoutLandmarks) {
+  write_sheet("a.ply", 0);
+  write_sheet("b.ply", 0.003);
+  const Outcome found = call("compare a.ply b.ply --unit mm --json");
+  ASSERT_EQ(found.status, 0) << found.err;
+  const auto json = nlohmann::json::parse(found.out);  // nothing but JSON
+  EXPECT_EQ(json.size(), 1u);
+  for (const char* key : {"mean_mm", "median_mm", "rms_mm", "p95_mm", "max_mm"})
+    EXPECT_NEAR(json["surface"][key].get<double>(), 3, 1e-4) << key;
+  EXPECT_FALSE(fs::exists(folder_ / "compare.png"));
+}
+
+TEST_F(Program, ComparesByRegionsOfTheScanAtRest) {
+  write_sheet("rest.ply", 0);
+  write_sheet("a.ply", 0.001, 3);
+  write_sheet("truth.ply", 0.005);
+  io::Landmarks landmarks;
+  for (int k = 0; k < 68; ++k)
+    landmarks["ibug68_" + std::to_string(k)] = {0.001 * (k % 8), 0.002 * (k / 8), 0};
+  io::write_landmarks(folder_ / "l.json", landmarks, io::LengthUnit::millimetre);
+  const std::string files =
+      "compare a.ply truth.ply --corresponding --rest rest.ply "
+      "--landmarks l.json --unit mm --json";
+  const Outcome found = call(files + " --baseline --picture p.png");
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.err, HasSubstr("3 vertices beyond"));
+  const auto json = nlohmann::json::parse(found.out);
+  EXPECT_NEAR(json["face"]["mean_mm"].get<double>(), 4, 1e-4);
+  EXPECT_NEAR(json["lips"]["p95_mm"].get<double>(), 4, 1e-4);
+  const auto& still = json["baseline"]["standing_still"]["face"];
+  EXPECT_NEAR(still["mean_mm"].get<double>(), 5, 1e-4);
+  EXPECT_NEAR(still["ratio_of_means"].get<double>(), 0.8, 1e-4);
+  EXPECT_NEAR(json["baseline"]["warp_68"]["face"]["mean_mm"].get<double>(), 0, 1e-4);
+  EXPECT_THAT(read_file(folder_ / "p.png").substr(1, 3), "PNG");
+  EXPECT_FALSE(nlohmann::json::parse(call(files).out).contains("baseline"));
+}
+
+TEST_F(Program, PrintsATableAndDrawsAPicture) {
+  write_sheet("a.ply", 0);
+  write_sheet("b.ply", 0.003);
+  const Outcome found = call("compare a.ply b.ply --unit mm");
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.out, HasSubstr("surface       3.000    3.000"));
+  EXPECT_TRUE(fs::exists(folder_ / "compare.png"));
+}
+
+TEST_F(Program, RefusesInOneLine) {
+  write_sheet("a.ply", 0);
+  write_sheet("longer.ply", 0, 1);
+  std::ofstream(folder_ / "m.csv") << "time_s,here_x,here_y,here_z\n0,0,0,0\n1,0,0,0\n";
+  for (const char* arguments :
+       {"", "compare a.ply", "compare a.ply nothing.ply", "compare a.ply a.ply --unit inch",
+        "compare a.ply longer.ply --corresponding --unit mm",
+        "compare a.ply a.ply --corresponding --rest longer.ply --unit mm",
+        "compare a.ply a.ply --baseline --unit mm", "compare a.ply a.ply --landmarks no.json",
+        "compare a.ply a.ply --unit mm --picture no/folder/p.png", "symmetry nothing.csv",
+        "symmetry m.csv --unit m"}) {
+    const Outcome found = call(arguments);
+    EXPECT_EQ(found.status, 2) << arguments;
+    EXPECT_THAT(found.out, "") << arguments;
+    EXPECT_THAT(found.err, StartsWith("hyperex: ")) << arguments;
+    EXPECT_THAT(found.err, EndsWith("\n")) << arguments;
+    EXPECT_EQ(std::count(found.err.begin(), found.err.end(), '\n'), 1) << found.err;
+    std::cout << "  " << found.err;
+  }
+}
+
+TEST_F(Program, WritesSymmetryAsCsv) {
+  const fs::path motion =
+      fs::path(HYPEREX_SHARED_DIR) / "data/rgbd/subject_A_talk/truth_landmarks68_camera_m.csv";
+  if (!fs::exists(motion)) GTEST_SKIP() << "needs " << motion;
+  const Outcome found =
+      call("symmetry '" + motion.string() + "' --out s.csv --picture s.png --floor 1e-4");
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(read_file(folder_ / "s.csv"), StartsWith("time_s,xi_L,xi_R,S_ln,floor\n0,0,0,-9.21"));
+  EXPECT_TRUE(fs::exists(folder_ / "s.png"));
+  EXPECT_THAT(found.err, HasSubstr("exocanthion_L: ibug68_45"));
+}
+
+}  // namespace
+}  // namespace hyperex
