@@ -11,7 +11,7 @@
 
 namespace hyperex::scene {
 
-/// SI = value * times / over: two exact integers, so that 9 mm is the double 0.009.
+/// SI = value * times / over: two exact integers, so that 9 mm is 0.009 to the last bit.
 struct Unit {
   std::string name;
   double times = 1, over = 1;

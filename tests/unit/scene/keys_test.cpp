@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Walks through the table of keys: what it says of a key must hold in the file and for --set.
+#include "hyperex/scene/keys.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "unit/scene/scene_files.hpp"
+
+namespace hyperex::scene {
+namespace {
+using nlohmann::json;
+
+/// Another value than the default, as JSON, which is TOML too for these (but for tables).
+json other_value(const Key& key) {
+  const json standard = key.get(Scene{});
+  switch (key.kind) {
+    case Kind::flag:
+      return !standard.get<bool>();
+    case Kind::integer:
+      return standard.get<int>() + 1;
+    case Kind::number: {
+      const double low = key.range.low, high = key.range.high;
+      return standard == low + (high - low) * 0.5 ? low + (high - low) * 0.25
+                                                  : low + (high - low) * 0.5;
+    }
+    case Kind::numbers:
+      return {key.range.low, key.range.low + 0.125, key.range.high};
+    case Kind::text:
+      return "other \"text\" \u00e4";
+    case Kind::choice:
+      for (const auto& word : key.choices)
+        if (word != standard) return word;
+      return standard;  // a choice of one
+    case Kind::path:
+      return "face.ply";
+    case Kind::names:
+      return {"one", "two", "three"};
+    case Kind::rows:
+      break;
+  }
+  return {{{"landmark", "chin"}, {"thickness_mm", 12.5}}};
+}
+
+std::string toml(const json& value) {
+  if (value.is_object()) {
+    std::string text;
+    for (const auto& [name, item] : value.items())
+      text += (text.empty() ? "" : ", ") + name + " = " + toml(item);
+    return "{" + text + "}";
+  }
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const auto& item : value) text += (text.empty() ? "" : ", ") + toml(item);
+  return "[" + text + "]";
+}
+
+/// A scene file with `key` = `value`, everything else as small as can be.
+std::string scene_with(const std::string& key, const std::string& value) {
+  std::string text = key + " = " + value + "\n";
+  if (key != "scan.file") text += "scan.file = \"embedded\"\n";
+  if (key != "motion.file") text += "motion.file = \"embedded\"\n";
+  if (key == "scan.file") text += "scan.landmarks = \"points.json\"\n";
+  return text;
+}
+
+json expected_echo(const Key& key, const json& value, const std::filesystem::path& folder) {
+  return key.kind == Kind::path ? json((folder / value.get<std::string>()).generic_string())
+                                : value;
+}
+
+TEST(Keys, AreNamedOnceInKnownSectionsInOrder) {
+  std::set<std::string> names;
+  std::size_t section = 0;
+  for (const Key& key : keys()) {
+    EXPECT_TRUE(names.insert(key.name).second) << key.name;
+    EXPECT_FALSE(key.description.empty()) << key.name;
+    while (section < sections().size() && sections()[section].name != section_of(key.name))
+      ++section;
+    ASSERT_LT(section, sections().size()) << key.name << " is out of order or in no section";
+  }
+  EXPECT_EQ(find_key("time.step_s")->name, "time.step_s");
+  EXPECT_EQ(find_key("time.step"), nullptr);
+}
+
+TEST(Keys, DefaultsAreAllowed) {
+  for (const Key& key : keys()) {
+    if (key.kind == Kind::path) continue;
+    Scene scene;
+    EXPECT_TRUE(key.set(scene, key.get(scene), {}).empty()) << key.name;
+  }
+}
+
+TEST(Keys, EachReachesItsFieldFromTheFileAndNoOther) {
+  const SceneFolder folder;
+  for (const Key& key : keys()) {
+    SCOPED_TRACE(key.name);
+    const json value = other_value(key);
+    const auto file = folder.write("scene.toml", scene_with(key.name, toml(value)));
+    const Scene scene =
+        read_scene(file, key.name == "region.measured"
+                             ? std::vector<std::string>{"region.measured_points=[\"a\"]"}
+                             : std::vector<std::string>{});
+    EXPECT_EQ(key.get(scene), expected_echo(key, value, folder / ""));
+    EXPECT_EQ(scene.origins.at(key.name).line, 1);
+    for (const Key& other : keys()) {
+      if (other.name == key.name || scene.origins.count(other.name)) continue;
+      EXPECT_EQ(other.get(scene), other.get(Scene{})) << other.name << " changed as well";
+    }
+  }
+}
+
+TEST(Keys, EachReachesItsFieldFromSet) {
+  const SceneFolder folder;
+  for (const Key& key : keys()) {
+    SCOPED_TRACE(key.name);
+    const auto file = folder.write("scene.toml", scene_with("scan.file", "\"face.ply\"") +
+                                                     "region.measured_points = [\"a\"]\n");
+    json value = other_value(key);
+    if (key.kind == Kind::path) value = (folder / "face.ply").string();
+    const Scene scene = read_scene(file, {key.name + "=" + toml(value)});
+    EXPECT_EQ(key.get(scene), value);
+    EXPECT_EQ(scene.origins.at(key.name).file, "--set");
+    const bool bare = key.kind == Kind::choice || key.kind == Kind::path;
+    if (bare) {
+      EXPECT_EQ(key.get(read_scene(file, {key.name + "=" + value.get<std::string>()})), value);
+    }
+  }
+}
+
+TEST(Keys, NumbersOutOfRangeAreRefusedOnEachSide) {
+  const SceneFolder folder;
+  const auto refused = [&](const Key& key, const std::string& value) {
+    const bool list = key.kind == Kind::numbers;
+    const auto file =
+        folder.write("scene.toml", scene_with(key.name, list ? "[" + value + "]" : value));
+    const auto problems = problems_of(file);
+    ASSERT_EQ(problems.size(), 1u) << key.name << " = " << value << "\n" << sentences(problems);
+    EXPECT_EQ(problems[0].key, key.name + (list ? "[0]" : ""));
+    EXPECT_EQ(problems[0].line, 1);
+    EXPECT_THAT(problems[0].expected, testing::HasSubstr(key.range.text()));
+  };
+  int count = 0;
+  for (const Key& key : keys()) {
+    if (key.kind != Kind::integer && key.kind != Kind::number && key.kind != Kind::numbers)
+      continue;
+    ++count;
+    const auto& [low, high, above, or_zero] = key.range;
+    if (key.kind == Kind::integer) {
+      refused(key, fmt::format("{}", int(low) - 1));
+      refused(key, fmt::format("{}", int(high) + 1));
+      refused(key, "9000000000000000000");
+      refused(key, fmt::format("{:.1f}", low));  // not an integer
+    } else {
+      refused(key, fmt::format("{:.17f}", above ? low : std::nextafter(low, -1e9) - 1e-12));
+      refused(key, fmt::format("{:.17g}", std::nextafter(high, 1e99)));
+    }
+    for (const char* never : {"nan", "inf", "-inf", "1e300", "\"1\"", "true", "2024-01-01"})
+      refused(key, never);
+  }
+  EXPECT_GE(count, 15);
+}
+
+TEST(Keys, LimitsThemselvesAreAllowed) {
+  for (const Key& key : keys()) {
+    if (key.kind != Kind::integer && key.kind != Kind::number) continue;
+    std::vector<double> limits = {key.range.high};
+    if (!key.range.above_low) limits.push_back(key.range.low);
+    if (key.range.or_zero) limits.push_back(0);
+    for (const double limit : limits) {
+      Scene scene;
+      const json value = key.kind == Kind::integer ? json(int(limit)) : json(limit);
+      EXPECT_TRUE(key.set(scene, value, {}).empty()) << key.name << " = " << limit;
+      EXPECT_EQ(key.get(scene), value) << key.name;
+    }
+  }
+}
+
+TEST(Keys, WrongTypesAreRefusedWithWhatWasExpected) {
+  const SceneFolder folder;
+  for (const Key& key : keys()) {
+    for (const char* wrong :
+         {"{a = 1}", "[[1]]", "1979-05-27", "\"no such word\"", "-77.5", "true"}) {
+      const std::string text = wrong;
+      if (key.kind == Kind::text && text[0] == '"') continue;
+      if (key.kind == Kind::flag && text == "true") continue;
+      if (key.name == "output.peak_time_s" && text == "true") continue;
+      const auto problems = problems_of(folder.write("scene.toml", scene_with(key.name, text)));
+      ASSERT_GE(problems.size(), 1u) << key.name << " = " << wrong;
+      bool named = false;
+      for (const auto& problem : problems) {
+        named = named || problem.key.rfind(key.name, 0) == 0;
+        EXPECT_FALSE(problem.expected.empty());
+        EXPECT_EQ(problem.sentence().find('\n'), std::string::npos);
+      }
+      EXPECT_TRUE(named) << key.name << " = " << wrong << "\n" << sentences(problems);
+    }
+  }
+}
+
+TEST(Keys, NearestAllowsForSlipsUnitsAndSections) {
+  std::vector<std::string> names;
+  for (const Key& key : keys()) names.push_back(key.name);
+  EXPECT_EQ(nearest("time.setp_s", names), "time.step_s");
+  EXPECT_EQ(nearest("time.step_ms", names), "time.step_s");
+  EXPECT_EQ(nearest("time.step", names), "time.step_s");
+  EXPECT_EQ(nearest("step_s", names), "time.step_s");
+  EXPECT_EQ(nearest("mesh.young_kpa", names), "tissue.young_kpa");
+  EXPECT_EQ(nearest("mesh.Thickness", names), "mesh.thickness_mm");
+  EXPECT_EQ(nearest("time.colour_of_the_sky", names), "");
+  EXPECT_EQ(nearest("", names), "");
+}
+
+}  // namespace
+}  // namespace hyperex::scene

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <random>
+
+#include "hyperex/scene/keys.hpp"
+#include "unit/scene/scene_files.hpp"
+
+namespace hyperex::scene {
+namespace {
+using testing::HasSubstr;
+
+/// The one problem of a scene text, as its sentence without the folder.
+std::string only_problem(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const SceneFolder folder;
+  const auto problems = problems_of(folder.write("scene.toml", text), overrides);
+  EXPECT_EQ(problems.size(), 1u) << sentences(problems);
+  std::string sentence = problems.empty() ? "" : problems[0].sentence();
+  const std::string prefix = (folder / "").string();
+  for (auto at = sentence.find(prefix); at != std::string::npos; at = sentence.find(prefix))
+    sentence.erase(at, prefix.size());
+  return sentence;
+}
+
+TEST(ReadScene, SmallestSceneHasTheDefaults) {
+  const SceneFolder folder;
+  const Scene scene = read_scene(folder.write("scene.toml", smallest));
+  EXPECT_TRUE(scene.scan.source.embedded);
+  EXPECT_EQ(scene.tissue.young_pa, 192400);
+  EXPECT_EQ(scene.drive.points.size(), 7u);
+  EXPECT_EQ(scene.file, folder / "scene.toml");
+  EXPECT_EQ(scene.origins.size(), 2u);
+}
+
+TEST(ReadScene, PathsAreRelativeToTheSceneFileThoseOfSetToTheCurrentFolder) {
+  const SceneFolder folder;
+  const auto file = folder.write("sub/scene.toml",
+                                 "[scan]\nfile = \"../face.ply\"\nlandmarks = \"../points.json\"\n"
+                                 "[motion]\nfile = \"embedded\"\n");
+  EXPECT_EQ(read_scene(file).scan.source.file, folder / "face.ply");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  const Scene moved = read_scene(file, {"scan.file=sub/../motion.csv", "motion.file=motion.csv"});
+  const auto wrong = problems_of(file, {"scan.file=../face.ply"});
+  std::filesystem::current_path(before);
+  EXPECT_EQ(moved.scan.source.file, "motion.csv");
+  EXPECT_EQ(moved.scan.landmarks, folder / "points.json");
+  EXPECT_EQ(wrong.size(), 1u);
+}
+
+TEST(ReadScene, AllProblemsAreThrownAtOnceEachOnItsLine) {
+  const SceneFolder folder;
+  const auto file = folder.write("scene.toml",
+                                 "[scan]\n"
+                                 "file = \"gone.ply\"\n"
+                                 "[time]\n"
+                                 "setp_s = 0.01\n"
+                                 "step_s = 0\n"
+                                 "[tissue]\n"
+                                 "young_kpa = \"stiff\"\n");
+  try {
+    read_scene(file, {"mesh.layers=9", "nonsense"});
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    const std::string name = file.string(), text = error.what();
+    EXPECT_THAT(text, HasSubstr(name + ":2: scan.file = \"gone.ply\": expected an existing file"));
+    EXPECT_THAT(text, HasSubstr(name + ":4: time.setp_s = 0.01: expected a known key (did you mean "
+                                       "time.step_s?)"));
+    EXPECT_THAT(text,
+                HasSubstr(name + ":5: time.step_s = 0: expected a number from 1e-06 to 0.1 (s)"));
+    EXPECT_THAT(text,
+                HasSubstr(name + ":7: tissue.young_kpa = \"stiff\": expected a number above 0 "
+                                 "to 1e+06 (kPa)"));
+    EXPECT_THAT(text,
+                HasSubstr("motion.file: expected the path of a file, or \"embedded\", required"));
+    EXPECT_THAT(text,
+                HasSubstr(":1: scan.landmarks: expected the path of a file, required unless"));
+    EXPECT_THAT(text, HasSubstr("--set: mesh.layers = 9: expected an integer from 1 to 8"));
+    EXPECT_THAT(text, HasSubstr("--set: \"nonsense\": expected KEY=VALUE"));
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 7);
+  }
+}
+
+TEST(ReadScene, UnknownKeysAndSections) {
+  const std::string base = smallest;
+  EXPECT_EQ(only_problem(base + "[tissue]\nyoungs_kpa = 3\n"),
+            "scene.toml:6: tissue.youngs_kpa = 3: expected a known key (did you mean "
+            "tissue.young_kpa?)");
+  EXPECT_EQ(only_problem(base + "[tisue]\nyoung_kpa = 3\n"),
+            "scene.toml:5: tisue: expected a known section (did you mean [tissue]?)");
+  EXPECT_EQ(only_problem("titel = \"x\"\n" + base),
+            "scene.toml:1: titel = \"x\": expected a known key (did you mean title?)");
+  EXPECT_EQ(only_problem("mesh = 4\n" + base),
+            "scene.toml:1: mesh = 4: expected a section, [mesh]");
+  EXPECT_THAT(only_problem(base + "[time]\nweather = 1\n"),
+              HasSubstr("[time] has step_s, end_s, frame_rate_hz"));
+  EXPECT_EQ(only_problem(base, {"tissue.young_pa=5"}),
+            "--set: tissue.young_pa = 5: expected a known key (did you mean tissue.young_kpa?)");
+  EXPECT_THAT(only_problem(base, {"tissue={young_kpa=3}"}), HasSubstr("tissue.KEY=VALUE"));
+  EXPECT_THAT(only_problem(base + "\"a\\nb\" = 1\n"), HasSubstr("a\\nb"));
+}
+
+TEST(ReadScene, RowsOfTables) {
+  const std::string head = std::string(smallest) + "[[mesh.thickness_point]]\nlandmark = \"a\"\n";
+  EXPECT_EQ(only_problem(head),
+            "scene.toml:5: mesh.thickness_point[0].thickness_mm: expected a number from 1 to 40 "
+            "(mm), required");
+  EXPECT_EQ(only_problem(head + "thickness_mm = 90\n"),
+            "scene.toml:7: mesh.thickness_point[0].thickness_mm = 90: expected a number from 1 to "
+            "40 (mm)");
+  EXPECT_EQ(only_problem(head + "thickness_mm = 9\nthicknes_mm = 9\n"),
+            "scene.toml:8: mesh.thickness_point[0].thicknes_mm = 9: expected a known key (did you "
+            "mean thickness_mm?)");
+  EXPECT_THAT(only_problem(std::string(smallest) + "[mesh.thickness_point]\nlandmark = \"a\"\n"),
+              HasSubstr("expected [[mesh.thickness_point]] tables"));
+  EXPECT_THAT(only_problem(head + "thickness_mm = 9\n", {"mesh.thickness_mm=8"}),
+              HasSubstr("--set: mesh.thickness_mm = 8: expected 0, as"));
+}
+
+TEST(ReadScene, Lists) {
+  const std::string base = smallest;
+  EXPECT_EQ(only_problem(base + "[drive]\npoints = [\n\"a\",\n\"b\",\n\"a\"]\n"),
+            "scene.toml:9: drive.points[2] = \"a\": expected each name once");
+  EXPECT_THAT(only_problem(base, {"drive.points=some"}), HasSubstr("or \"all\""));
+  EXPECT_THAT(only_problem(base, {"drive.points=[]"}), HasSubstr("one or more names, or \"all\""));
+  EXPECT_THAT(only_problem(base, {"drive.points=[\"\"]"}), HasSubstr("a name in quotes"));
+  EXPECT_THAT(only_problem(base, {"motion.rigid_points=[\"a\", \"b\"]"}), HasSubstr("3 or more"));
+  EXPECT_THAT(only_problem(base, {"output.contact_times_s=[0, 2, 1]"}),
+              HasSubstr("output.contact_times_s[2] = 1: expected a number above the one before"));
+  EXPECT_THAT(only_problem(base, {"output.contact_times_s=[]"}), HasSubstr("1 to 12"));
+  EXPECT_THAT(only_problem(base, {"output.contact_times_s=[0, nan]"}), HasSubstr("[1] = nan"));
+}
+
+TEST(ReadScene, KeysThatDependOnEachOther) {
+  const std::string base = smallest;
+  EXPECT_THAT(only_problem(base, {"region.measured=points"}),
+              HasSubstr("region.measured_points: expected one or more names"));
+  EXPECT_THAT(only_problem(base, {"time.end_s=0.001"}), HasSubstr("time.end_s = 0.001"));
+  const SceneFolder folder;
+  EXPECT_TRUE(problems_of(folder.write("s.toml", base), {"region.measured=all", "drive.points=[]"})
+                  .empty());
+}
+
+TEST(ReadScene, FilesMustBeFiles) {
+  const std::string rest = "landmarks = \"points.json\"\n[motion]\nfile = \"embedded\"\n";
+  EXPECT_THAT(only_problem("[scan]\nfile = \"sub\"\n" + rest), HasSubstr("is a folder"));
+  EXPECT_THAT(only_problem("[scan]\nfile = \"\"\n" + rest), HasSubstr("the path of a file"));
+  EXPECT_THAT(only_problem("[scan]\nfile = 3\n" + rest),
+              HasSubstr("scan.file = 3: expected the path of a file, or \"embedded\""));
+}
+
+TEST(ReadScene, TornFilesGiveTheLine) {
+  EXPECT_THAT(only_problem("[scan]\nfile = \"embed"),
+              HasSubstr("scene.toml:2: expected sound TOML"));
+  EXPECT_THAT(only_problem("[scan]\nfile = 1\nfile = 2\n"), HasSubstr("scene.toml:3: "));
+  EXPECT_THAT(only_problem("[scan]\n\xff\xfe = 1\n"), HasSubstr("sound TOML"));
+  EXPECT_THAT(only_problem(std::string("\0\0\0", 3)), HasSubstr("scene.toml:1: "));
+  EXPECT_THAT(only_problem(std::string(5000, '[')), HasSubstr("sound TOML"));
+}
+
+TEST(ReadScene, EveryShorterFileIsReadOrRefusedCleanly) {
+  const SceneFolder folder;
+  const std::string whole =
+      "title = \"x\" # y\n[scan]\nfile = \"embedded\"\nunit = 'mm'\n[motion]\nfile = "
+      "\"\"\"embedded\"\"\"\n"
+      "[[mesh.thickness_point]]\nlandmark = \"a\"\nthickness_mm = 9.5e0\n[drive]\npoints = [\"a\", "
+      "\"b\"]\n[output]\ncontact_times_s = [0, 1979-05-27]\n";
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    for (const auto& problem : problems_of(folder.write("scene.toml", whole.substr(0, length)))) {
+      EXPECT_EQ(problem.sentence().find('\n'), std::string::npos);
+      EXPECT_FALSE(problem.expected.empty());
+    }
+  }
+}
+
+TEST(ReadScene, ScrambledFilesDoNotCrash) {
+  const SceneFolder folder;
+  std::mt19937 random(7);
+  const std::string whole = std::string(smallest) + "[drive]\npoints = [\"a\", {b = 1.5}]\n";
+  const std::string marks = "[]{}=\".,#'\n0e-_\\\xc3";
+  for (int round = 0; round < 600; ++round) {
+    std::string text = whole;
+    for (int i = 0; i < 3; ++i) text[random() % text.size()] = marks[random() % marks.size()];
+    problems_of(folder.write("scene.toml", text), {text.substr(random() % text.size())});
+  }
+}
+
+TEST(ReadScene, MissingSceneFileIsOneProblem) {
+  const SceneFolder folder;
+  auto problems = problems_of(folder / "gone.toml", {"mesh.layers=99"});
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].sentence(), HasSubstr("gone.toml: expected an existing scene file"));
+  problems = problems_of(folder / "sub");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].sentence(), HasSubstr("this is a folder"));
+  EXPECT_THROW(read_scene(folder / "gone.toml"), InputError);
+}
+
+TEST(Overrides, TheLastWinsAndTheFilesValueNeedNotBeSound) {
+  const SceneFolder folder;
+  const auto file = folder.write("scene.toml",
+                                 "[scan]\nfile = \"gone.ply\"\nlandmarks = \"gone.json\"\n"
+                                 "[motion]\nfile = \"embedded\"\n[mesh]\nlayers = 99\n");
+  const std::vector<std::string> sound = {"scan.file=" + (folder / "face.ply").string(),
+                                          "scan.landmarks=" + (folder / "points.json").string(),
+                                          "mesh.layers=98", " mesh.layers = 4"};
+  EXPECT_EQ(read_scene(file, sound).mesh.layers, 4);
+}
+
+TEST(Overrides, ValuesAreTomlElseBareText) {
+  const SceneFolder folder;
+  const auto file = folder.write("scene.toml", smallest);
+  EXPECT_EQ(read_scene(file, {"title=two words"}).title, "two words");
+  EXPECT_EQ(read_scene(file, {"title=\"two = words\""}).title, "two = words");
+  EXPECT_EQ(read_scene(file, {"title=7"}).title, "7");
+  EXPECT_EQ(read_scene(file, {"title="}).title, "");
+  EXPECT_EQ(read_scene(file, {"time.step_s=1e-3"}).time.step_s, 0.001);
+  EXPECT_EQ(read_scene(file, {"title=1\n[time]\nstep_s=1"}).title, "1\n[time]\nstep_s=1");
+  EXPECT_THAT(sentences(problems_of(file, {"time.step_s=fast"})),
+              HasSubstr("--set: time.step_s = \"fast\": expected a number from"));
+  for (const char* bad : {"=3", "title", "", "title=\xff"})
+    EXPECT_THAT(sentences(problems_of(file, {bad})), HasSubstr("expected KEY=VALUE")) << bad;
+}
+
+TEST(ProblemAt, PointsToWhereTheValueWasGiven) {
+  const SceneFolder folder;
+  const auto file = folder.write("scene.toml", std::string(smallest) +
+                                                   "[drive]\npoints = [\"a\",\n  \"b\"]\n"
+                                                   "[[mesh.thickness_point]]\nlandmark = \"c\"\n"
+                                                   "thickness_mm = 9\n");
+  const Scene scene = read_scene(file, {"mesh.layers=3"});
+  const auto said = [&](const std::string& key) { return problem_at(scene, key, "X").sentence(); };
+  EXPECT_EQ(said("drive.points[1]"), file.string() + ":7: drive.points[1] = \"b\": expected X");
+  EXPECT_EQ(said("mesh.thickness_point[0].landmark"),
+            file.string() + ":9: mesh.thickness_point[0].landmark = \"c\": expected X");
+  EXPECT_EQ(said("mesh.layers"), "--set: mesh.layers = 3: expected X");
+  EXPECT_EQ(said("time.step_s"), file.string() + ": time.step_s = 0.002: expected X");
+  EXPECT_EQ(said("drive.points[9]"), file.string() + ":6: drive.points[9]: expected X");
+}
+
+TEST(OptionsJson, HoldsEveryKeyAndReadsBackAsTheSameScene) {
+  const SceneFolder folder;
+  const Scene scene = read_scene(folder.write("scene.toml", smallest),
+                                 {"mesh.element_size_mm=4.1", "tissue.young_kpa=0.3",
+                                  "drive.points=all", "support.skull=free"});
+  const nlohmann::json options = options_json(scene);
+  EXPECT_EQ(options["mesh"]["element_size_mm"], 4.1);
+  EXPECT_EQ(options["tissue"]["young_kpa"], 0.3);
+  EXPECT_EQ(options["title"], "");
+  Scene again;
+  for (const Key& key : keys()) {
+    const std::string section = section_of(key.name);
+    const auto& value = section.empty()
+                            ? options.at(key.name)
+                            : options.at(section).at(key.name.substr(section.size() + 1));
+    if (key.name == "scan.landmarks") continue;  // none
+    EXPECT_TRUE(key.set(again, value, {}).empty()) << key.name;
+  }
+  EXPECT_EQ(options_json(again), options);
+}
+
+}  // namespace
+}  // namespace hyperex::scene
