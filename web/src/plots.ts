@@ -139,7 +139,7 @@ function symmetryCharts(replay: Replay): Chart[] {
       title: 'Symmetry of motion, S(t)',
       caption:
         'S = ln |ξL − ξR|; smaller is more symmetric. ' +
-        `Dashed: the floor ln ${curve.floor} = ${floor.toFixed(2).replace('-', '−')}, below which sides are not told apart.`,
+        `Dashed: the floor ln ${curve.floor.toExponential()} = ${floor.toFixed(2).replace('-', '−')}, below which sides are not told apart.`,
       unit: '', digits: 2, timeS: curve.time_s,
       curves: [
         { label: 'S', values: curve.s },

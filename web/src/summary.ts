@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The run's summary (any JSON object) as tables: single values first, a table a nested object.
-import { nameAndUnit, number, words } from './format';
+import { nameAndUnit, number } from './format';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
@@ -13,27 +13,41 @@ function textOf(value: unknown): string {
   return String(value);
 }
 
-function rowsOf(object: Json, prefix = ''): [string, unknown][] {
-  return Object.entries(object).flatMap(([key, value]) =>
-    isObject(value) ? rowsOf(value, `${prefix}${key}.`) : [[prefix + key, value] as [string, unknown]],
-  );
+interface Row {
+  key: string;
+  name: string;
+  unit: string;
+  value: unknown;
 }
 
-function table(caption: string, rows: [string, unknown][], unitOfAll = ''): HTMLElement {
+/** Nested objects row by row; a unit in an outer key ("distance_mm": {"mean": ...}) goes for the inner. */
+function rowsOf(object: Json, outer: Omit<Row, 'value'> = { key: '', name: '', unit: '' }): Row[] {
+  return Object.entries(object).flatMap(([key, value]) => {
+    const own = nameAndUnit(key.replaceAll('.', ' · '));
+    const row = {
+      key: outer.key ? `${outer.key}.${key}` : key,
+      name: outer.name ? `${outer.name} · ${own.name}` : own.name,
+      unit: own.unit || outer.unit,
+    };
+    return isObject(value) ? rowsOf(value, row) : [{ ...row, value }];
+  });
+}
+
+function table(caption: string, rows: Row[]): HTMLElement {
   const card = document.createElement('div');
   card.className = 'table-card';
   const element = document.createElement('table');
   element.createCaption().textContent = caption;
   const body = element.createTBody();
-  for (const [key, value] of rows) {
+  for (const { key, name, unit, value } of rows) {
     const row = body.insertRow();
     const head = document.createElement('th');
     head.scope = 'row';
-    const { name, unit } = nameAndUnit(key.replaceAll('.', ' · '));
     head.textContent = name;
     head.title = key;
-    const shown = typeof value === 'number' || Array.isArray(value) ? unit || unitOfAll : '';
-    const cell = row.appendChild(head).parentElement!.appendChild(document.createElement('td'));
+    const shown = typeof value === 'number' || Array.isArray(value) ? unit : '';
+    row.append(head);
+    const cell = row.insertCell();
     cell.textContent = textOf(value) + (shown ? (shown === '°' ? '°' : ` ${shown}`) : '');
     if (typeof value === 'string') cell.className = 'text';
   }
@@ -42,11 +56,12 @@ function table(caption: string, rows: [string, unknown][], unitOfAll = ''): HTML
 }
 
 export function fillSummary(summary: Json, into: HTMLElement): void {
-  const single = Object.entries(summary).filter(([, value]) => !isObject(value));
-  if (single.length > 0) into.append(table('run', single));
+  const single = Object.fromEntries(Object.entries(summary).filter(([, value]) => !isObject(value)));
+  if (Object.keys(single).length > 0) into.append(table('run', rowsOf(single)));
   for (const [key, value] of Object.entries(summary)) {
     if (!isObject(value)) continue;
     const { name, unit } = nameAndUnit(key);
-    into.append(table(words(name), rowsOf(value), key === 'seconds' ? 's' : unit));
+    const outer = { key: '', name: '', unit: key === 'seconds' ? 's' : unit };
+    into.append(table(name, rowsOf(value, outer)));
   }
 }

@@ -27,7 +27,7 @@ export class FaceViewer {
   private readonly geometry = new BufferGeometry();
   private readonly mesh: Mesh<BufferGeometry, MeshStandardMaterial>;
   private readonly mapped = new MeshStandardMaterial({
-    vertexColors: true, roughness: 0.85, metalness: 0, side: DoubleSide,
+    vertexColors: true, roughness: 0.5, metalness: 0, side: DoubleSide,
   });
   private readonly plain = new MeshStandardMaterial({
     color: '#dba58c', roughness: 0.55, metalness: 0, side: DoubleSide,
@@ -100,7 +100,7 @@ export class FaceViewer {
       if (this.ownColours) this.setColours(this.ownColours);
     }
     // The map is read by colour: less shading, more light from everywhere.
-    this.sky.intensity = colouring === 'displacement' ? 1.9 : 1.0;
+    this.sky.intensity = colouring === 'displacement' ? 2.4 : 1.0;
     this.queue();
   }
 
@@ -117,7 +117,7 @@ export class FaceViewer {
     this.view = view;
     const halfHeight = Math.max(this.size.y, this.size.x / Math.max(this.camera.aspect, 0.1)) / 2;
     const distance =
-      (1.12 * halfHeight) / Math.tan((this.camera.fov * Math.PI) / 360) + this.size.z / 2;
+      (1.06 * halfHeight) / Math.tan((this.camera.fov * Math.PI) / 360) + this.size.z / 4;
     const yaw = (yawDegrees[view] * Math.PI) / 180;
     const from = new Vector3(Math.sin(yaw), 0.04, Math.cos(yaw)).multiplyScalar(distance);
     this.camera.position.copy(this.centre).add(from);

@@ -34,6 +34,7 @@ async function open(report, options = {}) {
     viewport: { width: 1360, height: 900 }, reducedMotion: 'reduce', ...options,
   });
   const page = await context.newPage();
+  page.setDefaultTimeout(30_000);
   const complaints = [];
   const address = pathToFileURL(report).href;
   page.on('console', (message) => {
@@ -54,33 +55,34 @@ async function open(report, options = {}) {
 
 const drawnFrame = (page) => page.locator('#face').getAttribute('data-frame').then(Number);
 
-/** Pixels of the canvas as people see them, decoded by the browser itself. */
+/** Pixels of the canvas as people see them: decoded and kept in the browser, a handle here. */
 async function look(page) {
   const png = await page.locator('#face').screenshot();
-  return page.evaluate(async (base64) => {
+  return page.evaluateHandle(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
     const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
     const canvas = new OffscreenCanvas(image.width, image.height);
     const context = canvas.getContext('2d');
     context.drawImage(image, 0, 0);
-    return [...context.getImageData(0, 0, image.width, image.height).data];
+    return context.getImageData(0, 0, image.width, image.height).data;
   }, png.toString('base64'));
 }
 
-function changedShare(a, b) {
-  assert.equal(a.length, b.length);
-  let changed = 0;
-  for (let i = 0; i < a.length; i += 4)
-    if (Math.abs(a[i] - b[i]) + Math.abs(a[i + 1] - b[i + 1]) + Math.abs(a[i + 2] - b[i + 2]) > 12) ++changed;
-  return changed / (a.length / 4);
-}
+const changedShare = (before, after) =>
+  before.evaluate((a, b) => {
+    if (a.length !== b.length) throw new Error('the canvas changed its size');
+    let changed = 0;
+    for (let i = 0; i < a.length; i += 4)
+      if (Math.abs(a[i] - b[i]) + Math.abs(a[i + 1] - b[i + 1]) + Math.abs(a[i + 2] - b[i + 2]) > 12) ++changed;
+    return changed / (a.length / 4);
+  }, after);
 
-function distinctColours(pixels) {
-  const seen = new Set();
-  for (let i = 0; i < pixels.length; i += 4)
-    seen.add((pixels[i] >> 3) * 1024 + (pixels[i + 1] >> 3) * 32 + (pixels[i + 2] >> 3));
-  return seen.size;
-}
+const distinctColours = (pixels) =>
+  pixels.evaluate((p) => {
+    const seen = new Set();
+    for (let i = 0; i < p.length; i += 4) seen.add((p[i] >> 3) * 1024 + (p[i + 1] >> 3) * 32 + (p[i + 2] >> 3));
+    return seen.size;
+  });
 
 async function goTo(page, frame) {
   await page.locator('#frame').fill(String(frame));
@@ -95,9 +97,10 @@ for (const report of reports) {
 
     test('shows a face, not a blank canvas', async () => {
       const pixels = await look(page);
-      assert.ok(distinctColours(pixels) > 40, `only ${distinctColours(pixels)} colours`);
+      const colours = await distinctColours(pixels);
+      assert.ok(colours > 40, `only ${colours} colours`);
       await page.locator('#face').evaluate((c) => (c.style.opacity = '0'));
-      const share = changedShare(pixels, await look(page));
+      const share = await changedShare(pixels, await look(page));
       await page.locator('#face').evaluate((c) => (c.style.opacity = ''));
       assert.ok(share > 0.08, `the face fills ${(100 * share).toFixed(1)} % of the canvas`);
     });
@@ -112,7 +115,7 @@ for (const report of reports) {
       const cursorAtRest = await cursor();
       const middle = Math.round(last / 2);
       await goTo(page, middle);
-      assert.ok(changedShare(atRest, await look(page)) > 0.01);
+      assert.ok(await changedShare(atRest, await look(page)) > 0.01);
       assert.notEqual(await page.locator('#frame-label').textContent(), label);
       assert.match(await page.locator('#frame-label').textContent(), new RegExp(`frame ${middle} / ${last}`));
       assert.ok((await cursor()) > cursorAtRest + 20);
@@ -126,21 +129,21 @@ for (const report of reports) {
       assert.equal(await page.locator('#colour-bar').isVisible(), true);
       await page.getByRole('button', { name: 'Skin' }).click();
       const skin = await look(page);
-      assert.ok(changedShare(mapped, skin) > 0.08);
+      assert.ok(await changedShare(mapped, skin) > 0.08);
       assert.equal(await page.locator('#colour-bar').isVisible(), false);
       await page.getByRole('button', { name: 'Three-quarter' }).click();
       const turned = await look(page);
-      assert.ok(changedShare(skin, turned) > 0.05);
+      assert.ok(await changedShare(skin, turned) > 0.05);
       await page.getByRole('button', { name: 'Front' }).click();
       const boxes = page.locator('#overlays input');
       for (let i = 0; i < (await boxes.count()); ++i) {
         const without = await look(page);
         await boxes.nth(i).check();
-        assert.ok(changedShare(without, await look(page)) > 1e-4, `overlay ${i} shows nothing`);
+        assert.ok(await changedShare(without, await look(page)) > 1e-4, `overlay ${i} shows nothing`);
         await boxes.nth(i).uncheck();
       }
       await page.getByRole('button', { name: 'Displacement' }).click();
-      assert.ok(changedShare(mapped, await look(page)) < 0.01, 'back to the first picture');
+      assert.ok(await changedShare(mapped, await look(page)) < 0.01, 'back to the first picture');
     });
 
     test('pressing on a plot seeks', async () => {
