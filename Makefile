@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Everything from a fresh Debian 12: `make demo`, `make test`. CMake does the building.
+SHELL := /bin/bash
+JOBS ?= $(shell nproc)
+PROGRAM := build/release/bin/hyperex
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test build asan clean setup
+
+help: ## this list
+	@echo "make TARGET, where TARGET is one of"
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  \1\t\2/p' Makefile | expand -t 12
+
+demo: build ## re-enact a mouth opening on the face that comes with the program
+	$(PROGRAM) run examples/demo.toml --out out/demo
+	@echo
+	@echo "The face moves. Open in a browser:"
+	@echo "  $(CURDIR)/out/demo/report.html"
+	@echo "In Blender or any glTF viewer: out/demo/performance.glb; in ParaView: out/demo/frames.pvd."
+	@echo "Your own face next: see 'Your own data' in README.md."
+
+build: setup ## the program alone: build/release/bin/hyperex
+	cmake --preset release
+	cmake --build --preset release --parallel $(JOBS) --target hyperex
+
+test: ## everything: unit tests, verification, the replay page in a browser
+	scripts/setup.sh --tests
+	cmake --preset release
+	cmake --build --preset release --parallel $(JOBS)
+	ctest --test-dir build/release --output-on-failure --parallel $(JOBS)
+	build/release/bin/write_report_fixtures build/release/report_fixtures
+	node --test web/tests/*.test.mjs
+	if [[ -e out/demo/report.html ]]; then \
+	  REPORT=out/demo/report.html node --test web/tests/report.test.mjs; fi
+
+asan: ## the tests again under the address and undefined-behaviour sanitizers
+	scripts/setup.sh --tests
+	cmake --preset asan
+	cmake --build --preset asan --parallel $(JOBS)
+	ctest --test-dir build/asan --output-on-failure --parallel $(JOBS)
+
+setup: ## install what building takes (asks for sudo where you are not root)
+	scripts/setup.sh
+
+clean: ## remove everything that was built or computed here
+	rm -rf build out web/dist
