@@ -70,7 +70,10 @@ export class FaceViewer {
     this.controls.enableDamping = false;
     this.controls.addEventListener('change', () => this.queue());
     upright.updateMatrixWorld(true);
+    // Room for the face at rest and where it moves farthest: a dropped jaw must not leave the picture.
     const box = new Box3().setFromObject(this.mesh, true);
+    this.moveTo(replay.peakFrame);
+    box.union(new Box3().setFromObject(this.mesh, true));
     box.getCenter(this.centre);
     box.getSize(this.size);
     new ResizeObserver(() => this.resize()).observe(host);
