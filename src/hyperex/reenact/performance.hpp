@@ -23,13 +23,13 @@ struct Performance {
   /// The simulated tissue; empty where everything was measured.
   Points nodes;
   Tetrahedra tets;
-  std::vector<PointsF> node_displacement_m;  ///< per frame
+  std::vector<PointsF> node_displacement_m;             ///< per frame
   std::vector<float> tet_young_pa, tet_viscosity_pa_s;  ///< per tetrahedron
 
   /// Landmarks of the scan as the moved skin carries them, at the frame times.
   motion::Motion landmarks;
-  /// Positions at rest of the driven points and of some held nodes, and the line of the lip cut (polyline;
-  /// empty where none was made): for pictures.
+  /// Positions at rest of the driven points and of some held nodes, and the line of the lip cut
+  /// (polyline; empty where none was made): for pictures.
   Points driven_points_rest, held_points_rest, lip_cut_rest;
   std::vector<std::string> driven_names;
 };

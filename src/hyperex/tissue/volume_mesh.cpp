@@ -10,6 +10,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/tissue/unfold.hpp"
 
 namespace hyperex::tissue {
 namespace {
@@ -47,10 +48,9 @@ class LayerBuilder {
                const VolumeMeshOptions& options)
       : outer_(outer),
         options_(options),
-        around_(vertex_neighbours(outer.triangles, outer.points.rows())),
-        fans_(vertex_triangles(outer.triangles, outer.points.rows())) {
+        around_(vertex_neighbours(outer.triangles, outer.points.rows())) {
     normals_ = vertex_normals(outer);
-    visible_ = most_visible_directions();
+    visible_ = visibility_of(outer_).direction;
     inward_ = -(thickness.asDiagonal() * normals_);
     smooth_all(3, 0.5);
     wanted_ = inward_.rowwise().norm();
@@ -58,6 +58,7 @@ class LayerBuilder {
 
   int untangle();
   const Points& inward() const { return inward_; }
+  const TriMesh& outer() const { return outer_; }
   int thinned(double share) const {
     int count = 0;
     for (Eigen::Index v = 0; v < inward_.rows(); ++v)
@@ -70,48 +71,21 @@ class LayerBuilder {
     for (int r = 0; r < rounds; ++r) {
       const Points old = inward_;
       for (Eigen::Index v = 0; v < old.rows(); ++v) {
-        if (around_[v].empty()) continue;
-        Vec3 mean = Vec3::Zero();
-        for (int w : around_[v]) mean += old.row(w).transpose();
-        mean /= double(around_[v].size());
-        inward_.row(v) = (1 - weight) * old.row(v) + weight * mean.transpose();
+        inward_.row(v) =
+            (1 - weight) * old.row(v) + weight * mean_around(old, static_cast<int>(v)).transpose();
       }
     }
   }
 
-  /// The direction whose least dot product with the normals of the fan is greatest, roughly: the
-  /// normal is pushed towards its worst face until none is worse than the others.
-  Points most_visible_directions() const {
-    Points directions = normals_;
-    for (Eigen::Index v = 0; v < directions.rows(); ++v) {
-      Vec3 d = directions.row(v);
-      for (int round = 0; round < 60; ++round) {
-        double worst = 2;
-        Vec3 worst_normal = d;
-        for (int f : fans_[v]) {
-          const Vec3 n = face_normal(f);
-          if (n.dot(d) < worst) {
-            worst = n.dot(d);
-            worst_normal = n;
-          }
-        }
-        d = (d + worst_normal / (round + 2.0)).normalized();
-      }
-      directions.row(v) = d;
-    }
-    return directions;
-  }
-
-  Vec3 face_normal(int f) const {
-    const Vec3 a = point(f, 0), b = point(f, 1), c = point(f, 2);
-    return (b - a).cross(c - a).normalized();
-  }
   Vec3 point(int f, int k) const { return outer_.points.row(outer_.triangles(f, k)); }
   bool sound(int f) const;
+  std::vector<char> unsound_vertices() const;
+  void flatten(const std::vector<char>& bad);
+  Vec3 mean_around(const Points& values, int v) const;
 
-  const TriMesh& outer_;
+  TriMesh outer_;
   VolumeMeshOptions options_;
-  std::vector<std::vector<int>> around_, fans_;
+  std::vector<std::vector<int>> around_;
   Points normals_, visible_, inward_;
   Eigen::VectorXd wanted_;
 };
@@ -141,46 +115,58 @@ bool LayerBuilder::sound(int f) const {
 
 /// Returns how many vertices had to be changed. Each round turns the vertices of unsound prisms
 /// towards the mean of their neighbours (first) or towards their most visible direction (later),
-/// and thins them.
+/// and thins them; from half way on it also flattens the skin there, which a fold needs.
 int LayerBuilder::untangle() {
   std::vector<char> touched(inward_.rows(), 0);
-  constexpr int rounds = 120;
+  constexpr int rounds = 160;
   for (int round = 0; round < rounds; ++round) {
-    std::vector<char> bad(inward_.rows(), 0);
-    bool any = false;
-    for (Eigen::Index f = 0; f < outer_.triangles.rows(); ++f)
-      if (!sound(static_cast<int>(f))) {
-        any = true;
-        for (int k = 0; k < 3; ++k)
-          bad[outer_.triangles(f, k)] = touched[outer_.triangles(f, k)] = 1;
-      }
-    if (!any) return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
+    const std::vector<char> bad = unsound_vertices();
+    if (std::count(bad.begin(), bad.end(), 1) == 0)
+      return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
+    if (round >= rounds / 4 && round % 4 == 0) flatten(bad);
     const Points old = inward_;
     for (Eigen::Index v = 0; v < old.rows(); ++v) {
       if (!bad[v]) continue;
-      Vec3 mean = Vec3::Zero();
-      for (int w : around_[v]) mean += old.row(w).transpose();
-      mean /= double(around_[v].size());
+      touched[v] = 1;
+      const Vec3 mean = mean_around(old, static_cast<int>(v));
       const Vec3 clear = -visible_.row(v).transpose() * old.row(v).norm();
       const double turn = std::min(1.0, round / 40.0);
       const Vec3 target = (1 - turn) * mean + turn * clear;
-      inward_.row(v) = 0.96 * (0.5 * old.row(v) + 0.5 * target.transpose());
+      inward_.row(v) = 0.97 * (0.5 * old.row(v) + 0.5 * target.transpose());
     }
   }
-  int left = 0;
-  Eigen::Index example = 0;
-  for (Eigen::Index f = 0; f < outer_.triangles.rows(); ++f)
-    if (!sound(static_cast<int>(f))) {
-      ++left;
-      example = f;
-    }
+  const std::vector<char> bad = unsound_vertices();
+  const auto left = std::count(bad.begin(), bad.end(), 1);
   if (left == 0) return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
-  const Vec3 where = outer_.points.row(outer_.triangles(example, 0)) * 1e3;
-  throw NumericalError(
-      fmt::format("no layer of tissue with positive volume under {} triangles of the skin, one at "
-                  "({:.1f}, {:.1f}, {:.1f}) mm: "
-                  "the surface is folded there",
-                  left, where.x(), where.y(), where.z()));
+  const auto example = std::find(bad.begin(), bad.end(), 1) - bad.begin();
+  const Vec3 where = outer_.points.row(example) * 1e3;
+  throw NumericalError(fmt::format(
+      "no layer of tissue with positive volume at {} nodes of the skin, one at ({:.1f}, "
+      "{:.1f}, {:.1f}) mm: the surface is folded there",
+      left, where.x(), where.y(), where.z()));
+}
+
+std::vector<char> LayerBuilder::unsound_vertices() const {
+  std::vector<char> bad(inward_.rows(), 0);
+  for (Eigen::Index f = 0; f < outer_.triangles.rows(); ++f)
+    if (!sound(static_cast<int>(f)))
+      for (int k = 0; k < 3; ++k) bad[outer_.triangles(f, k)] = 1;
+  return bad;
+}
+
+void LayerBuilder::flatten(const std::vector<char>& bad) {
+  const Points old = outer_.points;
+  for (Eigen::Index v = 0; v < old.rows(); ++v)
+    if (bad[v])
+      outer_.points.row(v) =
+          0.6 * old.row(v) + 0.4 * mean_around(old, static_cast<int>(v)).transpose();
+  visible_ = visibility_of(outer_).direction;
+}
+
+Vec3 LayerBuilder::mean_around(const Points& values, int v) const {
+  Vec3 mean = Vec3::Zero();
+  for (int w : around_[v]) mean += values.row(w).transpose();
+  return mean / double(std::max<std::size_t>(1, around_[v].size()));
 }
 
 }  // namespace
@@ -196,13 +182,13 @@ VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickn
                     "thickness at {}",
                     changed, outer.points.rows(), builder.thinned(0.5)));
   const Eigen::Index n = outer.points.rows();
-  mesh.outer = outer;
+  mesh.outer = builder.outer();
   mesh.layers = options.layers;
   mesh.thickness_m = builder.inward().rowwise().norm();
   mesh.nodes.resize(n * (options.layers + 1), 3);
   for (int level = 0; level <= options.layers; ++level)
     mesh.nodes.middleRows(level * n, n) =
-        outer.points + (double(level) / options.layers) * builder.inward();
+        mesh.outer.points + (double(level) / options.layers) * builder.inward();
   mesh.tets.resize(outer.triangles.rows() * options.layers * 3, 4);
   Eigen::Index t = 0;
   for (Eigen::Index f = 0; f < outer.triangles.rows(); ++f) {

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/boundary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+
+namespace hyperex::reenact {
+namespace {
+enum Kind { fixed = 0, driven = 1, jaw = 2 };
+}  // namespace
+
+Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                   const AlignedMotion& motion, const MeasuredRegion& region,
+                   const SimulationOptions& options)
+    : mesh_(mesh), rest_(motion.rest), jaw_(landmarks) {
+  set_driven(motion, landmarks, options.drive);
+  set_measured(region);
+  set_jaw_points(motion, options.support);
+  if (options.support.border_held)
+    for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
+      if (mesh.on_border[v])
+        for (int level = 0; level <= mesh.volume.layers; ++level)
+          fixed_nodes_.push_back(static_cast<int>(level * mesh.volume.surface_nodes()) + v);
+  set_bones(landmarks, options.support);
+  number_unknowns();
+}
+
+void Boundary::set_driven(const AlignedMotion& motion, const io::Landmarks& landmarks,
+                          const DriveOptions& drive) {
+  std::vector<DrivenPoint> points;
+  for (const std::string& name : drive.points) {
+    const int row = motion.motion.index_of(name);
+    if (row < 0)
+      throw InputError(motion.motion.source,
+                       fmt::format("has no point {}, named in drive.points", name));
+    if (std::count(driven_rows_.begin(), driven_rows_.end(), row)) continue;
+    driven_rows_.push_back(row);
+    points.push_back({name, motion.rest.row(row).transpose()});
+  }
+  for (const std::string& name : drive.still_points) {
+    const auto it = landmarks.find(name);
+    if (it == landmarks.end())
+      throw InputError(
+          motion.motion.source,
+          fmt::format("{}, named in drive.still_points, is no landmark of the scan", name));
+    if (!std::count(drive.points.begin(), drive.points.end(), name))
+      points.push_back({name, it->second});
+  }
+  const DrivenPatches patches =
+      driven_patches(points, mesh_, drive.patch_radius_m, motion.motion.source);
+  driven_nodes_ = patches.nodes;
+  driven_weights_ = Eigen::MatrixXd::Zero(patches.nodes.size(), rest_.rows());
+  for (std::size_t i = 0; i < driven_rows_.size(); ++i)  // still points move nothing: no column
+    driven_weights_.col(driven_rows_[i]) = patches.weights.col(i);
+}
+
+void Boundary::set_measured(const MeasuredRegion& region) {
+  std::map<int, Eigen::RowVectorXd> rows;
+  for (std::size_t j = 0; j < driven_nodes_.size(); ++j)
+    rows[driven_nodes_[j]] = driven_weights_.row(j);
+  for (std::size_t v = 0; v < region.outer.size(); ++v) {
+    if (region.outer_share[v] < 1) continue;
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(rest_.rows());
+    for (int k = 0; k < 3; ++k) row[region.outer[v].point[k]] += region.outer[v].weight[k];
+    rows[static_cast<int>(v)] = row;
+  }
+  driven_nodes_.clear();
+  driven_weights_.resize(rows.size(), rest_.rows());
+  for (const auto& [node, row] : rows) {
+    driven_weights_.row(driven_nodes_.size()) = row;
+    driven_nodes_.push_back(node);
+  }
+}
+
+void Boundary::set_jaw_points(const AlignedMotion& motion, const SupportOptions& support) {
+  for (const std::string& name : support.jaw_points) {
+    const int row = motion.motion.index_of(name);
+    if (row < 0)
+      throw InputError(motion.motion.source,
+                       fmt::format("has no point {}, named in support.jaw_points", name));
+    jaw_rows_.push_back(row);
+  }
+  if (!jaw_rows_.empty()) return;
+  for (int k = 6; k <= 10; ++k)
+    for (int row : driven_rows_)
+      if (motion.motion.names[row] == tissue::ibug(k)) jaw_rows_.push_back(row);
+  if (!jaw_rows_.empty()) return;
+  for (const char* name : {"ibug68_8", "pogonion"})
+    if (const int row = motion.motion.index_of(name); row >= 0 && jaw_rows_.empty())
+      jaw_rows_.push_back(row);
+  if (jaw_rows_.empty() && support.mandible == Mandible::follow)
+    throw InputError(
+        motion.motion.source,
+        "has no point over the chin (ibug68_8 or pogonion) for the jaw to follow; name some in "
+        "support.jaw_points, or set support.mandible = \"free\"");
+}
+
+void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& support) {
+  const std::vector<Bone> bones = bones_under(mesh_, landmarks);
+  const Points normals = vertex_normals(mesh_.volume.outer);
+  const Eigen::VectorXd areas = node_areas(mesh_.volume.outer);
+  for (int v = 0; v < static_cast<int>(bones.size()); ++v) {
+    if (bones[v] == Bone::none) continue;
+    const int node = mesh_.volume.inner_node(v);
+    const bool skull = bones[v] == Bone::skull;
+    if (skull ? support.skull == Hold::free : support.mandible == Mandible::free) continue;
+    const bool follows = !skull && support.mandible == Mandible::follow;
+    skull_count_ += skull;
+    if (follows) jaw_nodes_.push_back(node);
+    if (!follows && (!skull || support.skull == Hold::held)) {
+      fixed_nodes_.push_back(node);
+      continue;
+    }
+    const BoneLayer& layer = skull ? support.skull_layer : support.mandible_layer;
+    const Vec3 n = normals.row(v);
+    const Eigen::Matrix3d across = n * n.transpose();
+    springs_.push_back({node,
+                        areas[v] * (layer.across_pa_per_m * across +
+                                    layer.along_pa_per_m * (Eigen::Matrix3d::Identity() - across)),
+                        follows});
+  }
+}
+
+void Boundary::number_unknowns() {
+  std::map<int, std::pair<int, int>> nodes;
+  for (int node : fixed_nodes_) nodes[node] = {fixed, 0};
+  for (std::size_t j = 0; j < driven_nodes_.size(); ++j)
+    nodes[driven_nodes_[j]] = {driven, static_cast<int>(j)};
+  for (const auto& [node, source] : nodes) {
+    for (int axis = 0; axis < 3; ++axis) prescribed_.push_back(3 * node + axis);
+    source_.push_back(source);
+  }
+}
+
+std::vector<int> Boundary::held_nodes() const {
+  std::vector<int> held = fixed_nodes_;
+  for (const Spring& s : springs_)
+    if (!s.follows_jaw) held.push_back(s.node);
+  return held;
+}
+
+void Boundary::add_springs(fem::SparseMatrix& stiffness) const {
+  for (const Spring& s : springs_)
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        stiffness.coeffRef(3 * s.node + a, 3 * s.node + b) += s.stiffness(a, b);
+}
+
+void Boundary::at(const Points& point_displacement, Eigen::VectorXd& values,
+                  Eigen::VectorXd& force) {
+  for (std::size_t i = 0; i < source_.size(); ++i) {
+    const auto [kind, row] = source_[i];
+    if (kind == fixed)
+      values.segment<3>(3 * i).setZero();
+    else
+      values.segment<3>(3 * i).noalias() =
+          (driven_weights_.row(row) * point_displacement).transpose();
+  }
+  force.setZero();
+  if (jaw_nodes_.empty()) return;
+  Points at(jaw_rows_.size(), 3), by(jaw_rows_.size(), 3);
+  for (std::size_t i = 0; i < jaw_rows_.size(); ++i) {
+    at.row(i) = rest_.row(jaw_rows_[i]);
+    by.row(i) = point_displacement.row(jaw_rows_[i]);
+  }
+  const Eigen::Isometry3d turn = jaw_.follow(at, by);
+  for (const Spring& s : springs_) {
+    if (!s.follows_jaw) continue;
+    const Vec3 x = mesh_.volume.nodes.row(s.node);
+    force.segment<3>(3 * s.node) += s.stiffness * (turn * x - x);
+  }
+}
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "hyperex/fem/form/system.hpp"
+#include "hyperex/reenact/drive.hpp"
+#include "hyperex/reenact/jaw.hpp"
+#include "hyperex/reenact/simulation.hpp"
+
+namespace hyperex::reenact {
+
+/// Everything that is prescribed to the tissue over time: patches of skin and measured nodes follow
+/// the tracked points, held nodes stay, nodes over the mandible follow the jaw, springs pull
+/// towards the bones.
+class Boundary {
+ public:
+  Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+           const AlignedMotion& motion, const MeasuredRegion& region,
+           const SimulationOptions& options);
+
+  /// Adds the springs' stiffness (their blocks lie within the pattern of K).
+  void add_springs(fem::SparseMatrix& stiffness) const;
+  /// Sorted unknowns 3 n + axis.
+  const std::vector<int>& prescribed() const { return prescribed_; }
+  /// Sets values (one a prescribed unknown) and forces (all unknowns) for displacements of all the
+  /// motion's points (P x 3).
+  void at(const Points& point_displacement, Eigen::VectorXd& values, Eigen::VectorXd& force);
+
+  double jaw_opening_deg() const { return jaw_.opening_deg(); }
+  const std::vector<int>& driven_nodes() const { return driven_nodes_; }
+  std::vector<int> held_nodes() const;
+  int skull_count() const { return skull_count_; }
+  int mandible_count() const { return static_cast<int>(jaw_nodes_.size()); }
+  /// Rows of the motion's points that drive.
+  const std::vector<int>& driven_rows() const { return driven_rows_; }
+
+ private:
+  struct Spring {
+    int node;
+    Eigen::Matrix3d stiffness;  // N/m
+    bool follows_jaw;
+  };
+  void set_driven(const AlignedMotion& motion, const io::Landmarks& landmarks,
+                  const DriveOptions& drive);
+  void set_measured(const MeasuredRegion& region);
+  void set_bones(const io::Landmarks& landmarks, const SupportOptions& support);
+  void set_jaw_points(const AlignedMotion& motion, const SupportOptions& support);
+  void number_unknowns();
+
+  const tissue::TissueMesh& mesh_;
+  const Points rest_;  // of the motion's points
+  Jaw jaw_;
+  std::vector<int> driven_rows_, jaw_rows_, driven_nodes_, fixed_nodes_, jaw_nodes_;
+  Eigen::MatrixXd driven_weights_;  // |driven_nodes_| x P
+  std::vector<Spring> springs_;
+  std::vector<int> prescribed_;
+  std::vector<std::pair<int, int>>
+      source_;  // per prescribed node: kind (0 fixed, 1 driven, 2 jaw), row
+  int skull_count_ = 0;
+};
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/jaw.hpp"
+
+#include <numbers>
+
+namespace hyperex::reenact {
+namespace {
+// Weights of the priors beside residuals in millimetres: 1 mm of sliding counts as 0.3 mm of
+// residual, one degree of turning as 0.35 mm.
+constexpr double slide_weight = 0.3, turn_weight_per_rad = 20;
+}  // namespace
+
+Jaw::Jaw(const io::Landmarks& landmarks, double condyle_forward_m)
+    : frame_(tissue::face_frame(landmarks)) {
+  centre_ = 0.5 * (landmarks.at(tissue::ibug(1)) + landmarks.at(tissue::ibug(15))) +
+            condyle_forward_m * frame_.z;
+}
+
+Eigen::Isometry3d Jaw::transform(const Parameters& p) const {
+  Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
+  t.linear() =
+      (Eigen::AngleAxisd(p[0], frame_.x) * Eigen::AngleAxisd(p[1], frame_.y)).toRotationMatrix();
+  t.translation() =
+      centre_ - t.linear() * centre_ + p[2] * frame_.x + p[3] * frame_.y + p[4] * frame_.z;
+  return t;
+}
+
+Eigen::Isometry3d Jaw::follow(const Points& rest, const Points& displacement) {
+  const Eigen::Index n = rest.rows();
+  const auto residual = [&](const Parameters& p) {
+    Eigen::VectorXd r(3 * n + 4);
+    const Eigen::Isometry3d t = transform(p);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Vec3 x = rest.row(i);
+      r.segment<3>(3 * i) = 1e3 * (t * x - x - displacement.row(i).transpose());
+    }
+    r[3 * n] = turn_weight_per_rad * p[1];
+    r.tail<3>() = slide_weight * 1e3 * p.tail<3>();
+    return r;
+  };
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const Eigen::VectorXd r = residual(last_);
+    Eigen::MatrixXd jacobian(r.size(), 5);
+    constexpr double h = 1e-6;
+    for (int k = 0; k < 5; ++k) {
+      Parameters plus = last_, minus = last_;
+      plus[k] += h;
+      minus[k] -= h;
+      jacobian.col(k) = (residual(plus) - residual(minus)) / (2 * h);
+    }
+    const Eigen::Matrix<double, 5, 5> normal = jacobian.transpose() * jacobian;
+    const Parameters change = normal.ldlt().solve(jacobian.transpose() * r);
+    last_ -= change;
+    if (change.norm() < 1e-10) break;
+  }
+  return transform(last_);
+}
+
+double Jaw::opening_deg() const {
+  return last_[0] * 180 / std::numbers::pi;
+}
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+
+namespace hyperex::reenact {
+
+/// Which points of the tracked mesh move a place, and by how much: the barycentric weights of the
+/// closest point of the closest triangle at rest [4.1-4.14].
+struct Match {
+  std::array<int, 3> point{};
+  Vec3 weight = Vec3::Zero();  ///< each >= 0, sum 1
+  double distance_m = 0;
+  /// d = sum_k weight_k d_k [4.15]
+  Vec3 displacement(const Points& point_displacement) const {
+    return weight[0] * point_displacement.row(point[0]).transpose() +
+           weight[1] * point_displacement.row(point[1]).transpose() +
+           weight[2] * point_displacement.row(point[2]).transpose();
+  }
+};
+
+/// One match a row of `places`. `side` (per place: -1 lower lip, 0 either, 1 upper lip) and
+/// `point_side` (per tracked point, the same) keep a lip from following the other one; leave both
+/// empty to match by distance alone.
+std::vector<Match> match(const Points& places, const TriMesh& tracked,
+                         const std::vector<int>& side = {},
+                         const std::vector<int>& point_side = {});
+
+}  // namespace hyperex::reenact

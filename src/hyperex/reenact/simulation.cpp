@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "hyperex/core/progress.hpp"
+#include "hyperex/fem/time/newmark.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/geodesic.hpp"
+#include "hyperex/motion/resample.hpp"
+#include "hyperex/reenact/boundary.hpp"
+#include "hyperex/reenact/lip_contact.hpp"
+#include "hyperex/tissue/lips.hpp"
+
+namespace hyperex::reenact {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A time at which a shape is wanted, and where it goes.
+struct Shot {
+  double time_s;
+  int frame;  ///< or -1 - index of a still
+};
+
+std::vector<Shot> shots_of(const TimeOptions& time, double end_s,
+                           std::vector<double>& frame_time_s) {
+  std::vector<Shot> shots;
+  const int frames = std::max(1, static_cast<int>(std::ceil(end_s * time.frame_rate_hz - 1e-6)));
+  for (int f = 0; f < frames; ++f) {
+    frame_time_s.push_back(f / time.frame_rate_hz);
+    shots.push_back({frame_time_s.back(), f});
+  }
+  for (std::size_t i = 0; i < time.still_times_s.size(); ++i)
+    shots.push_back({std::min(time.still_times_s[i], end_s), -1 - static_cast<int>(i)});
+  std::stable_sort(shots.begin(), shots.end(),
+                   [](const Shot& a, const Shot& b) { return a.time_s < b.time_s; });
+  return shots;
+}
+
+/// Displacement of the driven points and of all the motion's points at any time, gain included.
+class Input {
+ public:
+  Input(const AlignedMotion& motion, double gain)
+      : rest_(motion.rest),
+        gain_(gain),
+        curve_(motion.motion),
+        start_(curve_.at(motion.motion.time_s.front())),
+        start_s_(motion.motion.time_s.front()) {}
+  /// `t` from the start of the motion.
+  Points at(double t) const { return gain_ * (curve_.at(start_s_ + t) - start_); }
+
+ private:
+  Points rest_;
+  double gain_;
+  motion::MotionCurve curve_;
+  Points start_;
+  double start_s_;
+};
+
+/// Carries displacements of tissue and tracked points to the skin.
+class SkinCarrier {
+ public:
+  SkinCarrier(const tissue::TissueMesh& mesh, const MeasuredRegion& region)
+      : mesh_(mesh), region_(region) {}
+
+  PointsF carry(const Points& nodes, const Points& points) const {
+    PointsF out(mesh_.skin.points.rows(), 3);
+    for (Eigen::Index v = 0; v < out.rows(); ++v) {
+      const double share = region_.share[v];
+      Vec3 d = Vec3::Zero();
+      if (share < 1) {
+        const tissue::Anchor& anchor = mesh_.anchors[v];
+        for (int k = 0; k < 3; ++k) d += anchor.weight[k] * nodes.row(anchor.node[k]).transpose();
+      }
+      if (share > 0) d = (1 - share) * d + share * region_.skin[v].displacement(points);
+      out.row(v) = d.transpose().cast<float>();
+    }
+    return out;
+  }
+
+ private:
+  const tissue::TissueMesh& mesh_;
+  const MeasuredRegion& region_;
+};
+
+int inverted_count(const Points& nodes, const Tetrahedra& tets, const Points& d) {
+  int count = 0;
+  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+    Vec3 x[4];
+    for (int k = 0; k < 4; ++k) x[k] = nodes.row(tets(t, k)) + d.row(tets(t, k));
+    count += !((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) > 0);
+  }
+  return count;
+}
+
+/// Skin vertices that carry the landmarks, each on its own lip.
+std::vector<Match> landmark_matches(const tissue::TissueMesh& mesh,
+                                    const io::Landmarks& landmarks) {
+  Points places(landmarks.size(), 3);
+  std::vector<int> side;
+  Eigen::Index i = 0;
+  for (const auto& [name, p] : landmarks) {
+    places.row(i++) = p.transpose();
+    side.push_back(tissue::lip_of(name));
+  }
+  std::vector<int> vertex_side;
+  for (double m : mesh.skin_upper_margin)
+    vertex_side.push_back(m > 0.002 ? 1 : m < -0.002 ? -1 : 0);
+  return match(places, mesh.skin, side, vertex_side);
+}
+
+motion::Motion landmark_tracks(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                               const std::vector<double>& time_s,
+                               const std::vector<PointsF>& frames) {
+  motion::Motion tracks;
+  tracks.time_s = time_s;
+  Points rest(landmarks.size(), 3);
+  Eigen::Index i = 0;
+  for (const auto& [name, p] : landmarks) {
+    tracks.names.push_back(name);
+    rest.row(i++) = p.transpose();
+  }
+  const auto matches = landmark_matches(mesh, landmarks);
+  for (const PointsF& frame : frames) {
+    Points at = rest;
+    for (std::size_t m = 0; m < matches.size(); ++m)
+      for (int k = 0; k < 3; ++k)
+        at.row(m) += matches[m].weight[k] * frame.row(matches[m].point[k]).cast<double>();
+    tracks.positions.push_back(at);
+  }
+  return tracks;
+}
+
+class Run {
+ public:
+  Run(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, const AlignedMotion& motion,
+      const SimulationOptions& options)
+      : mesh_(mesh),
+        landmarks_(landmarks),
+        motion_(motion),
+        options_(options),
+        region_(measured_region(mesh, landmarks, motion, options.region)),
+        input_(motion, options.drive.gain),
+        carrier_(mesh, region_) {
+    end_s_ = options.time.end_s > 0 ? options.time.end_s
+                                    : motion.motion.time_s.back() - motion.motion.time_s.front();
+    shots_ = shots_of(options.time, end_s_, result_.performance.frame_time_s);
+    result_.performance.skin_displacement_m.resize(result_.performance.frame_time_s.size());
+    result_.still_displacement_m.resize(options.time.still_times_s.size());
+  }
+
+  SimulationResult finish() {
+    if (options_.region.measured == Measured::all)
+      replay();
+    else
+      integrate();
+    describe();
+    return std::move(result_);
+  }
+
+ private:
+  void replay() {
+    const Points none = Points::Zero(mesh_.volume.nodes.rows(), 3);
+    for (const Shot& shot : shots_) store(shot, none);
+  }
+
+  void integrate() {
+    Boundary boundary(mesh_, landmarks_, motion_, region_, options_);
+    const auto assemble_start = std::chrono::steady_clock::now();
+    const auto tets = static_cast<std::size_t>(mesh_.volume.tets.rows());
+    fem::Material material;
+    material.young_pa.assign(tets, options_.tissue.young_pa);
+    material.poisson.assign(tets, options_.tissue.poisson);
+    material.viscosity_pa_s.assign(tets, options_.tissue.viscosity_pa_s);
+    material.density_kg_m3.assign(tets, options_.tissue.density_kg_m3);
+    material.viscous_form = options_.tissue.viscous_form;
+    fem::System system = fem::assemble(mesh_.volume.nodes, mesh_.volume.tets, material);
+    boundary.add_springs(system.stiffness);
+    SimulationReport& report = result_.report;
+    report.assemble_s = seconds_since(assemble_start);
+
+    const auto simulate_start = std::chrono::steady_clock::now();
+    fem::Newmark newmark(system, boundary.prescribed(), options_.time.step_s);
+    report.factor_s = newmark.factor_seconds();
+    report.free_dofs = newmark.free_count();
+    report.steps = static_cast<int>(std::ceil(end_s_ / options_.time.step_s - 1e-9));
+    report.driven_nodes = static_cast<int>(boundary.driven_nodes().size());
+    report.skull_nodes = boundary.skull_count();
+    report.mandible_nodes = boundary.mandible_count();
+    result_.performance.node_displacement_m.resize(result_.performance.frame_time_s.size());
+
+    Eigen::VectorXd values(boundary.prescribed().size()), force(3 * mesh_.volume.nodes.rows());
+    Points before = Points::Zero(mesh_.volume.nodes.rows(), 3), now = before;
+    std::size_t next = 0;
+    while (next < shots_.size() && shots_[next].time_s <= 0) store(shots_[next++], before);
+    Progress progress("simulating", report.steps);
+    for (int step = 1; step <= report.steps; ++step) {
+      const double t = step * options_.time.step_s;
+      boundary.at(input_.at(t), values, force);
+      newmark.step(values, force);
+      report.greatest_opening_deg =
+          std::max(report.greatest_opening_deg, boundary.jaw_opening_deg());
+      progress.update(step);
+      const bool wanted = next < shots_.size() && shots_[next].time_s <= t + 1e-12;
+      const bool soon = next < shots_.size() && shots_[next].time_s <= t + options_.time.step_s;
+      if (!wanted && !soon) continue;  // no shape is read off this step
+      before.swap(now);
+      now = Eigen::Map<const Points>(newmark.displacement().data(), now.rows(), 3);
+      while (next < shots_.size() && shots_[next].time_s <= t + 1e-12) {
+        const double a = 1 - (t - shots_[next].time_s) / options_.time.step_s;
+        store(shots_[next++], (1 - a) * before + a * now);
+      }
+    }
+    while (next < shots_.size()) store(shots_[next++], now);
+    report.simulate_s = seconds_since(simulate_start) - report.factor_s;
+
+    Performance& p = result_.performance;
+    p.nodes = mesh_.volume.nodes;
+    p.tets = mesh_.volume.tets;
+    p.tet_young_pa.assign(tets, static_cast<float>(options_.tissue.young_pa));
+    p.tet_viscosity_pa_s.assign(tets, static_cast<float>(options_.tissue.viscosity_pa_s));
+    const std::vector<int> held = boundary.held_nodes();
+    p.held_points_rest.resize(held.size(), 3);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      p.held_points_rest.row(i) = mesh_.volume.nodes.row(held[i]);
+    for (const PointsF& d : p.node_displacement_m)
+      report.inverted_tets =
+          std::max(report.inverted_tets, inverted_count(p.nodes, p.tets, d.cast<double>()));
+  }
+
+  void store(const Shot& shot, const Points& nodes) {
+    const PointsF skin = carrier_.carry(nodes, input_.at(shot.time_s));
+    Performance& p = result_.performance;
+    if (shot.frame < 0) {
+      result_.still_displacement_m[-1 - shot.frame] = skin;
+    } else {
+      p.skin_displacement_m[shot.frame] = skin;
+      if (!p.node_displacement_m.empty()) p.node_displacement_m[shot.frame] = nodes.cast<float>();
+    }
+  }
+
+  /// Everything but the frames themselves.
+  void describe() {
+    Performance& p = result_.performance;
+    p.skin_rest = mesh_.skin;
+    p.scan_vertices = mesh_.scan_vertices;
+    p.duplicated_from = mesh_.duplicated_from;
+    p.lip_cut_rest = mesh_.lip_cut;
+    p.landmarks = landmark_tracks(mesh_, landmarks_, p.frame_time_s, p.skin_displacement_m);
+    std::vector<int> rows;
+    for (const std::string& name : options_.drive.points)
+      if (const int row = motion_.motion.index_of(name); row >= 0) {
+        rows.push_back(row);
+        p.driven_names.push_back(name);
+      }
+    p.driven_points_rest.resize(rows.size(), 3);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      p.driven_points_rest.row(i) = motion_.rest.row(rows[i]);
+    p.peak_frame = peak_frame(rows);
+    measure_lips();
+  }
+
+  int peak_frame(const std::vector<int>& rows) const {
+    const auto& times = result_.performance.frame_time_s;
+    int best = 0;
+    double most = -1;
+    for (std::size_t f = 0; f < times.size(); ++f) {
+      double score = 0;
+      if (options_.peak_time_s >= 0) {
+        score = 1 / (1 + std::abs(times[f] - options_.peak_time_s));
+      } else {
+        const Points d = input_.at(times[f]);
+        for (int row : rows) score += d.row(row).norm();
+      }
+      if (score > most + 1e-12) {
+        most = score;
+        best = static_cast<int>(f);
+      }
+    }
+    return best;
+  }
+
+  void measure_lips() {
+    const LipContact contact(mesh_, landmarks_);
+    const Performance& p = result_.performance;
+    const int upper = p.landmarks.index_of(tissue::ibug(62)),
+              lower = p.landmarks.index_of(tissue::ibug(66));
+    for (std::size_t f = 0; f < p.frame_time_s.size(); ++f) {
+      const Points skin = mesh_.skin.points + p.skin_displacement_m[f].cast<double>();
+      result_.report.lip_overlap_mm =
+          std::max(result_.report.lip_overlap_mm, 1e3 * contact.depth(skin));
+      const auto gap = [&](const Points& at) {
+        return 1e3 * (at.row(upper) - at.row(lower)).norm();
+      };
+      result_.report.lip_gap_mm =
+          std::max(result_.report.lip_gap_mm,
+                   gap(p.landmarks.positions[f]) - gap(p.landmarks.positions.front()));
+    }
+  }
+
+  const tissue::TissueMesh& mesh_;
+  const io::Landmarks& landmarks_;
+  const AlignedMotion& motion_;
+  const SimulationOptions& options_;
+  MeasuredRegion region_;
+  Input input_;
+  SkinCarrier carrier_;
+  double end_s_ = 0;
+  std::vector<Shot> shots_;
+  SimulationResult result_;
+};
+
+}  // namespace
+
+SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                          const AlignedMotion& motion, const SimulationOptions& options) {
+  return Run(mesh, landmarks, motion, options).finish();
+}
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hyperex/fem/material/linear_viscoelastic.hpp"
+#include "hyperex/reenact/alignment.hpp"
+#include "hyperex/reenact/performance.hpp"
+#include "hyperex/reenact/skin_measured.hpp"
+#include "hyperex/reenact/support.hpp"
+#include "hyperex/tissue/tissue_mesh.hpp"
+
+namespace hyperex::reenact {
+
+enum class Hold { held, sliding, free };
+enum class Mandible { follow, held, free };
+
+struct SupportOptions {
+  bool border_held = true;
+  Hold skull = Hold::sliding;
+  Mandible mandible = Mandible::follow;
+  BoneLayer skull_layer{1e8, 1e7};      ///< used where skull is sliding
+  BoneLayer mandible_layer{1e8, 1e8};   ///< used where the mandible is followed
+  std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
+};
+
+struct DriveOptions {
+  std::vector<std::string> points;        ///< driven, names of the motion
+  std::vector<std::string> still_points;  ///< landmarks of the skin that are kept where they are
+  double patch_radius_m = 0.006;
+  double gain = 1;
+};
+
+struct TimeOptions {
+  double step_s = 0.002, end_s = 0, frame_rate_hz = 30;
+  std::vector<double> still_times_s;  ///< extra shapes wanted, for pictures
+};
+
+/// One value everywhere for now; the solver takes one an element.
+struct TissueValues {
+  double young_pa = 192.4e3, poisson = 0.495, viscosity_pa_s = 476.8, density_kg_m3 = 1100;
+  fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
+};
+
+struct SimulationOptions {
+  TissueValues tissue;
+  SupportOptions support;
+  DriveOptions drive;
+  RegionOptions region;
+  TimeOptions time;
+  double peak_time_s = -1;  ///< below 0: where the driven points moved most in the mean
+};
+
+/// What happened, for the summary.
+struct SimulationReport {
+  int free_dofs = 0, steps = 0, driven_nodes = 0, skull_nodes = 0, mandible_nodes = 0;
+  double assemble_s = 0, factor_s = 0, simulate_s = 0;
+  int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
+  double greatest_opening_deg = 0;  ///< of the jaw
+  double lip_overlap_mm =
+      0;  ///< greatest depth by which the lips pass through each other beyond rest
+  double lip_gap_mm =
+      0;  ///< greatest mean distance between upper and lower lip (ibug68_62, 66) over rest
+  std::vector<std::string> notes;
+};
+
+struct SimulationResult {
+  Performance performance;
+  std::vector<PointsF> still_displacement_m;  ///< of the skin at the still times
+  SimulationReport report;
+};
+
+/// Section 5 of the method: a measured region follows the tracked triangles, the rest of the face
+/// is a layer of viscoelastic tissue driven by patches of skin, supported by border and bones.
+/// Throws InputError for points that do not exist, NumericalError where the model cannot be solved.
+SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                          const AlignedMotion& motion, const SimulationOptions& options);
+
+}  // namespace hyperex::reenact

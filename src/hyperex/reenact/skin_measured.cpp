@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/skin_measured.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/reenact/triangulate.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/tissue/lips.hpp"
+
+namespace hyperex::reenact {
+namespace {
+
+double share_at(const Vec3& p, const std::vector<Vec3>& centres, const RegionOptions& options) {
+  if (options.measured == Measured::all) return 1;
+  double nearest = 1;
+  for (const Vec3& c : centres) nearest = std::min(nearest, (p - c).norm());
+  if (nearest <= options.radius_m) return 1;
+  if (nearest >= options.radius_m + options.blend_m) return 0;
+  const double t = (nearest - options.radius_m) / options.blend_m;
+  return 1 - t * t * (3 - 2 * t);
+}
+
+/// Which lip a place belongs to, told only near the mouth and where it is clear.
+std::vector<int> sides(const Points& places, const std::vector<double>& margin,
+                       const tissue::FaceFrame& frame, double reach) {
+  std::vector<int> side(places.rows(), 0);
+  constexpr double sure_m = 0.004;
+  for (Eigen::Index i = 0; i < places.rows(); ++i)
+    if (std::abs(margin[i]) > sure_m && (places.row(i).transpose() - frame.origin).norm() < reach)
+      side[i] = margin[i] > 0 ? 1 : -1;
+  return side;
+}
+
+}  // namespace
+
+MeasuredRegion measured_region(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                               const AlignedMotion& motion, const RegionOptions& options) {
+  MeasuredRegion region;
+  region.share.assign(mesh.skin.points.rows(), 0.0);
+  region.outer_share.assign(mesh.volume.surface_nodes(), 0.0);
+  if (options.measured == Measured::none) return region;
+
+  std::vector<Vec3> centres;
+  for (const std::string& name : options.points) {
+    const int i = motion.motion.index_of(name);
+    if (i < 0)
+      throw InputError(motion.motion.source,
+                       fmt::format("has no point {}, named in region.measured_points", name));
+    centres.push_back(motion.rest.row(i).transpose());
+  }
+  const tissue::FaceFrame frame = tissue::face_frame(landmarks);
+  TriMesh tracked{motion.rest, motion.motion.triangles};
+  if (tracked.triangles.rows() == 0)
+    tracked.triangles = triangulate_points(motion.motion.names, motion.rest, frame);
+  if (tracked.triangles.rows() == 0)
+    throw InputError(motion.motion.source,
+                     "has too few points to make triangles of; expected at "
+                     "least three, not on one line, for a measured region");
+  std::vector<int> point_side;
+  for (const auto& name : motion.motion.names) point_side.push_back(tissue::lip_of(name));
+  const double reach = 1.8 * (landmarks.at(tissue::ibug(54)) - frame.origin).norm();
+  region.skin = match(mesh.skin.points, tracked,
+                      sides(mesh.skin.points, mesh.skin_upper_margin, frame, reach), point_side);
+  const Points& outer = mesh.volume.outer.points;
+  region.outer = match(outer, tracked, sides(outer, mesh.upper_margin, frame, reach), point_side);
+  for (Eigen::Index v = 0; v < mesh.skin.points.rows(); ++v)
+    region.share[v] = share_at(mesh.skin.points.row(v), centres, options);
+  for (Eigen::Index v = 0; v < outer.rows(); ++v)
+    region.outer_share[v] = share_at(outer.row(v), centres, options);
+  return region;
+}
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/support.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+
+namespace hyperex::reenact {
+namespace {
+using tissue::ibug;
+
+constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
+constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.006, jaw_below_lip_m = 0.008;
+
+class BoneMap {
+ public:
+  explicit BoneMap(const io::Landmarks& landmarks) : frame_(tissue::face_frame(landmarks)) {
+    for (int k = 0; k < 17; ++k) jaw_line_.push_back(frame_.local(landmarks.at(ibug(k))));
+    for (int k = 48; k < 68; ++k) lips_.push_back(frame_.local(landmarks.at(ibug(k))));
+    nose_base_ = frame_.local(landmarks.at(ibug(33)));
+    ear_base_ = 0.5 * (jaw_line_[2] + jaw_line_[14]);
+    lower_lip_ = frame_.local(landmarks.at(ibug(57))).y();
+  }
+
+  /// `inner` and `outer`: the two ends of the layer at one node.
+  Bone under(const Vec3& inner, const Vec3& outer) const {
+    const Vec3 q = frame_.local(inner), p = frame_.local(outer);
+    double to_lips = 1;
+    for (const Vec3& l : lips_) to_lips = std::min(to_lips, (p - l).norm());
+    if (q.y() > skull_line(q.z())) return to_lips < skull_off_lips_m ? Bone::none : Bone::skull;
+    if (p.y() < lower_lip_ - jaw_below_lip_m && p.y() > jaw_edge(p.x()) - jaw_below_edge_m &&
+        distance_to_chin(p) < jaw_reach_m && to_lips >= jaw_off_lips_m)
+      return Bone::mandible;
+    return Bone::none;
+  }
+
+ private:
+  /// Height of the skull's lower border at depth z.
+  double skull_line(double z) const {
+    const double t = std::clamp((z - ear_base_.z()) / (nose_base_.z() - ear_base_.z()), -0.5, 1.2);
+    return ear_base_.y() + t * (nose_base_.y() - ear_base_.y());
+  }
+
+  /// Height of the jaw's lower edge at x; above everything beside the face.
+  double jaw_edge(double x) const {
+    for (int k = 0; k < 16; ++k) {
+      const Vec3 &a = jaw_line_[k], &b = jaw_line_[k + 1];
+      if ((x - a.x()) * (x - b.x()) <= 0 && a.x() != b.x())
+        return a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+    }
+    return 1;
+  }
+
+  double distance_to_chin(const Vec3& p) const {
+    double best = 1;
+    for (int k = 6; k < 10; ++k) {
+      const Vec3 e = jaw_line_[k + 1] - jaw_line_[k];
+      const double t = std::clamp((p - jaw_line_[k]).dot(e) / e.squaredNorm(), 0.0, 1.0);
+      best = std::min(best, (p - jaw_line_[k] - t * e).norm());
+    }
+    return best;
+  }
+
+  tissue::FaceFrame frame_;
+  std::vector<Vec3> jaw_line_, lips_;
+  Vec3 nose_base_, ear_base_;
+  double lower_lip_ = 0;
+};
+
+}  // namespace
+
+std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  const BoneMap map(landmarks);
+  const auto& volume = mesh.volume;
+  std::vector<Bone> bones(volume.surface_nodes());
+  for (int v = 0; v < volume.surface_nodes(); ++v)
+    bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v));
+  return bones;
+}
+
+Eigen::VectorXd node_areas(const TriMesh& surface) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.points.rows());
+  const Eigen::VectorXd triangles = triangle_areas(surface);
+  for (Eigen::Index f = 0; f < triangles.size(); ++f)
+    for (int k = 0; k < 3; ++k) areas[surface.triangles(f, k)] += triangles[f] / 3;
+  return areas;
+}
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+
+namespace hyperex::tissue {
+
+/// Depth of the soft tissue at a landmark.
+struct DepthAt {
+  std::string landmark;
+  double depth_m = 0;
+};
+
+/// Mean depths of adult facial soft tissue, whole millimetres, after C. N. Stephan and E. K.
+/// Simpson, "Facial soft tissue depths in craniofacial identification (part I)", J. Forensic Sci.
+/// 53 (2008) 1257-1272 (pooled adults). Craniometric points are carried to the nearest landmark
+/// (e.g. mid-philtrum to between subnasale and the upper lip). The cheek, 20 mm and more down to
+/// the teeth, is capped at 12 mm: what moves there as one layer ends at the cavity of the mouth.
+const std::vector<DepthAt>& published_depths();
+
+/// A smooth field that lies between the least and the greatest of the given depths (Shepard's
+/// inverse squared distance, D. Shepard 1968) over `points`. Landmarks that are not known are
+/// passed over; std::invalid_argument where none is known.
+Eigen::VectorXd depth_field(const Points& points, const std::vector<DepthAt>& depths,
+                            const io::Landmarks& landmarks);
+
+}  // namespace hyperex::tissue

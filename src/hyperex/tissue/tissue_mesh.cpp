@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tissue/tissue_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/geometry/clean_mesh.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/cut_surface.hpp"
+#include "hyperex/geometry/geodesic.hpp"
+#include "hyperex/geometry/hole_filling.hpp"
+#include "hyperex/geometry/remesh.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/tissue/lips.hpp"
+#include "hyperex/tissue/unfold.hpp"
+
+namespace hyperex::tissue {
+namespace {
+
+/// Distances from the centre of the mouth at which the mesh is graded: the centre of the inversion
+/// lies this far in front of the lips (edges double at this distance beside the mouth).
+constexpr double grading_m = 0.12;
+/// Holes up to this length around are mended; eyes, mouth and nostrils are left open.
+constexpr double mended_hole_m = 0.03;
+
+double loop_length(const TriMesh& mesh, const std::vector<int>& loop) {
+  double length = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    length += (mesh.points.row(loop[i]) - mesh.points.row(loop[(i + 1) % loop.size()])).norm();
+  return length;
+}
+
+double loop_extent(const TriMesh& mesh, const std::vector<int>& loop) {
+  Points p(loop.size(), 3);
+  for (std::size_t i = 0; i < loop.size(); ++i) p.row(i) = mesh.points.row(loop[i]);
+  return (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
+}
+
+/// The vertices of the border loop of greatest extent.
+std::vector<int> outer_border(const TriMesh& mesh) {
+  std::vector<int> best;
+  double extent = -1;
+  for (auto& loop : boundary_loops(mesh.triangles))
+    if (const double e = loop_extent(mesh, loop); e > extent) {
+      extent = e;
+      best = loop;
+    }
+  return best;
+}
+
+/// The cleaned scan, cut where asked, and how its corners map to the skin's.
+class SkinBuilder {
+ public:
+  SkinBuilder(const TriMesh& scan, const io::Landmarks& landmarks, const std::string& source,
+              TissueMesh& out)
+      : scan_(scan), landmarks_(landmarks), source_(source), out_(out) {
+    try {
+      clean_ = clean_mesh(scan);
+    } catch (const std::invalid_argument& e) {
+      throw InputError(source, e.what());
+    }
+    for (const auto& note : clean_.notes) out_.notes.push_back("scan: " + note);
+    out_.skin = scan;
+    out_.scan_vertices = scan.points.rows();
+  }
+
+  void cut(LipCut mode) {
+    if (mode == LipCut::never) return;
+    const bool open = mouth_is_open(clean_.mesh, landmarks_);
+    if (open) {
+      if (mode == LipCut::always) out_.notes.push_back("the mouth is open already: not cut");
+      return;
+    }
+    CutSurface cut;
+    std::vector<int> path;
+    try {
+      path = lip_crease(clean_.mesh, landmarks_);
+      cut = cut_along(clean_.mesh, path);
+    } catch (const std::exception& e) {
+      throw InputError(source_, fmt::format("the closed lips could not be cut ({}); expected a "
+                                            "surface without holes between the mouth corners",
+                                            e.what()));
+    }
+    apply(cut, path);
+    clean_.mesh = cut.mesh;
+    out_.notes.push_back(fmt::format(
+        "the lips are joined in the scan and were cut along {} vertices between the mouth corners",
+        path.size()));
+  }
+
+  TriMesh& mesh() { return clean_.mesh; }
+
+ private:
+  /// The same cut on the scan as given.
+  void apply(const CutSurface& cut, const std::vector<int>& path) {
+    const Eigen::Index old = clean_.mesh.points.rows();
+    const auto added = static_cast<Eigen::Index>(cut.duplicated_from.size());
+    out_.skin.points.conservativeResize(out_.scan_vertices + added, 3);
+    for (Eigen::Index i = 0; i < added; ++i) {
+      const int from = clean_.source_vertex[cut.duplicated_from[i]];
+      out_.duplicated_from.push_back(from);
+      out_.skin.points.row(out_.scan_vertices + i) = scan_.points.row(from);
+    }
+    for (Eigen::Index f = 0; f < cut.mesh.triangles.rows(); ++f)
+      for (int k = 0; k < 3; ++k)
+        if (const int v = cut.mesh.triangles(f, k); v >= old)
+          out_.skin.triangles(clean_.source_triangle[f], k) =
+              static_cast<int>(out_.scan_vertices + (v - old));
+    out_.lip_cut.resize(path.size(), 3);
+    for (std::size_t i = 0; i < path.size(); ++i)
+      out_.lip_cut.row(i) = clean_.mesh.points.row(path[i]);
+  }
+
+  const TriMesh& scan_;
+  const io::Landmarks& landmarks_;
+  std::string source_;
+  TissueMesh& out_;
+  CleanMesh clean_;
+};
+
+TriMesh kept_triangles(const TriMesh& mesh, const std::vector<char>& drop_vertex) {
+  TriMesh kept{mesh.points, Triangles(mesh.triangles.rows(), 3)};
+  Eigen::Index count = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+    if (!drop_vertex[mesh.triangles(f, 0)] && !drop_vertex[mesh.triangles(f, 1)] &&
+        !drop_vertex[mesh.triangles(f, 2)])
+      kept.triangles.row(count++) = mesh.triangles.row(f);
+  kept.triangles.conservativeResize(count, 3);
+  return clean_mesh(kept).mesh;
+}
+
+/// Small holes closed, the outer border trimmed by `trim_m`.
+TriMesh mend(TriMesh mesh, const io::Landmarks& landmarks, double trim_m,
+             std::vector<std::string>& notes) {
+  std::vector<Vec3> open;  // around these, holes stay
+  for (int k = 31; k < 68; ++k) open.push_back(landmarks.at(ibug(k)));
+  int mended = 0;
+  const auto border = outer_border(mesh);
+  for (const auto& loop : boundary_loops(mesh.triangles)) {
+    if (loop.size() < 3 || loop == border || loop_length(mesh, loop) > mended_hole_m) continue;
+    Vec3 centre = Vec3::Zero();
+    for (int v : loop) centre += mesh.points.row(v).transpose() / double(loop.size());
+    double nearest = 1;
+    for (const Vec3& p : open) nearest = std::min(nearest, (p - centre).norm());
+    if (nearest < 0.012) continue;
+    mended += fill_hole(mesh, loop);
+  }
+  if (mended > 0) notes.push_back(fmt::format("{} small holes of the scan mended", mended));
+  if (trim_m > 0 && !border.empty()) {
+    const auto far = EdgePaths(mesh).distances(border, trim_m);
+    std::vector<char> drop(far.size());
+    for (std::size_t v = 0; v < far.size(); ++v) drop[v] = std::isfinite(far[v]);
+    mesh = kept_triangles(mesh, drop);
+    notes.push_back(
+        fmt::format("{:.1f} mm trimmed off the border for the simulation", trim_m * 1e3));
+  }
+  return mesh;
+}
+
+TriMesh subset(const TriMesh& mesh, const std::vector<int>& triangles) {
+  TriMesh part{mesh.points, Triangles(triangles.size(), 3)};
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    part.triangles.row(i) = mesh.triangles.row(triangles[i]);
+  return part;
+}
+
+/// Anchors every skin vertex at the closest point of the outer surface, near the mouth of that
+/// lip's own side: through the air the other lip may be nearer.
+void anchor_skin(TissueMesh& out, const io::Landmarks& landmarks) {
+  const TriMesh& outer = out.volume.outer;
+  out.skin_upper_margin = upper_lip_margin(out.skin, landmarks);
+  const std::vector<double>& skin_margin = out.skin_upper_margin;
+  std::vector<int> part[2];  // lower, upper
+  const auto margin_of = [&](int f) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += out.upper_margin[outer.triangles(f, k)];
+    return sum / 3;
+  };
+  for (int f = 0; f < outer.triangles.rows(); ++f) part[margin_of(f) > 0].push_back(f);
+  const SurfaceTree whole(outer);
+  auto closest = whole.query_all(out.skin.points);
+  if (!part[0].empty() && !part[1].empty()) {
+    const SurfaceTree side[2] = {SurfaceTree(subset(outer, part[0])),
+                                 SurfaceTree(subset(outer, part[1]))};
+    const FaceFrame frame = face_frame(landmarks);
+    const double reach = 1.8 * (landmarks.at(ibug(54)) - frame.origin).norm();
+    constexpr double sure_m = 0.004;  // beside the mouth corners both walks are equally long
+    for (Eigen::Index v = 0; v < out.skin.points.rows(); ++v) {
+      if (std::abs(skin_margin[v]) < sure_m) continue;
+      if ((out.skin.points.row(v).transpose() - frame.origin).norm() > reach) continue;
+      const bool upper = skin_margin[v] > 0;
+      if ((margin_of(closest[v].triangle) > 0) == upper) continue;
+      closest[v] = side[upper].query(out.skin.points.row(v));
+      closest[v].triangle = part[upper][closest[v].triangle];
+    }
+  }
+  double sum = 0, worst = 0;
+  out.anchors.resize(closest.size());
+  for (std::size_t v = 0; v < closest.size(); ++v) {
+    for (int k = 0; k < 3; ++k) out.anchors[v].node[k] = outer.triangles(closest[v].triangle, k);
+    out.anchors[v].weight = closest[v].weights;
+    const double d = std::sqrt(closest[v].squared_distance);
+    sum += d;
+    worst = std::max(worst, d);
+  }
+  out.mean_distance_mm = 1e3 * sum / double(closest.size());
+  out.max_distance_mm = 1e3 * worst;
+}
+
+}  // namespace
+
+TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
+                             const TissueMeshOptions& options, const std::string& source) {
+  TissueMesh out;
+  SkinBuilder skin(scan, landmarks, source, out);
+  skin.cut(options.cut_lips);
+  const TriMesh mended = mend(skin.mesh(), landmarks, options.trim_border_m, out.notes);
+
+  const FaceFrame frame = face_frame(landmarks);
+  GradedSize size;
+  size.edge_m = options.element_size_m;
+  size.focus = 0.5 * (landmarks.at(ibug(51)) + landmarks.at(ibug(57)));
+  size.centre = size.focus + grading_m * frame.z;
+  TriMesh outer = remesh_graded(mended, size);
+  outer = clean_mesh(unfold(outer, out.notes)).mesh;
+
+  const std::vector<DepthAt>& depths = options.depths.empty() ? published_depths() : options.depths;
+  const Eigen::VectorXd thickness =
+      options.thickness_m > 0
+          ? Eigen::VectorXd::Constant(outer.points.rows(), options.thickness_m).eval()
+          : depth_field(outer.points, depths, landmarks);
+  VolumeMeshOptions volume;
+  volume.layers = options.layers;
+  try {
+    out.volume = build_volume_mesh(outer, thickness, volume);
+  } catch (const NumericalError& e) {
+    throw InputError(source, e.what());
+  }
+  out.notes.insert(out.notes.end(), out.volume.notes.begin(), out.volume.notes.end());
+  out.quality = quality_of(out.volume.nodes, out.volume.tets);
+  out.upper_margin = upper_lip_margin(out.volume.outer, landmarks);
+  out.on_border.assign(out.volume.surface_nodes(), 0);
+  for (int v : outer_border(out.volume.outer)) out.on_border[v] = 1;
+  anchor_skin(out, landmarks);
+  return out;
+}
+
+}  // namespace hyperex::tissue

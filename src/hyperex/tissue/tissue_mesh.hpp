@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/tissue/thickness.hpp"
+#include "hyperex/tissue/volume_mesh.hpp"
+
+namespace hyperex::tissue {
+
+enum class LipCut { automatic, always, never };
+
+struct TissueMeshOptions {
+  double element_size_m = 0.0037;  ///< edges at the mouth; they grow smoothly away from it
+  int layers = 2;
+  double thickness_m = 0;       ///< > 0: the same everywhere
+  std::vector<DepthAt> depths;  ///< used where thickness_m is 0; empty: published_depths()
+  LipCut cut_lips = LipCut::automatic;
+  double trim_border_m = 0;  ///< this much is taken off the scan's outer border
+};
+
+/// Where a point of the skin sits on the simulated outer surface.
+struct Anchor {
+  std::array<int, 3> node{};  ///< outer nodes of the volume mesh
+  Vec3 weight = Vec3::Zero();
+};
+
+/// A scan made ready for simulation.
+struct TissueMesh {
+  TriMesh skin;  ///< the scan as given; vertices that a cut doubled appended
+  Eigen::Index scan_vertices = 0;
+  std::vector<int> duplicated_from;  ///< scan vertex of each appended one
+  Points lip_cut;                    ///< the line of the cut, empty where none was made
+  VolumeMesh volume;
+  std::vector<Anchor> anchors;  ///< per skin vertex
+  std::vector<double> upper_margin;             ///< per outer node: walk to the lower minus to the upper lip (m)
+  std::vector<double> skin_upper_margin;  ///< the same, per skin vertex
+  std::vector<char> on_border;  ///< per outer node: on the outer border, not at mouth or eyes
+  MeshQuality quality;
+  double mean_distance_mm = 0,
+         max_distance_mm = 0;      ///< scan vertices to the simulated outer surface
+  std::vector<std::string> notes;  ///< what was mended, trimmed or cut, a sentence each
+};
+
+/// Cleans a working copy, cuts joined lips, mends small holes, remeshes with a size that grows away
+/// from the mouth, and builds the layer. `landmarks` must hold the 68 iBUG points
+/// (complete_landmarks). `source` names the scan in errors. Throws InputError where the scan cannot
+/// serve.
+TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
+                             const TissueMeshOptions& options, const std::string& source);
+
+}  // namespace hyperex::tissue

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+
+namespace hyperex::tissue {
+
+/// For each vertex the direction in which all triangles around it are seen from in front, as far
+/// as there is one (the normal pushed towards its worst face until none is worse), and the least
+/// cosine between that direction and their normals: not above 0 where the surface is folded.
+struct Visibility {
+  Points direction;       ///< |V| x 3, unit
+  Eigen::VectorXd least;  ///< |V|
+};
+Visibility visibility_of(const TriMesh& mesh);
+
+/// Makes a surface fit to be thickened: smooths it around folded vertices (visibility below
+/// `least`), and where that does not help drops the triangles around them. Says what it did.
+TriMesh unfold(const TriMesh& mesh, std::vector<std::string>& notes, double least = 0.3);
+
+}  // namespace hyperex::tissue
