@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tissue/landmarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/rbf.hpp"
+#include "hyperex/geometry/transform.hpp"
+#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/tissue/register_face.hpp"
+
+namespace hyperex::tissue {
+
+namespace {
+
+constexpr double kLargestOffset_m = 0.015;
+// Eye corners alone spread by 0.07 about their line; less leaves the face's tilt to chance.
+constexpr double kLeastSpread = 0.04;
+// Faces differ from the canonical one by up to 17 mm at the jaw (subject A); a slip is larger.
+constexpr double kLargestSurprise_m = 0.04;
+// A pair is exchanged when turning it round takes away at least this much of the misfit.
+constexpr double kExchangedShare = 0.5, kExchangedRms_m = 0.006;
+
+/// Landmarks known to the canonical face, in rows.
+struct Known {
+  std::vector<std::string> names;
+  Points canonical, given;
+};
+
+Known known_of(const io::Landmarks& given) {
+  const CanonicalFace& face = canonical_face();
+  Known known;
+  for (const auto& [name, position] : given)
+    if (face.landmarks.contains(name)) known.names.push_back(name);
+  known.canonical.resize(Eigen::Index(known.names.size()), 3);
+  known.given = known.canonical;
+  for (std::size_t i = 0; i < known.names.size(); ++i) {
+    known.canonical.row(Eigen::Index(i)) = face.landmark(known.names[i], face.mesh.points);
+    known.given.row(Eigen::Index(i)) = given.at(known.names[i]);
+  }
+  return known;
+}
+
+double misfit(const Points& canonical, const Points& given) {
+  return rms_distance(fit_similarity(canonical, given).apply(canonical), given);
+}
+
+[[noreturn]] void refuse_all(const std::string& source, const std::vector<std::string>& problems) {
+  std::string text = problems.front();
+  for (std::size_t i = 1; i < problems.size(); ++i) text += "\n" + source + ": " + problems[i];
+  throw InputError(source, text);
+}
+
+/// Landmarks that float off the scan.
+std::vector<std::string> offset_problems(const io::Landmarks& given, const SurfaceTree& tree) {
+  std::vector<std::string> problems;
+  for (const auto& [name, position] : given) {
+    const double distance = std::sqrt(tree.query(position).squared_distance);
+    if (distance > kLargestOffset_m)
+      problems.push_back(
+          fmt::format("landmark {} is {:.1f} mm from the scan's surface: expected "
+                      "at most {:.0f} mm",
+                      name, distance * 1e3, kLargestOffset_m * 1e3));
+  }
+  return problems;
+}
+
+/// Pairs with left and right exchanged.
+std::vector<std::string> exchange_problems(const Known& known) {
+  std::vector<std::string> problems;
+  const double before = misfit(known.canonical, known.given);
+  if (before < kExchangedRms_m) return problems;
+  for (std::size_t i = 0; i < known.names.size(); ++i) {
+    const auto other =
+        std::find(known.names.begin(), known.names.end(), mirrored_landmark(known.names[i]));
+    if (other == known.names.end() || std::size_t(other - known.names.begin()) <= i) continue;
+    Points turned = known.given;
+    turned.row(Eigen::Index(i)).swap(turned.row(other - known.names.begin()));
+    if (misfit(known.canonical, turned) < kExchangedShare * before)
+      problems.push_back(
+          fmt::format("landmarks {} and {} are exchanged: L and R are the "
+                      "subject's own sides",
+                      known.names[i], *other));
+  }
+  return problems;
+}
+
+/// Landmarks far from where the others put them.
+std::vector<std::string> slip_problems(const Known& known) {
+  std::vector<std::string> problems;
+  const Eigen::Index count = known.given.rows();
+  if (count < 5) return problems;
+  std::string worst;
+  double largest = kLargestSurprise_m;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    Points a(count - 1, 3), b(count - 1, 3);
+    for (Eigen::Index j = 0, row = 0; j < count; ++j)
+      if (j != i) {
+        a.row(row) = known.canonical.row(j);
+        b.row(row++) = known.given.row(j);
+      }
+    if (spread_off_line(a) < kLeastSpread) continue;
+    // A set that does not fit without this landmark either has its slip elsewhere.
+    const Similarity fit = fit_similarity(a, b);
+    if (rms_distance(fit.apply(a), b) > kLargestSurprise_m / 2) continue;
+    const Vec3 expected = fit * Vec3(known.canonical.row(i));
+    const double surprise = (expected - known.given.row(i).transpose()).norm();
+    if (surprise > largest) {
+      largest = surprise;
+      worst = known.names[std::size_t(i)];
+    }
+  }
+  if (!worst.empty())
+    problems.push_back(
+        fmt::format("landmark {} is {:.0f} mm from where the others put it: "
+                    "expected less than {:.0f} mm",
+                    worst, largest * 1e3, kLargestSurprise_m * 1e3));
+  return problems;
+}
+
+/// Does the face, as the landmarks place it, look out of the scan's surface?
+bool looks_outwards(const Known& known, const TriMesh& scan, const SurfaceTree& tree) {
+  const Similarity scan_from_canonical = fit_similarity(known.canonical, known.given);
+  const Vec3 forward = scan_from_canonical.rotation * Vec3::UnitZ();
+  double sum = 0;
+  for (Eigen::Index i = 0; i < known.given.rows(); ++i) {
+    const ClosestPoint hit = tree.query(known.given.row(i));
+    const auto corner = [&](int c) -> Vec3 {
+      return scan.points.row(scan.triangles(hit.triangle, c));
+    };
+    sum += (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized().dot(forward);
+  }
+  return sum > 0;
+}
+
+}  // namespace
+
+CompletedLandmarks complete_landmarks(const io::Landmarks& given,
+                                      const std::vector<std::string>& needed, const TriMesh& scan,
+                                      const std::string& source) {
+  const CanonicalFace& face = canonical_face();
+  const SurfaceTree tree(scan);
+  std::vector<std::string> problems = offset_problems(given, tree);
+  std::set<std::string> missing;
+  for (const auto& name : needed)
+    if (!given.contains(name)) missing.insert(name);
+  for (const auto& name : missing)
+    if (!face.landmarks.contains(name))
+      problems.push_back("landmark " + name +
+                         " is needed and missing, and cannot be placed: its name is unknown");
+  const Known known = known_of(given);
+  const bool enough = known.names.size() >= 3 && spread_off_line(known.given) >= kLeastSpread;
+  if (!enough && !missing.empty())
+    problems.push_back(
+        fmt::format("{} needed landmarks are missing (the first is {}); to place "
+                    "them takes three known ones that are not on one line, and "
+                    "{} of those given are known",
+                    missing.size(), *missing.begin(), known.names.size()));
+  if (enough && problems.empty()) {
+    problems = exchange_problems(known);
+    if (problems.empty()) problems = slip_problems(known);
+    if (problems.empty() && !looks_outwards(known, scan, tree))
+      problems.push_back(
+          "by these landmarks the face looks into the scan: left and right are "
+          "exchanged (L and R are the subject's own sides), or the scan's "
+          "triangles are inside out");
+  }
+  if (!problems.empty()) refuse_all(source, problems);
+
+  CompletedLandmarks completed{given, {missing.begin(), missing.end()}};
+  if (missing.empty()) return completed;
+  const RegisteredFace registered = register_canonical_face(given, scan);
+  Points registered_known = known.given;
+  for (std::size_t i = 0; i < known.names.size(); ++i)
+    registered_known.row(Eigen::Index(i)) = face.landmark(known.names[i], registered.points);
+  const Rbf correction(registered_known, known.given - registered_known);
+  for (const auto& name : missing) {
+    const Vec3 fitted = face.landmark(name, registered.points);
+    completed.landmarks[name] = tree.query(fitted + correction.at(fitted)).point;
+  }
+  return completed;
+}
+
+}  // namespace hyperex::tissue
