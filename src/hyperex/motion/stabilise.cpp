@@ -17,6 +17,17 @@ constexpr double kLeastSpread = 0.02;
 // Residuals under this are what any sensor has, and no reason to doubt a point (m).
 constexpr double kResidualFloor = 1e-5;
 
+/// The tip of the nose goes with the upper lip: better than a line, worse than anything else.
+const std::vector<std::string> kNoseTip = {"ibug68_30", "pronasale"};
+// Eye corners alone spread less than this about their line.
+constexpr double kWellSpread = 0.2;
+
+Points rows_of(const Points& all, const std::vector<int>& rows) {
+  Points some(Eigen::Index(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) some.row(Eigen::Index(i)) = all.row(rows[i]);
+  return some;
+}
+
 std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::string>& stated) {
   std::vector<int> indices;
   for (const auto& name : stated.empty() ? default_rigid_points() : stated) {
@@ -26,6 +37,10 @@ std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::stri
     else if (!stated.empty())
       refuse(motion, "there is no point " + name + ", which was named as moving with the skull");
   }
+  const Points first = rows_of(motion.positions[0], indices);
+  if (stated.empty() && !(first.allFinite() && spread_off_line(first) > kWellSpread))
+    for (const auto& name : kNoseTip)
+      if (const int index = motion.index_of(name); index >= 0) indices.push_back(index);
   if (indices.size() < 3)
     refuse(motion, fmt::format("head pose needs three points that move with the skull (eye "
                                "corners, nose); the motion has {}",
@@ -95,9 +110,9 @@ Eigen::VectorXd weights_of(const Pairs& pairs, const Eigen::VectorXd& weights) {
 
 const std::vector<std::string>& default_rigid_points() {
   static const std::vector<std::string> names = {
-      "ibug68_36",      "ibug68_39",      "ibug68_42", "ibug68_45",     "ibug68_27",
-      "ibug68_28",      "ibug68_29",      "ibug68_30", "exocanthion_R", "exocanthion_L",
-      "endocanthion_R", "endocanthion_L", "nasion",    "pronasale"};
+      "ibug68_36",     "ibug68_39",      "ibug68_42",      "ibug68_45", "ibug68_27",
+      "ibug68_28",     "ibug68_29",      "ibug68_0",       "ibug68_16", "exocanthion_R",
+      "exocanthion_L", "endocanthion_R", "endocanthion_L", "nasion"};
   return names;
 }
 

@@ -24,7 +24,9 @@ struct StabilisedMotion {
   std::vector<double> rms_residual_m;     ///< per sample, weighted, over the rigid points
 };
 
-/// Eye corners and the bridge and tip of the nose, by iBUG-68 and anatomical name.
+/// Eye corners, the bridge of the nose and the outline of the face beside the eyes (which gives the
+/// pose an arm in depth), by iBUG-68 and anatomical name. The tip of the nose is added where a
+/// motion's own of these lie close to a line, as eye corners alone do.
 const std::vector<std::string>& default_rigid_points();
 
 /// Per sample k the rigid transform head_pose[k] (Kabsch, no scale) that carries the rigid points

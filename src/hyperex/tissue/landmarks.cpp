@@ -74,6 +74,15 @@ std::vector<std::string> exchange_problems(const Known& known) {
   std::vector<std::string> problems;
   const double before = misfit(known.canonical, known.given);
   if (before < kExchangedRms_m) return problems;
+  Points all_turned = known.given;
+  for (std::size_t i = 0; i < known.names.size(); ++i) {
+    const auto other =
+        std::find(known.names.begin(), known.names.end(), mirrored_landmark(known.names[i]));
+    if (other != known.names.end())
+      all_turned.row(Eigen::Index(i)) = known.given.row(other - known.names.begin());
+  }
+  if (misfit(known.canonical, all_turned) < kExchangedShare * before)
+    return {"left and right are exchanged in all landmarks: L and R are the subject's own sides"};
   for (std::size_t i = 0; i < known.names.size(); ++i) {
     const auto other =
         std::find(known.names.begin(), known.names.end(), mirrored_landmark(known.names[i]));
@@ -162,12 +171,12 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
                     missing.size(), *missing.begin(), known.names.size()));
   if (enough && problems.empty()) {
     problems = exchange_problems(known);
-    if (problems.empty()) problems = slip_problems(known);
     if (problems.empty() && !looks_outwards(known, scan, tree))
       problems.push_back(
           "by these landmarks the face looks into the scan: left and right are "
           "exchanged (L and R are the subject's own sides), or the scan's "
           "triangles are inside out");
+    if (problems.empty()) problems = slip_problems(known);
   }
   if (!problems.empty()) refuse_all(source, problems);
 

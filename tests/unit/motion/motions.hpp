@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Made-up motions, and how a refusal is looked at.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/motion/motion.hpp"
+
+namespace hyperex::motion::testing {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// `work` throws an InputError of one line that holds every one of `parts`.
+inline void expect_refused(const std::function<void()>& work,
+                           const std::vector<std::string>& parts) {
+  try {
+    work();
+    FAIL() << "was not refused";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    for (const auto& part : parts) EXPECT_THAT(text, ::testing::HasSubstr(part));
+  }
+}
+
+/// `samples` samples `step_s` apart of points whose coordinates are `at(t, point, axis)`.
+inline Motion sampled(int samples, double step_s, const std::vector<std::string>& names,
+                      const std::function<double(double, int, int)>& at) {
+  Motion motion;
+  motion.names = names;
+  for (int k = 0; k < samples; ++k) {
+    Points sample(Eigen::Index(names.size()), 3);
+    for (int p = 0; p < sample.rows(); ++p)
+      for (int axis = 0; axis < 3; ++axis) sample(p, axis) = at(k * step_s, p, axis);
+    motion.time_s.push_back(k * step_s);
+    motion.positions.push_back(sample);
+  }
+  return motion;
+}
+
+/// Where real recordings are, or empty.
+inline std::filesystem::path recording(const std::string& name) {
+  const auto folder = std::filesystem::path(HYPEREX_SHARED_DIR) / "data/rgbd" / name;
+  return std::filesystem::exists(folder) ? folder : std::filesystem::path();
+}
+
+}  // namespace hyperex::motion::testing
