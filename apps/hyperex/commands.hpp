@@ -7,7 +7,10 @@
 
 namespace hyperex::cli {
 
+void add_check(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_mesh(CLI::App& program);
+void add_run(CLI::App& program);
 void add_scene_reference(CLI::App& program);
 void add_symmetry(CLI::App& program);
 

@@ -27,8 +27,12 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", "hyperex " HYPEREX_VERSION);
   program.require_subcommand(1);
   program.footer("hyperex SUBCOMMAND --help tells more, with an example.");
+  hyperex::cli::add_run(program);
+  hyperex::cli::add_check(program);
+  hyperex::cli::add_mesh(program);
   hyperex::cli::add_compare(program);
   hyperex::cli::add_symmetry(program);
+  hyperex::cli::add_scene_reference(program);
   try {
     program.parse(argc, argv);
     return 0;

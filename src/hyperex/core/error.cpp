@@ -18,7 +18,10 @@ std::string InputProblem::sentence() const {
 namespace {
 std::string join(const std::vector<InputProblem>& problems) {
   std::string text;
-  for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem.sentence();
+  for (const auto& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += problem.sentence();
+  }
   return text;
 }
 }  // namespace
@@ -28,5 +31,7 @@ InputError::InputError(const std::vector<InputProblem>& problems)
     : std::runtime_error(join(problems)) {}
 InputError::InputError(const std::filesystem::path& file, const std::string& message)
     : std::runtime_error(file.string() + ": " + message) {}
+
+InputError::InputError(const std::string& sentences) : std::runtime_error(sentences) {}
 
 }  // namespace hyperex

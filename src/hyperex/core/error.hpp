@@ -28,6 +28,8 @@ class InputError : public std::runtime_error {
   explicit InputError(const InputProblem& problem);
   explicit InputError(const std::vector<InputProblem>& problems);
   InputError(const std::filesystem::path& file, const std::string& message);
+  /// Sentences that are complete already, a line each.
+  explicit InputError(const std::string& sentences);
 };
 
 /// The input was sound, but a computation failed (no positive pivot, no convergence).

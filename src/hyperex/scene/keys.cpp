@@ -14,7 +14,7 @@ namespace {
 
 using io::LengthUnit;
 using MaybeUnit = std::optional<LengthUnit>;
-const Unit none{""}, millimetres{"mm", 1, 1000}, seconds{"s"};
+const Unit none{""}, millimetres{"mm", 1, 1000}, seconds{"s"}, stiffness{"kPa/mm", 1000000, 1};
 
 std::vector<std::pair<std::string, MaybeUnit>> units_or(const std::string& otherwise) {
   return {{"mm", LengthUnit::millimetre},
@@ -84,9 +84,9 @@ std::vector<Key> model_keys() {
       number<Scene>("mesh.thickness_mm", millimetres, AT(mesh.thickness_m), {1, 40, false, true},
                     "Thickness of the soft tissue, the same everywhere. 0: from published depths "
                     "at landmarks, interpolated."),
-      choice<Scene, CutLips>(
+      choice<Scene, LipCut>(
           "mesh.cut_lips", AT(mesh.cut_lips),
-          {{"auto", CutLips::automatic}, {"always", CutLips::always}, {"never", CutLips::never}},
+          {{"auto", LipCut::automatic}, {"always", LipCut::always}, {"never", LipCut::never}},
           "Whether the scan is cut between the lips: \"auto\" cuts where they are joined."),
       number<Scene>("mesh.trim_border_mm", millimetres, AT(mesh.trim_border_m), {0, 50},
                     "Takes off a strip of this width along the scan's outer border."),
@@ -112,17 +112,32 @@ std::vector<Key> model_keys() {
           "isotropic."),
       choice<Scene, Element>("tissue.element", AT(tissue.element), {{"tet4", Element::tet4}},
                              "The finite element: linear tetrahedra."),
-      choice<Scene, Hold>("support.border", AT(support.border),
-                          {{"held", Hold::held}, {"free", Hold::free}},
-                          "The tissue's outer border."),
-      choice<Scene, Hold>("support.skull", AT(support.skull),
-                          {{"held", Hold::held}, {"free", Hold::free}},
-                          "The inner surface over the skull."),
+      choice<Scene, bool>("support.border", AT(support.border_held),
+                          {{"held", true}, {"free", false}},
+                          "The tissue's outer border, from the skin to the inner surface."),
+      choice<Scene, Hold>(
+          "support.skull", AT(support.skull),
+          {{"sliding", Hold::sliding}, {"held", Hold::held}, {"free", Hold::free}},
+          "The inner surface over the skull: slides on it on a loose layer, is held, or is free."),
+      number<Scene>(
+          "support.skull_across_kpa_per_mm", stiffness, AT(support.skull_layer.across_pa_per_m),
+          {0, 1e6},
+          "Stiffness of the loose layer over the skull across it: pressure that parts the "
+          "tissue from the bone by a millimetre."),
+      number<Scene>("support.skull_along_kpa_per_mm", stiffness,
+                    AT(support.skull_layer.along_pa_per_m), {0, 1e6},
+                    "The same along it: shear that lets the tissue slide by a millimetre."),
       choice<Scene, Mandible>(
           "support.mandible", AT(support.mandible),
           {{"follow", Mandible::follow}, {"held", Mandible::held}, {"free", Mandible::free}},
           "The inner surface over the mandible: follows the jaw as a rigid "
           "bone, is held, or is free."),
+      number<Scene>("support.mandible_across_kpa_per_mm", stiffness,
+                    AT(support.mandible_layer.across_pa_per_m), {0, 1e6},
+                    "As support.skull_across_kpa_per_mm, over the mandible that is followed."),
+      number<Scene>("support.mandible_along_kpa_per_mm", stiffness,
+                    AT(support.mandible_layer.along_pa_per_m), {0, 1e6},
+                    "As support.skull_along_kpa_per_mm, over the mandible that is followed."),
       names<Scene>("support.jaw_points", AT(support.jaw_points), 0,
                    "Points whose motion turns the jaw. Empty: those of the chin that the recording "
                    "has."),

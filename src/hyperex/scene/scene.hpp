@@ -12,6 +12,9 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/reenact/alignment.hpp"
+#include "hyperex/reenact/simulation.hpp"
+#include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::scene {
 
@@ -36,12 +39,12 @@ struct MotionOptions {
   double gain = 1;                        ///< on all displacements, 0 to 5
 };
 
-enum class AlignmentMethod { nonrigid, similarity, normalised };
+using reenact::AlignmentMethod;
 struct AlignmentOptions {
   AlignmentMethod method = AlignmentMethod::nonrigid;
 };
 
-enum class Measured { none, all, points };
+using reenact::Measured;
 struct RegionOptions {
   Measured measured = Measured::none;
   std::vector<std::string> measured_points;  ///< at least one where measured is `points`
@@ -49,16 +52,16 @@ struct RegionOptions {
   double blend_m = 0.005;                    ///< 0 to 100 mm
 };
 
-enum class CutLips { automatic, always, never };
+using tissue::LipCut;
 struct ThicknessPoint {
   std::string landmark;
   double thickness_m = 0.01;  ///< 1 to 40 mm
 };
 struct MeshOptions {
-  double element_size_m = 0.005;  ///< 1 to 30 mm
-  int layers = 2;                 ///< 1 to 8
-  double thickness_m = 0;         ///< 0: published depths, else the same everywhere (1 to 40 mm)
-  CutLips cut_lips = CutLips::automatic;
+  double element_size_m = 0.0037;  ///< 1 to 30 mm
+  int layers = 2;                  ///< 1 to 8
+  double thickness_m = 0;          ///< 0: published depths, else the same everywhere (1 to 40 mm)
+  LipCut cut_lips = LipCut::automatic;
   double trim_border_m = 0;                      ///< 0 to 50 mm
   std::vector<ThicknessPoint> thickness_points;  ///< empty unless thickness_m is 0
 };
@@ -73,12 +76,15 @@ struct TissueOptions {
   Element element = Element::tet4;
 };
 
-enum class Hold { held, free };
-enum class Mandible { follow, held, free };
+using reenact::BoneLayer;
+using reenact::Hold;
+using reenact::Mandible;
 struct SupportOptions {
-  Hold border = Hold::held;
-  Hold skull = Hold::held;
+  bool border_held = true;
+  Hold skull = Hold::sliding;
+  BoneLayer skull_layer{1e7, 1e7};  ///< where the skull is sliding; each 0 to 1e12 Pa/m
   Mandible mandible = Mandible::follow;
+  BoneLayer mandible_layer{3e7, 1e7};   ///< where the mandible is followed
   std::vector<std::string> jaw_points;  ///< empty: chosen automatically
 };
 
@@ -86,7 +92,7 @@ struct DriveOptions {
   bool all_points = false;  ///< every point of the motion; `points` is then empty
   std::vector<std::string> points = {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57",
                                      "ibug68_8",  "ibug68_58", "ibug68_56"};
-  double patch_radius_m = 0.004;          ///< 0 to 30 mm
+  double patch_radius_m = 0.008;          ///< 0 to 30 mm
   std::vector<std::string> still_points;  ///< held still on the skin
 };
 

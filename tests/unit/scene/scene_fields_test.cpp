@@ -53,7 +53,11 @@ element = "tet4"
 [support]
 border = "free"
 skull = "held"
+skull_across_kpa_per_mm = 51
+skull_along_kpa_per_mm = 52
 mandible = "free"
+mandible_across_kpa_per_mm = 53
+mandible_along_kpa_per_mm = 54
 jaw_points = ["j1"]
 [drive]
 points = ["d1", "d2"]
@@ -90,7 +94,7 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.mesh.element_size_m, 0.0035);
   EXPECT_EQ(s.mesh.layers, 6);
   EXPECT_EQ(s.mesh.thickness_m, 0);
-  EXPECT_EQ(s.mesh.cut_lips, CutLips::never);
+  EXPECT_EQ(s.mesh.cut_lips, LipCut::never);
   EXPECT_EQ(s.mesh.trim_border_m, 0.037);
   ASSERT_EQ(s.mesh.thickness_points.size(), 2u);
   EXPECT_EQ(s.mesh.thickness_points[0].landmark, "gonion_L");
@@ -103,9 +107,13 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.tissue.density_kg_m3, 941);
   EXPECT_EQ(s.tissue.viscous_form, fem::ViscousForm::printed);
   EXPECT_EQ(s.tissue.element, Element::tet4);
-  EXPECT_EQ(s.support.border, Hold::free);
+  EXPECT_FALSE(s.support.border_held);
   EXPECT_EQ(s.support.skull, Hold::held);
+  EXPECT_EQ(s.support.skull_layer.across_pa_per_m, 51e6);
+  EXPECT_EQ(s.support.skull_layer.along_pa_per_m, 52e6);
   EXPECT_EQ(s.support.mandible, Mandible::free);
+  EXPECT_EQ(s.support.mandible_layer.across_pa_per_m, 53e6);
+  EXPECT_EQ(s.support.mandible_layer.along_pa_per_m, 54e6);
   EXPECT_THAT(s.support.jaw_points, ElementsAre("j1"));
   EXPECT_FALSE(s.drive.all_points);
   EXPECT_THAT(s.drive.points, ElementsAre("d1", "d2"));
@@ -127,7 +135,7 @@ TEST(SceneFields, FlagsHoldsAndThicknessAreNotMixedUp) {
   const auto file = folder.write("scene.toml", smallest);
   EXPECT_EQ(read_scene(file, {"mesh.thickness_mm=7.5"}).mesh.thickness_m, 0.0075);
   EXPECT_EQ(read_scene(file, {"support.skull=free"}).support.skull, Hold::free);
-  EXPECT_EQ(read_scene(file, {"support.skull=free"}).support.border, Hold::held);
+  EXPECT_TRUE(read_scene(file, {"support.skull=free"}).support.border_held);
   EXPECT_FALSE(read_scene(file, {"output.glb=false"}).output.glb);
   EXPECT_TRUE(read_scene(file, {"output.glb=false"}).output.vtu);
 }
@@ -146,10 +154,10 @@ TEST(SceneFields, EachWordMeansItsValue) {
   EXPECT_EQ(with("alignment.method=normalised").alignment.method, AlignmentMethod::normalised);
   EXPECT_EQ(with("region.measured=none").region.measured, Measured::none);
   EXPECT_EQ(with("region.measured=all").region.measured, Measured::all);
-  EXPECT_EQ(with("mesh.cut_lips=auto").mesh.cut_lips, CutLips::automatic);
-  EXPECT_EQ(with("mesh.cut_lips=always").mesh.cut_lips, CutLips::always);
+  EXPECT_EQ(with("mesh.cut_lips=auto").mesh.cut_lips, LipCut::automatic);
+  EXPECT_EQ(with("mesh.cut_lips=always").mesh.cut_lips, LipCut::always);
   EXPECT_EQ(with("tissue.viscous_form=isotropic").tissue.viscous_form, fem::ViscousForm::isotropic);
-  EXPECT_EQ(with("support.border=held").support.border, Hold::held);
+  EXPECT_TRUE(with("support.border=held").support.border_held);
   EXPECT_EQ(with("support.mandible=follow").support.mandible, Mandible::follow);
   EXPECT_EQ(with("support.mandible=held").support.mandible, Mandible::held);
   const Scene all = with("drive.points=all");

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "hyperex/scene/pipeline.hpp"
+
+namespace hyperex::cli {
+
+void add_check(CLI::App& program) {
+  struct Options {
+    std::filesystem::path scene;
+    std::vector<std::string> overrides;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "check", "Read all that a scene names and report every problem; simulate nothing");
+  command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
+  command->add_option("--set", options->overrides, "Override a key of the scene: KEY=VALUE")
+      ->allow_extra_args(false);
+  command->footer("Example: hyperex check examples/demo.toml");
+  command->callback([options] {
+    for (const auto& note :
+         scene::check_scene(scene::read_scene(options->scene, options->overrides)))
+      std::cout << note << '\n';
+    std::cout << options->scene.string() << ": no problems found\n";
+  });
+}
+
+}  // namespace hyperex::cli

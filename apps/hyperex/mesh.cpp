@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "commands.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/io/vtu.hpp"
+#include "hyperex/scene/inputs.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/tissue/landmarks.hpp"
+#include "hyperex/tissue/tissue_mesh.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path scan, landmarks, out;
+  std::string unit;
+  double element_size_mm = 3.7, thickness_mm = 0, trim_border_mm = 0;
+  int layers = 2;
+};
+
+/// NAME_landmarks.json or NAME.mrk.json beside NAME.ply.
+std::filesystem::path landmarks_beside(const std::filesystem::path& scan) {
+  const auto stem = scan.stem().string();
+  for (const std::string& name : {stem + "_landmarks.json", stem + ".mrk.json"})
+    if (const auto file = scan.parent_path() / name; std::filesystem::exists(file)) return file;
+  throw InputError(
+      scan,
+      fmt::format("has no landmarks beside it ({0}_landmarks.json or {0}.mrk.json); give them "
+                  "with --landmarks",
+                  stem));
+}
+
+void print(const tissue::TissueMesh& mesh, const std::filesystem::path& out) {
+  const auto& q = mesh.quality;
+  for (const auto& note : mesh.notes) std::cout << note << '\n';
+  std::cout << fmt::format(
+      "{} nodes, {} tetrahedra, {:.1f} cm^3\n"
+      "volume of a tetrahedron: least {:.3f} mm^3, mean {:.2f} mm^3\n"
+      "dihedral angles: {:.1f} to {:.1f} degrees; worst radius ratio {:.4f}\n"
+      "least dihedral angle of a tetrahedron:",
+      mesh.volume.nodes.rows(), mesh.volume.tets.rows(), q.total_volume_mm3 / 1000,
+      q.least_volume_mm3, q.mean_volume_mm3, q.least_dihedral_deg, q.greatest_dihedral_deg,
+      q.worst_radius_ratio);
+  for (std::size_t b = 0; b < q.least_dihedral_shares.size(); ++b)
+    std::cout << fmt::format("  {:g}-{:g} deg {:.1f} %", tissue::dihedral_bounds_deg[b],
+                             tissue::dihedral_bounds_deg[b + 1], 100 * q.least_dihedral_shares[b]);
+  std::cout << fmt::format(
+      "\nscan to the outer surface: mean {:.3f} mm, greatest {:.2f} mm\nwritten to {}\n",
+      mesh.mean_distance_mm, mesh.max_distance_mm, out.string());
+}
+
+void run(const Options& options) {
+  const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
+  const io::Scan scan = io::read_scan(options.scan, unit);
+  const auto file = options.landmarks.empty() ? landmarks_beside(options.scan) : options.landmarks;
+  const auto landmarks = tissue::complete_landmarks(
+      io::read_landmarks(file), scene::needed_landmarks(), scan.mesh, file.string());
+  tissue::TissueMeshOptions mesh_options;
+  mesh_options.element_size_m = options.element_size_mm * 1e-3;
+  mesh_options.layers = options.layers;
+  mesh_options.thickness_m = options.thickness_mm * 1e-3;
+  mesh_options.trim_border_m = options.trim_border_mm * 1e-3;
+  tissue::TissueMesh mesh;
+  {
+    Progress progress("meshing the soft tissue", 0);
+    mesh = tissue::build_tissue_mesh(scan.mesh, landmarks.landmarks, mesh_options,
+                                     options.scan.string());
+  }
+  Eigen::VectorXf thickness(mesh.volume.nodes.rows());
+  for (int level = 0; level <= mesh.volume.layers; ++level)
+    thickness.segment(level * mesh.volume.surface_nodes(), mesh.volume.surface_nodes()) =
+        1e3F * mesh.volume.thickness_m.cast<float>();
+  io::write_vtu(options.out, mesh.volume.nodes, mesh.volume.tets, {{"thickness (mm)", thickness}});
+  print(mesh, options.out);
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("mesh", "Make the soft-tissue volume under a scan, with its quality");
+  command->add_option("SCAN", options->scan, "PLY, OBJ, STL, glTF or GLB")->required();
+  command->add_option("--out", options->out, "Where to write it (.vtu)")->required();
+  command->add_option(
+      "--landmarks", options->landmarks,
+      "Landmarks on the scan (default: SCAN_landmarks.json or SCAN.mrk.json beside it)");
+  command->add_option("--unit", options->unit, "Unit of the scan")
+      ->check(CLI::IsMember({"mm", "cm", "m"}));
+  command
+      ->add_option("--element-size-mm", options->element_size_mm, "Edge length at the mouth (mm)")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 30.0));
+  command->add_option("--layers", options->layers, "Layers of elements")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 8));
+  command
+      ->add_option("--thickness-mm", options->thickness_mm,
+                   "Thickness everywhere (mm); 0: published depths")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 40.0));
+  command
+      ->add_option("--trim-border-mm", options->trim_border_mm, "Taken off the outer border (mm)")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 50.0));
+  command->footer(
+      "Example: hyperex mesh scan.ply --landmarks scan_landmarks.json --out tissue.vtu");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hyperex::cli

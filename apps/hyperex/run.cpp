@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "hyperex/scene/pipeline.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path scene, out;
+  std::vector<std::string> overrides;
+};
+
+void run(const Options& options) {
+  const auto summary =
+      scene::run_scene(scene::read_scene(options.scene, options.overrides), options.out);
+  std::cout << fmt::format(
+      "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
+      "written to {}:\n"
+      "  report.html        open it in a browser\n"
+      "  contact_sheet.png  the face at a glance\n"
+      "  performance.glb    Blender, three.js\n"
+      "  frames.pvd         ParaView\n"
+      "  skin_peak.ply, motion.csv, symmetry.csv, summary.json\n",
+      summary["frames"].get<int>(), summary["steps"].get<int>(),
+      summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
+      summary["seconds"]["total"].get<double>(), options.out.string());
+}
+
+}  // namespace
+
+void add_run(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("run", "Re-enact a recorded expression on a scanned face");
+  command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
+  command
+      ->add_option("--out", options->out, "Folder for the outputs; appears complete or not at all")
+      ->required();
+  command
+      ->add_option("--set", options->overrides,
+                   "Override a key of the scene: KEY=VALUE, as often as needed")
+      ->allow_extra_args(false);
+  command->footer(
+      "Example: hyperex run examples/demo.toml --out out/demo --set tissue.young_kpa=300");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hyperex::cli

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/motion/fill_gaps.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/stabilise.hpp"
+#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/tissue/landmarks.hpp"
+
+namespace hyperex::scene {
+namespace {
+
+/// Runs steps that may throw InputError and keeps what they say, so that problems of independent
+/// inputs are told together.
+class Problems {
+ public:
+  template <class Step>
+  void attempt(Step step) {
+    try {
+      step();
+    } catch (const InputError& e) {
+      text_ += (text_.empty() ? "" : "\n") + std::string(e.what());
+    }
+  }
+  void throw_if_any() const {
+    if (!text_.empty()) throw InputError(text_);
+  }
+
+ private:
+  std::string text_;
+};
+
+void read_scan(const Scene& scene, Inputs& in) {
+  if (scene.scan.source.embedded) {
+    in.scan.file = "embedded face";
+    in.scan.mesh = tissue::embedded_face().mesh;
+    return;
+  }
+  in.scan = io::read_scan(scene.scan.source.file, scene.scan.unit);
+  if (in.scan.unit_guessed)
+    in.notes.push_back(fmt::format(
+        "the scan's unit was guessed: {} (the face is {:.0f} cm across); state it with "
+        "scan.unit",
+        io::name_of(in.scan.unit), 100 * [&] {
+          const auto& p = in.scan.mesh.points;
+          Vec3 e = p.colwise().maxCoeff() - p.colwise().minCoeff();
+          std::sort(e.data(), e.data() + 3);
+          return e[1];
+        }()));
+}
+
+void complete(const Scene& scene, const io::Landmarks& given, Inputs& in) {
+  const std::string source =
+      scene.scan.source.embedded ? "embedded face" : scene.scan.landmarks.string();
+  auto completed = tissue::complete_landmarks(given, needed_landmarks(), in.scan.mesh, source);
+  in.landmarks = std::move(completed.landmarks);
+  in.placed = std::move(completed.placed);
+  if (!in.placed.empty())
+    in.notes.push_back(
+        fmt::format("{} of {} landmarks were not given and were placed by fitting the canonical "
+                    "face to the {} given ones and the scan",
+                    in.placed.size(), in.landmarks.size(), given.size()));
+}
+
+motion::Motion read_motion(const Scene& scene, Inputs& in) {
+  auto m = motion::read_motion(scene.motion.source.file, scene.motion.unit);
+  if (!m.unit_note.empty()) in.notes.push_back("motion: " + m.unit_note);
+  return m;
+}
+
+motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Inputs& in) {
+  motion::GapOptions gaps;
+  gaps.max_gap_s = scene.motion.max_gap_s;
+  const motion::FilledMotion filled = motion::fill_gaps(m, gaps);
+  if (!filled.gaps.empty())
+    in.notes.push_back(
+        fmt::format("{} gaps of the recording were interpolated, the first of {} at {:.3f} s",
+                    filled.gaps.size(), filled.gaps.front().point, filled.gaps.front().from_s));
+  motion::StabiliseOptions options;
+  options.rigid_points = scene.motion.rigid_points;
+  auto steady = motion::stabilise(filled.motion, options);
+  const auto& rms = steady.rms_residual_m;
+  in.rigid_rms_mm = 1e3 * std::accumulate(rms.begin(), rms.end(), 0.0) / double(rms.size());
+  return steady;
+}
+
+void check_names(const Scene& scene, const Inputs& in) {
+  const auto check = [&](const std::vector<std::string>& names, const char* key, bool in_motion) {
+    std::vector<InputProblem> problems;
+    for (const auto& name : names)
+      if (in_motion ? in.motion.motion.index_of(name) < 0 : !in.landmarks.count(name))
+        problems.push_back(problem_at(
+            scene, key,
+            fmt::format("names of {} ({} is none)",
+                        in_motion ? "points in the recording" : "landmarks of the scan", name)));
+    return problems;
+  };
+  std::vector<InputProblem> all;
+  const auto add = [&](std::vector<InputProblem> more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  add(check(in.driven, "drive.points", true));
+  add(check(scene.support.jaw_points, "support.jaw_points", true));
+  add(check(scene.region.measured_points, "region.measured_points", true));
+  add(check(scene.drive.still_points, "drive.still_points", false));
+  std::vector<std::string> thick;
+  for (const auto& p : scene.mesh.thickness_points) thick.push_back(p.landmark);
+  add(check(thick, "mesh.thickness_point", false));
+  if (!all.empty()) throw InputError(all);
+}
+
+}  // namespace
+
+std::vector<std::string> needed_landmarks() {
+  std::vector<std::string> names;
+  for (const auto& entry : tissue::canonical_face().landmarks) names.push_back(entry.first);
+  return names;
+}
+
+Inputs read_inputs(const Scene& scene) {
+  Inputs in;
+  Problems problems;
+  io::Landmarks given;
+  std::optional<motion::StabilisedMotion> steadied;
+  bool scan_read = false;
+  problems.attempt([&] {
+    read_scan(scene, in);
+    scan_read = true;
+  });
+  problems.attempt([&] {
+    given = scene.scan.landmarks.empty()
+                ? tissue::embedded_face().landmarks
+                : io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);
+  });
+  if (!scene.motion.source.embedded)
+    problems.attempt([&] { steadied = steady(scene, read_motion(scene, in), in); });
+  if (scan_read && !given.empty()) problems.attempt([&] { complete(scene, given, in); });
+  if (scene.motion.source.embedded && !in.landmarks.empty())
+    problems.attempt([&] {
+      auto opening = motion::embedded_mouth_opening(in.landmarks);
+      opening.source = "embedded motion";
+      steadied = steady(scene, opening, in);
+    });
+  problems.throw_if_any();
+  in.motion = reenact::align(steadied->motion, in.landmarks, scene.alignment.method);
+  in.notes.push_back(fmt::format(
+      "aligned by {} common points, scale {:.3f}, {:.1f} mm rms apart before the smooth "
+      "correction",
+      in.motion.common.size(), in.motion.scan_from_motion.scale, in.motion.rms_mm));
+  in.driven = scene.drive.all_points ? in.motion.motion.names : scene.drive.points;
+  check_names(scene, in);
+  return in;
+}
+
+}  // namespace hyperex::scene

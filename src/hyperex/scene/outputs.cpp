@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hyperex/core/progress.hpp"
+#include "hyperex/fem/form/system.hpp"
+#include "hyperex/io/vtu.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/render/camera.hpp"
+#include "hyperex/render/canvas.hpp"
+#include "hyperex/render/contact_sheet.hpp"
+#include "hyperex/render/render.hpp"
+#include "hyperex/report/displacement_modes.hpp"
+#include "hyperex/report/glb.hpp"
+#include "hyperex/report/html_report.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+
+namespace hyperex::scene {
+namespace {
+using reenact::Performance;
+
+Points moved(const Performance& p, const PointsF& displacement) {
+  return p.skin_rest.points + displacement.cast<double>();
+}
+
+/// The skin at the peak in the scan's unit; its own vertices first, in their order.
+void write_peak(const Results& r, const std::filesystem::path& directory) {
+  const Performance& p = r.simulation.performance;
+  const PointsF& d = p.skin_displacement_m[p.peak_frame];
+  io::write_ply(directory / "skin_peak.ply", {moved(p, d), p.skin_rest.triangles},
+                r.inputs.scan.unit, {{"displacement_mm", 1e3F * d.rowwise().norm()}});
+}
+
+/// Strain as ParaView's tensor: xx yy zz xy yz xz, its own shear half the engineering one.
+io::VtuArray strain_array(const Points& nodes, const Tetrahedra& tets, const Points& d) {
+  const auto strain = fem::element_strain(nodes, tets, d);
+  io::VtuArray array{"strain (1)", {}};
+  array.values.resize(strain.rows(), 6);
+  for (Eigen::Index t = 0; t < strain.rows(); ++t) {
+    const auto e = strain.row(t).cast<float>().eval();
+    array.values.row(t) << e[0], e[1], e[2], e[3] / 2, e[4] / 2, e[5] / 2;
+  }
+  return array;
+}
+
+void write_frames(const Results& r, const std::filesystem::path& directory) {
+  const Performance& p = r.simulation.performance;
+  if (p.nodes.rows() == 0) return;
+  fem::Material material;
+  const auto count = static_cast<std::size_t>(p.tets.rows());
+  material.young_pa.assign(p.tet_young_pa.begin(), p.tet_young_pa.end());
+  material.viscosity_pa_s.assign(p.tet_viscosity_pa_s.begin(), p.tet_viscosity_pa_s.end());
+  material.poisson.assign(count, r.scene.tissue.poisson);
+  material.density_kg_m3.assign(count, r.scene.tissue.density_kg_m3);
+  std::filesystem::create_directory(directory / "frames");
+  std::vector<std::pair<double, std::filesystem::path>> frames;
+  Progress progress("writing frames for ParaView", static_cast<long>(p.frame_time_s.size()));
+  for (std::size_t f = 0; f < p.frame_time_s.size(); ++f) {
+    const Points d = p.node_displacement_m[f].cast<double>();
+    const auto file = directory / "frames" / fmt::format("frame_{:04}.vtu", f);
+    io::write_vtu(
+        file, p.nodes, p.tets, {{"displacement (m)", d.cast<float>()}},
+        {strain_array(p.nodes, p.tets, d),
+         {"von Mises stress (Pa)", fem::von_mises_pa(p.nodes, p.tets, material, d).cast<float>()}});
+    frames.emplace_back(p.frame_time_s[f], file);
+    progress.update(static_cast<long>(f + 1));
+  }
+  io::write_pvd(directory / "frames.pvd", frames);
+}
+
+double longest_mm(const PointsF& d) {
+  return 1e3 * double(d.rowwise().norm().maxCoeff());
+}
+
+std::vector<render::Marker> markers(const Performance& p, const tissue::FaceFrame& frame) {
+  std::vector<render::Marker> list;
+  for (Eigen::Index i = 0; i < p.driven_points_rest.rows(); ++i)
+    list.push_back({frame.local(p.driven_points_rest.row(i)), render::palette::driven, 3.5});
+  return list;
+}
+
+}  // namespace
+
+void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
+  const Performance& p = r.simulation.performance;
+  const auto& stills = r.simulation.still_displacement_m;
+  const tissue::FaceFrame frame = tissue::face_frame(r.inputs.landmarks);
+  const auto in_face_frame = [&](const Points& points) {
+    Points out(points.rows(), 3);
+    for (Eigen::Index v = 0; v < points.rows(); ++v)
+      out.row(v) = frame.local(points.row(v)).transpose();
+    return out;
+  };
+  double top = 1;
+  for (const auto& d : stills) top = std::max(top, longest_mm(d));
+  const Points rest = in_face_frame(p.skin_rest.points);
+  Points framed(r.inputs.landmarks.size(), 3);
+  Eigen::Index i = 0;
+  for (const auto& entry : r.inputs.landmarks)
+    framed.row(i++) = frame.local(entry.second).transpose();
+
+  render::RenderOptions options;
+  options.width_px = 260;
+  options.height_px = 350;
+  render::ContactSheet sheet;
+  sheet.title = r.scene.title.empty() ? r.inputs.scan.file.filename().string() : r.scene.title;
+  sheet.note = "displacement of the skin; red: driven points";
+  if (p.lip_cut_rest.rows() > 0) sheet.note += "; orange: where the joined lips were cut";
+  sheet.columns = static_cast<int>(stills.size()) + 1;
+  sheet.bar = render::ColourBar{{0, top}, "displacement (mm)"};
+  for (const Vec3& view : {render::front_view(), render::three_quarter_view()}) {
+    const render::Camera camera = render::framing(
+        framed, view, double(options.width_px) / options.height_px, Vec3::UnitY(), 0.16);
+    const TriMesh still{rest, p.skin_rest.triangles};
+    std::vector<render::Polyline> lines;
+    if (p.lip_cut_rest.rows() > 0) lines.push_back({in_face_frame(p.lip_cut_rest)});
+    sheet.pictures.push_back(
+        {render::render({{.mesh = still}}, camera, options, markers(p, frame), lines), "rest"});
+    for (std::size_t s = 0; s < stills.size(); ++s) {
+      const TriMesh mesh{in_face_frame(moved(p, stills[s])), p.skin_rest.triangles};
+      const render::Surface surface{
+          .mesh = mesh, .scalar = 1e3F * stills[s].rowwise().norm(), .range = {0, top}};
+      sheet.pictures.push_back({render::render({surface}, camera, options),
+                                fmt::format("{:.2f} s", r.scene.output.contact_times_s[s])});
+    }
+  }
+  render::write_png(file, render::contact_sheet(sheet));
+}
+
+void write_outputs(const Results& r, const std::filesystem::path& directory) {
+  const Performance& p = r.simulation.performance;
+  write_peak(r, directory);
+  motion::write_motion_csv(directory / "motion.csv", p.landmarks);
+  metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
+  if (r.scene.output.vtu) write_frames(r, directory);
+  if (r.scene.output.glb)
+    report::write_glb(directory / "performance.glb", p, r.inputs.scan,
+                      report::displacement_modes(p.skin_displacement_m));
+  Progress progress("drawing the contact sheet", 0);
+  write_contact_sheet(r, directory / "contact_sheet.png");
+}
+
+void write_report(const Results& r, const nlohmann::ordered_json& summary,
+                  const std::filesystem::path& directory) {
+  const Performance& p = r.simulation.performance;
+  const auto modes = report::displacement_modes(p.skin_displacement_m);
+  report::ReportInput input{.performance = p,
+                            .scan = r.inputs.scan,
+                            .modes = modes,
+                            .symmetry = &r.symmetry,
+                            .summary = nlohmann::json(summary),
+                            .notes = r.notes,
+                            .title = r.scene.title};
+  report::write_html_report(directory / "report.html", input);
+}
+
+}  // namespace hyperex::scene

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "hyperex/metrics/symmetry.hpp"
+#include "hyperex/reenact/simulation.hpp"
+#include "hyperex/scene/inputs.hpp"
+
+namespace hyperex::scene {
+
+/// Everything a run computed.
+struct Results {
+  const Scene& scene;
+  const Inputs& inputs;
+  const tissue::TissueMesh& mesh;
+  const reenact::SimulationResult& simulation;
+  metrics::SymmetryCurve symmetry;
+  std::vector<std::string> notes;
+};
+
+/// Writes all files but summary.json and report.html into `directory`.
+void write_outputs(const Results& results, const std::filesystem::path& directory);
+
+/// The page, which shows the summary.
+void write_report(const Results& results, const nlohmann::ordered_json& summary,
+                  const std::filesystem::path& directory);
+
+/// Rest and the still shapes from the front and three-quarter, coloured by displacement.
+void write_contact_sheet(const Results& results, const std::filesystem::path& file);
+
+}  // namespace hyperex::scene

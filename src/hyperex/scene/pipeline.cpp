@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/pipeline.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/scene/inputs.hpp"
+#include "hyperex/scene/outputs.hpp"
+
+namespace hyperex::scene {
+namespace {
+using Json = nlohmann::ordered_json;
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double s = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return s;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& inputs) {
+  reenact::SimulationOptions o;
+  o.tissue = {scene.tissue.young_pa, scene.tissue.poisson, scene.tissue.viscosity_pa_s,
+              scene.tissue.density_kg_m3, scene.tissue.viscous_form};
+  o.support.border_held = scene.support.border_held;
+  o.support.skull = scene.support.skull;
+  o.support.mandible = scene.support.mandible;
+  o.support.skull_layer = scene.support.skull_layer;
+  o.support.mandible_layer = scene.support.mandible_layer;
+  o.support.jaw_points = scene.support.jaw_points;
+  o.drive = {inputs.driven, scene.drive.still_points, scene.drive.patch_radius_m,
+             scene.motion.gain};
+  o.region = {scene.region.measured, scene.region.measured_points, scene.region.measured_radius_m,
+              scene.region.blend_m};
+  o.time = {scene.time.step_s, scene.time.end_s, scene.time.frame_rate_hz,
+            scene.output.contact_times_s};
+  o.peak_time_s = scene.output.peak_time_s;
+  return o;
+}
+
+Json quality_json(const tissue::TissueMesh& mesh) {
+  const tissue::MeshQuality& q = mesh.quality;
+  Json shares = Json::object();
+  for (std::size_t b = 0; b < q.least_dihedral_shares.size(); ++b)
+    shares[fmt::format("{:g} to {:g} deg", tissue::dihedral_bounds_deg[b],
+                       tissue::dihedral_bounds_deg[b + 1])] = q.least_dihedral_shares[b];
+  return {{"least_volume_mm3", q.least_volume_mm3},
+          {"mean_volume_mm3", q.mean_volume_mm3},
+          {"least_dihedral_deg", q.least_dihedral_deg},
+          {"greatest_dihedral_deg", q.greatest_dihedral_deg},
+          {"least_dihedral_share", shares},
+          {"worst_radius_ratio", q.worst_radius_ratio},
+          {"skin_to_scan_mean_mm", mesh.mean_distance_mm},
+          {"skin_to_scan_max_mm", mesh.max_distance_mm}};
+}
+
+double max_displacement_mm(const reenact::Performance& p) {
+  float most = 0;
+  for (const auto& frame : p.skin_displacement_m)
+    if (frame.rows() > 0) most = std::max(most, frame.rowwise().norm().maxCoeff());
+  return 1e3 * double(most);
+}
+
+Json summary_of(const Results& r) {
+  const auto& report = r.simulation.report;
+  const auto& p = r.simulation.performance;
+  Json s;
+  s["program"] = "hyperex";
+  s["version"] = HYPEREX_VERSION;
+  s["title"] = r.scene.title;
+  s["nodes"] = p.nodes.rows();
+  s["tets"] = p.tets.rows();
+  s["free_dofs"] = report.free_dofs;
+  s["skin_vertices"] = p.skin_rest.points.rows();
+  s["steps"] = report.steps;
+  s["dt_s"] = r.scene.time.step_s;
+  s["frames"] = p.frame_time_s.size();
+  s["driven_nodes"] = report.driven_nodes;
+  s["skull_nodes"] = report.skull_nodes;
+  s["mandible_nodes"] = report.mandible_nodes;
+  s["peak_time_s"] = p.frame_time_s[p.peak_frame];
+  s["max_displacement_mm"] = max_displacement_mm(p);
+  s["lip_opening_mm"] = report.lip_gap_mm;
+  s["lip_overlap_mm"] = report.lip_overlap_mm;
+  s["jaw_opening_deg"] = report.greatest_opening_deg;
+  s["inverted_tets"] = report.inverted_tets;
+  s["rigid_points_rms_mm"] = r.inputs.rigid_rms_mm;
+  s["mesh_quality"] = quality_json(r.mesh);
+  return s;
+}
+
+std::vector<std::string> all_notes(const Inputs& inputs, const tissue::TissueMesh& mesh,
+                                   const reenact::SimulationReport& report) {
+  std::vector<std::string> notes = inputs.notes;
+  notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
+  notes.insert(notes.end(), report.notes.begin(), report.notes.end());
+  if (report.lip_overlap_mm > 0.5)
+    notes.push_back(fmt::format(
+        "the lips pass through each other by up to {:.1f} mm: there is no contact in the model",
+        report.lip_overlap_mm));
+  if (report.inverted_tets > 0)
+    notes.push_back(fmt::format(
+        "{} tetrahedra are turned inside out in some frame: the motion is too large for "
+        "linear strain there",
+        report.inverted_tets));
+  return notes;
+}
+
+}  // namespace
+
+tissue::TissueMeshOptions mesh_options(const Scene& scene) {
+  tissue::TissueMeshOptions o;
+  o.element_size_m = scene.mesh.element_size_m;
+  o.layers = scene.mesh.layers;
+  o.thickness_m = scene.mesh.thickness_m;
+  o.cut_lips = scene.mesh.cut_lips;
+  o.trim_border_m = scene.mesh.trim_border_m;
+  if (!scene.mesh.thickness_points.empty()) {
+    o.depths = tissue::published_depths();
+    for (const auto& p : scene.mesh.thickness_points) {
+      std::erase_if(o.depths, [&](const tissue::DepthAt& d) { return d.landmark == p.landmark; });
+      o.depths.push_back({p.landmark, p.thickness_m});
+    }
+  }
+  return o;
+}
+
+std::vector<std::string> check_scene(const Scene& scene) {
+  return read_inputs(scene).notes;
+}
+
+nlohmann::ordered_json run_scene(const Scene& scene, const std::filesystem::path& directory) {
+  OutputDirectory out(directory);
+  Stopwatch total, stage;
+  Json seconds;
+  Inputs inputs;
+  {
+    Progress progress("reading scan and recording", 0);
+    inputs = read_inputs(scene);
+  }
+  seconds["read"] = stage.lap();
+  for (const auto& note : inputs.notes) spdlog::info("{}", note);
+
+  tissue::TissueMesh mesh;
+  {
+    Progress progress("meshing the soft tissue", 0);
+    mesh = tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, mesh_options(scene),
+                                     inputs.scan.file.string());
+  }
+  seconds["mesh"] = stage.lap();
+  for (const auto& note : mesh.notes) spdlog::info("{}", note);
+  spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
+               mesh.volume.tets.rows(), mesh.skin.points.rows());
+
+  const auto simulation =
+      reenact::simulate(mesh, inputs.landmarks, inputs.motion, simulation_options(scene, inputs));
+  stage.lap();
+  seconds["assemble"] = simulation.report.assemble_s;
+  seconds["factor"] = simulation.report.factor_s;
+  seconds["simulate"] = simulation.report.simulate_s;
+
+  Results results{
+      scene,
+      inputs,
+      mesh,
+      simulation,
+      metrics::symmetry_of(simulation.performance.landmarks, scene.output.symmetry_floor),
+      all_notes(inputs, mesh, simulation.report)};
+  Json summary = summary_of(results);
+  write_outputs(results, out.path());
+  seconds["export"] = stage.lap();
+  seconds["total"] = total.lap();
+  summary["seconds"] = seconds;
+  summary["notes"] = results.notes;
+  summary["options"] = options_json(scene);
+  if (scene.output.report) {
+    write_report(results, summary, out.path());
+    seconds["export"] = seconds["export"].get<double>() + stage.lap();
+    seconds["total"] = seconds["total"].get<double>() + total.lap();
+    summary["seconds"] = seconds;
+  }
+  write_file_atomically(out.path() / "summary.json",
+                        [&](std::ostream& stream) { stream << summary.dump(2) << '\n'; });
+  out.commit();
+  return summary;
+}
+
+}  // namespace hyperex::scene

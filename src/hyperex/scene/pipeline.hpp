@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "hyperex/scene/scene.hpp"
+
+namespace hyperex::scene {
+
+/// The whole chain: reads, meshes, simulates, writes everything into `directory`, which appears
+/// complete or not at all. Returns the summary (summary.json). Throws InputError, NumericalError.
+nlohmann::ordered_json run_scene(const Scene& scene, const std::filesystem::path& directory);
+
+/// Reads everything and builds the mesh's inputs, simulates nothing; returns notes for the user.
+/// Throws InputError with every problem found.
+std::vector<std::string> check_scene(const Scene& scene);
+
+/// Mesh options as tissue/ understands them.
+tissue::TissueMeshOptions mesh_options(const Scene& scene);
+
+}  // namespace hyperex::scene
