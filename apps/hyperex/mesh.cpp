@@ -22,7 +22,7 @@ namespace {
 struct Options {
   std::filesystem::path scan, landmarks, out;
   std::string unit;
-  double element_size_mm = 3.7, thickness_mm = 0, trim_border_mm = 0;
+  double element_size_mm = 3.3, thickness_mm = 0, trim_border_mm = 0;
   int layers = 2;
 };
 

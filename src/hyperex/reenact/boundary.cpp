@@ -11,7 +11,7 @@
 
 namespace hyperex::reenact {
 namespace {
-enum Kind { fixed = 0, driven = 1, jaw = 2 };
+enum Kind { fixed = 0, driven = 1 };
 }  // namespace
 
 Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
@@ -107,16 +107,19 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
   for (int v = 0; v < static_cast<int>(bones.size()); ++v) {
     if (bones[v] == Bone::none) continue;
     const int node = mesh_.volume.inner_node(v);
-    const bool skull = bones[v] == Bone::skull;
+    const bool teeth = bones[v] == Bone::upper_teeth || bones[v] == Bone::lower_teeth;
+    const bool skull = bones[v] == Bone::skull || bones[v] == Bone::upper_teeth;
     if (skull ? support.skull == Hold::free : support.mandible == Mandible::free) continue;
     const bool follows = !skull && support.mandible == Mandible::follow;
-    skull_count_ += skull;
-    if (follows) jaw_nodes_.push_back(node);
-    if (!follows && (!skull || support.skull == Hold::held)) {
+    if (!teeth) ++(skull ? skull_count_ : mandible_count_);
+    const bool held = skull ? support.skull == Hold::held : support.mandible == Mandible::held;
+    if (held && !teeth) {
       fixed_nodes_.push_back(node);
       continue;
     }
-    const BoneLayer& layer = skull ? support.skull_layer : support.mandible_layer;
+    const BoneLayer& layer = teeth   ? support.teeth_layer
+                             : skull ? support.skull_layer
+                                     : support.mandible_layer;
     const Vec3 n = normals.row(v);
     const Eigen::Matrix3d across = n * n.transpose();
     springs_.push_back({node,
@@ -162,7 +165,7 @@ void Boundary::at(const Points& point_displacement, Eigen::VectorXd& values,
           (driven_weights_.row(row) * point_displacement).transpose();
   }
   force.setZero();
-  if (jaw_nodes_.empty()) return;
+  if (jaw_rows_.empty()) return;
   Points at(jaw_rows_.size(), 3), by(jaw_rows_.size(), 3);
   for (std::size_t i = 0; i < jaw_rows_.size(); ++i) {
     at.row(i) = rest_.row(jaw_rows_[i]);

@@ -30,7 +30,7 @@ class Boundary {
   const std::vector<int>& driven_nodes() const { return driven_nodes_; }
   std::vector<int> held_nodes() const;
   int skull_count() const { return skull_count_; }
-  int mandible_count() const { return static_cast<int>(jaw_nodes_.size()); }
+  int mandible_count() const { return mandible_count_; }
   /// Rows of the motion's points that drive.
   const std::vector<int>& driven_rows() const { return driven_rows_; }
 
@@ -50,13 +50,12 @@ class Boundary {
   const tissue::TissueMesh& mesh_;
   const Points rest_;  // of the motion's points
   Jaw jaw_;
-  std::vector<int> driven_rows_, jaw_rows_, driven_nodes_, fixed_nodes_, jaw_nodes_;
+  std::vector<int> driven_rows_, jaw_rows_, driven_nodes_, fixed_nodes_;
   Eigen::MatrixXd driven_weights_;  // |driven_nodes_| x P
   std::vector<Spring> springs_;
   std::vector<int> prescribed_;
-  std::vector<std::pair<int, int>>
-      source_;  // per prescribed node: kind (0 fixed, 1 driven, 2 jaw), row
-  int skull_count_ = 0;
+  std::vector<std::pair<int, int>> source_;  // per prescribed node: kind (0 fixed, 1 driven), row
+  int skull_count_ = 0, mandible_count_ = 0;
 };
 
 }  // namespace hyperex::reenact

@@ -20,8 +20,9 @@ struct SupportOptions {
   bool border_held = true;
   Hold skull = Hold::sliding;
   Mandible mandible = Mandible::follow;
-  BoneLayer skull_layer{1e8, 1e7};      ///< used where skull is sliding
-  BoneLayer mandible_layer{1e8, 1e8};   ///< used where the mandible is followed
+  BoneLayer skull_layer{1e7, 1e7};      ///< used where skull is sliding
+  BoneLayer mandible_layer{3e7, 1e7};   ///< used where the mandible is followed
+  BoneLayer teeth_layer{3e6, 3e6};      ///< under the lips: upper on the skull, lower on the jaw
   std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
 };
 

@@ -12,7 +12,9 @@ namespace {
 using tissue::ibug;
 
 constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
-constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.006, jaw_below_lip_m = 0.008;
+constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.010, jaw_below_lip_m = 0.016;
+constexpr double teeth_reach_m = 0.012;
+constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
 
 class BoneMap {
  public:
@@ -25,14 +27,15 @@ class BoneMap {
   }
 
   /// `inner` and `outer`: the two ends of the layer at one node.
-  Bone under(const Vec3& inner, const Vec3& outer) const {
+  Bone under(const Vec3& inner, const Vec3& outer, bool upper) const {
     const Vec3 q = frame_.local(inner), p = frame_.local(outer);
     double to_lips = 1;
     for (const Vec3& l : lips_) to_lips = std::min(to_lips, (p - l).norm());
-    if (q.y() > skull_line(q.z())) return to_lips < skull_off_lips_m ? Bone::none : Bone::skull;
+    if (q.y() > skull_line(q.z()) && to_lips >= skull_off_lips_m) return Bone::skull;
     if (p.y() < lower_lip_ - jaw_below_lip_m && p.y() > jaw_edge(p.x()) - jaw_below_edge_m &&
         distance_to_chin(p) < jaw_reach_m && to_lips >= jaw_off_lips_m)
       return Bone::mandible;
+    if (to_lips < teeth_reach_m) return upper ? Bone::upper_teeth : Bone::lower_teeth;
     return Bone::none;
   }
 
@@ -55,7 +58,7 @@ class BoneMap {
 
   double distance_to_chin(const Vec3& p) const {
     double best = 1;
-    for (int k = 6; k < 10; ++k) {
+    for (int k = chin_first; k < chin_last; ++k) {
       const Vec3 e = jaw_line_[k + 1] - jaw_line_[k];
       const double t = std::clamp((p - jaw_line_[k]).dot(e) / e.squaredNorm(), 0.0, 1.0);
       best = std::min(best, (p - jaw_line_[k] - t * e).norm());
@@ -76,7 +79,8 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
   const auto& volume = mesh.volume;
   std::vector<Bone> bones(volume.surface_nodes());
   for (int v = 0; v < volume.surface_nodes(); ++v)
-    bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v));
+    bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v),
+                         mesh.upper_margin[v] > 0);
   return bones;
 }
 

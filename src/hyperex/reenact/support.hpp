@@ -7,7 +7,7 @@
 namespace hyperex::reenact {
 
 /// What lies under a node of the inner surface.
-enum class Bone : char { none, skull, mandible };
+enum class Bone : char { none, skull, mandible, upper_teeth, lower_teeth };
 
 /// The tissue slides on the bone on a layer of loose tissue: springs per area between the inner
 /// surface and the bone, stiff across the layer, soft along it. Infinite (>= held_pa_per_m) means
@@ -20,9 +20,11 @@ inline constexpr double held_pa_per_m = 1e12;
 /// Which bone lies under each inner node, from landmarks alone:
 ///  * skull: above the line from the base of the nose (ibug68_33) back to below the ears (mean of
 ///    ibug68_2 and 14), save within 8 mm of the lips;
-///  * mandible: within 15 mm of the line of the jaw over the chin (ibug68_6 to 10), from its lower
-///    edge up to 8 mm below the lower lip's edge (ibug68_57), save within 6 mm of the lips;
-///  * none elsewhere: cheeks, lips, the floor of the mouth and the neck.
+///  * mandible: within 15 mm of the line of the jaw over the chin (ibug68_5 to 11), from 10 mm
+///  below its
+///    edge up to 16 mm below the lower lip's edge (ibug68_57), save within 6 mm of the lips;
+///  * teeth: elsewhere within 12 mm of the lips, upper or lower by the lip;
+///  * none elsewhere: cheeks, the floor of the mouth and the neck.
 std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
 /// Area of the outer surface that belongs to each outer node, m^2.

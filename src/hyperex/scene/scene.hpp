@@ -58,7 +58,7 @@ struct ThicknessPoint {
   double thickness_m = 0.01;  ///< 1 to 40 mm
 };
 struct MeshOptions {
-  double element_size_m = 0.0037;  ///< 1 to 30 mm
+  double element_size_m = 0.0033;  ///< 1 to 30 mm
   int layers = 2;                  ///< 1 to 8
   double thickness_m = 0;          ///< 0: published depths, else the same everywhere (1 to 40 mm)
   LipCut cut_lips = LipCut::automatic;
@@ -85,6 +85,7 @@ struct SupportOptions {
   BoneLayer skull_layer{1e7, 1e7};  ///< where the skull is sliding; each 0 to 1e12 Pa/m
   Mandible mandible = Mandible::follow;
   BoneLayer mandible_layer{3e7, 1e7};   ///< where the mandible is followed
+  BoneLayer teeth_layer{3e6, 3e6};  ///< under the lips
   std::vector<std::string> jaw_points;  ///< empty: chosen automatically
 };
 

@@ -14,7 +14,7 @@ namespace hyperex::tissue {
 enum class LipCut { automatic, always, never };
 
 struct TissueMeshOptions {
-  double element_size_m = 0.0037;  ///< edges at the mouth; they grow smoothly away from it
+  double element_size_m = 0.0033;  ///< edges at the mouth; they grow smoothly away from it
   int layers = 2;
   double thickness_m = 0;       ///< > 0: the same everywhere
   std::vector<DepthAt> depths;  ///< used where thickness_m is 0; empty: published_depths()

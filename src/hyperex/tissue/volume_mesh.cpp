@@ -52,7 +52,7 @@ class LayerBuilder {
     normals_ = vertex_normals(outer);
     visible_ = visibility_of(outer_).direction;
     inward_ = -(thickness.asDiagonal() * normals_);
-    smooth_all(3, 0.5);
+    smooth_all(8, 0.5);
     wanted_ = inward_.rowwise().norm();
   }
 
@@ -119,6 +119,8 @@ bool LayerBuilder::sound(int f) const {
 int LayerBuilder::untangle() {
   std::vector<char> touched(inward_.rows(), 0);
   constexpr int rounds = 160;
+  constexpr double thinnest_share =
+      0.3;  // of the wanted thickness; thinner layers make flat elements
   for (int round = 0; round < rounds; ++round) {
     const std::vector<char> bad = unsound_vertices();
     if (std::count(bad.begin(), bad.end(), 1) == 0)
@@ -132,7 +134,9 @@ int LayerBuilder::untangle() {
       const Vec3 clear = -visible_.row(v).transpose() * old.row(v).norm();
       const double turn = std::min(1.0, round / 40.0);
       const Vec3 target = (1 - turn) * mean + turn * clear;
-      inward_.row(v) = 0.97 * (0.5 * old.row(v) + 0.5 * target.transpose());
+      const double length = old.row(v).norm();
+      const double thinner = length > thinnest_share * wanted_[v] ? 0.97 : 1;
+      inward_.row(v) = thinner * (0.5 * old.row(v) + 0.5 * target.transpose());
     }
   }
   const std::vector<char> bad = unsound_vertices();
@@ -169,10 +173,8 @@ Vec3 LayerBuilder::mean_around(const Points& values, int v) const {
   return mean / double(std::max<std::size_t>(1, around_[v].size()));
 }
 
-}  // namespace
-
-VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
-                             const VolumeMeshOptions& options) {
+VolumeMesh build_once(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
+                      const VolumeMeshOptions& options) {
   LayerBuilder builder(outer, thickness_m, options);
   VolumeMesh mesh;
   const int changed = builder.untangle();
@@ -202,6 +204,23 @@ VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickn
       }
   }
   return mesh;
+}
+
+}  // namespace
+
+VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
+                             const VolumeMeshOptions& options) {
+  // Plump elements everywhere if that can be had, flatter ones in the folds if not.
+  VolumeMeshOptions attempt = options;
+  for (const double share : {0.15, 0.08, 0.03}) {
+    if (share <= options.least_volume_share) break;
+    attempt.least_volume_share = share;
+    try {
+      return build_once(outer, thickness_m, attempt);
+    } catch (const NumericalError&) {
+    }
+  }
+  return build_once(outer, thickness_m, options);
 }
 
 MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets) {

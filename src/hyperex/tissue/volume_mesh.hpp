@@ -23,8 +23,9 @@ struct VolumeMesh {
 
 struct VolumeMeshOptions {
   int layers = 2;
-  /// Least volume of a tetrahedron as a share of its prism's ideal (area x height / 3).
-  double least_volume_share = 0.05;
+  /// Least volume of a tetrahedron as a share of its prism's ideal (area x height / 3); more is
+  /// tried first.
+  double least_volume_share = 0.01;
 };
 
 /// `outer`: manifold, oriented outwards. `thickness_m`: wanted, per outer vertex, > 0. Where the
