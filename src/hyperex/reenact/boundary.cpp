@@ -21,9 +21,10 @@ Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmark
   set_driven(motion, landmarks, options.drive);
   set_measured(region);
   set_jaw_points(motion, options.support);
+  const std::vector<char> moves_with_jaw = near_jaw(mesh, landmarks);
   if (options.support.border_held)
     for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
-      if (mesh.on_border[v])
+      if (mesh.on_border[v] && !moves_with_jaw[v])
         for (int level = 0; level <= mesh.volume.layers; ++level)
           fixed_nodes_.push_back(static_cast<int>(level * mesh.volume.surface_nodes()) + v);
   set_bones(landmarks, options.support);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/geometry/insert_line.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/motion/motion.hpp"
 
@@ -10,12 +11,12 @@ namespace hyperex::reenact {
 
 /// A face in motion: the contract between the simulation and every output. Scan frame, metres.
 struct Performance {
-  /// The scan at rest: its own vertices in their order, then those that a cut along the lips
-  /// duplicated; the triangles of the (cut) scan in the order of the scan's own.
+  /// The scan at rest: its own vertices in their order, then those of a cut along the lips; its own
+  /// triangles in their order, of those that the cut crosses one piece, then the other pieces.
   TriMesh skin_rest;
   Eigen::Index scan_vertices = 0;    ///< the first so many of skin_rest.points are the scan's own
-  std::vector<int> duplicated_from;  ///< for each appended vertex, the scan vertex it was cut from
-  /// Rows: triangles of skin_rest; the scan's triangle each stands for (a cut keeps the order).
+  std::vector<EdgePoint> appended;   ///< where on the scan each further vertex lies
+  std::vector<int> source_triangle;  ///< of each skin triangle, the scan's that it is (a piece of)
   std::vector<double> frame_time_s;
   std::vector<PointsF> skin_displacement_m;  ///< per frame, |skin_rest| x 3
   int peak_frame = 0;                        ///< where the driven points moved most in the mean

@@ -252,7 +252,8 @@ class Run {
     Performance& p = result_.performance;
     p.skin_rest = mesh_.skin;
     p.scan_vertices = mesh_.scan_vertices;
-    p.duplicated_from = mesh_.duplicated_from;
+    p.appended = mesh_.appended;
+    p.source_triangle = mesh_.source_triangle;
     p.lip_cut_rest = mesh_.lip_cut;
     p.landmarks = landmark_tracks(mesh_, landmarks_, p.frame_time_s, p.skin_displacement_m);
     std::vector<int> rows;

@@ -13,7 +13,7 @@ using tissue::ibug;
 
 constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
 constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.010, jaw_below_lip_m = 0.016;
-constexpr double teeth_reach_m = 0.012;
+constexpr double teeth_reach_m = 0.012, border_free_m = 0.035;
 constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
 
 class BoneMap {
@@ -33,11 +33,24 @@ class BoneMap {
     for (const Vec3& l : lips_) to_lips = std::min(to_lips, (p - l).norm());
     if (q.y() > skull_line(q.z()) && to_lips >= skull_off_lips_m) return Bone::skull;
     if (p.y() < lower_lip_ - jaw_below_lip_m && p.y() > jaw_edge(p.x()) - jaw_below_edge_m &&
-        distance_to_chin(p) < jaw_reach_m && to_lips >= jaw_off_lips_m)
+        distance_to_jaw(p, chin_first, chin_last) < jaw_reach_m && to_lips >= jaw_off_lips_m)
       return Bone::mandible;
     if (to_lips < teeth_reach_m) return upper ? Bone::upper_teeth : Bone::lower_teeth;
     return Bone::none;
   }
+
+  /// From a point in the face's frame to the jaw's line between two of its points.
+  double distance_to_jaw(const Vec3& p, int first, int last) const {
+    double best = 1;
+    for (int k = first; k < last; ++k) {
+      const Vec3 e = jaw_line_[k + 1] - jaw_line_[k];
+      const double t = std::clamp((p - jaw_line_[k]).dot(e) / e.squaredNorm(), 0.0, 1.0);
+      best = std::min(best, (p - jaw_line_[k] - t * e).norm());
+    }
+    return best;
+  }
+
+  const tissue::FaceFrame& frame() const { return frame_; }
 
  private:
   /// Height of the skull's lower border at depth z.
@@ -56,16 +69,6 @@ class BoneMap {
     return 1;
   }
 
-  double distance_to_chin(const Vec3& p) const {
-    double best = 1;
-    for (int k = chin_first; k < chin_last; ++k) {
-      const Vec3 e = jaw_line_[k + 1] - jaw_line_[k];
-      const double t = std::clamp((p - jaw_line_[k]).dot(e) / e.squaredNorm(), 0.0, 1.0);
-      best = std::min(best, (p - jaw_line_[k] - t * e).norm());
-    }
-    return best;
-  }
-
   tissue::FaceFrame frame_;
   std::vector<Vec3> jaw_line_, lips_;
   Vec3 nose_base_, ear_base_;
@@ -82,6 +85,15 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
     bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v),
                          mesh.upper_margin[v] > 0);
   return bones;
+}
+
+std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  const BoneMap map(landmarks);
+  const Points& skin = mesh.volume.outer.points;
+  std::vector<char> near(skin.rows());
+  for (Eigen::Index v = 0; v < skin.rows(); ++v)
+    near[v] = map.distance_to_jaw(map.frame().local(skin.row(v)), 4, 12) < border_free_m;
+  return near;
 }
 
 Eigen::VectorXd node_areas(const TriMesh& surface) {

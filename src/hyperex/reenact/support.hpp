@@ -27,6 +27,10 @@ inline constexpr double held_pa_per_m = 1e12;
 ///  * none elsewhere: cheeks, the floor of the mouth and the neck.
 std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
+/// Outer nodes within 35 mm of the jaw's line (ibug68_4 to 12): where a scan ends just under the
+/// chin, its border moves with the jaw and cannot be held.
+std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+
 /// Area of the outer surface that belongs to each outer node, m^2.
 Eigen::VectorXd node_areas(const TriMesh& surface);
 
