@@ -150,7 +150,9 @@ CleanMesh clean_mesh(const TriMesh& mesh, const CleanOptions& options) {
   const auto note = [&](std::size_t count, const char* what) {
     if (count > 0) out.notes.push_back(fmt::format("{} {}", count, what));
   };
-  const std::vector<int> first = first_at_same_place(mesh.points);
+  std::vector<int> first(mesh.points.rows());
+  std::iota(first.begin(), first.end(), 0);
+  if (options.join_duplicates) first = first_at_same_place(mesh.points);
   std::vector<Tri> tris(mesh.triangles.rows());
   std::vector<int> source(tris.size());
   std::iota(source.begin(), source.end(), 0);

@@ -18,6 +18,8 @@ struct CleanMesh {
 struct CleanOptions {
   /// Components with less than this share of the whole area are islands and are dropped.
   double island_area_share = 0.2;
+  /// False for a surface that was cut on purpose: the two rims of a cut lie at the same place.
+  bool join_duplicates = true;
 };
 
 /// Joins duplicate vertices, drops degenerate, duplicate and unused ones, resolves edges of more

@@ -2,6 +2,7 @@
 #include "hyperex/geometry/cut_surface.hpp"
 
 #include <map>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -35,7 +36,9 @@ std::set<int> side_of_fan(const Triangles& triangles, const std::vector<int>& fa
 }  // namespace
 
 CutSurface cut_along(const TriMesh& mesh, const std::vector<int>& path) {
-  CutSurface out{mesh, {}};
+  CutSurface out{mesh, {}, {}, path, path};
+  out.source_triangle.resize(mesh.triangles.rows());
+  std::iota(out.source_triangle.begin(), out.source_triangle.end(), 0);
   if (path.size() < 3) return out;
   std::map<Edge, int> triangle_left_of;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
@@ -56,17 +59,27 @@ CutSurface cut_along(const TriMesh& mesh, const std::vector<int>& path) {
                                            {path[i - 1], path[i + 1]});
     if (side.count(triangle_left_of.at({path[i - 1], v})))
       throw std::invalid_argument("the cut touches a border between its ends");
-    const int copy = static_cast<int>(old + static_cast<Eigen::Index>(out.duplicated_from.size()));
-    out.duplicated_from.push_back(v);
+    out.right_rim[i] = static_cast<int>(old + static_cast<Eigen::Index>(out.appended.size()));
+    out.appended.push_back({v, v, 0});
     for (int f : side)
       for (int k = 0; k < 3; ++k)
-        if (mesh.triangles(f, k) == v) out.mesh.triangles(f, k) = copy;
+        if (mesh.triangles(f, k) == v) out.mesh.triangles(f, k) = out.right_rim[i];
   }
-  out.mesh.points.conservativeResize(old + static_cast<Eigen::Index>(out.duplicated_from.size()),
-                                     3);
-  for (std::size_t i = 0; i < out.duplicated_from.size(); ++i)
-    out.mesh.points.row(old + static_cast<Eigen::Index>(i)) =
-        mesh.points.row(out.duplicated_from[i]);
+  out.mesh.points.conservativeResize(old + static_cast<Eigen::Index>(out.appended.size()), 3);
+  for (std::size_t i = 0; i < out.appended.size(); ++i)
+    out.mesh.points.row(old + static_cast<Eigen::Index>(i)) = mesh.points.row(out.appended[i].a);
+  return out;
+}
+
+CutSurface cut_along_line(const TriMesh& mesh, const Points& line, const Vec3& towards_viewer) {
+  LinedSurface lined = insert_line(mesh, line, towards_viewer);
+  CutSurface out = cut_along(lined.mesh, lined.path);
+  const auto old = static_cast<int>(mesh.points.rows());
+  std::vector<EdgePoint> appended = lined.appended;
+  for (const EdgePoint& copy : out.appended)
+    appended.push_back(copy.a < old ? copy : lined.appended[copy.a - old]);
+  out.appended = std::move(appended);
+  out.source_triangle = std::move(lined.source_triangle);
   return out;
 }
 

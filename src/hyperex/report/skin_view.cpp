@@ -7,6 +7,27 @@
 #include <tuple>
 
 namespace hyperex::report {
+namespace {
+
+/// Texture coordinates of a skin vertex in one scan triangle. Corners are told by their places: on
+/// a seam a scan may hold one vertex several times.
+Eigen::RowVector2f uv_in_triangle(const reenact::Performance& performance, const io::Scan& scan,
+                                  int triangle, int vertex) {
+  const auto uv_at = [&](int scan_vertex) -> Eigen::RowVector2f {
+    const Points& points = scan.mesh.points;
+    for (int k = 0; k < 3; ++k)
+      if (const int corner = scan.mesh.triangles(triangle, k);
+          corner == scan_vertex || points.row(corner) == points.row(scan_vertex))
+        return scan.corner_uv.row(3 * triangle + k);
+    throw std::invalid_argument("skin_view: the performance's triangles are not the scan's");
+  };
+  if (vertex < performance.scan_vertices) return uv_at(vertex);
+  const EdgePoint& on = performance.appended.at(vertex - performance.scan_vertices);
+  const Eigen::RowVector2f a = uv_at(on.a);
+  return on.t == 0 ? a : a + static_cast<float>(on.t) * (uv_at(on.b) - a);
+}
+
+}  // namespace
 
 SkinView skin_view(const reenact::Performance& performance, const io::Scan& scan) {
   const TriMesh& skin = performance.skin_rest;
@@ -17,13 +38,16 @@ SkinView skin_view(const reenact::Performance& performance, const io::Scan& scan
     std::iota(view.skin_vertex.begin(), view.skin_vertex.end(), 0);
     return view;
   }
-  if (scan.corner_uv.rows() != 3 * skin.triangles.rows())
+  if (scan.corner_uv.rows() != 3 * scan.mesh.triangles.rows() ||
+      performance.source_triangle.size() != static_cast<std::size_t>(skin.triangles.rows()) ||
+      performance.scan_vertices != scan.mesh.points.rows())
     throw std::invalid_argument("skin_view: the performance's triangles are not the scan's");
   std::map<std::tuple<int, float, float>, int> known;
   std::vector<float> uv;
   for (Eigen::Index f = 0; f < skin.triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
-      const auto corner = scan.corner_uv.row(3 * f + k);
+      const Eigen::RowVector2f corner =
+          uv_in_triangle(performance, scan, performance.source_triangle[f], skin.triangles(f, k));
       const auto next = static_cast<int>(view.skin_vertex.size());
       const auto [at, fresh] =
           known.try_emplace({skin.triangles(f, k), corner[0], corner[1]}, next);
@@ -46,9 +70,13 @@ Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 4, Eigen::RowMajor> skin_colour(
     throw std::invalid_argument("skin_colour: the performance's vertices are not the scan's");
   colour.resize(performance.skin_rest.points.rows(), 4);
   colour.topRows(performance.scan_vertices) = scan.vertex_colour;
-  for (std::size_t i = 0; i < performance.duplicated_from.size(); ++i)
+  for (std::size_t i = 0; i < performance.appended.size(); ++i) {
+    const EdgePoint& on = performance.appended[i];
+    const auto a = scan.vertex_colour.row(on.a).cast<double>();
+    const auto b = scan.vertex_colour.row(on.b).cast<double>();
     colour.row(performance.scan_vertices + static_cast<Eigen::Index>(i)) =
-        scan.vertex_colour.row(performance.duplicated_from[i]);
+        ((1 - on.t) * a + on.t * b).array().round().cast<std::uint8_t>();
+  }
   return colour;
 }
 

@@ -17,12 +17,13 @@ struct SkinView {
   Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> uv;  ///< per view vertex; may be empty
 };
 
-/// Splits where `scan` has both texture coordinates and a texture. Throws std::invalid_argument
-/// where performance and scan do not belong together (other number of triangles).
+/// Splits where `scan` has both texture coordinates and a texture; those of vertices on the cut lie
+/// between those of the scan triangle's corners. Throws std::invalid_argument
+/// where performance and scan do not belong together (other triangles).
 SkinView skin_view(const reenact::Performance& performance, const io::Scan& scan);
 
-/// RGBA (sRGB) of each vertex of skin_rest, those of the cut as the vertex they were cut from; 0
-/// rows where the scan has none.
+/// RGBA (sRGB) of each vertex of skin_rest, on the cut between those of the scan's edge; 0 rows
+/// where the scan has none.
 Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 4, Eigen::RowMajor> skin_colour(
     const reenact::Performance& performance, const io::Scan& scan);
 

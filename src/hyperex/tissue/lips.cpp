@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "hyperex/geometry/geodesic.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/tissue/lip_line.hpp"
 
 namespace hyperex::tissue {
 namespace {
@@ -38,25 +38,58 @@ double distance_to_polyline(const Vec3& p, const std::vector<Vec3>& line) {
   return best;
 }
 
-/// How far a vertex lies under the mean of its neighbours, as a share of their mean distance: above
-/// 0 in a valley.
-std::vector<double> concavity(const TriMesh& mesh) {
-  const Points normals = vertex_normals(mesh);
-  const auto around = vertex_neighbours(mesh.triangles, mesh.points.rows());
-  std::vector<double> value(mesh.points.rows(), 0.0);
-  for (std::size_t v = 0; v < value.size(); ++v) {
-    if (around[v].empty()) continue;
-    Vec3 mean = Vec3::Zero();
-    double length = 0;
-    for (int w : around[v]) {
-      mean += mesh.points.row(w).transpose();
-      length += (mesh.points.row(w) - mesh.points.row(v)).norm();
+Points as_rows(const std::vector<Vec3>& list) {
+  Points rows(static_cast<Eigen::Index>(list.size()), 3);
+  for (std::size_t i = 0; i < list.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = list[i];
+  return rows;
+}
+
+std::vector<Vec3> as_list(const Points& rows) {
+  return {rows.rowwise().begin(), rows.rowwise().end()};
+}
+
+constexpr double spacing_m = 0.0005;
+
+/// Points every half millimetre along a polyline, its ends among them.
+std::vector<Vec3> resampled(const std::vector<Vec3>& line) {
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) length += (line[i + 1] - line[i]).norm();
+  const int count = std::max(2, static_cast<int>(std::ceil(length / spacing_m)));
+  std::vector<Vec3> out{line.front()};
+  double passed = 0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const double step = (line[i + 1] - line[i]).norm();
+    while (static_cast<int>(out.size()) < count &&
+           double(out.size()) * length / count <= passed + step) {
+      const double t = (double(out.size()) * length / count - passed) / std::max(step, 1e-12);
+      out.push_back(line[i] + t * (line[i + 1] - line[i]));
     }
-    mean /= double(around[v].size());
-    length /= double(around[v].size());
-    value[v] = (mean - mesh.points.row(v).transpose()).dot(normals.row(v)) / length;
+    passed += step;
   }
-  return value;
+  out.push_back(line.back());
+  return out;
+}
+
+/// Gaussian mean along the line; its ends stay, since beyond them it is continued turned round.
+std::vector<Vec3> smoothed(const std::vector<Vec3>& line, double sigma_m) {
+  const int n = static_cast<int>(line.size()),
+            reach = std::min(n - 1, int(3 * sigma_m / spacing_m));
+  std::vector<Vec3> out(line.size());
+  for (int i = 0; i < n; ++i) {
+    Vec3 sum = Vec3::Zero();
+    double weights = 0;
+    for (int d = -reach; d <= reach; ++d) {
+      const int j = i + d;
+      const Vec3 p = j < 0    ? Vec3(2 * line.front() - line[-j])
+                     : j >= n ? Vec3(2 * line.back() - line[2 * (n - 1) - j])
+                              : line[j];
+      const double w = std::exp(-0.5 * std::pow(d * spacing_m / sigma_m, 2));
+      sum += w * p;
+      weights += w;
+    }
+    out[i] = sum / weights;
+  }
+  return out;
 }
 
 }  // namespace
@@ -98,21 +131,29 @@ bool mouth_is_open(const TriMesh& mesh, const io::Landmarks& landmarks) {
   return false;
 }
 
-std::vector<int> lip_crease(const TriMesh& mesh, const io::Landmarks& landmarks) {
-  const std::vector<Vec3> line = lip_line(landmarks);
-  const std::vector<double> hollow = concavity(mesh);
-  const double width = (line.back() - line.front()).norm();
-  const auto cost = [&](int a, int b) {
-    const Vec3 p = mesh.points.row(a), q = mesh.points.row(b);
-    const double off = distance_to_polyline(0.5 * (p + q), line) / (0.08 * width);
-    const double valley = std::clamp(0.5 * (hollow[a] + hollow[b]), -0.2, 0.4);
-    return (p - q).norm() * std::exp(-10 * valley) * (1 + off * off);
-  };
-  const int from = nearest_vertex(mesh.points, line.front()),
-            to = nearest_vertex(mesh.points, line.back());
-  std::vector<int> path = EdgePaths(mesh).cheapest(from, to, cost);
-  if (path.size() < 3) throw std::runtime_error("no walk on the surface joins the mouth corners");
-  return path;
+Points lip_line_of_landmarks(const io::Landmarks& landmarks) {
+  return as_rows(smoothed(resampled(lip_line(landmarks)), 0.0025));
+}
+
+std::optional<Points> lip_line_of_crease(const TriMesh& mesh, const io::Landmarks& landmarks) {
+  const FaceFrame frame = face_frame(landmarks);
+  Eigen::Matrix3d scan_from_face;
+  scan_from_face << frame.x, frame.y, frame.z;
+  const auto found = find_lip_line(mesh, lip_line_of_landmarks(landmarks), scan_from_face);
+  if (!found) return {};
+  // The heights jump where the lips gape; only the course seen from in front counts.
+  std::vector<Vec3> crease = as_list(found->points);
+  crease.front() = landmarks.at(ibug(48));
+  crease.back() = landmarks.at(ibug(54));
+  const std::vector<Vec3> fine = resampled(crease);
+  std::vector<Vec3> line = smoothed(fine, 0.0015);
+  constexpr double most_m = 0.0003;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Vec3 moved = line[i] - fine[i];
+    const double across = std::abs(moved.dot(frame.y));
+    if (across > most_m) line[i] = fine[i] + moved * (most_m / across);
+  }
+  return as_rows(line);
 }
 
 }  // namespace hyperex::tissue

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,11 @@ int lip_of(const std::string& landmark);
 /// A border loop runs between the lips: the mouth is a slit already.
 bool mouth_is_open(const TriMesh& mesh, const io::Landmarks& landmarks);
 
-/// The walk of vertices between the mouth corners (right to left) along the crease of closed lips:
-/// cheap along concave edges and near the lip line of the landmarks (ibug68_60 to 67).
-/// Throws InputError-free std::runtime_error where there is no walk.
-std::vector<int> lip_crease(const TriMesh& mesh, const io::Landmarks& landmarks);
+/// A line from the right corner of the mouth to the left along which closed lips may be cut, laid
+/// on the surface as seen from in front; smooth.
+Points lip_line_of_landmarks(const io::Landmarks& landmarks);  ///< ibug68_60 to 67, means of pairs
+/// The deepest crease near that line (find_lip_line), smoothed by no more than 0.3 mm; nothing
+/// where no clear crease runs there.
+std::optional<Points> lip_line_of_crease(const TriMesh& mesh, const io::Landmarks& landmarks);
 
 }  // namespace hyperex::tissue

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "hyperex/core/error.hpp"
@@ -28,6 +31,8 @@ namespace {
 constexpr double grading_m = 0.12;
 /// Holes up to this length around are mended; eyes, mouth and nostrils are left open.
 constexpr double mended_hole_m = 0.03;
+/// The rims of the lips touch at rest and must not be joined again.
+constexpr CleanOptions cleaned_again{.join_duplicates = false};
 
 double loop_length(const TriMesh& mesh, const std::vector<int>& loop) {
   double length = 0;
@@ -54,7 +59,7 @@ std::vector<int> outer_border(const TriMesh& mesh) {
   return best;
 }
 
-/// The cleaned scan, cut where asked, and how its corners map to the skin's.
+/// The cleaned scan, cut where asked, and the same cut in the scan as given.
 class SkinBuilder {
  public:
   SkinBuilder(const TriMesh& scan, const io::Landmarks& landmarks, const std::string& source,
@@ -68,6 +73,8 @@ class SkinBuilder {
     for (const auto& note : clean_.notes) out_.notes.push_back("scan: " + note);
     out_.skin = scan;
     out_.scan_vertices = scan.points.rows();
+    out_.source_triangle.resize(scan.triangles.rows());
+    std::iota(out_.source_triangle.begin(), out_.source_triangle.end(), 0);
   }
 
   void cut(LipCut mode) {
@@ -77,44 +84,97 @@ class SkinBuilder {
       if (mode == LipCut::always) out_.notes.push_back("the mouth is open already: not cut");
       return;
     }
-    CutSurface cut;
-    std::vector<int> path;
+    const Vec3 forward = face_frame(landmarks_).z;
+    const auto attempt = [&](const Points& line, const char* course) {
+      const CutSurface surface = cut_along_line(clean_.mesh, line, forward);
+      apply(surface);
+      out_.notes.push_back(fmt::format(
+          "the lips are joined in the scan and were cut from corner to corner {}, {:.0f} mm long",
+          course, 1e3 * length_of(out_.lip_cut)));
+    };
+    if (const auto crease = lip_line_of_crease(clean_.mesh, landmarks_)) {
+      try {
+        return attempt(*crease, "along the crease between them");
+      } catch (
+          const std::invalid_argument&) {  // the landmarks' line may still go round what it met
+      }
+    }
     try {
-      path = lip_crease(clean_.mesh, landmarks_);
-      cut = cut_along(clean_.mesh, path);
-    } catch (const std::exception& e) {
+      attempt(lip_line_of_landmarks(landmarks_),
+              "along a curve through the landmarks of the inner lips (no clear crease was found)");
+    } catch (const std::invalid_argument& e) {
       throw InputError(source_, fmt::format("the closed lips could not be cut ({}); expected a "
                                             "surface without holes between the mouth corners",
                                             e.what()));
     }
-    apply(cut, path);
-    clean_.mesh = cut.mesh;
-    out_.notes.push_back(fmt::format(
-        "the lips are joined in the scan and were cut along {} vertices between the mouth corners",
-        path.size()));
   }
 
-  TriMesh& mesh() { return clean_.mesh; }
+  const TriMesh& mesh() const { return clean_.mesh; }
+
+  /// Values at the working copy's vertices, taken to those of the skin; 0 where it has none.
+  std::vector<double> on_skin(const std::vector<double>& values) const {
+    std::vector<double> out(out_.skin.points.rows(), 0.0);
+    std::map<std::array<double, 3>, double> at_place;  // the scan may hold a vertex several times
+    const auto place = [&](Eigen::Index v) {
+      const auto p = out_.skin.points.row(v);
+      return std::array{p[0], p[1], p[2]};
+    };
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      if (v < clean_.source_vertex.size())
+        at_place[place(clean_.source_vertex[v])] = values[v];
+      else
+        out[out_.scan_vertices + static_cast<Eigen::Index>(v - clean_.source_vertex.size())] =
+            values[v];
+    }
+    for (Eigen::Index v = 0; v < out_.scan_vertices; ++v)
+      if (const auto it = at_place.find(place(v)); it != at_place.end()) out[v] = it->second;
+    return out;
+  }
 
  private:
-  /// The same cut on the scan as given.
-  void apply(const CutSurface& cut, const std::vector<int>& path) {
+  static double length_of(const Points& line) {
+    double length = 0;
+    for (Eigen::Index i = 0; i + 1 < line.rows(); ++i)
+      length += (line.row(i + 1) - line.row(i)).norm();
+    return length;
+  }
+
+  /// Brings the cut of the working copy into the scan as given.
+  void apply(const CutSurface& cut) {
     const Eigen::Index old = clean_.mesh.points.rows();
-    const auto added = static_cast<Eigen::Index>(cut.duplicated_from.size());
+    const auto added = static_cast<Eigen::Index>(cut.appended.size());
     out_.skin.points.conservativeResize(out_.scan_vertices + added, 3);
     for (Eigen::Index i = 0; i < added; ++i) {
-      const int from = clean_.source_vertex[cut.duplicated_from[i]];
-      out_.duplicated_from.push_back(from);
-      out_.skin.points.row(out_.scan_vertices + i) = scan_.points.row(from);
+      const EdgePoint& e = cut.appended[i];
+      out_.appended.push_back({clean_.source_vertex[e.a], clean_.source_vertex[e.b], e.t});
+      out_.skin.points.row(out_.scan_vertices + i) = cut.mesh.points.row(old + i);
     }
-    for (Eigen::Index f = 0; f < cut.mesh.triangles.rows(); ++f)
+    const Eigen::Index clean_triangles = clean_.mesh.triangles.rows();
+    out_.skin.triangles.conservativeResize(
+        scan_.triangles.rows() + cut.mesh.triangles.rows() - clean_triangles, 3);
+    for (Eigen::Index f = 0; f < cut.mesh.triangles.rows(); ++f) {
+      const int parent = cut.source_triangle[f], scan_parent = clean_.source_triangle[parent];
+      const Eigen::Index row =
+          f < clean_triangles ? scan_parent : scan_.triangles.rows() + f - clean_triangles;
       for (int k = 0; k < 3; ++k)
-        if (const int v = cut.mesh.triangles(f, k); v >= old)
-          out_.skin.triangles(clean_.source_triangle[f], k) =
-              static_cast<int>(out_.scan_vertices + (v - old));
-    out_.lip_cut.resize(path.size(), 3);
-    for (std::size_t i = 0; i < path.size(); ++i)
-      out_.lip_cut.row(i) = clean_.mesh.points.row(path[i]);
+        out_.skin.triangles(row, k) = scan_corner(cut.mesh.triangles(f, k), parent, scan_parent);
+      if (f >= clean_triangles) out_.source_triangle.push_back(scan_parent);
+    }
+    out_.lip_cut.resize(cut.left_rim.size(), 3);
+    for (std::size_t i = 0; i < cut.left_rim.size(); ++i)
+      out_.lip_cut.row(i) = cut.mesh.points.row(cut.left_rim[i]);
+    clean_.mesh = cut.mesh;
+  }
+
+  /// The skin's vertex for one of the cut working copy, in the scan triangle that it came from: the
+  /// scan's own one, of which there may be several at a place.
+  int scan_corner(int vertex, int clean_triangle, int scan_triangle) const {
+    const auto old = static_cast<int>(clean_.source_vertex.size());
+    if (vertex >= old) return static_cast<int>(out_.scan_vertices) + vertex - old;
+    for (int k = 0; k < 3; ++k)
+      if (clean_.mesh.triangles(clean_triangle, k) == vertex)
+        return scan_.triangles(scan_triangle, k);
+    throw std::logic_error("a piece of a triangle has a foreign corner");
   }
 
   const TriMesh& scan_;
@@ -132,7 +192,7 @@ TriMesh kept_triangles(const TriMesh& mesh, const std::vector<char>& drop_vertex
         !drop_vertex[mesh.triangles(f, 2)])
       kept.triangles.row(count++) = mesh.triangles.row(f);
   kept.triangles.conservativeResize(count, 3);
-  return clean_mesh(kept).mesh;
+  return clean_mesh(kept, cleaned_again).mesh;
 }
 
 /// Small holes closed, the outer border trimmed by `trim_m`.
@@ -174,7 +234,6 @@ TriMesh subset(const TriMesh& mesh, const std::vector<int>& triangles) {
 /// lip's own side: through the air the other lip may be nearer.
 void anchor_skin(TissueMesh& out, const io::Landmarks& landmarks) {
   const TriMesh& outer = out.volume.outer;
-  out.skin_upper_margin = upper_lip_margin(out.skin, landmarks);
   const std::vector<double>& skin_margin = out.skin_upper_margin;
   std::vector<int> part[2];  // lower, upper
   const auto margin_of = [&](int f) {
@@ -220,6 +279,7 @@ TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks
   TissueMesh out;
   SkinBuilder skin(scan, landmarks, source, out);
   skin.cut(options.cut_lips);
+  out.skin_upper_margin = skin.on_skin(upper_lip_margin(skin.mesh(), landmarks));
   const TriMesh mended = mend(skin.mesh(), landmarks, options.trim_border_m, out.notes);
 
   const FaceFrame frame = face_frame(landmarks);
@@ -228,7 +288,7 @@ TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks
   size.focus = 0.5 * (landmarks.at(ibug(51)) + landmarks.at(ibug(57)));
   size.centre = size.focus + grading_m * frame.z;
   TriMesh outer = remesh_graded(mended, size);
-  outer = clean_mesh(unfold(outer, out.notes)).mesh;
+  outer = clean_mesh(unfold(outer, out.notes), cleaned_again).mesh;
 
   const std::vector<DepthAt>& depths = options.depths.empty() ? published_depths() : options.depths;
   const Eigen::VectorXd thickness =

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/geometry/insert_line.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/tissue/thickness.hpp"
@@ -30,13 +31,17 @@ struct Anchor {
 
 /// A scan made ready for simulation.
 struct TissueMesh {
-  TriMesh skin;  ///< the scan as given; vertices that a cut doubled appended
+  /// The scan as given; where its lips were cut, triangles of the scan are replaced by a piece of
+  /// themselves, and new vertices and the other pieces are appended.
+  TriMesh skin;
   Eigen::Index scan_vertices = 0;
-  std::vector<int> duplicated_from;  ///< scan vertex of each appended one
+  std::vector<EdgePoint> appended;   ///< where each appended vertex lies on the scan
+  std::vector<int> source_triangle;  ///< of each skin triangle, the scan's that it is (a piece of)
   Points lip_cut;                    ///< the line of the cut, empty where none was made
   VolumeMesh volume;
   std::vector<Anchor> anchors;  ///< per skin vertex
-  std::vector<double> upper_margin;             ///< per outer node: walk to the lower minus to the upper lip (m)
+  std::vector<double>
+      upper_margin;  ///< per outer node: walk to the lower minus to the upper lip (m)
   std::vector<double> skin_upper_margin;  ///< the same, per skin vertex
   std::vector<char> on_border;  ///< per outer node: on the outer border, not at mouth or eyes
   MeshQuality quality;

@@ -19,6 +19,15 @@ Points face_normals(const TriMesh& mesh) {
   return normals;
 }
 
+/// Neighbours to smooth with: a border's vertices keep to the border, or it would draw back.
+std::vector<std::vector<int>> smoothing_neighbours(const TriMesh& mesh) {
+  auto around = vertex_neighbours(mesh.triangles, mesh.points.rows());
+  for (const auto& loop : boundary_loops(mesh.triangles))
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      around[loop[i]] = {loop[(i + loop.size() - 1) % loop.size()], loop[(i + 1) % loop.size()]};
+  return around;
+}
+
 /// Moves the flagged vertices and their neighbours half way to the mean around them.
 void smooth_around(TriMesh& mesh, const std::vector<char>& flagged,
                    const std::vector<std::vector<int>>& around) {
@@ -44,7 +53,7 @@ TriMesh without_triangles_at(const TriMesh& mesh, const std::vector<char>& flagg
         !flagged[mesh.triangles(f, 2)])
       kept.triangles.row(count++) = mesh.triangles.row(f);
   kept.triangles.conservativeResize(count, 3);
-  return clean_mesh(kept).mesh;
+  return clean_mesh(kept, {.join_duplicates = false}).mesh;
 }
 
 }  // namespace
@@ -78,7 +87,7 @@ TriMesh unfold(const TriMesh& mesh, std::vector<std::string>& notes, double leas
   std::size_t smoothed = 0;
   Eigen::Index dropped = 0;
   for (int attempt = 0; attempt < 8; ++attempt) {
-    const auto around = vertex_neighbours(out.triangles, out.points.rows());
+    const auto around = smoothing_neighbours(out);
     std::vector<char> folded;
     bool any = true;
     for (int round = 0; round < 12 && any; ++round) {

@@ -102,7 +102,7 @@ TEST(Glb, KeepsVertexColoursAlsoOnTheCut) {
       rows_of<std::uint16_t, 4>(model, model.meshes[0].primitives[0].attributes.at("COLOR_0"));
   ASSERT_EQ(colour.rows(), face.performance.skin_rest.points.rows());
   EXPECT_EQ(colour(0, 0), 37852);  // sRGB 200 is 0.577580 in linear light
-  const auto cut = face.performance.duplicated_from.at(2);
+  const auto cut = face.performance.appended.at(2).a;
   EXPECT_TRUE(colour.row(face.performance.scan_vertices + 2) == colour.row(cut));
 }
 

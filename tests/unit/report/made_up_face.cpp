@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace hyperex::report::testing {
 namespace {
@@ -36,7 +37,7 @@ void build_skin(int side, reenact::Performance& out) {
   std::vector<int> below(side, -1);
   for (int i = cut_from + 1; i < cut_to; ++i) {
     below[i] = static_cast<int>(points.size());
-    out.duplicated_from.push_back(cut_row * side + i);
+    out.appended.push_back({cut_row * side + i, cut_row * side + i, 0});
     points.push_back(points[cut_row * side + i]);
   }
   const auto vertex = [&](int i, int j, bool from_below) {
@@ -52,6 +53,8 @@ void build_skin(int side, reenact::Performance& out) {
       out.skin_rest.triangles.row(f++) << a, b, c;
       out.skin_rest.triangles.row(f++) << a, c, d;
     }
+  out.source_triangle.resize(f);
+  std::iota(out.source_triangle.begin(), out.source_triangle.end(), 0);
   out.skin_rest.points.resize(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i) out.skin_rest.points.row(i) = points[i];
   out.lip_cut_rest.resize(cut_to - cut_from + 1, 3);
@@ -160,6 +163,9 @@ MadeUpFace made_up_face(Surface surface, int side, int frames) {
   add_landmarks(side, face.performance);
   face.scan.mesh.points = face.performance.skin_rest.points.topRows(face.performance.scan_vertices);
   face.scan.mesh.triangles = face.performance.skin_rest.triangles;
+  for (auto& v : face.scan.mesh.triangles.reshaped())
+    if (v >= face.performance.scan_vertices)
+      v = face.performance.appended[v - face.performance.scan_vertices].a;
   dress(surface, face.performance, face.scan);
   face.symmetry.time_s = face.performance.frame_time_s;
   for (const double t : face.symmetry.time_s) {
