@@ -92,6 +92,66 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& line, double sigma_m) {
   return out;
 }
 
+/// The border loop between the lips; empty where the mouth is closed.
+std::vector<int> mouth_loop(const TriMesh& mesh, const io::Landmarks& landmarks) {
+  const std::vector<Vec3> line = lip_line(landmarks);
+  const Vec3 corner_r = line.front(), across = line.back() - line.front();
+  const double width = across.norm();
+  for (auto& loop : boundary_loops(mesh.triangles)) {
+    double least = 1e300, greatest = -1e300;
+    for (int v : loop) {
+      const Vec3 p = mesh.points.row(v);
+      if (distance_to_polyline(p, line) > 0.25 * width) continue;
+      const double along = (p - corner_r).dot(across) / (width * width);
+      least = std::min(least, along);
+      greatest = std::max(greatest, along);
+    }
+    if (greatest - least > 0.5) return loop;
+  }
+  return {};
+}
+
+/// The two edges of an open mouth.
+struct Rims {
+  int right_corner = -1, left_corner = -1;
+  std::vector<int> upper, lower;  // without the corners
+};
+
+std::optional<Rims> rims_of(const TriMesh& mesh, const io::Landmarks& landmarks) {
+  const std::vector<int> loop = mouth_loop(mesh, landmarks);
+  if (loop.empty()) return {};
+  const Vec3 left = landmarks.at(ibug(54)) - landmarks.at(ibug(48));
+  const auto before = [&](int a, int b) {
+    return (mesh.points.row(a) - mesh.points.row(b)).dot(left) < 0;
+  };
+  const auto [first, last] = std::minmax_element(loop.begin(), loop.end(), before);
+  Rims rims{*first, *last, {}, {}};
+  // A loop runs as its triangles do: from the right corner to the left these lie above it.
+  std::vector<int>* side = &rims.upper;
+  for (std::size_t i = 1; i < loop.size(); ++i) {
+    const int v = loop[(std::size_t(first - loop.begin()) + i) % loop.size()];
+    if (v == rims.left_corner)
+      side = &rims.lower;
+    else
+      side->push_back(v);
+  }
+  return rims;
+}
+
+/// At the corners neither lip is nearer, and on the rims there is no doubt.
+void settle_at_rims(std::vector<double>& margin, const TriMesh& mesh, const Rims& rims) {
+  const Vec3 corner = mesh.points.row(rims.right_corner);
+  const Vec3 across = mesh.points.row(rims.left_corner).transpose() - corner;
+  const double at_right = margin[rims.right_corner], at_left = margin[rims.left_corner];
+  for (std::size_t v = 0; v < margin.size(); ++v) {
+    const double t = (mesh.points.row(v).transpose() - corner).dot(across) / across.squaredNorm();
+    if (margin[v] != 0) margin[v] -= at_right + std::clamp(t, 0.0, 1.0) * (at_left - at_right);
+  }
+  constexpr double sure = 0.005;
+  for (int v : rims.upper) margin[v] = std::max(margin[v], sure);
+  for (int v : rims.lower) margin[v] = std::min(margin[v], -sure);
+}
+
 }  // namespace
 
 int lip_of(const std::string& landmark) {
@@ -110,25 +170,12 @@ std::vector<double> upper_lip_margin(const TriMesh& mesh, const io::Landmarks& l
   constexpr double far = 1;  // m
   for (std::size_t v = 0; v < margin.size(); ++v)
     margin[v] = std::min(lower[v], far) - std::min(upper[v], far);
+  if (const auto rims = rims_of(mesh, landmarks)) settle_at_rims(margin, mesh, *rims);
   return margin;
 }
 
 bool mouth_is_open(const TriMesh& mesh, const io::Landmarks& landmarks) {
-  const std::vector<Vec3> line = lip_line(landmarks);
-  const Vec3 corner_r = line.front(), across = line.back() - line.front();
-  const double width = across.norm();
-  for (const auto& loop : boundary_loops(mesh.triangles)) {
-    double least = 1e300, greatest = -1e300;
-    for (int v : loop) {
-      const Vec3 p = mesh.points.row(v);
-      if (distance_to_polyline(p, line) > 0.25 * width) continue;
-      const double along = (p - corner_r).dot(across) / (width * width);
-      least = std::min(least, along);
-      greatest = std::max(greatest, along);
-    }
-    if (greatest - least > 0.5) return true;
-  }
-  return false;
+  return !mouth_loop(mesh, landmarks).empty();
 }
 
 Points lip_line_of_landmarks(const io::Landmarks& landmarks) {

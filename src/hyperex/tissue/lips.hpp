@@ -11,7 +11,9 @@ namespace hyperex::tissue {
 
 /// Which lip a vertex belongs to, told by walking on the surface, since across a closed mouth the
 /// other lip is nearer through the air. Per vertex: walk to the lower lip minus walk to the upper
-/// one (m); above 0 on the upper side. Infinite walks count as far.
+/// one (m); above 0 on the upper side. Infinite walks count as far (0 where both are).
+/// Where the mouth is open it is shifted to be 0 at its corners (between them linearly), and at
+/// least 5 mm, with the lip's own sign, on its rims.
 std::vector<double> upper_lip_margin(const TriMesh& mesh, const io::Landmarks& landmarks);
 
 /// -1, 0 or 1 for points of the lower lip, of neither and of the upper lip by their iBUG-68 number.
