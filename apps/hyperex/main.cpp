@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -21,6 +22,8 @@ void print_error(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that may grow no further is then a failed write, told in words, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App program{
       "Recorded expressions, re-enacted on scanned faces through simulated soft tissue.",
       "hyperex"};

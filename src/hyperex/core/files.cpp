@@ -15,9 +15,9 @@ namespace hyperex {
 namespace fs = std::filesystem;
 
 namespace {
-fs::path temporary_beside(const fs::path& target) {
-  return target.parent_path() /
-         fmt::format(".{}.{}.tmp", target.filename().string(), static_cast<long>(::getpid()));
+fs::path temporary_beside(const fs::path& target, const char* extension = "tmp") {
+  return target.parent_path() / fmt::format(".{}.{}.{}", target.filename().string(),
+                                            static_cast<long>(::getpid()), extension);
 }
 }  // namespace
 
@@ -74,12 +74,25 @@ OutputDirectory::~OutputDirectory() {
 }
 
 void OutputDirectory::commit() {
-  std::error_code error;
-  fs::remove_all(target_, error);
-  error.clear();
+  // An earlier run's folder is moved aside, not removed, until this one stands in its place.
+  const fs::path aside = temporary_beside(target_, "old");
+  std::error_code error, ignored;
+  const auto fail = [&] {
+    throw InputError(target_, "cannot be written (" + error.message() + ")");
+  };
+  const bool replaces = fs::exists(target_, ignored);
+  if (replaces) {
+    fs::remove_all(aside, ignored);
+    fs::rename(target_, aside, error);
+    if (error) fail();
+  }
   fs::rename(temporary_, target_, error);
-  if (error) throw InputError(target_, "cannot be written (" + error.message() + ")");
+  if (error) {
+    if (replaces) fs::rename(aside, target_, ignored);
+    fail();
+  }
   committed_ = true;
+  if (replaces) fs::remove_all(aside, ignored);
 }
 
 std::string read_file(const fs::path& path) {

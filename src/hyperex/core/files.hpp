@@ -25,6 +25,7 @@ class OutputDirectory {
   OutputDirectory& operator=(const OutputDirectory&) = delete;
   /// Where to write until commit().
   const std::filesystem::path& path() const { return temporary_; }
+  /// An earlier output stays as it was where this throws InputError.
   void commit();
 
  private:

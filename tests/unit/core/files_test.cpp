@@ -116,6 +116,19 @@ TEST_F(Files, OutputAppearsOnCommitOnly) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep"), {}), 1);
 }
 
+TEST_F(Files, AnEarlierOutputSurvivesAFailedCommit) {
+  const fs::path target = folder_ / "out";
+  fs::create_directories(target);
+  put(target / "summary.json", "earlier");
+  {
+    OutputDirectory out(target);
+    fs::remove_all(out.path());  // as if the disk had gone: renaming fails
+    EXPECT_THAT([&] { out.commit(); }, ThrowsMessage<InputError>(HasSubstr("cannot be written")));
+  }
+  EXPECT_EQ(read_file(target / "summary.json"), "earlier");
+  EXPECT_THAT(names(), ::testing::ElementsAre("out"));
+}
+
 TEST_F(Files, OutputTakesNoForeignFolder) {
   fs::create_directories(folder_ / "mine");
   put(folder_ / "mine" / "letters.txt", "dear");
