@@ -52,12 +52,24 @@ void Boundary::set_driven(const AlignedMotion& motion, const io::Landmarks& land
     if (!std::count(drive.points.begin(), drive.points.end(), name))
       points.push_back({name, it->second});
   }
+  const DriveField field(points, still_places(points, landmarks), mesh_,
+                         tissue::face_frame(landmarks).y);
   const DrivenPatches patches =
-      driven_patches(points, mesh_, drive.patch_radius_m, motion.motion.source);
+      driven_patches(field, mesh_, drive.patch_radius_m, motion.motion.source);
+  set_field(field);
   driven_nodes_ = patches.nodes;
   driven_weights_ = Eigen::MatrixXd::Zero(patches.nodes.size(), rest_.rows());
   for (std::size_t i = 0; i < driven_rows_.size(); ++i)  // still points move nothing: no column
     driven_weights_.col(driven_rows_[i]) = patches.weights.col(i);
+}
+
+void Boundary::set_field(const DriveField& field) {
+  const tissue::VolumeMesh& volume = mesh_.volume;
+  const Eigen::MatrixXd weights =
+      field.weights(volume.nodes.bottomRows(volume.surface_nodes()), mesh_.upper_margin);
+  field_weights_ = Eigen::MatrixXd::Zero(weights.rows(), rest_.rows());
+  for (std::size_t i = 0; i < driven_rows_.size(); ++i)
+    field_weights_.col(driven_rows_[i]) = weights.col(i);
 }
 
 void Boundary::set_measured(const MeasuredRegion& region) {
@@ -106,8 +118,11 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
   const Points normals = vertex_normals(mesh_.volume.outer);
   const Eigen::VectorXd areas = node_areas(mesh_.volume.outer);
   for (int v = 0; v < static_cast<int>(bones.size()); ++v) {
-    if (bones[v] == Bone::none) continue;
     const int node = mesh_.volume.inner_node(v);
+    if (support.muscle_pa_per_m > 0 && bones[v] != Bone::mandible)
+      springs_.push_back({node, areas[v] * support.muscle_pa_per_m * Eigen::Matrix3d::Identity(),
+                          Spring::field, v});
+    if (bones[v] == Bone::none) continue;
     const bool teeth = bones[v] == Bone::upper_teeth || bones[v] == Bone::lower_teeth;
     const bool skull = bones[v] == Bone::skull || bones[v] == Bone::upper_teeth;
     if (skull ? support.skull == Hold::free : support.mandible == Mandible::free) continue;
@@ -126,7 +141,7 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
     springs_.push_back({node,
                         areas[v] * (layer.across_pa_per_m * across +
                                     layer.along_pa_per_m * (Eigen::Matrix3d::Identity() - across)),
-                        follows});
+                        follows ? Spring::jaw : Spring::rest, v});
   }
 }
 
@@ -144,7 +159,7 @@ void Boundary::number_unknowns() {
 std::vector<int> Boundary::held_nodes() const {
   std::vector<int> held = fixed_nodes_;
   for (const Spring& s : springs_)
-    if (!s.follows_jaw) held.push_back(s.node);
+    if (s.target == Spring::rest) held.push_back(s.node);
   return held;
 }
 
@@ -166,17 +181,22 @@ void Boundary::at(const Points& point_displacement, Eigen::VectorXd& values,
           (driven_weights_.row(row) * point_displacement).transpose();
   }
   force.setZero();
-  if (jaw_rows_.empty()) return;
-  Points at(jaw_rows_.size(), 3), by(jaw_rows_.size(), 3);
-  for (std::size_t i = 0; i < jaw_rows_.size(); ++i) {
-    at.row(i) = rest_.row(jaw_rows_[i]);
-    by.row(i) = point_displacement.row(jaw_rows_[i]);
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  if (!jaw_rows_.empty()) {
+    Points at(jaw_rows_.size(), 3), by(jaw_rows_.size(), 3);
+    for (std::size_t i = 0; i < jaw_rows_.size(); ++i) {
+      at.row(i) = rest_.row(jaw_rows_[i]);
+      by.row(i) = point_displacement.row(jaw_rows_[i]);
+    }
+    turn = jaw_.follow(at, by);
   }
-  const Eigen::Isometry3d turn = jaw_.follow(at, by);
   for (const Spring& s : springs_) {
-    if (!s.follows_jaw) continue;
+    if (s.target == Spring::rest) continue;
     const Vec3 x = mesh_.volume.nodes.row(s.node);
-    force.segment<3>(3 * s.node) += s.stiffness * (turn * x - x);
+    const Vec3 to = s.target == Spring::jaw
+                        ? Vec3(turn * x - x)
+                        : Vec3((field_weights_.row(s.row) * point_displacement).transpose());
+    force.segment<3>(3 * s.node) += s.stiffness * to;
   }
 }
 

@@ -38,10 +38,12 @@ class Boundary {
   struct Spring {
     int node;
     Eigen::Matrix3d stiffness;  // N/m
-    bool follows_jaw;
+    enum Target { rest, jaw, field } target;
+    int row;  // of field_weights_
   };
   void set_driven(const AlignedMotion& motion, const io::Landmarks& landmarks,
                   const DriveOptions& drive);
+  void set_field(const DriveField& field);
   void set_measured(const MeasuredRegion& region);
   void set_bones(const io::Landmarks& landmarks, const SupportOptions& support);
   void set_jaw_points(const AlignedMotion& motion, const SupportOptions& support);
@@ -53,6 +55,7 @@ class Boundary {
   std::vector<int> driven_rows_, jaw_rows_, driven_nodes_, fixed_nodes_;
   Eigen::MatrixXd driven_weights_;  // |driven_nodes_| x P
   std::vector<Spring> springs_;
+  Eigen::MatrixXd field_weights_;  // |inner nodes| x P
   std::vector<int> prescribed_;
   std::vector<std::pair<int, int>> source_;  // per prescribed node: kind (0 fixed, 1 driven), row
   int skull_count_ = 0, mandible_count_ = 0;

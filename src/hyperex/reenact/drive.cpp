@@ -16,22 +16,13 @@
 namespace hyperex::reenact {
 namespace {
 
-/// -1 or 1 for points that only move the lower or the upper side of the mouth; the chin's count
-/// with the lower one.
-int side_of_point(const std::string& name) {
-  for (int k = 4; k <= 12; ++k)
-    if (name == tissue::ibug(k)) return -1;
-  return tissue::lip_of(name);
-}
+constexpr double mouth_shift_m = 0.010;
+/// Difference of the walks to both lips at which a place counts as wholly above or below the mouth.
+constexpr double full_margin_m = 0.010;
 
 std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t i,
                              const tissue::TissueMesh& mesh, double radius) {
   const int lip = tissue::lip_of(points[i].name);
-  double next = 1;
-  for (std::size_t j = 0; j < points.size(); ++j)
-    if (j != i && tissue::lip_of(points[j].name) * lip >= 0)
-      next = std::min(next, (points[j].rest - points[i].rest).norm());
-  const double reach = std::min(radius, next);
   const Points& skin = mesh.volume.outer.points;
   std::vector<int> hit;
   int nearest = -1;
@@ -43,59 +34,92 @@ std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t
       least = d;
       nearest = v;
     }
-    if (d < reach) hit.push_back(v);
+    if (d < radius) hit.push_back(v);
   }
   if (hit.empty() && nearest >= 0) hit.push_back(nearest);
   return hit;
 }
 
-/// Row j: how the displacement at node j follows from those of the points of its side.
-void fill_weights(DrivenPatches& patches, const std::vector<DrivenPoint>& points,
-                  const tissue::TissueMesh& mesh, int side) {
-  std::vector<int> members, rows;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (side_of_point(points[i].name) * side >= 0) members.push_back(static_cast<int>(i));
-  for (std::size_t j = 0; j < patches.nodes.size(); ++j)
-    if ((mesh.upper_margin[patches.nodes[j]] > 0) == (side > 0))
-      rows.push_back(static_cast<int>(j));
-  if (members.empty() || rows.empty()) return;
-  Points centres(members.size(), 3), at(rows.size(), 3);
-  for (std::size_t i = 0; i < members.size(); ++i)
-    centres.row(i) = points[members[i]].rest.transpose();
-  for (std::size_t j = 0; j < rows.size(); ++j)
-    at.row(j) = mesh.volume.outer.points.row(patches.nodes[rows[j]]);
-  // Three points at a time: one unit displacement an axis.
-  for (std::size_t first = 0; first < members.size(); first += 3) {
-    Points unit = Points::Zero(members.size(), 3);
-    for (std::size_t k = 0; k < 3 && first + k < members.size(); ++k) unit(first + k, k) = 1;
-    const Points value = Rbf(centres, unit).at_all(at);
-    for (std::size_t k = 0; k < 3 && first + k < members.size(); ++k)
-      for (std::size_t j = 0; j < rows.size(); ++j)
-        patches.weights(rows[j], members[first + k]) = value(j, k);
-  }
-}
-
 }  // namespace
 
-DrivenPatches driven_patches(const std::vector<DrivenPoint>& points, const tissue::TissueMesh& mesh,
+DriveField::DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>& still,
+                       const tissue::TissueMesh& mesh, const Vec3& up)
+    : points_(std::move(points)), up_(up) {
+  const Points& skin = mesh.volume.outer.points;
+  // The margin of the nearest node, of a lip's point on that lip.
+  const auto margin_at = [&](const Vec3& p, int lip) {
+    double least = 1, margin = 0;
+    for (int v = 0; v < skin.rows(); ++v) {
+      if (lip != 0 && (mesh.upper_margin[v] > 0) != (lip > 0)) continue;
+      if (const double d = (skin.row(v).transpose() - p).norm(); d < least) {
+        least = d;
+        margin = mesh.upper_margin[v];
+      }
+    }
+    return margin;
+  };
+  centres_.resize(points_.size() + still.size(), 3);
+  Eigen::Index row = 0;
+  for (const DrivenPoint& p : points_)
+    centres_.row(row++) = opened(p.rest, margin_at(p.rest, tissue::lip_of(p.name))).transpose();
+  for (const Vec3& p : still) centres_.row(row++) = opened(p, margin_at(p, 0)).transpose();
+}
+
+Vec3 DriveField::opened(const Vec3& p, double margin) const {
+  return p + mouth_shift_m * std::clamp(margin / full_margin_m, -1.0, 1.0) * up_;
+}
+
+Eigen::MatrixXd DriveField::weights(const Points& places, const std::vector<double>& margin) const {
+  Points at(places.rows(), 3);
+  for (Eigen::Index j = 0; j < at.rows(); ++j)
+    at.row(j) = opened(places.row(j), margin[j]).transpose();
+  Eigen::MatrixXd all(places.rows(), points_.size());
+  // Three points at a time: one unit displacement an axis.
+  for (std::size_t first = 0; first < points_.size(); first += 3) {
+    const std::size_t count = std::min<std::size_t>(3, points_.size() - first);
+    Points unit = Points::Zero(centres_.rows(), 3);
+    for (std::size_t k = 0; k < count; ++k) unit(first + k, k) = 1;
+    all.middleCols(first, count) = Rbf(centres_, unit).at_all(at).leftCols(count);
+  }
+  return all;
+}
+
+std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
+                               const io::Landmarks& landmarks) {
+  std::vector<Vec3> still;
+  for (int k = 0; k < 48; ++k) {
+    if (k > 3 && k < 13) continue;
+    const std::string name = tissue::ibug(k);
+    const bool drives = std::any_of(points.begin(), points.end(),
+                                    [&](const DrivenPoint& p) { return p.name == name; });
+    if (!drives && landmarks.count(name)) still.push_back(landmarks.at(name));
+  }
+  return still;
+}
+
+DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
                              double patch_radius_m, const std::string& source) {
+  const std::vector<DrivenPoint>& points = field.points();
   const SurfaceTree skin(mesh.skin);
   constexpr double off_skin_m = 0.025;
   for (const DrivenPoint& p : points)
     if (const double d = std::sqrt(skin.query(p.rest).squared_distance); d > off_skin_m)
-      throw InputError(
-          source,
-          fmt::format("driven point {} lies {:.0f} mm off the skin after alignment; expected "
-                      "at most {:.0f} mm",
-                      p.name, d * 1e3, off_skin_m * 1e3));
+      throw InputError(source,
+                       fmt::format("driven point {} lies {:.0f} mm off the skin after alignment; "
+                                   "expected at most {:.0f} mm",
+                                   p.name, d * 1e3, off_skin_m * 1e3));
   std::set<int> nodes;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (int v : patch_nodes(points, i, mesh, patch_radius_m)) nodes.insert(v);
   DrivenPatches patches;
   patches.nodes.assign(nodes.begin(), nodes.end());
-  patches.weights = Eigen::MatrixXd::Zero(patches.nodes.size(), points.size());
-  fill_weights(patches, points, mesh, 1);
-  fill_weights(patches, points, mesh, -1);
+  Points places(patches.nodes.size(), 3);
+  std::vector<double> margin;
+  for (std::size_t j = 0; j < patches.nodes.size(); ++j) {
+    places.row(j) = mesh.volume.outer.points.row(patches.nodes[j]);
+    margin.push_back(mesh.upper_margin[patches.nodes[j]]);
+  }
+  patches.weights = field.weights(places, margin);
   return patches;
 }
 

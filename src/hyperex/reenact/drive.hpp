@@ -13,19 +13,41 @@ struct DrivenPoint {
   Vec3 rest;  ///< scan frame, m
 };
 
+/// The displacement of the face between driven points: radial-basis interpolation (rbf.hpp) of
+/// their displacements and of `still` places, which do not move. It meets every driven point. So
+/// that the lips can part, it is interpolated on a face whose mouth is opened: what lies above the
+/// mouth by the walk on the skin is shifted up, what lies below down, each by up to
+/// `mouth_shift_m`. Linear in the points' displacements.
+class DriveField {
+ public:
+  DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>& still,
+             const tissue::TissueMesh& mesh, const Vec3& up);
+  /// u(place j) = sum_i weight(j, i) d_i; `margin[j]`: of place j, as TissueMesh::upper_margin.
+  Eigen::MatrixXd weights(const Points& places, const std::vector<double>& margin) const;
+  const std::vector<DrivenPoint>& points() const { return points_; }
+
+ private:
+  Vec3 opened(const Vec3& p, double margin) const;
+  std::vector<DrivenPoint> points_;
+  Points centres_;  // opened: the points, then the still places
+  Vec3 up_;
+};
+
+/// Where the face is taken to be still between the driven points: brows, eyes, nose and temples
+/// (ibug68_0 to 3, 13 to 16, 17 to 47), save those that are driven themselves.
+std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
+                               const io::Landmarks& landmarks);
+
 /// Skin nodes that take prescribed displacements: a patch around each driven point, reaching
-/// `patch_radius_m`, but no farther than the next driven point of the same lip, and never across
-/// the slit. In a patch the displacement is the radial-basis interpolation of the driven points of
-/// that side, so that it meets every driven point and varies smoothly between them. Linear in the
-/// points' displacements:
-///   u(node j) = sum_i weight(j, i) d_i.
+/// `patch_radius_m` (but at least the nearest node), never across the slit. In a patch the
+/// displacement is the field's.
 struct DrivenPatches {
   std::vector<int> nodes;   ///< outer nodes, rising
   Eigen::MatrixXd weights;  ///< |nodes| x |points|
 };
 
 /// Throws InputError ("source: ...") where a point lies farther than 25 mm from the skin.
-DrivenPatches driven_patches(const std::vector<DrivenPoint>& points, const tissue::TissueMesh& mesh,
+DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
                              double patch_radius_m, const std::string& source);
 
 }  // namespace hyperex::reenact

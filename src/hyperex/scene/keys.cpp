@@ -145,6 +145,10 @@ std::vector<Key> model_keys() {
       number<Scene>("support.teeth_along_kpa_per_mm", stiffness,
                     AT(support.teeth_layer.along_pa_per_m), {0, 1e6},
                     "As support.skull_along_kpa_per_mm, under the lips."),
+      number<Scene>(
+          "support.muscle_kpa_per_mm", stiffness, AT(support.muscle_pa_per_m), {0, 1e6},
+          "How firmly the deep side of the tissue, save over the mandible, follows the "
+          "motion interpolated between the driven points, as the muscles there do; 0: not."),
       names<Scene>("support.jaw_points", AT(support.jaw_points), 0,
                    "Points whose motion turns the jaw. Empty: those of the chin that the recording "
                    "has."),
