@@ -13,11 +13,15 @@
 namespace hyperex::reenact {
 namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+struct Row {
+  int row = -1;  // of the points; below 0 where two contours cross
+};
+using Vertex = CGAL::Triangulation_vertex_base_with_info_2<Row, Kernel>;
 using Data =
     CGAL::Triangulation_data_structure_2<Vertex,
                                          CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-// Crossing contours (points of bad tracking) are resolved rather than refused.
+// Crossing contours (points of bad tracking) are resolved rather than refused: triangles at a
+// crossing, which is no tracked point, are left out.
 using Delaunay =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Data, CGAL::Exact_predicates_tag>;
 
@@ -43,7 +47,7 @@ Triangles triangulate_points(const std::vector<std::string>& names, const Points
     const int lip = tissue::lip_of(names[i]);
     const bool lower = lip < 0 || (lip == 0 && q.y() < -0.012);
     const auto v = plane.insert({q.x(), q.y() - (lower ? apart_m : 0)});
-    v->info() = static_cast<int>(i);
+    v->info().row = static_cast<int>(i);
     by_name[names[i]] = v;
   }
   std::vector<std::set<int>> openings;
@@ -57,12 +61,13 @@ Triangles triangulate_points(const std::vector<std::string>& names, const Points
       plane.insert_constraint(ring[i], ring[(i + 1) % ring.size()]);
     if (!is_opening) continue;
     openings.emplace_back();
-    for (const auto v : ring) openings.back().insert(v->info());
+    for (const auto v : ring) openings.back().insert(v->info().row);
   }
   std::vector<std::array<int, 3>> kept;
   for (auto f = plane.finite_faces_begin(); f != plane.finite_faces_end(); ++f) {
-    const std::array<int, 3> t{f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
-    bool inside = false;
+    const std::array<int, 3> t{f->vertex(0)->info().row, f->vertex(1)->info().row,
+                               f->vertex(2)->info().row};
+    bool inside = t[0] < 0 || t[1] < 0 || t[2] < 0;
     for (const auto& ring : openings)
       inside |= ring.count(t[0]) && ring.count(t[1]) && ring.count(t[2]);
     if (!inside) kept.push_back(t);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hyperex/geometry/geodesic.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+#include "reenact/small_face.hpp"
+#include "support/sheet_mesh.hpp"
+
+namespace hyperex::reenact {
+namespace {
+
+using tissue::ibug;
+
+TEST(BonesUnder, FollowTheAnatomy) {
+  const test::SmallFace face = test::small_face();
+  const auto bones = bones_under(face.mesh, face.landmarks);
+  ASSERT_EQ(static_cast<Eigen::Index>(bones.size()), face.mesh.volume.surface_nodes());
+  const Points& skin = face.mesh.skin.points;
+  const auto at = [&](const Vec3& p) { return bones[nearest_vertex(skin, p)]; };
+  const auto landmark = [&](int k) { return face.landmarks.at(ibug(k)); };
+  for (int k : {19, 24, 27, 36, 45}) EXPECT_EQ(at(landmark(k)), Bone::skull) << k;
+  EXPECT_EQ(at(landmark(8)), Bone::mandible);
+  EXPECT_EQ(at(landmark(51)), Bone::upper_teeth);
+  EXPECT_EQ(at(landmark(57)), Bone::lower_teeth);
+  for (std::size_t v = 0; v < bones.size(); ++v) {
+    if (bones[v] == Bone::upper_teeth || bones[v] == Bone::lower_teeth) {
+      EXPECT_EQ(bones[v] == Bone::upper_teeth, face.mesh.upper_margin[v] > 0);
+    }
+  }
+  for (const Bone bone :
+       {Bone::none, Bone::skull, Bone::mandible, Bone::upper_teeth, Bone::lower_teeth})
+    EXPECT_GT(std::count(bones.begin(), bones.end(), bone), 5) << int(bone);
+}
+
+TEST(BonesUnder, AreAlikeOnBothSides) {
+  const test::SmallFace face = test::small_face();
+  const auto bones = bones_under(face.mesh, face.landmarks);
+  const Points& skin = face.mesh.skin.points;
+  int alike = 0, pairs = 0;
+  for (int v = 0; v < skin.rows(); ++v) {
+    const Vec3 mirrored(-skin(v, 0), skin(v, 1), skin(v, 2));
+    const int w = nearest_vertex(skin, mirrored);
+    if ((skin.row(w).transpose() - mirrored).norm() > 1e-4) continue;
+    ++pairs;
+    alike += bones[v] == bones[w];
+  }
+  EXPECT_GT(pairs, 200);
+  EXPECT_GT(alike, 0.97 * pairs);
+}
+
+TEST(NearJaw, IsTheLowerFaceOnly) {
+  const test::SmallFace face = test::small_face();
+  const auto near = near_jaw(face.mesh, face.landmarks);
+  const auto at = [&](int k) {
+    return near[nearest_vertex(face.mesh.skin.points, face.landmarks.at(ibug(k)))];
+  };
+  for (int k : {5, 8, 11}) EXPECT_TRUE(at(k)) << k;
+  for (int k : {0, 16, 19, 24, 27, 30, 36, 45}) EXPECT_FALSE(at(k)) << k;
+}
+
+TEST(NodeAreas, ShareOutTheSurface) {
+  const auto sheet = hyperex::test::sheet_mesh({6, 5}, {0.06, 0.05});
+  const Eigen::VectorXd areas = node_areas(sheet.mesh);
+  EXPECT_NEAR(areas.sum(), 0.003, 1e-15);
+  EXPECT_NEAR(areas[sheet.vertex(3, 2)], 1e-4, 1e-15) << "a cell's worth inside";
+  EXPECT_NEAR(areas[sheet.vertex(3, 0)], 0.5e-4, 1e-15) << "half on the border";
+  const test::SmallFace face = test::small_face();
+  EXPECT_NEAR(node_areas(face.mesh.skin).sum(), triangle_areas(face.mesh.skin).sum(), 1e-12);
+}
+
+}  // namespace
+}  // namespace hyperex::reenact
