@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -24,6 +27,9 @@ void print_error(const std::string& text) {
 int main(int argc, char** argv) {
   // A file that may grow no further is then a failed write, told in words, not the end.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Standard output is for results alone: what is said on the way goes beside it.
+  spdlog::set_default_logger(spdlog::stderr_color_mt("hyperex"));
+  spdlog::set_pattern("%^%l%$: %v");
   CLI::App program{
       "Recorded expressions, re-enacted on scanned faces through simulated soft tissue.",
       "hyperex"};

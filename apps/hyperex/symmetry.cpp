@@ -42,15 +42,10 @@ void run(const Options& options) {
   std::optional<io::LengthUnit> unit;
   if (!options.unit.empty()) unit = io::length_unit(options.unit);
   const motion::Motion motion = motion::read_motion(options.motion, unit);
-  metrics::SymmetryCurve curve;
-  try {
-    const double floor = options.accuracy_mm > 0
-                             ? metrics::floor_from_accuracy(motion, options.accuracy_mm * 1e-3)
-                             : options.floor;
-    curve = metrics::symmetry_of(motion, floor);
-  } catch (const InputError& error) {
-    throw InputError(options.motion, error.what());
-  }
+  const double floor = options.accuracy_mm > 0
+                           ? metrics::floor_from_accuracy(motion, options.accuracy_mm * 1e-3)
+                           : options.floor;
+  const metrics::SymmetryCurve curve = metrics::symmetry_of(motion, floor);
   for (const std::string& stand_in : curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
   if (!options.picture.empty())

@@ -2,17 +2,15 @@
 // The program as a user calls it: exit status, standard output and error kept apart.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "hyperex/core/files.hpp"
+#include "apps/program.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 
@@ -24,28 +22,8 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-class Program : public testing::Test {
+class Program : public ProgramTest {
  protected:
-  struct Outcome {
-    int status;
-    std::string out, err;
-  };
-
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("hyperex_apps_") + test->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  Outcome call(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" HYPEREX_PROGRAM "' " +
-                                arguments + " >out.txt 2>err.txt";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), read_file(folder_ / "out.txt"), read_file(folder_ / "err.txt")};
-  }
-
   // A flat sheet of 20 cm, moved forward by `forward_m`, with `extra` more vertices at its end.
   void write_sheet(const std::string& name, double forward_m, int extra = 0) const {
     constexpr int n = 41;
@@ -60,10 +38,8 @@ class Program : public testing::Test {
         mesh.triangles.row(row++) << n * i + j, n * i + j + 1, n * (i + 1) + j + 1;
         mesh.triangles.row(row++) << n * i + j, n * (i + 1) + j + 1, n * (i + 1) + j;
       }
-    io::write_ply(folder_ / name, mesh, io::LengthUnit::millimetre);
+    io::write_ply(in(name), mesh, io::LengthUnit::millimetre);
   }
-
-  fs::path folder_;
 };
 
 TEST_F(Program, TellsItsVersionAndHelp) {
@@ -86,7 +62,7 @@ TEST_F(Program, ComparesBySurfaceWithoutLandmarks) {
   EXPECT_EQ(json.size(), 1u);
   for (const char* key : {"mean_mm", "median_mm", "rms_mm", "p95_mm", "max_mm"})
     EXPECT_NEAR(json["surface"][key].get<double>(), 3, 1e-4) << key;
-  EXPECT_FALSE(fs::exists(folder_ / "compare.png"));
+  EXPECT_FALSE(fs::exists(in("compare.png")));
 }
 
 TEST_F(Program, ComparesByRegionsOfTheScanAtRest) {
@@ -96,7 +72,7 @@ TEST_F(Program, ComparesByRegionsOfTheScanAtRest) {
   io::Landmarks landmarks;
   for (int k = 0; k < 68; ++k)
     landmarks["ibug68_" + std::to_string(k)] = {0.001 * (k % 8), 0.002 * (k / 8), 0};
-  io::write_landmarks(folder_ / "l.json", landmarks, io::LengthUnit::millimetre);
+  io::write_landmarks(in("l.json"), landmarks, io::LengthUnit::millimetre);
   const std::string files =
       "compare a.ply truth.ply --corresponding --rest rest.ply "
       "--landmarks l.json --unit mm --json";
@@ -110,7 +86,7 @@ TEST_F(Program, ComparesByRegionsOfTheScanAtRest) {
   EXPECT_NEAR(still["mean_mm"].get<double>(), 5, 1e-4);
   EXPECT_NEAR(still["ratio_of_means"].get<double>(), 0.8, 1e-4);
   EXPECT_NEAR(json["baseline"]["warp_68"]["face"]["mean_mm"].get<double>(), 0, 1e-4);
-  EXPECT_THAT(read_file(folder_ / "p.png").substr(1, 3), "PNG");
+  EXPECT_THAT(read_file(in("p.png")).substr(1, 3), "PNG");
   EXPECT_FALSE(nlohmann::json::parse(call(files).out).contains("baseline"));
 }
 
@@ -120,13 +96,13 @@ TEST_F(Program, PrintsATableAndDrawsAPicture) {
   const Outcome found = call("compare a.ply b.ply --unit mm");
   ASSERT_EQ(found.status, 0) << found.err;
   EXPECT_THAT(found.out, HasSubstr("surface       3.000    3.000"));
-  EXPECT_TRUE(fs::exists(folder_ / "compare.png"));
+  EXPECT_TRUE(fs::exists(in("compare.png")));
 }
 
 TEST_F(Program, RefusesInOneLine) {
   write_sheet("a.ply", 0);
   write_sheet("longer.ply", 0, 1);
-  std::ofstream(folder_ / "m.csv") << "time_s,here_x,here_y,here_z\n0,0,0,0\n1,0,0,0\n";
+  std::ofstream(in("m.csv")) << "time_s,here_x,here_y,here_z\n0,0,0,0\n1,0,0,0\n";
   for (const char* arguments :
        {"", "compare a.ply", "compare a.ply nothing.ply", "compare a.ply a.ply --unit inch",
         "compare a.ply longer.ply --corresponding --unit mm",
@@ -151,8 +127,8 @@ TEST_F(Program, WritesSymmetryAsCsv) {
   const Outcome found =
       call("symmetry '" + motion.string() + "' --out s.csv --picture s.png --floor 1e-4");
   ASSERT_EQ(found.status, 0) << found.err;
-  EXPECT_THAT(read_file(folder_ / "s.csv"), StartsWith("time_s,xi_L,xi_R,S_ln,floor\n0,0,0,-9.21"));
-  EXPECT_TRUE(fs::exists(folder_ / "s.png"));
+  EXPECT_THAT(read_file(in("s.csv")), StartsWith("time_s,xi_L,xi_R,S_ln,floor\n0,0,0,-9.21"));
+  EXPECT_TRUE(fs::exists(in("s.png")));
   EXPECT_THAT(found.err, HasSubstr("exocanthion_L: ibug68_45"));
 }
 

@@ -73,6 +73,13 @@ OutputDirectory::~OutputDirectory() {
   fs::remove_all(temporary_, ignored);
 }
 
+std::string OutputDirectory::with_own_name(std::string text) const {
+  const std::string from = temporary_.string(), to = target_.string();
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
 void OutputDirectory::commit() {
   // An earlier run's folder is moved aside, not removed, until this one stands in its place.
   const fs::path aside = temporary_beside(target_, "old");

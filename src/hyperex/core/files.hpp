@@ -25,6 +25,8 @@ class OutputDirectory {
   OutputDirectory& operator=(const OutputDirectory&) = delete;
   /// Where to write until commit().
   const std::filesystem::path& path() const { return temporary_; }
+  /// `text` with the folder's own name in the place of the temporary one: for messages.
+  std::string with_own_name(std::string text) const;
   /// An earlier output stays as it was where this throws InputError.
   void commit();
 

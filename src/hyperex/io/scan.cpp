@@ -31,6 +31,9 @@ bool is_gltf(const std::filesystem::path& file) {
 
 RawMesh read_raw(const std::filesystem::path& file) {
   const std::string extension = extension_of(file);
+  std::error_code not_there;  // which the reader tells
+  if (std::filesystem::is_regular_file(file, not_there) && std::filesystem::is_empty(file))
+    throw InputError(file, "is empty; expected a triangle mesh");
   if (extension == ".ply") return read_ply(file);
   if (extension == ".obj") return read_obj(file);
   if (extension == ".stl") return read_stl(file);

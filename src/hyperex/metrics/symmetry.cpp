@@ -72,7 +72,7 @@ Points10 find_points(const motion::Motion& motion) {
       }
     }
   if (!missing.empty())
-    throw InputError("motion", "symmetry needs points that are not there: " + missing);
+    motion::refuse(motion, "symmetry needs points that are not there: " + missing);
   return found;
 }
 
@@ -91,14 +91,14 @@ std::array<Vec3, 4> rays(const Points& sample, const std::array<Columns, 5>& sid
 }
 
 std::array<std::array<Vec3, 4>, 2> rest_rays(const motion::Motion& motion, const Points10& points) {
-  if (motion.positions.empty()) throw InputError("motion", "symmetry needs at least one sample");
+  if (motion.positions.empty()) motion::refuse(motion, "symmetry needs at least one sample");
   std::array<std::array<Vec3, 4>, 2> rest;
   for (int side = 0; side < 2; ++side) {
     rest[side] = rays(motion.positions.front(), points.of[side]);
     for (const Vec3& ray : rest[side])
       if (!(ray.norm() > 0))
-        throw InputError("motion",
-                         "symmetry needs its points measured, and apart, at the first sample");
+        motion::refuse(motion,
+                       "symmetry needs its points measured, and apart, at the first sample");
   }
   return rest;
 }

@@ -82,7 +82,7 @@ FilledMotion fill_gaps(const Motion& motion, const GapOptions& options) {
       if (length_s > options.max_gap_s * (1 + 1e-9))
         refuse(motion,
                fmt::format("point {} is missing from {:.4g} s on for {:.4g} s: at most "
-                           "{:.4g} s are interpolated",
+                           "{:.4g} s are interpolated (motion.max_gap_s)",
                            name, motion.time_s[std::size_t(k)], length_s, options.max_gap_s));
       fill(motion, result.motion, p, k, last, options.fill);
       result.gaps.push_back(

@@ -117,6 +117,19 @@ void check_names(const Scene& scene, const Inputs& in) {
   if (!all.empty()) throw InputError(all);
 }
 
+/// Lips move apart only where several elements lie between the mouth's corners.
+void check_element_size(const Scene& scene, const Inputs& in) {
+  constexpr double share_of_mouth = 1.0 / 3;
+  const auto right = in.landmarks.find("cheilion_R"), left = in.landmarks.find("cheilion_L");
+  if (right == in.landmarks.end() || left == in.landmarks.end()) return;
+  const double mouth_m = (left->second - right->second).norm();
+  if (scene.mesh.element_size_m > share_of_mouth * mouth_m)
+    throw InputError(problem_at(
+        scene, "mesh.element_size_mm",
+        fmt::format("at most {:.1f} mm, a third of this mouth's width, for the lips to move apart",
+                    1e3 * share_of_mouth * mouth_m)));
+}
+
 }  // namespace
 
 std::vector<std::string> needed_landmarks() {
@@ -156,7 +169,9 @@ Inputs read_inputs(const Scene& scene) {
       "correction",
       in.motion.common.size(), in.motion.scan_from_motion.scale, in.motion.rms_mm));
   in.driven = scene.drive.all_points ? in.motion.motion.names : scene.drive.points;
-  check_names(scene, in);
+  problems.attempt([&] { check_names(scene, in); });
+  problems.attempt([&] { check_element_size(scene, in); });
+  problems.throw_if_any();
   return in;
 }
 

@@ -141,8 +141,8 @@ std::vector<std::string> check_scene(const Scene& scene) {
   return read_inputs(scene).notes;
 }
 
-nlohmann::ordered_json run_scene(const Scene& scene, const std::filesystem::path& directory) {
-  OutputDirectory out(directory);
+namespace {
+Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Stopwatch total, stage;
   Json seconds;
   Inputs inputs;
@@ -179,22 +179,33 @@ nlohmann::ordered_json run_scene(const Scene& scene, const std::filesystem::path
       metrics::symmetry_of(simulation.performance.landmarks, scene.output.symmetry_floor),
       all_notes(inputs, mesh, simulation.report)};
   Json summary = summary_of(results);
-  write_outputs(results, out.path());
+  write_outputs(results, directory);
   seconds["export"] = stage.lap();
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;
   summary["notes"] = results.notes;
   summary["options"] = options_json(scene);
   if (scene.output.report) {
-    write_report(results, summary, out.path());
+    write_report(results, summary, directory);
     seconds["export"] = seconds["export"].get<double>() + stage.lap();
     seconds["total"] = seconds["total"].get<double>() + total.lap();
     summary["seconds"] = seconds;
   }
-  write_file_atomically(out.path() / "summary.json",
+  write_file_atomically(directory / "summary.json",
                         [&](std::ostream& stream) { stream << summary.dump(2) << '\n'; });
-  out.commit();
   return summary;
+}
+}  // namespace
+
+nlohmann::ordered_json run_scene(const Scene& scene, const std::filesystem::path& directory) {
+  OutputDirectory out(directory);
+  try {
+    Json summary = run_into(scene, out.path());
+    out.commit();
+    return summary;
+  } catch (const InputError& error) {
+    throw InputError(out.with_own_name(error.what()));
+  }
 }
 
 }  // namespace hyperex::scene

@@ -55,25 +55,80 @@ double misfit(const Points& canonical, const Points& given) {
   throw InputError(source, text);
 }
 
+double extent(const Points& points) {
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+/// One sentence where most landmarks float off the scan: they are of another scan, or in another
+/// unit of length.
+std::string misplaced_as_a_whole(const io::Landmarks& given, std::size_t off, double least_m,
+                                 double most_m, const TriMesh& scan) {
+  Points points(Eigen::Index(given.size()), 3);
+  Eigen::Index row = 0;
+  for (const auto& entry : given) points.row(row++) = entry.second;
+  std::string text = fmt::format(
+      "{} of {} landmarks are {:.0f} to {:.0f} mm from the scan's surface: expected at most {:.0f} "
+      "mm",
+      off, given.size(), least_m * 1e3, most_m * 1e3, kLargestOffset_m * 1e3);
+  const double ratio = extent(points) / extent(scan.points);
+  return text + (ratio < 0.15 || ratio > 6
+                     ? fmt::format("; they span {:.4g} mm and the scan {:.4g} mm: is their unit of "
+                                   "length right?",
+                                   extent(points) * 1e3, extent(scan.points) * 1e3)
+                     : std::string("; are they this scan's, in its axes?"));
+}
+
 /// Landmarks that float off the scan.
-std::vector<std::string> offset_problems(const io::Landmarks& given, const SurfaceTree& tree) {
+std::vector<std::string> offset_problems(const io::Landmarks& given, const TriMesh& scan,
+                                         const SurfaceTree& tree) {
   std::vector<std::string> problems;
+  double least_m = 1e9, most_m = 0;
   for (const auto& [name, position] : given) {
     const double distance = std::sqrt(tree.query(position).squared_distance);
-    if (distance > kLargestOffset_m)
-      problems.push_back(
-          fmt::format("landmark {} is {:.1f} mm from the scan's surface: expected "
-                      "at most {:.0f} mm",
-                      name, distance * 1e3, kLargestOffset_m * 1e3));
+    if (distance <= kLargestOffset_m) continue;
+    least_m = std::min(least_m, distance);
+    most_m = std::max(most_m, distance);
+    problems.push_back(
+        fmt::format("landmark {} is {:.1f} mm from the scan's surface: expected "
+                    "at most {:.0f} mm",
+                    name, distance * 1e3, kLargestOffset_m * 1e3));
   }
+  if (problems.size() > 3 && 2 * problems.size() > given.size())
+    return {misplaced_as_a_whole(given, problems.size(), least_m, most_m, scan)};
   return problems;
+}
+
+/// Whether points i and j are exchanged: with them turned round, they come far closer to where all
+/// the others put them; where there are few others, all come far closer to one another.
+bool pair_is_exchanged(const Known& known, Eigen::Index i, Eigen::Index j) {
+  const Eigen::Index count = known.given.rows();
+  if (count < 8) {
+    Points turned = known.given;
+    turned.row(i).swap(turned.row(j));
+    const double before = misfit(known.canonical, known.given);
+    return before > kExchangedRms_m && misfit(known.canonical, turned) < kExchangedShare * before;
+  }
+  Points canonical(count - 2, 3), given(count - 2, 3);
+  for (Eigen::Index k = 0, row = 0; k < count; ++k)
+    if (k != i && k != j) {
+      canonical.row(row) = known.canonical.row(k);
+      given.row(row++) = known.given.row(k);
+    }
+  if (spread_off_line(canonical) < kLeastSpread) return false;
+  const Similarity fit = fit_similarity(canonical, given);
+  const Vec3 at_i = fit * Vec3(known.canonical.row(i)), at_j = fit * Vec3(known.canonical.row(j));
+  const Vec3 given_i = known.given.row(i), given_j = known.given.row(j);
+  const auto rms = [](const Vec3& a, const Vec3& b) {
+    return std::sqrt((a.squaredNorm() + b.squaredNorm()) / 2);
+  };
+  const double before = rms(given_i - at_i, given_j - at_j);
+  return before > kExchangedRms_m && rms(given_j - at_i, given_i - at_j) < kExchangedShare * before;
 }
 
 /// Pairs with left and right exchanged.
 std::vector<std::string> exchange_problems(const Known& known) {
   std::vector<std::string> problems;
   const double before = misfit(known.canonical, known.given);
-  if (before < kExchangedRms_m) return problems;
   Points all_turned = known.given;
   for (std::size_t i = 0; i < known.names.size(); ++i) {
     const auto other =
@@ -81,15 +136,13 @@ std::vector<std::string> exchange_problems(const Known& known) {
     if (other != known.names.end())
       all_turned.row(Eigen::Index(i)) = known.given.row(other - known.names.begin());
   }
-  if (misfit(known.canonical, all_turned) < kExchangedShare * before)
+  if (before > kExchangedRms_m && misfit(known.canonical, all_turned) < kExchangedShare * before)
     return {"left and right are exchanged in all landmarks: L and R are the subject's own sides"};
   for (std::size_t i = 0; i < known.names.size(); ++i) {
     const auto other =
         std::find(known.names.begin(), known.names.end(), mirrored_landmark(known.names[i]));
     if (other == known.names.end() || std::size_t(other - known.names.begin()) <= i) continue;
-    Points turned = known.given;
-    turned.row(Eigen::Index(i)).swap(turned.row(other - known.names.begin()));
-    if (misfit(known.canonical, turned) < kExchangedShare * before)
+    if (pair_is_exchanged(known, Eigen::Index(i), other - known.names.begin()))
       problems.push_back(
           fmt::format("landmarks {} and {} are exchanged: L and R are the "
                       "subject's own sides",
@@ -153,7 +206,7 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
                                       const std::string& source) {
   const CanonicalFace& face = canonical_face();
   const SurfaceTree tree(scan);
-  std::vector<std::string> problems = offset_problems(given, tree);
+  std::vector<std::string> problems = offset_problems(given, scan, tree);
   std::set<std::string> missing;
   for (const auto& name : needed)
     if (!given.contains(name)) missing.insert(name);

@@ -56,7 +56,7 @@ TEST_F(Obj, RelativeIndicesColoursGroupsAndLineEnds) {
 TEST_F(Obj, RefusesEachFaultWithOneLine) {
   const std::string v = "v 0 0 0\nv 150 0 0\nv 150 200 20\n";
   const std::vector<std::pair<std::string, std::string>> faults = {
-      {"", "has no vertices"},
+      {"", "is empty"},
       {v, "no faces (a point cloud?)"},
       {v + "v 1 nan 2\nf 1 2 3\n", ":4: nan: expected a finite number"},
       {v + "v 1 inf 2\nf 1 2 3\n", ":4: inf"},

@@ -144,7 +144,7 @@ TEST_F(Ply, RefusesEachFaultWithOneLine) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   const std::string list = "property list uchar int vertex_indices\n";
   const std::vector<std::pair<std::string, std::string>> faults = {
-      {"", "is no PLY file"},
+      {"", "is empty"},
       {"solid x\n", "is no PLY file"},
       {head + "element vertex 3\n", "without \"end_header\""},
       {"ply\nelement vertex 3\nend_header\n", "a line \"format ...\""},

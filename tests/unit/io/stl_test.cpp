@@ -90,7 +90,7 @@ TEST_F(Stl, RefusesEachFaultWithOneLine) {
   TriMesh none = mesh;
   none.triangles.resize(0, 3);
   const std::vector<std::pair<std::string, std::string>> faults = {
-      {"", "is no STL file"},
+      {"", "is empty"},
       {"hello", "is no STL file"},
       {huge, "its header says 4294967295 facets"},
       {binary_stl(gap), "(counted from 0) has a corner (nan"},

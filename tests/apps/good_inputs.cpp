@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/good_inputs.hpp"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/tissue/canonical_face.hpp"
+
+namespace hyperex {
+namespace fs = std::filesystem;
+
+void put(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+void write_mm(const fs::path& file, const TriMesh& mesh) {
+  io::write_ply(file, mesh, io::LengthUnit::millimetre);
+}
+
+void write_ascii_ply_mm(const fs::path& file, const TriMesh& mesh) {
+  std::ofstream out(file);
+  out << "ply\nformat ascii 1.0\nelement vertex " << mesh.points.rows()
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
+      << mesh.triangles.rows() << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (Eigen::Index v = 0; v < mesh.points.rows(); ++v) out << 1e3 * mesh.points.row(v) << '\n';
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+    out << "3 " << mesh.triangles.row(f) << '\n';
+}
+
+void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string text = read_file(file);
+  const auto at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error(file.string() + " has no " + from);
+  put(file, text.replace(at, from.size(), to));
+}
+
+void tear(const fs::path& file, double share) {
+  fs::resize_file(file, static_cast<std::uintmax_t>(share * double(fs::file_size(file))));
+}
+
+TriMesh good_face() {
+  return tissue::embedded_face().mesh;
+}
+io::Landmarks good_landmarks() {
+  return tissue::embedded_face().landmarks;
+}
+
+void write_good_inputs(const fs::path& folder) {
+  const auto face = tissue::embedded_face();
+  write_mm(folder / "face.ply", face.mesh);
+  io::write_landmarks(folder / "face_landmarks.json", face.landmarks, io::LengthUnit::millimetre);
+  motion::Motion opening = motion::embedded_mouth_opening(face.landmarks);
+  opening.time_s.resize(16);
+  opening.positions.resize(16);
+  motion::write_motion_csv(folder / "motion.csv", opening);
+  put(folder / "scene.toml",
+      "[scan]\n"
+      "file = \"face.ply\"\n"
+      "unit = \"mm\"\n"
+      "landmarks = \"face_landmarks.json\"\n"
+      "[motion]\n"
+      "file = \"motion.csv\"\n"
+      "[mesh]\n"
+      "element_size_mm = 8\n"
+      "layers = 1\n"
+      "[time]\n"
+      "step_s = 0.01\n"
+      "end_s = 0.2\n"
+      "frame_rate_hz = 10\n"
+      "[output]\n"
+      "contact_times_s = [0.1]\n");
+}
+
+}  // namespace hyperex

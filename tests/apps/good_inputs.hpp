@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A scan, its landmarks, a recording and a scene that the program takes, made of the face that it
+// carries: the ground on which a test spoils one thing.
+#include <filesystem>
+#include <string>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+
+namespace hyperex {
+
+/// Writes face.ply (mm, binary), face_landmarks.json (mm), motion.csv (mm, 30 Hz, 0.5 s) and
+/// scene.toml (coarse and short: a run takes a second) into `folder`.
+void write_good_inputs(const std::filesystem::path& folder);
+
+TriMesh good_face();             ///< metres
+io::Landmarks good_landmarks();  ///< metres
+
+void write_mm(const std::filesystem::path& file, const TriMesh& mesh);
+void write_ascii_ply_mm(const std::filesystem::path& file, const TriMesh& mesh);
+
+/// Replaces the first `from` in a text file, which must be there.
+void replace_in(const std::filesystem::path& file, const std::string& from, const std::string& to);
+/// Keeps the first `share` (0 to 1) of a file's bytes.
+void tear(const std::filesystem::path& file, double share);
+void put(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace hyperex

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Faulty input given to the program as a user gives it: each is refused in one clear line, and
+// nothing is left under the name of the output.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/good_inputs.hpp"
+#include "apps/program.hpp"
+
+namespace hyperex {
+
+using In = std::function<std::filesystem::path(const std::string&)>;
+
+struct Fault {
+  std::string name;
+  std::function<void(const In&)> spoil;
+  std::vector<std::string> told;  ///< what the line must say
+  std::string arguments = "run scene.toml --out out";
+  std::string before = "true";
+  int status = 2;
+};
+
+inline void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.name;
+}
+
+inline std::vector<std::string> problems_in(const std::string& err) {
+  std::vector<std::string> found;
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("hyperex: ", 0) == 0) found.push_back(line);
+  return found;
+}
+
+inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    names.push_back(std::filesystem::relative(entry.path(), folder).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class GoodInputs : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_good_inputs(in(""));
+  }
+};
+
+class Malformed : public GoodInputs, public testing::WithParamInterface<Fault> {
+ protected:
+  void expect_refused(const Fault& fault) const {
+    fault.spoil([&](const std::string& name) { return in(name); });
+    const auto before = names_in(in(""));
+    const Outcome found = call(fault.arguments, fault.before);
+    EXPECT_EQ(found.status, fault.status) << found.out << found.err;
+    EXPECT_EQ(found.out, "");
+    const auto problems = problems_in(found.err);
+    ASSERT_EQ(problems.size(), 1u) << found.err;
+    std::cout << "  " << problems[0] << '\n';
+    for (const auto& word : fault.told) EXPECT_THAT(problems[0], testing::HasSubstr(word));
+    // Nothing follows it.
+    EXPECT_THAT(found.err, testing::EndsWith(problems[0] + "\n"));
+    EXPECT_EQ(names_in(in("")), before);
+  }
+};
+
+inline std::string name_of_fault(const testing::TestParamInfo<Fault>& info) {
+  return info.param.name;
+}
+
+}  // namespace hyperex

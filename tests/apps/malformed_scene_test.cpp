@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Faulty scenes, options, places for the output and a full disk; several problems at once.
+#include "apps/malformed.hpp"
+
+namespace hyperex {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class MalformedScene : public Malformed {};
+TEST_P(MalformedScene, IsRefusedInOneLine) {
+  expect_refused(GetParam());
+}
+
+Fault key(const std::string& name, const std::string& setting, std::vector<std::string> told) {
+  return {name, [](const In&) {}, std::move(told),
+          "run scene.toml --out out --set '" + setting + "'"};
+}
+
+void line_in_scene(const In& in, const std::string& line) {
+  put(in("scene.toml"), read_file(in("scene.toml")) + line + "\n");
+}
+
+const std::vector<Fault> kScenes{
+    key("NegativeStiffness", "tissue.young_kpa=-5", {"tissue.young_kpa", "-5", "above 0", "kPa"}),
+    key("Incompressible", "tissue.poisson=0.5", {"tissue.poisson", "0.5", "0.4999"}),
+    key("NoStep", "time.step_s=0", {"time.step_s", "= 0", "1e-06"}),
+    key("NotANumber", "tissue.density_kg_m3=nan", {"tissue.density_kg_m3", "nan"}),
+    key("EndBeforeTheFirstStep", "time.end_s=0.001", {"time.end_s", "0.001", "step"}),
+    key("UnknownChoice", "support.skull=glued", {"support.skull", "glued", "held", "free"}),
+    key("WrongType", "mesh.layers=two", {"mesh.layers", "two", "integer"}),
+    key("UnknownKey", "tissue.youngs_kpa=5", {"tissue.youngs_kpa", "young_kpa"}),
+    key("SettingWithoutValue", "tissue.young_kpa", {"tissue.young_kpa", "KEY=VALUE"}),
+    key("MissingScan", "scan.file=nobody.ply", {"scan.file", "nobody.ply", "exist"}),
+    key("NoSuchLandmark", "drive.still_points=[\"antenna\"]", {"drive.still_points", "antenna"}),
+    {"KeyWithALine",
+     [](const In& in) { line_in_scene(in, "colour = 1"); },
+     {"scene.toml:16", "output.colour"}},
+    {"TornToml", [](const In& in) { line_in_scene(in, "[tissue"); }, {"scene.toml:16", "TOML"}},
+    {"KeyTwice",
+     [](const In& in) { line_in_scene(in, "[time]\nstep_s = 1"); },
+     {"scene.toml:16", "TOML"}},
+    {"MissingScene", [](const In&) {}, {"none.toml", "expected"}, "run none.toml --out out"},
+    {"NoMotion",
+     [](const In& in) { replace_in(in("scene.toml"), "[motion]\nfile = \"motion.csv\"\n", ""); },
+     {"scene.toml", "motion.file"}},
+    {"NoOut", [](const In&) {}, {"--out"}, "run scene.toml"},
+    {"OutIsAFile", [](const In& in) { put(in("out"), "letters"); }, {"out", "is a file"}},
+    {"OutHoldsOtherFiles",
+     [](const In& in) {
+       fs::create_directory(in("out"));
+       put(in("out/letter.txt"), "dear");
+     },
+     {"out", "holds other files"}},
+    {"OutBelowAFile",
+     [](const In&) {},
+     {"face.ply/out", "cannot be created"},
+     "run scene.toml --out face.ply/out"},
+    {"FullDisk",
+     [](const In&) {},
+     {"/out/", "cannot be written", "too large"},
+     "run scene.toml --out out",
+     "ulimit -f 40"},
+    {"FullDiskForOneMesh",
+     [](const In&) {},
+     {"out.vtu", "cannot be written", "too large"},
+     "mesh face.ply --unit mm --out out.vtu",
+     "ulimit -f 40"},
+    key("FarTooCoarse", "mesh.element_size_mm=30",
+        {"mesh.element_size_mm", "= 30", "at most 1", "mouth"}),
+};
+
+INSTANTIATE_TEST_SUITE_P(Scene, MalformedScene, testing::ValuesIn(kScenes), name_of_fault);
+
+// ---- the ground and several at once
+// --------------------------------------------------------------
+
+TEST_F(GoodInputs, RunWithoutFault) {
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("no problems found"));
+  const Outcome run = call("run scene.toml --out out");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("report.html"));
+  EXPECT_TRUE(fs::exists(in("out/report.html")));
+}
+
+TEST_F(GoodInputs, CheckTellsAllProblemsOfASceneAtOnce) {
+  const Outcome found = call(
+      "check scene.toml --set tissue.young_kpa=-1 --set time.step_s=0 --set mesh.colour=red "
+      "--set scan.file=none.ply");
+  EXPECT_EQ(found.status, 2);
+  EXPECT_EQ(problems_in(found.err).size(), 4u) << found.err;
+  for (const char* told : {"tissue.young_kpa", "time.step_s", "mesh.colour", "none.ply"})
+    EXPECT_THAT(found.err, HasSubstr(told));
+}
+
+TEST_F(GoodInputs, CheckTellsTheProblemsOfAllFilesAtOnce) {
+  tear(in("face.ply"), 0.5);
+  put(in("face_landmarks.json"), "{");
+  put(in("motion.csv"), "");
+  const Outcome found = call("check scene.toml");
+  EXPECT_EQ(found.status, 2);
+  EXPECT_EQ(problems_in(found.err).size(), 3u) << found.err;
+  for (const char* told : {"face.ply", "face_landmarks.json", "motion.csv"})
+    EXPECT_THAT(found.err, HasSubstr(told));
+}
+
+TEST_F(GoodInputs, AFailedRunLeavesTheEarlierOne) {
+  ASSERT_EQ(call("run scene.toml --out out --set output.vtu=false").status, 0);
+  const auto before = names_in(in(""));
+  const std::string summary = read_file(in("out/summary.json"));
+  EXPECT_EQ(call("run scene.toml --out out", "ulimit -f 40").status, 2);
+  EXPECT_EQ(names_in(in("")), before);
+  EXPECT_EQ(read_file(in("out/summary.json")), summary);
+}
+
+}  // namespace
+}  // namespace hyperex
