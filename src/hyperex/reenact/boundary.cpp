@@ -52,8 +52,9 @@ void Boundary::set_driven(const AlignedMotion& motion, const io::Landmarks& land
     if (!std::count(drive.points.begin(), drive.points.end(), name))
       points.push_back({name, it->second});
   }
-  const DriveField field(points, still_places(points, landmarks), mesh_,
-                         tissue::face_frame(landmarks).y);
+  const Vec3 up = tissue::face_frame(landmarks).y;
+  const DriveField field(points, still_places(points, landmarks), mesh_, up,
+                         lip_parting(motion, driven_rows_, up));
   const DrivenPatches patches =
       driven_patches(field, mesh_, drive.patch_radius_m, motion.motion.source);
   set_field(field);
@@ -123,19 +124,15 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
       springs_.push_back({node, areas[v] * support.muscle_pa_per_m * Eigen::Matrix3d::Identity(),
                           Spring::field, v});
     if (bones[v] == Bone::none) continue;
-    const bool teeth = bones[v] == Bone::upper_teeth || bones[v] == Bone::lower_teeth;
-    const bool skull = bones[v] == Bone::skull || bones[v] == Bone::upper_teeth;
+    const bool skull = bones[v] == Bone::skull;
     if (skull ? support.skull == Hold::free : support.mandible == Mandible::free) continue;
     const bool follows = !skull && support.mandible == Mandible::follow;
-    if (!teeth) ++(skull ? skull_count_ : mandible_count_);
-    const bool held = skull ? support.skull == Hold::held : support.mandible == Mandible::held;
-    if (held && !teeth) {
+    ++(skull ? skull_count_ : mandible_count_);
+    if (skull ? support.skull == Hold::held : support.mandible == Mandible::held) {
       fixed_nodes_.push_back(node);
       continue;
     }
-    const BoneLayer& layer = teeth   ? support.teeth_layer
-                             : skull ? support.skull_layer
-                                     : support.mandible_layer;
+    const BoneLayer& layer = skull ? support.skull_layer : support.mandible_layer;
     const Vec3 n = normals.row(v);
     const Eigen::Matrix3d across = n * n.transpose();
     springs_.push_back({node,

@@ -16,7 +16,7 @@
 namespace hyperex::reenact {
 namespace {
 
-constexpr double mouth_shift_m = 0.010;
+constexpr double greatest_shift_m = 0.010;
 /// Difference of the walks to both lips at which a place counts as wholly above or below the mouth.
 constexpr double full_margin_m = 0.010;
 
@@ -43,8 +43,8 @@ std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t
 }  // namespace
 
 DriveField::DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>& still,
-                       const tissue::TissueMesh& mesh, const Vec3& up)
-    : points_(std::move(points)), up_(up) {
+                       const tissue::TissueMesh& mesh, const Vec3& up, double mouth_shift_m)
+    : points_(std::move(points)), shift_(mouth_shift_m * up) {
   const Points& skin = mesh.volume.outer.points;
   // The margin of the nearest node, of a lip's point on that lip.
   const auto margin_at = [&](const Vec3& p, int lip) {
@@ -66,7 +66,7 @@ DriveField::DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>&
 }
 
 Vec3 DriveField::opened(const Vec3& p, double margin) const {
-  return p + mouth_shift_m * std::clamp(margin / full_margin_m, -1.0, 1.0) * up_;
+  return p + std::clamp(margin / full_margin_m, -1.0, 1.0) * shift_;
 }
 
 Eigen::MatrixXd DriveField::weights(const Points& places, const std::vector<double>& margin) const {
@@ -82,6 +82,23 @@ Eigen::MatrixXd DriveField::weights(const Points& places, const std::vector<doub
     all.middleCols(first, count) = Rbf(centres_, unit).at_all(at).leftCols(count);
   }
   return all;
+}
+
+double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_rows,
+                   const Vec3& up) {
+  double most = 0;
+  for (const Points& at : motion.motion.positions) {
+    double height[2] = {0, 0};  // lower, upper
+    int count[2] = {0, 0};
+    for (int row : driven_rows)
+      if (const int lip = tissue::lip_of(motion.motion.names[row]); lip != 0) {
+        height[lip > 0] += up.dot(at.row(row) - motion.rest.row(row));
+        ++count[lip > 0];
+      }
+    if (count[0] == 0 || count[1] == 0) return 0;
+    most = std::max(most, height[1] / count[1] - height[0] / count[0]);
+  }
+  return std::min(greatest_shift_m, most / 2);
 }
 
 std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,

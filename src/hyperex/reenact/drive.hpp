@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
+#include "hyperex/reenact/alignment.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::reenact {
@@ -21,7 +22,7 @@ struct DrivenPoint {
 class DriveField {
  public:
   DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>& still,
-             const tissue::TissueMesh& mesh, const Vec3& up);
+             const tissue::TissueMesh& mesh, const Vec3& up, double mouth_shift_m);
   /// u(place j) = sum_i weight(j, i) d_i; `margin[j]`: of place j, as TissueMesh::upper_margin.
   Eigen::MatrixXd weights(const Points& places, const std::vector<double>& margin) const;
   const std::vector<DrivenPoint>& points() const { return points_; }
@@ -30,8 +31,14 @@ class DriveField {
   Vec3 opened(const Vec3& p, double margin) const;
   std::vector<DrivenPoint> points_;
   Points centres_;  // opened: the points, then the still places
-  Vec3 up_;
+  Vec3 shift_;      // of what lies wholly above the mouth
 };
+
+/// How far the lips part in a motion (m): the greatest difference, upwards, between the mean
+/// displacements of its upper and its lower lip's points, halved for each side's shift and at most
+/// 10 mm; 0 where one lip has no points. Of the motion as recorded: a gain scales its effect.
+double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_rows,
+                   const Vec3& up);
 
 /// Where the face is taken to be still between the driven points: brows, eyes, nose and temples
 /// (ibug68_0 to 3, 13 to 16, 17 to 47), save those that are driven themselves.

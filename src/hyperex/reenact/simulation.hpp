@@ -22,10 +22,9 @@ struct SupportOptions {
   Mandible mandible = Mandible::follow;
   BoneLayer skull_layer{1e7, 1e7};     ///< used where skull is sliding
   BoneLayer mandible_layer{3e7, 1e7};  ///< used where the mandible is followed
-  BoneLayer teeth_layer{3e6, 3e6};     ///< under the lips: upper on the skull, lower on the jaw
   /// The muscles under the skin follow the interpolated motion of the driven points: springs per
   /// area at the inner surface, everywhere but over the mandible. 0: none.
-  double muscle_pa_per_m = 3e6;
+  double muscle_pa_per_m = 5e6;
   std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
 };
 

@@ -13,7 +13,7 @@ using tissue::ibug;
 
 constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
 constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.010, jaw_below_lip_m = 0.016;
-constexpr double teeth_reach_m = 0.012, border_free_m = 0.035;
+constexpr double border_free_m = 0.035;
 constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
 
 class BoneMap {
@@ -27,7 +27,7 @@ class BoneMap {
   }
 
   /// `inner` and `outer`: the two ends of the layer at one node.
-  Bone under(const Vec3& inner, const Vec3& outer, bool upper) const {
+  Bone under(const Vec3& inner, const Vec3& outer) const {
     const Vec3 q = frame_.local(inner), p = frame_.local(outer);
     double to_lips = 1;
     for (const Vec3& l : lips_) to_lips = std::min(to_lips, (p - l).norm());
@@ -35,7 +35,6 @@ class BoneMap {
     if (p.y() < lower_lip_ - jaw_below_lip_m && p.y() > jaw_edge(p.x()) - jaw_below_edge_m &&
         distance_to_jaw(p, chin_first, chin_last) < jaw_reach_m && to_lips >= jaw_off_lips_m)
       return Bone::mandible;
-    if (to_lips < teeth_reach_m) return upper ? Bone::upper_teeth : Bone::lower_teeth;
     return Bone::none;
   }
 
@@ -82,8 +81,7 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
   const auto& volume = mesh.volume;
   std::vector<Bone> bones(volume.surface_nodes());
   for (int v = 0; v < volume.surface_nodes(); ++v)
-    bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v),
-                         mesh.upper_margin[v] > 0);
+    bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v));
   return bones;
 }
 

@@ -7,7 +7,7 @@
 namespace hyperex::reenact {
 
 /// What lies under a node of the inner surface.
-enum class Bone : char { none, skull, mandible, upper_teeth, lower_teeth };
+enum class Bone : char { none, skull, mandible };
 
 /// The tissue slides on the bone on a layer of loose tissue: springs per area between the inner
 /// surface and the bone, stiff across the layer, soft along it. Infinite (>= held_pa_per_m) means
@@ -23,7 +23,6 @@ inline constexpr double held_pa_per_m = 1e12;
 ///  * mandible: within 15 mm of the line of the jaw over the chin (ibug68_5 to 11), from 10 mm
 ///  below its
 ///    edge up to 16 mm below the lower lip's edge (ibug68_57), save within 6 mm of the lips;
-///  * teeth: elsewhere within 12 mm of the lips, upper or lower by the lip;
 ///  * none elsewhere: cheeks, the floor of the mouth and the neck.
 std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 

@@ -138,13 +138,6 @@ std::vector<Key> model_keys() {
       number<Scene>("support.mandible_along_kpa_per_mm", stiffness,
                     AT(support.mandible_layer.along_pa_per_m), {0, 1e6},
                     "As support.skull_along_kpa_per_mm, over the mandible that is followed."),
-      number<Scene>("support.teeth_across_kpa_per_mm", stiffness,
-                    AT(support.teeth_layer.across_pa_per_m), {0, 1e6},
-                    "As support.skull_across_kpa_per_mm, under the lips: the upper lip rests on "
-                    "the skull's teeth, the lower on the jaw's."),
-      number<Scene>("support.teeth_along_kpa_per_mm", stiffness,
-                    AT(support.teeth_layer.along_pa_per_m), {0, 1e6},
-                    "As support.skull_along_kpa_per_mm, under the lips."),
       number<Scene>(
           "support.muscle_kpa_per_mm", stiffness, AT(support.muscle_pa_per_m), {0, 1e6},
           "How firmly the deep side of the tissue, save over the mandible, follows the "

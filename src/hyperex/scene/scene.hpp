@@ -85,8 +85,7 @@ struct SupportOptions {
   BoneLayer skull_layer{1e7, 1e7};  ///< where the skull is sliding; each 0 to 1e12 Pa/m
   Mandible mandible = Mandible::follow;
   BoneLayer mandible_layer{3e7, 1e7};   ///< where the mandible is followed
-  BoneLayer teeth_layer{3e6, 3e6};  ///< under the lips
-  double muscle_pa_per_m = 3e6;      ///< 0 to 1e12
+  double muscle_pa_per_m = 5e6;      ///< 0 to 1e12
   std::vector<std::string> jaw_points;  ///< empty: chosen automatically
 };
 

@@ -77,7 +77,9 @@ TEST(CutAlongLine, RimsCoincideAtRestAndFollowTheLine) {
   for (std::size_t i = 0; i < cut.left_rim.size(); ++i) {
     const Vec3 p = cut.mesh.points.row(cut.left_rim[i]);
     EXPECT_TRUE(cut.mesh.points.row(cut.right_rim[i]) == p.transpose());
-    if (i > 0 && i + 1 < cut.left_rim.size()) EXPECT_NE(cut.left_rim[i], cut.right_rim[i]);
+    if (i > 0 && i + 1 < cut.left_rim.size()) {
+      EXPECT_NE(cut.left_rim[i], cut.right_rim[i]);
+    }
     EXPECT_LT(std::abs(p.y() - line_y(p.x())), 0.25 * edge) << i;
   }
   const Points line = wavy_line();

@@ -40,7 +40,8 @@ TEST(FillHole, ClosesItWithAgreeingTriangles) {
   EXPECT_EQ(mesh.triangles.topRows(before.triangles.rows()), before.triangles);
   EXPECT_EQ(boundary_loops(mesh.triangles).size(), 1u)
       << "triangles turned against their neighbours would leave border edges";
-  for (const auto& n : vertex_normals(mesh).rowwise())
+  const Points normals = vertex_normals(mesh);
+  for (const auto& n : normals.rowwise())
     if (n.norm() > 0) {  // two vertices lie unused within the hole
       EXPECT_GT(n.z(), 0.9);
     }

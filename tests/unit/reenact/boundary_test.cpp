@@ -156,8 +156,7 @@ TEST_F(BoundaryTest, SupportOptionsReachTheirNodes) {
 TEST_F(BoundaryTest, StifferLayersPullHarder) {
   options_.support.muscle_pa_per_m = 0;
   const double once = springs(boundary()).norm();
-  for (BoneLayer* layer : {&options_.support.skull_layer, &options_.support.mandible_layer,
-                           &options_.support.teeth_layer}) {
+  for (BoneLayer* layer : {&options_.support.skull_layer, &options_.support.mandible_layer}) {
     layer->across_pa_per_m *= 2;
     layer->along_pa_per_m *= 2;
   }

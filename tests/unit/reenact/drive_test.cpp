@@ -40,7 +40,7 @@ class Drive : public testing::Test {
   }
   DriveField field_of(const std::vector<DrivenPoint>& points,
                       const std::vector<Vec3>& still) const {
-    return DriveField(points, still, face_.mesh, tissue::face_frame(face_.landmarks).y);
+    return DriveField(points, still, face_.mesh, tissue::face_frame(face_.landmarks).y, 0.010);
   }
   DrivenPatches patches(const std::vector<std::string>& names, double radius = 0.006,
                         bool still = false) const {
@@ -142,6 +142,25 @@ TEST_F(Drive, APointOffTheSkinIsRefused) {
     EXPECT_THAT(e.what(),
                 testing::AllOf(testing::HasSubstr("motion.csv"), testing::HasSubstr("ibug68_51")));
   }
+}
+
+TEST(LipParting, IsHalfTheGreatestDifferenceOfTheLips) {
+  AlignedMotion motion;
+  motion.motion.names = {"ibug68_51", "ibug68_57", "ibug68_8"};
+  motion.rest = Points::Zero(3, 3);
+  const auto sample = [](double upper, double lower) {
+    Points p = Points::Zero(3, 3);
+    p(0, 1) = upper;
+    p(1, 1) = lower;
+    p(2, 1) = -1;  // the chin is no lip
+    return p;
+  };
+  motion.motion.positions = {sample(0, 0), sample(0.001, -0.005), sample(0.004, 0.003)};
+  const Vec3 up = Vec3::UnitY();
+  EXPECT_NEAR(lip_parting(motion, {0, 1, 2}, up), 0.003, 1e-12);
+  motion.motion.positions.push_back(sample(0.01, -0.03));
+  EXPECT_EQ(lip_parting(motion, {0, 1, 2}, up), 0.010);
+  EXPECT_EQ(lip_parting(motion, {0, 2}, up), 0);
 }
 
 }  // namespace

@@ -96,7 +96,9 @@ TEST_F(Simulation, MeasuredEverywhereIsTheBarycentricDisplacement) {
 }
 
 TEST_F(Simulation, GainScalesALinearModel) {
+  // Not linear: the jaw's turning, and how far the field is opened where both lips are driven.
   options_.support.mandible = Mandible::free;
+  options_.drive.points = {"ibug68_48", "ibug68_54", "ibug68_8", "ibug68_57"};
   const SimulationResult once = run();
   for (const double gain : {2.0, -0.5}) {
     options_.drive.gain = gain;
