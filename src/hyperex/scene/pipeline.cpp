@@ -37,7 +37,6 @@ reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& 
   o.support.mandible = scene.support.mandible;
   o.support.skull_layer = scene.support.skull_layer;
   o.support.mandible_layer = scene.support.mandible_layer;
-  o.support.teeth_layer = scene.support.teeth_layer;
   o.support.muscle_pa_per_m = scene.support.muscle_pa_per_m;
   o.support.jaw_points = scene.support.jaw_points;
   o.drive = {inputs.driven, scene.drive.still_points, scene.drive.patch_radius_m,
