@@ -200,4 +200,13 @@ CleanMesh clean_mesh(const TriMesh& mesh, const CleanOptions& options) {
   return out;
 }
 
+TriMesh without_triangles(const TriMesh& mesh, const std::vector<char>& drop) {
+  TriMesh kept{mesh.points, Triangles(mesh.triangles.rows(), 3)};
+  Eigen::Index count = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+    if (!drop[f]) kept.triangles.row(count++) = mesh.triangles.row(f);
+  kept.triangles.conservativeResize(count, 3);
+  return clean_mesh(kept, {.join_duplicates = false}).mesh;
+}
+
 }  // namespace hyperex

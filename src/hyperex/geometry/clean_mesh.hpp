@@ -27,4 +27,8 @@ struct CleanOptions {
 /// several are large). Throws InputError-free std::invalid_argument where nothing is left.
 CleanMesh clean_mesh(const TriMesh& mesh, const CleanOptions& options = {});
 
+/// The mesh without the triangles for which `drop` is set, cleaned again without joining vertices
+/// at one place (a cut stays open).
+TriMesh without_triangles(const TriMesh& mesh, const std::vector<char>& drop);
+
 }  // namespace hyperex

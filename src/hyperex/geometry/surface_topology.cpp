@@ -110,4 +110,11 @@ Eigen::VectorXd triangle_areas(const TriMesh& mesh) {
   return areas;
 }
 
+std::vector<char> touching(const Triangles& triangles, const std::vector<char>& flagged_vertices) {
+  std::vector<char> touches(triangles.rows(), 0);
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k) touches[f] |= flagged_vertices[triangles(f, k)];
+  return touches;
+}
+
 }  // namespace hyperex

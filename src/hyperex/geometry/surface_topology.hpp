@@ -24,6 +24,9 @@ std::vector<int> triangle_components(const Triangles& triangles, Eigen::Index ve
 /// Area-weighted unit normals of the vertices; zero where a vertex has no area around it.
 Points vertex_normals(const TriMesh& mesh);
 
+/// Per triangle: one of its vertices is flagged.
+std::vector<char> touching(const Triangles& triangles, const std::vector<char>& flagged_vertices);
+
 /// |F| areas, m^2.
 Eigen::VectorXd triangle_areas(const TriMesh& mesh);
 

@@ -184,17 +184,6 @@ class SkinBuilder {
   CleanMesh clean_;
 };
 
-TriMesh kept_triangles(const TriMesh& mesh, const std::vector<char>& drop_vertex) {
-  TriMesh kept{mesh.points, Triangles(mesh.triangles.rows(), 3)};
-  Eigen::Index count = 0;
-  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-    if (!drop_vertex[mesh.triangles(f, 0)] && !drop_vertex[mesh.triangles(f, 1)] &&
-        !drop_vertex[mesh.triangles(f, 2)])
-      kept.triangles.row(count++) = mesh.triangles.row(f);
-  kept.triangles.conservativeResize(count, 3);
-  return clean_mesh(kept, cleaned_again).mesh;
-}
-
 /// Small holes closed, the outer border trimmed by `trim_m`.
 TriMesh mend(TriMesh mesh, const io::Landmarks& landmarks, double trim_m,
              std::vector<std::string>& notes) {
@@ -216,7 +205,7 @@ TriMesh mend(TriMesh mesh, const io::Landmarks& landmarks, double trim_m,
     const auto far = EdgePaths(mesh).distances(border, trim_m);
     std::vector<char> drop(far.size());
     for (std::size_t v = 0; v < far.size(); ++v) drop[v] = std::isfinite(far[v]);
-    mesh = kept_triangles(mesh, drop);
+    mesh = without_triangles(mesh, touching(mesh.triangles, drop));
     notes.push_back(
         fmt::format("{:.1f} mm trimmed off the border for the simulation", trim_m * 1e3));
   }
@@ -272,6 +261,40 @@ void anchor_skin(TissueMesh& out, const io::Landmarks& landmarks) {
   out.max_distance_mm = 1e3 * worst;
 }
 
+Eigen::VectorXd thickness_over(const TriMesh& outer, const io::Landmarks& landmarks,
+                               const TissueMeshOptions& options) {
+  if (options.thickness_m > 0)
+    return Eigen::VectorXd::Constant(outer.points.rows(), options.thickness_m);
+  return depth_field(outer.points, options.depths.empty() ? published_depths() : options.depths,
+                     landmarks);
+}
+
+/// The layer under `outer`; a few triangles folded into corners, under which none fits, are given
+/// up.
+VolumeMesh thicken(TriMesh outer, const io::Landmarks& landmarks, const TissueMeshOptions& options,
+                   const std::string& source, std::vector<std::string>& notes) {
+  VolumeMeshOptions volume;
+  volume.layers = options.layers;
+  constexpr double given_up_share = 0.01;
+  const double most = std::max(6.0, given_up_share * double(outer.triangles.rows()));
+  std::size_t given_up = 0;
+  while (true) {
+    try {
+      VolumeMesh mesh = build_volume_mesh(outer, thickness_over(outer, landmarks, options), volume);
+      if (given_up > 0)
+        notes.push_back(fmt::format(
+            "{} triangles of the simulated skin were dropped: no layer fits under them", given_up));
+      return mesh;
+    } catch (const FoldedSurface& folded) {
+      given_up += folded.triangles.size();
+      if (double(given_up) > most) throw InputError(source, folded.what());
+      std::vector<char> drop(outer.triangles.rows(), 0);
+      for (int f : folded.triangles) drop[f] = 1;
+      outer = without_triangles(outer, drop);
+    }
+  }
+}
+
 }  // namespace
 
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
@@ -290,18 +313,7 @@ TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks
   TriMesh outer = remesh_graded(mended, size);
   outer = clean_mesh(unfold(outer, out.notes), cleaned_again).mesh;
 
-  const std::vector<DepthAt>& depths = options.depths.empty() ? published_depths() : options.depths;
-  const Eigen::VectorXd thickness =
-      options.thickness_m > 0
-          ? Eigen::VectorXd::Constant(outer.points.rows(), options.thickness_m).eval()
-          : depth_field(outer.points, depths, landmarks);
-  VolumeMeshOptions volume;
-  volume.layers = options.layers;
-  try {
-    out.volume = build_volume_mesh(outer, thickness, volume);
-  } catch (const NumericalError& e) {
-    throw InputError(source, e.what());
-  }
+  out.volume = thicken(outer, landmarks, options, source, out.notes);
   out.notes.insert(out.notes.end(), out.volume.notes.begin(), out.volume.notes.end());
   out.quality = quality_of(out.volume.nodes, out.volume.tets);
   out.upper_margin = upper_lip_margin(out.volume.outer, landmarks);

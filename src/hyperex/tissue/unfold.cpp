@@ -45,17 +45,6 @@ void smooth_around(TriMesh& mesh, const std::vector<char>& flagged,
   }
 }
 
-TriMesh without_triangles_at(const TriMesh& mesh, const std::vector<char>& flagged) {
-  TriMesh kept{mesh.points, Triangles(mesh.triangles.rows(), 3)};
-  Eigen::Index count = 0;
-  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-    if (!flagged[mesh.triangles(f, 0)] && !flagged[mesh.triangles(f, 1)] &&
-        !flagged[mesh.triangles(f, 2)])
-      kept.triangles.row(count++) = mesh.triangles.row(f);
-  kept.triangles.conservativeResize(count, 3);
-  return clean_mesh(kept, {.join_duplicates = false}).mesh;
-}
-
 }  // namespace
 
 Visibility visibility_of(const TriMesh& mesh) {
@@ -103,7 +92,7 @@ TriMesh unfold(const TriMesh& mesh, std::vector<std::string>& notes, double leas
     }
     if (!any) break;
     const Eigen::Index before = out.triangles.rows();
-    out = without_triangles_at(out, folded);
+    out = without_triangles(out, touching(out.triangles, folded));
     dropped += before - out.triangles.rows();
   }
   if (smoothed > 0)

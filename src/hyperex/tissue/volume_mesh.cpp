@@ -139,15 +139,17 @@ int LayerBuilder::untangle() {
       inward_.row(v) = thinner * (0.5 * old.row(v) + 0.5 * target.transpose());
     }
   }
-  const std::vector<char> bad = unsound_vertices();
-  const auto left = std::count(bad.begin(), bad.end(), 1);
-  if (left == 0) return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
-  const auto example = std::find(bad.begin(), bad.end(), 1) - bad.begin();
-  const Vec3 where = outer_.points.row(example) * 1e3;
-  throw NumericalError(fmt::format(
-      "no layer of tissue with positive volume at {} nodes of the skin, one at ({:.1f}, "
-      "{:.1f}, {:.1f}) mm: the surface is folded there",
-      left, where.x(), where.y(), where.z()));
+  std::vector<int> left;
+  for (int f = 0; f < outer_.triangles.rows(); ++f)
+    if (!sound(f)) left.push_back(f);
+  if (left.empty()) return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
+  const Vec3 where = 1e3 * point(left.front(), 0);
+  throw FoldedSurface(
+      fmt::format(
+          "no layer of tissue with positive volume fits under {} triangles of the skin, one "
+          "at ({:.1f}, {:.1f}, {:.1f}) mm: the surface is folded there",
+          left.size(), where.x(), where.y(), where.z()),
+      left);
 }
 
 std::vector<char> LayerBuilder::unsound_vertices() const {
@@ -217,7 +219,7 @@ VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickn
     attempt.least_volume_share = share;
     try {
       return build_once(outer, thickness_m, attempt);
-    } catch (const NumericalError&) {
+    } catch (const FoldedSurface&) {
     }
   }
   return build_once(outer, thickness_m, options);

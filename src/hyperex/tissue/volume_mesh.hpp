@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/geometry/types.hpp"
 
 namespace hyperex::tissue {
@@ -21,6 +22,13 @@ struct VolumeMesh {
   int inner_node(int vertex) const { return static_cast<int>(layers * surface_nodes()) + vertex; }
 };
 
+/// No layer of positive volume fits under some triangles.
+struct FoldedSurface : NumericalError {
+  FoldedSurface(const std::string& message, std::vector<int> where)
+      : NumericalError(message), triangles(std::move(where)) {}
+  std::vector<int> triangles;  ///< of the outer surface
+};
+
 struct VolumeMeshOptions {
   int layers = 2;
   /// Least volume of a tetrahedron as a share of its prism's ideal (area x height / 3); more is
@@ -31,7 +39,7 @@ struct VolumeMeshOptions {
 /// `outer`: manifold, oriented outwards. `thickness_m`: wanted, per outer vertex, > 0. Where the
 /// layer would fold (concave or thin places) the direction is smoothed and, failing that, the
 /// thickness is reduced, until every tetrahedron has positive volume; the notes say how often.
-/// Throws NumericalError where no positive layer exists (a folded outer surface).
+/// Throws FoldedSurface where no positive layer exists (a folded outer surface).
 VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
                              const VolumeMeshOptions& options = {});
 
