@@ -2,6 +2,7 @@
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 
 #include <cholmod.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +12,17 @@
 #include "hyperex/core/error.hpp"
 
 namespace hyperex::fem {
+namespace {
+/// The blocks of a factor are small: a second BLAS thread gains nothing on a free machine, and on a
+/// busy one its spinning makes a step ten times slower (measured: 114 against 14 ms). OpenBLAS is
+/// found at run time, as any BLAS may stand behind CHOLMOD.
+void keep_blas_to_one_thread() {
+  using SetThreads = void (*)(int);
+  if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
+    reinterpret_cast<SetThreads>(set)(1);
+}
+}  // namespace
+
 namespace {
 
 /// A pivot this small against its own diagonal entry is rounding: the direction has no stiffness.
@@ -30,6 +42,7 @@ struct PartitionedFactor::Impl {
   cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;  // solution and kept workspaces
 
   Impl() {
+    keep_blas_to_one_thread();
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
