@@ -23,15 +23,22 @@ void run(const Options& options) {
       scene::run_scene(scene::read_scene(options.scene, options.overrides), options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
-      "written to {}:\n"
-      "  report.html        open it in a browser\n"
-      "  contact_sheet.png  the face at a glance\n"
-      "  performance.glb    Blender, three.js\n"
-      "  frames.pvd         ParaView\n"
-      "  skin_peak.ply, motion.csv, symmetry.csv, summary.json\n",
+      "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), options.out.string());
+  const std::pair<const char*, const char*> files[] = {
+      {"report.html", "open it in a browser"},
+      {"contact_sheet.png", "the face at a glance"},
+      {"performance.glb", "Blender, three.js"},
+      {"frames.pvd", "ParaView"},
+      {"skin_peak.ply", "the skin at its peak"},
+      {"motion.csv", "landmarks over time"},
+      {"symmetry.csv", "S(t)"},
+      {"summary.json", "counts, times, options"}};
+  for (const auto& [name, use] : files)
+    if (std::filesystem::exists(options.out / name))
+      std::cout << fmt::format("  {:<18} {}\n", name, use);
 }
 
 }  // namespace

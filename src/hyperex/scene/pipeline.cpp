@@ -177,6 +177,8 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
       simulation,
       metrics::symmetry_of(simulation.performance.landmarks, scene.output.symmetry_floor),
       all_notes(inputs, mesh, simulation.report)};
+  for (std::size_t i = inputs.notes.size() + mesh.notes.size(); i < results.notes.size(); ++i)
+    spdlog::warn("{}", results.notes[i]);
   Json summary = summary_of(results);
   write_outputs(results, directory);
   seconds["export"] = stage.lap();
