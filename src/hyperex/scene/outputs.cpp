@@ -137,8 +137,7 @@ void write_outputs(const Results& r, const std::filesystem::path& directory) {
   metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
   if (r.scene.output.vtu) write_frames(r, directory);
   if (r.scene.output.glb)
-    report::write_glb(directory / "performance.glb", p, r.inputs.scan,
-                      report::displacement_modes(p.skin_displacement_m));
+    report::write_glb(directory / "performance.glb", p, r.inputs.scan, r.modes);
   Progress progress("drawing the contact sheet", 0);
   write_contact_sheet(r, directory / "contact_sheet.png");
 }
@@ -146,10 +145,9 @@ void write_outputs(const Results& r, const std::filesystem::path& directory) {
 void write_report(const Results& r, const nlohmann::ordered_json& summary,
                   const std::filesystem::path& directory) {
   const Performance& p = r.simulation.performance;
-  const auto modes = report::displacement_modes(p.skin_displacement_m);
   report::ReportInput input{.performance = p,
                             .scan = r.inputs.scan,
-                            .modes = modes,
+                            .modes = r.modes,
                             .symmetry = &r.symmetry,
                             .summary = nlohmann::json(summary),
                             .notes = r.notes,

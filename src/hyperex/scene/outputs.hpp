@@ -5,6 +5,7 @@
 
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/reenact/simulation.hpp"
+#include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/scene/inputs.hpp"
 
 namespace hyperex::scene {
@@ -17,6 +18,7 @@ struct Results {
   const reenact::SimulationResult& simulation;
   metrics::SymmetryCurve symmetry;
   std::vector<std::string> notes;
+  report::DisplacementModes modes;  ///< of the skin; empty where neither glTF nor page is wanted
 };
 
 /// Writes all files but summary.json and report.html into `directory`.

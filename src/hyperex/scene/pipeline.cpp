@@ -176,7 +176,10 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
       mesh,
       simulation,
       metrics::symmetry_of(simulation.performance.landmarks, scene.output.symmetry_floor),
-      all_notes(inputs, mesh, simulation.report)};
+      all_notes(inputs, mesh, simulation.report),
+      {}};
+  if (scene.output.glb || scene.output.report)
+    results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
   for (std::size_t i = inputs.notes.size() + mesh.notes.size(); i < results.notes.size(); ++i)
     spdlog::warn("{}", results.notes[i]);
   Json summary = summary_of(results);
