@@ -27,13 +27,13 @@ test: ## everything: unit tests, verification, the demo twice, its replay in a b
 	scripts/setup.sh --tests
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS)
-	ctest --test-dir build/release --output-on-failure --parallel $(JOBS)
+	ctest --preset release --parallel $(JOBS)
 
 asan: ## the tests again under the address and undefined-behaviour sanitizers
 	scripts/setup.sh --tests
 	cmake --preset asan
 	cmake --build --preset asan --parallel $(JOBS)
-	ctest --test-dir build/asan --output-on-failure --parallel $(JOBS)
+	ctest --preset asan --parallel $(JOBS)
 
 setup: ## install what building takes (asks for sudo where you are not root)
 	scripts/setup.sh
