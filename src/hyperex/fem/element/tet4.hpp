@@ -54,12 +54,6 @@ inline Eigen::Matrix<double, 6, 1> strain_of(const Tet4& tet,
   return strain;
 }
 
-/// 3 x 3 block (a, b) of V B^T T B: of the stiffness for T = D [3.36], of the damping for T = C'.
-inline Eigen::Matrix3d tensor_block(const Tet4& tet, const Voigt& tensor, int a, int b) {
-  return tet.volume * strain_displacement(tet.gradient.row(a)).transpose() *
-         (tensor * strain_displacement(tet.gradient.row(b)));
-}
-
 /// Entry (a, b) of the consistent mass, the same on each axis: rho * integral N_a N_b dV
 /// = rho V / 20 (1 + delta_ab)  [4.24].
 inline double mass_entry(const Tet4& tet, double density_kg_m3, int a, int b) {

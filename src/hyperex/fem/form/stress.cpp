@@ -1,17 +1,98 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tbb/parallel_for.h>
+
 #include <cassert>
 #include <cmath>
 
-#include "hyperex/fem/element/tet4.hpp"
-#include "hyperex/fem/form/system.hpp"
+#include "hyperex/fem/form/assembler.hpp"
 
 namespace hyperex::fem {
 
-Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> element_strain(const Points& nodes,
-                                                                         const Tetrahedra& tets,
-                                                                         const Points& d) {
+Eigen::Matrix<double, 4, 3> Assembler::corner_values(const Points& d, Eigen::Index t) const {
+  Eigen::Matrix<double, 4, 3> values;
+  for (int a = 0; a < 4; ++a) values.row(a) = d.row(corners_[t][a]);
+  return values;
+}
+
+VoigtRows Assembler::strain(const Points& d) const {
+  assert(d.rows() == node_count());
+  VoigtRows strain(element_count(), 6);
+  tbb::parallel_for(Eigen::Index{0}, element_count(), [&](Eigen::Index t) {
+    strain.row(t) = strain_of(shapes_[t], corner_values(d, t)).transpose();
+  });
+  return strain;
+}
+
+Eigen::VectorXd Assembler::dilatation(const Points& d) const {
+  assert(d.rows() == node_count());
+  Eigen::VectorXd of_group(groups_.size()), of_element(element_count());
+  tbb::parallel_for(0, groups_.size(), [&](int g) {
+    of_group[g] = 0;
+    for (int k = group_nodes_.start[g]; k < group_nodes_.start[g + 1]; ++k)
+      of_group[g] += d.row(group_nodes_.item[k]).dot(group_gradient_[k]);
+  });
+  tbb::parallel_for(0, static_cast<int>(element_count()), [&](int t) {
+    if (groups_.size() == 0) {
+      of_element[t] = shapes_[t].gradient.cwiseProduct(corner_values(d, t)).sum();
+      return;
+    }
+    of_element[t] = 0;
+    for (const int g : groups_of_[t]) of_element[t] += of_group[g];
+    of_element[t] /= static_cast<double>(groups_of_[t].size());
+  });
+  return of_element;
+}
+
+VoigtRows Assembler::stress_pa(const Material& material, const Points& d) const {
+  const Eigen::VectorXd theta = dilatation(d);
+  VoigtRows stress = strain(d);
+  tbb::parallel_for(Eigen::Index{0}, element_count(), [&](Eigen::Index t) {
+    const double shear = shear_modulus_pa(material.young_pa[t], material.poisson[t]);
+    const double bulk = bulk_modulus_pa(material.young_pa[t], material.poisson[t]);
+    auto s = stress.row(t);
+    const double normal = bulk * theta[t] - 2 * shear / 3 * s.head<3>().sum();
+    s *= shear;
+    s.head<3>() = (2 * s.head<3>()).array() + normal;
+  });
+  return stress;
+}
+
+Eigen::VectorXd Assembler::pressure_pa(const Material& material, const Points& d) const {
+  Eigen::VectorXd pressure = dilatation(d);
+  for (Eigen::Index t = 0; t < pressure.size(); ++t)
+    pressure[t] *= -bulk_modulus_pa(material.young_pa[t], material.poisson[t]);
+  return pressure;
+}
+
+namespace {
+
+/// From the strain: the pressure, which may be thousands of times larger, does not enter.
+double von_mises_of(const Eigen::Matrix<double, 1, 6>& strain, double shear) {
+  const double xy = strain[0] - strain[1], yz = strain[1] - strain[2], zx = strain[2] - strain[0];
+  return shear * std::sqrt(2 * (xy * xy + yz * yz + zx * zx) + 3 * strain.tail<3>().squaredNorm());
+}
+
+}  // namespace
+
+Eigen::VectorXd Assembler::von_mises_pa(const Material& material, const Points& d) const {
+  const VoigtRows strain = this->strain(d);
+  Eigen::VectorXd out(element_count());
+  for (Eigen::Index t = 0; t < out.size(); ++t)
+    out[t] =
+        von_mises_of(strain.row(t), shear_modulus_pa(material.young_pa[t], material.poisson[t]));
+  return out;
+}
+
+System assemble(const Points& nodes, const Tetrahedra& tets, const Material& material,
+                ElementKind kind) {
+  System system;
+  Assembler(nodes, tets, kind).assemble(material, system);
+  return system;
+}
+
+VoigtRows element_strain(const Points& nodes, const Tetrahedra& tets, const Points& d) {
   assert(d.rows() == nodes.rows());
-  Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> strain(tets.rows(), 6);
+  VoigtRows strain(tets.rows(), 6);
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
     strain.row(t) =
         strain_of(make_tet4(corners_of(nodes, tets, t)), corners_of(d, tets, t)).transpose();
@@ -20,15 +101,12 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> element_strain(const P
 
 Eigen::VectorXd von_mises_pa(const Points& nodes, const Tetrahedra& tets, const Material& material,
                              const Points& d) {
-  const auto strain = element_strain(nodes, tets, d);
-  Eigen::VectorXd von_mises(tets.rows());
-  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    const Eigen::Matrix<double, 6, 1> s =
-        elastic_tensor(material.young_pa[t], material.poisson[t]) * strain.row(t).transpose();
-    const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
-    von_mises[t] = std::sqrt((xy * xy + yz * yz + zx * zx) / 2 + 3 * s.tail<3>().squaredNorm());
-  }
-  return von_mises;
+  const VoigtRows strain = element_strain(nodes, tets, d);
+  Eigen::VectorXd out(tets.rows());
+  for (Eigen::Index t = 0; t < tets.rows(); ++t)
+    out[t] =
+        von_mises_of(strain.row(t), shear_modulus_pa(material.young_pa[t], material.poisson[t]));
+  return out;
 }
 
 }  // namespace hyperex::fem

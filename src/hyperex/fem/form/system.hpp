@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Sparse>
 
+#include "hyperex/fem/element/element_kind.hpp"
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
 #include "hyperex/geometry/types.hpp"
 
@@ -10,19 +11,23 @@ namespace hyperex::fem {
 using SparseMatrix = Eigen::SparseMatrix<double>;  // column-major, both triangles stored
 
 /// K d + C d' + M d'' = f over 3 |nodes| unknowns, unknown 3 n + axis.
-/// The three matrices share one sparsity pattern.
+/// Damping and mass share one pattern: nodes of a common tetrahedron. The stiffness has the same or
+/// a wider one that contains it. Rows rise in each column; blocks of two nodes have all nine
+/// entries, zeros included.
 struct System {
   SparseMatrix stiffness, damping, mass;
 };
 
-/// Linear tetrahedra, consistent mass. Throws NumericalError naming the first element whose volume
-/// is not positive; InputError-worthy values (E <= 0 ...) must have been refused before: asserted.
-System assemble(const Points& nodes, const Tetrahedra& tets, const Material& material);
+/// An Assembler used once (form/assembler.hpp, where its errors stand).
+System assemble(const Points& nodes, const Tetrahedra& tets, const Material& material,
+                ElementKind kind = ElementKind::tet4);
 
-/// Per element at displacement `d` (|nodes| x 3): strain (|T| x 6) and von Mises stress (Pa).
-Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> element_strain(const Points& nodes,
-                                                                         const Tetrahedra& tets,
-                                                                         const Points& d);
+/// |T| x 6 in the order of Voigt: strains (engineering shear) or stresses (Pa).
+using VoigtRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+
+/// Per element at displacement `d` (|nodes| x 3): strain, and von Mises stress (Pa), which is the
+/// same for all element kinds: they differ in the pressure alone.
+VoigtRows element_strain(const Points& nodes, const Tetrahedra& tets, const Points& d);
 Eigen::VectorXd von_mises_pa(const Points& nodes, const Tetrahedra& tets, const Material& material,
                              const Points& d);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Dense>
+#include <cassert>
 #include <vector>
 
 namespace hyperex::fem {
@@ -12,12 +13,23 @@ enum class ViscousForm { isotropic, printed };
 
 /// Linear viscoelastic material, one value an element.
 struct Material {
-  std::vector<double> young_pa;           ///< > 0
-  std::vector<double> poisson;            ///< in (-1, 0.5)
-  std::vector<double> viscosity_pa_s;     ///< >= 0
-  std::vector<double> density_kg_m3;      ///< > 0
+  std::vector<double> young_pa;        ///< > 0
+  std::vector<double> poisson;         ///< in (-1, 0.5)
+  std::vector<double> viscosity_pa_s;  ///< >= 0
+  std::vector<double> density_kg_m3;   ///< > 0
   ViscousForm viscous_form = ViscousForm::isotropic;
 };
+
+/// E / (2 (1 + nu))
+inline double shear_modulus_pa(double young_pa, double poisson) {
+  assert(young_pa > 0 && poisson > -1);
+  return young_pa / (2 * (1 + poisson));
+}
+/// E / (3 (1 - 2 nu))
+inline double bulk_modulus_pa(double young_pa, double poisson) {
+  assert(young_pa > 0 && poisson < 0.5);
+  return young_pa / (3 * (1 - 2 * poisson));
+}
 
 using Voigt = Eigen::Matrix<double, 6, 6>;
 /// Strain order (e_x, e_y, e_z, g_xy, g_yz, g_zx), engineering shear.

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "hyperex/fem/element/tet4.hpp"
+#include "hyperex/fem/form/dilatation_groups.hpp"
+#include "hyperex/fem/form/system.hpp"
+
+namespace hyperex::fem {
+
+/// The matrices of one mesh for any number of materials: shapes, patterns, and the place of every
+/// contribution are computed once. Consistent mass; the viscous tensors have no volumetric part,
+/// and so damping is the plain element's whatever the kind. Const members may be called from
+/// several threads.
+class Assembler {
+ public:
+  /// Throws NumericalError naming the first tetrahedron whose volume is not positive.
+  Assembler(const Points& nodes, const Tetrahedra& tets, ElementKind kind);
+  Assembler(const Points& nodes, const Tetrahedra& tets, const DilatationGroups& groups);
+
+  Eigen::Index node_count() const { return tets_around_.size(); }
+  Eigen::Index element_count() const { return static_cast<Eigen::Index>(shapes_.size()); }
+  const std::vector<Tet4>& shapes() const { return shapes_; }
+
+  /// Values that no material may have (E <= 0 ...) must have been refused before: asserted. A
+  /// `system` that this assembler filled before keeps its patterns: values are overwritten, no
+  /// matrix is allocated. Parallel; the sums' order does not depend on the number of threads.
+  void assemble(const Material& material, System& system) const;
+
+  /// Per element at displacement `d` (|nodes| x 3). The dilatation is the one that makes pressure:
+  /// the mean of the groups of the element; it equals the strain's trace for tet4 alone.
+  VoigtRows strain(const Points& d) const;
+  Eigen::VectorXd dilatation(const Points& d) const;
+  VoigtRows stress_pa(const Material& material, const Points& d) const;
+  Eigen::VectorXd von_mises_pa(const Material& material, const Points& d) const;
+  /// -tr(stress) / 3: positive where compressed.
+  Eigen::VectorXd pressure_pa(const Material& material, const Points& d) const;
+
+ private:
+  struct Moduli;  // of one element
+  void take_groups(const DilatationGroups& groups);
+  void find_slots();
+  SparseMatrix zero_pattern(const Lists& neighbours) const;
+  const Lists& stiffness_neighbours() const { return groups_.size() ? wide_ : narrow_; }
+  Eigen::Matrix<double, 4, 3> corner_values(const Points& d, Eigen::Index t) const;
+  Moduli moduli(const Material& material, Eigen::Index t) const;
+  std::vector<double> group_stiffness(const std::vector<Moduli>& moduli) const;
+  void fill_elements(int n, const Material& material, const std::vector<Moduli>& moduli,
+                     System& system) const;
+  void fill_groups(int n, const std::vector<double>& stiffness, System& system) const;
+
+  std::vector<Tet4> shapes_;
+  std::vector<std::array<int, 4>> corners_;
+  Lists tets_around_;    // node -> tetrahedra
+  Lists narrow_, wide_;  // node -> nodes of a common tetrahedron, of a common group
+  // For each entry of tets_around_: where its four corners stand among the node's neighbours.
+  std::vector<std::array<int, 4>> narrow_slots_, wide_slots_;
+
+  double kept_ = 0;
+  Lists groups_, groups_of_;          // group -> tetrahedra and back
+  std::vector<double> group_volume_;  // V_g
+  Lists group_nodes_;
+  std::vector<Vec3> group_gradient_;  // for each entry of group_nodes_: d theta_g / d (its node)
+  struct Membership {
+    int group, place;        // the node is group_nodes_.item[place]
+    std::size_t slots_from;  // of all the group's nodes, in group_slots_
+  };
+  std::vector<int> member_start_;  // node -> memberships_
+  std::vector<Membership> memberships_;
+  std::vector<std::uint16_t> group_slots_;
+};
+
+}  // namespace hyperex::fem
