@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what building Hyperex takes on Debian 12: Debian packages, then the npm packages of web/.
 #   scripts/setup.sh           to build and run
-#   scripts/setup.sh --tests   also a browser for the browser tests
+#   scripts/setup.sh --tests   also a browser for the browser tests and CalculiX to compare with
 # Says first what it will install, installs only what is missing, and is quick when nothing is.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -25,7 +25,10 @@ die() { printf 'setup: %s\n' "$*" >&2; exit 1; }
 
 case "${1:-}" in
   '') ;;
-  --tests) [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium) ;;
+  --tests)
+    packages+=(calculix-ccx)
+    [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
+    ;;
   -h | --help) sed -n '3,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) die "unknown option $1 (there is only --tests)" ;;
 esac

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Runs CalculiX (Debian: calculix-ccx) on a mesh of linear tetrahedra, as a second opinion.
+#include <Eigen/Sparse>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+
+namespace hyperex::test {
+
+/// A mesh of one isotropic material, at rest until its driven unknowns move as given.
+struct CalculixModel {
+  Points nodes;     ///< m
+  Tetrahedra tets;  ///< C3D4
+  double young_pa = 0, poisson = 0, density_kg_m3 = 0;
+  double alpha_per_s = 0, beta_s = 0;  ///< damping C = alpha M + beta K
+  std::vector<int> held_nodes;         ///< all three axes
+  std::vector<int> driven;             ///< unknowns 3 n + axis
+  Eigen::MatrixXd motion_m;            ///< steps x |driven|: displacement at the end of each step
+  double dt_s = 0;
+};
+
+/// A displacement of all unknowns a step.
+using History = std::vector<Eigen::VectorXd>;
+
+struct CalculixRun {
+  History displacement_m;
+  double seconds = 0;  ///< of the program, reading and writing included
+};
+
+/// `ccx` on the PATH.
+std::optional<std::filesystem::path> find_calculix();
+
+/// Its *DYNAMIC, DIRECT, ALPHA=0: average-acceleration Newmark (beta 1/4, gamma 1/2). It prints
+/// seven digits of each number; as the model is linear, `gain` multiplies the motion on the way in
+/// and divides the results (calculix_gain). Throws NumericalError with the last lines of its log
+/// where it fails or writes too little.
+CalculixRun run_calculix(const CalculixModel& model, double gain = 1);
+
+/// Brings displacements of up to `greatest` to 9.9 times a power of ten: seven digits then round by
+/// no more than 5.1e-8 of the greatest.
+double calculix_gain(double greatest);
+
+/// The terms of K d + C d' + M d'' = 0 and what driven unknowns do to free ones besides pulling.
+struct DrivenTerms {
+  Eigen::SparseMatrix<double> stiffness, damping, mass;
+  bool damping_of_driven = true;  ///< - C_oc d'_c
+  bool inertia_of_driven = true;  ///< - M_oc d''_c
+};
+
+/// Average-acceleration Newmark of the model's motion from rest with these terms, all unknowns;
+/// driven velocities and accelerations by Newmark's own formulas. On purpose neither the time loop
+/// nor the factorisation of the library.
+History integrate(const DrivenTerms& terms, const CalculixModel& model);
+
+/// Mass with its integral taken at one point: N_a = 1/4 there, rho V / 16 in each entry of a
+/// tetrahedron. Diagonal and other entries as shares of rho V, to try others.
+Eigen::SparseMatrix<double> one_point_mass(const CalculixModel& model, double diagonal = 1.0 / 16,
+                                           double other = 1.0 / 16);
+
+/// The greatest difference between two histories in any unknown at any step, by the greatest
+/// displacement of the first.
+double difference(const History& a, const History& b);
+double greatest(const History& a);
+
+}  // namespace hyperex::test
