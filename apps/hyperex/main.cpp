@@ -9,11 +9,13 @@
 
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/interrupt.hpp"
 
 namespace {
 
 // One line a problem, each with the program's name.
 void print_error(const std::string& text) {
+  hyperex::wait_if_interrupted();
   size_t begin = 0;
   while (begin <= text.size()) {
     const size_t end = std::min(text.find('\n', begin), text.size());
@@ -27,6 +29,7 @@ void print_error(const std::string& text) {
 int main(int argc, char** argv) {
   // A file that may grow no further is then a failed write, told in words, not the end.
   std::signal(SIGXFSZ, SIG_IGN);
+  hyperex::end_cleanly_when_interrupted();
   // Standard output is for results alone: what is said on the way goes beside it.
   spdlog::set_default_logger(spdlog::stderr_color_mt("hyperex"));
   spdlog::set_pattern("%^%l%$: %v");

@@ -19,10 +19,15 @@ fs::path temporary_beside(const fs::path& target, const char* extension = "tmp")
   return target.parent_path() / fmt::format(".{}.{}.{}", target.filename().string(),
                                             static_cast<long>(::getpid()), extension);
 }
+
+fs::path without_slash(const fs::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
 }  // namespace
 
 void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  const fs::path temporary = temporary_beside(path);
+  const TemporaryPath listed(temporary_beside(path));
+  const fs::path& temporary = listed.path();
   std::error_code ignored;
   const auto fail = [&](const std::string& why) {
     fs::remove(temporary, ignored);
@@ -48,8 +53,9 @@ void write_file_atomically(const fs::path& path, const std::function<void(std::o
 }
 
 OutputDirectory::OutputDirectory(fs::path target, std::string marker)
-    : target_(fs::absolute(target).lexically_normal()), marker_(std::move(marker)) {
-  if (!target_.has_filename()) target_ = target_.parent_path();
+    : target_(without_slash(fs::absolute(target).lexically_normal())),
+      temporary_(temporary_beside(target_)),
+      marker_(std::move(marker)) {
   std::error_code error;
   if (fs::exists(target_)) {
     if (!fs::is_directory(target_))
@@ -60,21 +66,20 @@ OutputDirectory::OutputDirectory(fs::path target, std::string marker)
                                             marker_));
   }
   fs::create_directories(target_.parent_path(), error);
-  temporary_ = temporary_beside(target_);
-  fs::remove_all(temporary_, error);
+  fs::remove_all(path(), error);
   error.clear();
-  fs::create_directory(temporary_, error);
+  fs::create_directory(path(), error);
   if (error) throw InputError(target_, "cannot be created (" + error.message() + ")");
 }
 
 OutputDirectory::~OutputDirectory() {
   if (committed_) return;
   std::error_code ignored;
-  fs::remove_all(temporary_, ignored);
+  fs::remove_all(path(), ignored);
 }
 
 std::string OutputDirectory::with_own_name(std::string text) const {
-  const std::string from = temporary_.string(), to = target_.string();
+  const std::string from = path().string(), to = target_.string();
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
@@ -82,6 +87,7 @@ std::string OutputDirectory::with_own_name(std::string text) const {
 
 void OutputDirectory::commit() {
   // An earlier run's folder is moved aside, not removed, until this one stands in its place.
+  const auto together = hold_off_interruption();
   const fs::path aside = temporary_beside(target_, "old");
   std::error_code error, ignored;
   const auto fail = [&] {
@@ -93,7 +99,7 @@ void OutputDirectory::commit() {
     fs::rename(target_, aside, error);
     if (error) fail();
   }
-  fs::rename(temporary_, target_, error);
+  fs::rename(path(), target_, error);
   if (error) {
     if (replaces) fs::rename(aside, target_, ignored);
     fail();

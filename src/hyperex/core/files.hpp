@@ -7,6 +7,8 @@
 #include <ostream>
 #include <string>
 
+#include "hyperex/core/interrupt.hpp"
+
 namespace hyperex {
 
 /// Writes `path` through `write(stream)`: to a temporary name, checked, then renamed.
@@ -16,7 +18,7 @@ void write_file_atomically(const std::filesystem::path& path,
 
 /// A folder of outputs filled under a temporary name; commit() gives it its own, replacing a
 /// folder of that name only when that is empty or an earlier output (holds `marker`).
-/// Without commit() the destructor removes everything.
+/// Without commit() the destructor removes everything, and so does an interruption.
 class OutputDirectory {
  public:
   OutputDirectory(std::filesystem::path target, std::string marker = "summary.json");
@@ -24,14 +26,15 @@ class OutputDirectory {
   OutputDirectory(const OutputDirectory&) = delete;
   OutputDirectory& operator=(const OutputDirectory&) = delete;
   /// Where to write until commit().
-  const std::filesystem::path& path() const { return temporary_; }
+  const std::filesystem::path& path() const { return temporary_.path(); }
   /// `text` with the folder's own name in the place of the temporary one: for messages.
   std::string with_own_name(std::string text) const;
   /// An earlier output stays as it was where this throws InputError.
   void commit();
 
  private:
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_;
+  TemporaryPath temporary_;
   std::string marker_;
   bool committed_ = false;
 };

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/interrupt.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace hyperex {
+namespace fs = std::filesystem;
+namespace {
+
+// Never destroyed: the waiting thread outlives main().
+std::mutex& mutex() {
+  static auto* m = new std::mutex;
+  return *m;
+}
+std::vector<fs::path>& list() {
+  static auto* paths = new std::vector<fs::path>;
+  return *paths;
+}
+
+int wake[2] = {-1, -1};  // a pipe: a handler may write to it, and hardly anything else
+std::atomic<bool> interrupted{false};
+
+extern "C" void on_signal(int signal) {
+  const int kept = errno;
+  interrupted = true;
+  const auto byte = static_cast<unsigned char>(signal);
+  [[maybe_unused]] const auto written = ::write(wake[1], &byte, 1);
+  errno = kept;
+}
+
+void remove_all_on_list() {
+  for (const fs::path& path : list()) {
+    // Under another name first: nothing can be put into it any more while it is emptied.
+    std::error_code error;
+    fs::path going = path;
+    going += ".going";
+    fs::rename(path, going, error);
+    fs::remove_all(error ? path : going, error);
+  }
+}
+
+void wait_for_signal() {
+  unsigned char signal = 0;
+  ssize_t got = 0;
+  do got = ::read(wake[0], &signal, 1);
+  while (got < 0 && errno == EINTR);
+  if (got != 1) return;
+  const auto lock = hold_off_interruption();
+  const bool unfinished = !list().empty();
+  remove_all_on_list();
+  // A progress bar may stand on the line.
+  const std::string line = std::string(::isatty(2) ? "\n" : "") + "hyperex: interrupted" +
+                           (unfinished ? "; what was half written is removed\n" : "\n");
+  [[maybe_unused]] const auto written = ::write(2, line.data(), line.size());
+  ::_exit(128 + signal);
+}
+
+}  // namespace
+
+TemporaryPath::TemporaryPath(fs::path path) : path_(fs::absolute(path)) {
+  const auto lock = hold_off_interruption();
+  list().push_back(path_);
+}
+
+TemporaryPath::~TemporaryPath() {
+  const auto lock = hold_off_interruption();
+  const auto found = std::find(list().begin(), list().end(), path_);
+  if (found != list().end()) list().erase(found);
+}
+
+std::unique_lock<std::mutex> hold_off_interruption() {
+  return std::unique_lock(mutex());
+}
+
+void end_cleanly_when_interrupted() {
+  if (::pipe(wake) != 0) return;  // signals then end the program as ever
+  std::thread(wait_for_signal).detach();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+void wait_if_interrupted() {
+  while (interrupted) ::pause();
+}
+
+}  // namespace hyperex

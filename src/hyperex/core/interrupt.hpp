@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A run that the user breaks off leaves nothing behind: what is half written stands in one list,
+// and a thread that waits for the signal removes it and ends the program. Long calls into libraries
+// need not look for a flag.
+#include <filesystem>
+#include <mutex>
+
+namespace hyperex {
+
+/// A file or folder under a temporary name, removed when the program is interrupted; the destructor
+/// only takes it off the list.
+class TemporaryPath {
+ public:
+  explicit TemporaryPath(std::filesystem::path path);
+  ~TemporaryPath();
+  TemporaryPath(const TemporaryPath&) = delete;
+  TemporaryPath& operator=(const TemporaryPath&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// While this is held an interruption waits: for renames that belong together.
+std::unique_lock<std::mutex> hold_off_interruption();
+
+/// From now on SIGINT, SIGTERM and SIGHUP (each unless it is ignored, as under nohup) remove what
+/// is on the list, say so in one line on standard error and end the program with the status 128 +
+/// signal. Call once, from main().
+void end_cleanly_when_interrupted();
+
+/// Where an interruption is under way, does not return: what fails because its files are being
+/// removed is no error to tell.
+void wait_if_interrupted();
+
+}  // namespace hyperex
