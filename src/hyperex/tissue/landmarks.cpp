@@ -11,6 +11,7 @@
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/tissue/negated_axes.hpp"
 #include "hyperex/tissue/register_face.hpp"
 
 namespace hyperex::tissue {
@@ -43,6 +44,15 @@ Known known_of(const io::Landmarks& given) {
     known.given.row(Eigen::Index(i)) = given.at(known.names[i]);
   }
   return known;
+}
+
+/// A handful of names, then how many more.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t handful = 5;
+  const auto last = names.begin() + std::ptrdiff_t(std::min(handful, names.size()));
+  return fmt::format(
+      "{}{}", fmt::join(names.begin(), last, ", "),
+      names.size() > handful ? fmt::format(" and {} more", names.size() - handful) : "");
 }
 
 double misfit(const Points& canonical, const Points& given) {
@@ -201,6 +211,20 @@ bool looks_outwards(const Known& known, const TriMesh& scan, const SurfaceTree& 
 
 }  // namespace
 
+std::vector<std::string> unknown_landmarks(const io::Landmarks& given) {
+  std::vector<std::string> names;
+  for (const auto& entry : given)
+    if (!canonical_face().landmarks.contains(entry.first)) names.push_back(entry.first);
+  return names;
+}
+
+std::string unknown_landmarks_note(const std::vector<std::string>& names) {
+  return fmt::format("{} not known and left aside: {}; docs/landmarks.md has the names",
+                     names.size() == 1 ? "one landmark's name is"
+                                       : fmt::format("the names of {} landmarks are", names.size()),
+                     listed(names));
+}
+
 CompletedLandmarks complete_landmarks(const io::Landmarks& given,
                                       const std::vector<std::string>& needed, const TriMesh& scan,
                                       const std::string& source) {
@@ -216,12 +240,20 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
                          " is needed and missing, and cannot be placed: its name is unknown");
   const Known known = known_of(given);
   const bool enough = known.names.size() >= 3 && spread_off_line(known.given) >= kLeastSpread;
-  if (!enough && !missing.empty())
+  if (!enough && !missing.empty()) {
+    const auto unknown = unknown_landmarks(given);
     problems.push_back(
         fmt::format("{} needed landmarks are missing (the first is {}); to place "
                     "them takes three known ones that are not on one line, and "
-                    "{} of those given are known",
-                    missing.size(), *missing.begin(), known.names.size()));
+                    "{} of those given are known{}",
+                    missing.size(), *missing.begin(), known.names.size(),
+                    unknown.empty() ? "" : " (not known: " + listed(unknown) + ")"));
+  }
+  // Axes that are others than the scan's explain all that floats off it.
+  if (enough)
+    if (const auto axes =
+            negated_axes_problem(known.canonical, known.given, tree, kLargestOffset_m))
+      problems = {*axes};
   if (enough && problems.empty()) {
     problems = exchange_problems(known);
     if (problems.empty() && !looks_outwards(known, scan, tree))

@@ -122,6 +122,56 @@ TEST(CompleteLandmarks, RefusesExchangedSides) {
                  {"inside out"});
 }
 
+io::Landmarks negated(io::Landmarks landmarks, const Vec3& sign) {
+  for (auto& [name, p] : landmarks) p = p.cwiseProduct(sign);
+  return landmarks;
+}
+
+/// Refused with x and y negated, and so are landmarks that are mirrored.
+void expect_axes_told(const TriMesh& scan, const io::Landmarks& all) {
+  for (const auto& given :
+       {all, only(all, kSeven), only(all, {"ibug68_36", "ibug68_45", "ibug68_30"})}) {
+    EXPECT_NO_THROW(complete_landmarks(given, all_names(), scan));
+    expect_refused(
+        [&] {
+          complete_landmarks(negated(given, {-1, -1, 1}), all_names(), scan, "l.json");
+        },
+        {"l.json: these landmarks fit the scan only with x and y negated", "RAS", "LPS"});
+    expect_refused(
+        [&] {
+          complete_landmarks(negated(given, {1, -1, 1}), all_names(), scan);
+        },
+        {"only with y negated", "mirrored"});
+    expect_refused(
+        [&] {
+          complete_landmarks(negated(given, {-1, 1, -1}), all_names(), scan);
+        },
+        {"only with x and z negated", "axes"});
+  }
+}
+
+TEST(CompleteLandmarks, RefusesOtherAxesThanTheScans) {
+  // By chance these lie within 15 mm of the skin, upside down.
+  const EmbeddedFace face = embedded_face();
+  const SurfaceTree tree(face.mesh);
+  for (const auto& [name, p] : negated(face.landmarks, {-1, -1, 1}))
+    EXPECT_LT(tree.query(p).squared_distance, 0.015 * 0.015) << name;
+  expect_axes_told(face.mesh, face.landmarks);
+}
+
+TEST(UnknownLandmarks, AreNamedAHandfulAndCounted) {
+  io::Landmarks given = only(embedded_face().landmarks, kSeven);
+  EXPECT_TRUE(unknown_landmarks(given).empty());
+  given["exocantion_R"] = Vec3::Zero();
+  EXPECT_THAT(unknown_landmarks_note(unknown_landmarks(given)),
+              ::testing::AllOf(::testing::StartsWith("one landmark's name is not known"),
+                               ::testing::HasSubstr(": exocantion_R; docs/landmarks.md")));
+  for (int k = 0; k < 9; ++k) given["a" + std::to_string(k)] = Vec3::Zero();
+  EXPECT_THAT(unknown_landmarks_note(unknown_landmarks(given)),
+              ::testing::AllOf(::testing::HasSubstr("10 landmarks are not known"),
+                               ::testing::HasSubstr(": a0, a1, a2, a3, a4 and 5 more;")));
+}
+
 TEST(CompleteLandmarks, NeedsThreeKnownOnesOffOneLine) {
   const EmbeddedFace face = another_face();
   const std::vector<std::string> needed = {"ibug68_8"};
@@ -218,6 +268,11 @@ TEST_F(OnRealScans, SevenLandmarksGiveTheOthersOfSubjectA) {
   for (int k = 0; k < 68; ++k)
     std::printf("%s%d: %.1f", k ? ", " : "error in mm of ", k, mean_error_mm(k, k));
   std::printf("\n");
+}
+
+TEST_F(OnRealScans, OtherAxesThanThoseOfSubjectAAreRefused) {
+  const io::Landmarks all = io::read_landmarks(data_ / "ict/subject_A_landmarks.json");
+  expect_axes_told(io::read_scan(data_ / "ict/subject_A_neutral_scan.ply").mesh, all);
 }
 
 TEST_F(OnRealScans, ScannedFaceWithJoinedLipsGetsItsLipLineInTheCrease) {
