@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "hyperex/metrics/baseline.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
+#include "hyperex/tissue/landmarks.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -32,11 +35,63 @@ struct Options {
 struct Surfaces {
   TriMesh a, b, rest;       // rest: that of --rest, else a
   Eigen::Index scored = 0;  // the first so many vertices of a
+  std::vector<std::string> notes;
 };
 
-TriMesh read(const std::filesystem::path& file, const std::string& unit) {
-  if (unit.empty()) return io::read_scan(file).mesh;
-  return io::read_mesh(file, *io::length_unit(unit));
+// Reads the files and keeps what is to be said of their units.
+class Reader {
+ public:
+  explicit Reader(const std::string& unit) : unit_(io::length_unit(unit)) {}
+  TriMesh read(const std::filesystem::path& file) {
+    if (unit_) return io::read_mesh(file, *unit_);
+    io::Scan scan = io::read_scan(file);
+    notes_.push_back(fmt::format("{}: unit {}", file.string(), io::unit_note(scan)));
+    if (scan.unit_guessed) guessed_.insert(scan.unit);
+    return std::move(scan.mesh);
+  }
+  std::vector<std::string> notes() const {
+    std::vector<std::string> all = notes_;
+    if (guessed_.size() > 1)
+      all.push_back(
+          "warning: the units that were guessed differ; if the files are in one unit, state it "
+          "with --unit");
+    return all;
+  }
+
+ private:
+  std::optional<io::LengthUnit> unit_;
+  std::vector<std::string> notes_;
+  std::set<io::LengthUnit> guessed_;
+};
+
+// A distance between surfaces of quite another size means that a unit is wrong.
+void check_sizes(const Options& options, const Surfaces& surfaces) {
+  constexpr double most = 5;
+  const double a = io::across(surfaces.a.points);
+  const auto check = [&](const std::filesystem::path& file, const TriMesh& mesh) {
+    const double size = io::across(mesh.points);
+    if (size <= most * a && a <= most * size) return;
+    throw InputError(
+        file, fmt::format("is {:.4g} mm across and {} is {:.4g} mm{}: expected surfaces of about "
+                          "one size; are both in the same unit?",
+                          1e3 * size, options.a.string(), 1e3 * a,
+                          options.unit.empty() ? "" : fmt::format(" in {}", options.unit)));
+  };
+  check(options.b, surfaces.b);
+  check(options.rest.empty() ? options.a : options.rest, surfaces.rest);
+}
+
+// An STL repeats each corner; joined again, vertices are numbered by their first appearance, and
+// where two of them touch they are one.
+void refuse_stl(const Options& options) {
+  for (const auto& file : {options.a, options.b}) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".stl")
+      throw InputError(file,
+                       "is an STL, which does not number its vertices: --corresponding needs "
+                       "PLY, OBJ or glTF; without it the closest points are compared");
+  }
 }
 
 // Scored by corresponding vertices, all three must begin with the vertices at rest.
@@ -65,10 +120,14 @@ void check_counts(const Options& options, Surfaces& surfaces) {
 }
 
 Surfaces read_surfaces(const Options& options) {
+  if (options.corresponding) refuse_stl(options);
   Surfaces surfaces;
-  surfaces.a = read(options.a, options.unit);
-  surfaces.b = read(options.b, options.unit);
-  surfaces.rest = options.rest.empty() ? surfaces.a : read(options.rest, options.unit);
+  Reader reader(options.unit);
+  surfaces.a = reader.read(options.a);
+  surfaces.b = reader.read(options.b);
+  surfaces.rest = options.rest.empty() ? surfaces.a : reader.read(options.rest);
+  surfaces.notes = reader.notes();
+  check_sizes(options, surfaces);
   if (options.corresponding) {
     check_counts(options, surfaces);
     return surfaces;
@@ -187,7 +246,10 @@ void run(Options options) {
     landmarks = io::read_landmarks(options.landmarks);
     regions = metrics::regions_of(surfaces.rest.points.topRows(surfaces.scored), landmarks);
   }
-  for (const std::string& note : regions.notes) std::cerr << note << '\n';
+  for (const auto& notes : {surfaces.notes, regions.notes})
+    for (const std::string& note : notes) std::cerr << note << '\n';
+  if (const auto unknown = tissue::unknown_landmarks(landmarks); !unknown.empty())
+    std::cerr << tissue::unknown_landmarks_note(unknown) << '\n';
   const Eigen::VectorXd distance = distances(options, surfaces, surfaces.a.points);
   const std::vector<Row> rows = rows_of(distance, regions);
   std::vector<BaselineRows> baselines;

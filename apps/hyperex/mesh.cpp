@@ -61,8 +61,13 @@ void run(const Options& options) {
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
   const auto file = options.landmarks.empty() ? landmarks_beside(options.scan) : options.landmarks;
-  const auto landmarks = tissue::complete_landmarks(
-      io::read_landmarks(file), scene::needed_landmarks(), scan.mesh, file.string());
+  const io::Landmarks given = io::read_landmarks(file);
+  if (scan.unit_guessed)
+    std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
+  if (const auto unknown = tissue::unknown_landmarks(given); !unknown.empty())
+    std::cerr << tissue::unknown_landmarks_note(unknown) << '\n';
+  const auto landmarks =
+      tissue::complete_landmarks(given, scene::needed_landmarks(), scan.mesh, file.string());
   tissue::TissueMeshOptions mesh_options;
   mesh_options.element_size_m = options.element_size_mm * 1e-3;
   mesh_options.layers = options.layers;

@@ -25,7 +25,8 @@ using testing::StartsWith;
 class Program : public ProgramTest {
  protected:
   // A flat sheet of 20 cm, moved forward by `forward_m`, with `extra` more vertices at its end.
-  void write_sheet(const std::string& name, double forward_m, int extra = 0) const {
+  void write_sheet(const std::string& name, double forward_m, int extra = 0,
+                   io::LengthUnit unit = io::LengthUnit::millimetre) const {
     constexpr int n = 41;
     TriMesh mesh{Points(n * n + extra, 3), Triangles(2 * (n - 1) * (n - 1), 3)};
     mesh.points.setZero();
@@ -38,7 +39,7 @@ class Program : public ProgramTest {
         mesh.triangles.row(row++) << n * i + j, n * i + j + 1, n * (i + 1) + j + 1;
         mesh.triangles.row(row++) << n * i + j, n * (i + 1) + j + 1, n * (i + 1) + j;
       }
-    io::write_ply(in(name), mesh, io::LengthUnit::millimetre);
+    io::write_ply(in(name), mesh, unit);
   }
 };
 
@@ -63,6 +64,24 @@ TEST_F(Program, ComparesBySurfaceWithoutLandmarks) {
   for (const char* key : {"mean_mm", "median_mm", "rms_mm", "p95_mm", "max_mm"})
     EXPECT_NEAR(json["surface"][key].get<double>(), 3, 1e-4) << key;
   EXPECT_FALSE(fs::exists(in("compare.png")));
+}
+
+TEST_F(Program, TellsWhichUnitItTookForEachFile) {
+  write_sheet("a.ply", 0);
+  write_sheet("b.ply", 0.003);
+  write_sheet("c.ply", 0.003, 0, io::LengthUnit::metre);
+  const Outcome alike = call("compare a.ply b.ply --json");
+  ASSERT_EQ(alike.status, 0) << alike.err;
+  EXPECT_EQ(alike.err,
+            "a.ply: unit mm, guessed by its size: 20 cm across\n"
+            "b.ply: unit mm, guessed by its size: 20 cm across\n");
+  EXPECT_EQ(nlohmann::json::parse(alike.out).size(), 1u);
+  const Outcome mixed = call("compare a.ply c.ply --json");
+  ASSERT_EQ(mixed.status, 0) << mixed.err;
+  EXPECT_THAT(mixed.err, HasSubstr("c.ply: unit m, guessed"));
+  EXPECT_THAT(mixed.err, HasSubstr("warning: the units that were guessed differ"));
+  EXPECT_NEAR(nlohmann::json::parse(mixed.out)["surface"]["mean_mm"].get<double>(), 3, 1e-3);
+  EXPECT_THAT(call("compare a.ply b.ply --unit mm --json").err, "");
 }
 
 TEST_F(Program, ComparesByRegionsOfTheScanAtRest) {
@@ -102,6 +121,10 @@ TEST_F(Program, PrintsATableAndDrawsAPicture) {
 TEST_F(Program, RefusesInOneLine) {
   write_sheet("a.ply", 0);
   write_sheet("longer.ply", 0, 1);
+  write_sheet("metres.ply", 0, 0, io::LengthUnit::metre);
+  std::ofstream(in("s.stl"))
+      << "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 200 0 0\n"
+         "vertex 0 200 0\nendloop\nendfacet\nendsolid s\n";
   std::ofstream(in("m.csv")) << "time_s,here_x,here_y,here_z\n0,0,0,0\n1,0,0,0\n";
   for (const char* arguments :
        {"", "compare a.ply", "compare a.ply nothing.ply", "compare a.ply a.ply --unit inch",
@@ -109,7 +132,8 @@ TEST_F(Program, RefusesInOneLine) {
         "compare a.ply a.ply --corresponding --rest longer.ply --unit mm",
         "compare a.ply a.ply --baseline --unit mm", "compare a.ply a.ply --landmarks no.json",
         "compare a.ply a.ply --unit mm --picture no/folder/p.png", "symmetry nothing.csv",
-        "symmetry m.csv --unit m"}) {
+        "compare a.ply metres.ply --unit mm", "compare a.ply s.stl --corresponding",
+        "compare s.stl a.ply --corresponding --rest a.ply --unit mm", "symmetry m.csv --unit m"}) {
     const Outcome found = call(arguments);
     EXPECT_EQ(found.status, 2) << arguments;
     EXPECT_THAT(found.out, "") << arguments;

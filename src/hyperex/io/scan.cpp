@@ -43,13 +43,6 @@ RawMesh read_raw(const std::filesystem::path& file) {
                                      extension));
 }
 
-double middle_extent(const Points& points) {
-  std::array<double, 3> sides;
-  for (int k = 0; k < 3; ++k) sides[k] = points.col(k).maxCoeff() - points.col(k).minCoeff();
-  std::sort(sides.begin(), sides.end());
-  return sides[1];
-}
-
 std::optional<LengthUnit> unit_between(double extent, double min_m, double max_m) {
   for (const LengthUnit unit : units) {
     const double size_m = extent * metres_per(unit);
@@ -78,7 +71,7 @@ std::string size_text(double size_m) {
 
 /// The unit rule of scan.hpp.
 void settle_unit(Scan& scan, std::optional<LengthUnit> stated) {
-  const double extent = middle_extent(scan.mesh.points);
+  const double extent = across(scan.mesh.points);
   if (!stated && !is_gltf(scan.file)) {
     const auto guess = unit_between(extent, guess_min_m, guess_max_m);
     if (!guess) {
@@ -107,6 +100,21 @@ void settle_unit(Scan& scan, std::optional<LengthUnit> stated) {
 }
 
 }  // namespace
+
+double across(const Points& points) {
+  std::array<double, 3> sides;
+  for (int k = 0; k < 3; ++k) sides[k] = points.col(k).maxCoeff() - points.col(k).minCoeff();
+  std::sort(sides.begin(), sides.end());
+  return sides[1];
+}
+
+std::string unit_note(const Scan& scan) {
+  const char* why = scan.unit_guessed                                      ? "guessed by its size"
+                    : is_gltf(scan.file) && scan.unit == LengthUnit::metre ? "glTF's unit"
+                                                                           : "as stated";
+  return fmt::format("{}, {}: {} across", name_of(scan.unit), why,
+                     size_text(across(scan.mesh.points)));
+}
 
 double metres_per(LengthUnit unit) {
   switch (unit) {

@@ -46,6 +46,13 @@ struct Scan {
 /// that cannot be had is a warning in the log.
 Scan read_scan(const std::filesystem::path& file, std::optional<LengthUnit> stated = std::nullopt);
 
+/// "mm, guessed by its size: 17.7 cm across" and the like: which unit was taken, why, and how
+/// large that makes the middle side of the bounding box.
+std::string unit_note(const Scan& scan);
+
+/// Middle side of the bounding box: what "across" means in the rule above. In the points' unit.
+double across(const Points& points);
+
 /// Same checks, same unit rule, but any length: for meshes that are no whole faces.
 TriMesh read_mesh(const std::filesystem::path& file, LengthUnit unit);
 
