@@ -86,6 +86,29 @@ TEST_F(GoodInputs, RunWithoutFault) {
   EXPECT_TRUE(fs::exists(in("out/report.html")));
 }
 
+TEST_F(GoodInputs, NotesWhatMayBeAMistake) {
+  io::Landmarks marks = good_landmarks();
+  marks["cheilion_r"] = marks["mole"] = marks["cheilion_R"];
+  io::write_landmarks(in("face_landmarks.json"), marks, io::LengthUnit::millimetre);
+  const std::string sound = call("check scene.toml").out;
+  EXPECT_THAT(sound, HasSubstr("the names of 2 landmarks are not known and left aside: "
+                               "cheilion_r, mole; docs/landmarks.md"));
+  EXPECT_THAT(sound, testing::Not(HasSubstr("nothing holds")));
+  const std::string unit = " --set scan.unit=guess";
+  // A landmark that the scene names is not left aside.
+  EXPECT_THAT(call("check scene.toml --set 'drive.still_points=[\"mole\"]'" + unit).out,
+              testing::AllOf(HasSubstr("one landmark's name is not known"),
+                             HasSubstr("the scan's unit is mm, guessed by its size")));
+  const std::string free =
+      " --set support.border=free --set support.skull=free --set support.mandible=free"
+      " --set support.muscle_kpa_per_mm=0";
+  EXPECT_THAT(call("check scene.toml" + free).out, HasSubstr("nothing holds the tissue"));
+  const Outcome mesh = call("mesh face.ply --out out.vtu --element-size-mm 12 --layers 1");
+  EXPECT_EQ(mesh.status, 0) << mesh.err;
+  EXPECT_THAT(mesh.err, testing::AllOf(HasSubstr("face.ply: unit mm, guessed by its size"),
+                                       HasSubstr("cheilion_r, mole")));
+}
+
 TEST_F(GoodInputs, CheckTellsAllProblemsOfASceneAtOnce) {
   const Outcome found = call(
       "check scene.toml --set tissue.young_kpa=-1 --set time.step_s=0 --set mesh.colour=red "

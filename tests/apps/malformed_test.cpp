@@ -141,6 +141,18 @@ const std::vector<Fault> kScans{
      [](const In&) {},
      {"none/out.vtu", "cannot be written"},
      "mesh face.ply --unit mm --out none/out.vtu --element-size-mm 12 --layers 1"},
+    {"CompareByIndexWithAnStl",
+     [](const In& in) {
+       put(in("b.stl"),
+           "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 200 0 0\n"
+           "vertex 0 200 0\nendloop\nendfacet\nendsolid s\n");
+     },
+     {"b.stl", "STL", "number", "--corresponding"},
+     "compare face.ply b.stl --corresponding"},
+    {"CompareInUnitsMixedUp",
+     [](const In& in) { io::write_ply(in("b.ply"), good_face(), io::LengthUnit::metre); },
+     {"b.ply", "across", "same unit"},
+     "compare face.ply b.ply --unit mm"},
     {"CompareWithATornScan",
      [](const In& in) {
        write_mm(in("b.ply"), good_face());
@@ -182,6 +194,20 @@ const std::vector<Fault> kLandmarks{
        write_marks(in, [](io::Landmarks& l) { std::swap(l["alare_L"], l["alare_R"]); });
      },
      {kMarks, "alare"}},
+    {"UpsideDownNearTheSkin",
+     [](const In& in) {
+       write_marks(in, [](io::Landmarks& l) {
+         for (auto& [name, p] : l) p.head<2>() *= -1;
+       });
+     },
+     {kMarks, "x and y negated", "RAS", "LPS"}},
+    {"AllNamesMisspelt",
+     [](const In& in) {
+       write_marks(in, [](io::Landmarks& l) {
+         l = {{"mouth", l["stomion"]}, {"nose", l["pronasale"]}, {"eye", l["exocanthion_L"]}};
+       });
+     },
+     {kMarks, "three", "not known: eye, mouth, nose"}},
     {"TooFew",
      [](const In& in) {
        write_marks(in, [](io::Landmarks& l) {

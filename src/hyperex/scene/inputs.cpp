@@ -46,15 +46,8 @@ void read_scan(const Scene& scene, Inputs& in) {
   }
   in.scan = io::read_scan(scene.scan.source.file, scene.scan.unit);
   if (in.scan.unit_guessed)
-    in.notes.push_back(fmt::format(
-        "the scan's unit was guessed: {} (the face is {:.0f} cm across); state it with "
-        "scan.unit",
-        io::name_of(in.scan.unit), 100 * [&] {
-          const auto& p = in.scan.mesh.points;
-          Vec3 e = p.colwise().maxCoeff() - p.colwise().minCoeff();
-          std::sort(e.data(), e.data() + 3);
-          return e[1];
-        }()));
+    in.notes.push_back(
+        fmt::format("the scan's unit is {}; state it with scan.unit", io::unit_note(in.scan)));
 }
 
 void complete(const Scene& scene, const io::Landmarks& given, Inputs& in) {
@@ -117,6 +110,27 @@ void check_names(const Scene& scene, const Inputs& in) {
   if (!all.empty()) throw InputError(all);
 }
 
+/// Labels that nothing asked for: a name that the recording or the scene has serves there.
+void note_unknown_landmarks(const Scene& scene, const io::Landmarks& given, Inputs& in) {
+  std::vector<std::string> unknown = tissue::unknown_landmarks(given);
+  std::erase_if(unknown, [&](const std::string& name) {
+    return in.motion.motion.index_of(name) >= 0 ||
+           std::count(scene.drive.still_points.begin(), scene.drive.still_points.end(), name) > 0 ||
+           std::any_of(scene.mesh.thickness_points.begin(), scene.mesh.thickness_points.end(),
+                       [&](const ThicknessPoint& p) { return p.landmark == name; });
+  });
+  if (!unknown.empty()) in.notes.push_back(tissue::unknown_landmarks_note(unknown));
+}
+
+void note_missing_support(const Scene& scene, Inputs& in) {
+  const SupportOptions& s = scene.support;
+  if (!s.border_held && s.skull == Hold::free && s.mandible == Mandible::free &&
+      s.muscle_pa_per_m == 0)
+    in.notes.push_back(
+        "nothing holds the tissue: support.border, support.skull and support.mandible are free and "
+        "there are no muscles; it hangs on the driven points alone and may swing about them");
+}
+
 /// Lips move apart only where several elements lie between the mouth's corners.
 void check_element_size(const Scene& scene, const Inputs& in) {
   constexpr double share_of_mouth = 1.0 / 3;
@@ -168,6 +182,8 @@ Inputs read_inputs(const Scene& scene) {
       "aligned by {} common points, scale {:.3f}, {:.1f} mm rms apart before the smooth "
       "correction",
       in.motion.common.size(), in.motion.scan_from_motion.scale, in.motion.rms_mm));
+  note_unknown_landmarks(scene, given, in);
+  note_missing_support(scene, in);
   in.driven = scene.drive.all_points ? in.motion.motion.names : scene.drive.points;
   problems.attempt([&] { check_names(scene, in); });
   problems.attempt([&] { check_element_size(scene, in); });
