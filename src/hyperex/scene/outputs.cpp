@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "hyperex/core/progress.hpp"
 #include "hyperex/fem/form/system.hpp"
@@ -82,49 +83,110 @@ std::vector<render::Marker> markers(const Performance& p, const tissue::FaceFram
   return list;
 }
 
+struct Still {
+  double time_s;
+  const PointsF* displacement;
+};
+
+/// The shapes wanted, each with the time that it shows: what is wanted after the end of the run is
+/// the shape at its end, and stands there once.
+std::vector<Still> stills_of(const Results& r) {
+  const std::vector<double> shown =
+      shown_times_s(r.scene.output.contact_times_s, run_end_s(r.scene, r.inputs));
+  std::vector<Still> stills;
+  for (std::size_t s = 0; s < shown.size(); ++s)
+    stills.push_back({shown[s], &r.simulation.still_displacement_m[s]});
+  return stills;
+}
+
+Points in_face_frame(const tissue::FaceFrame& frame, const Points& points) {
+  Points out(points.rows(), 3);
+  for (Eigen::Index v = 0; v < points.rows(); ++v)
+    out.row(v) = frame.local(points.row(v)).transpose();
+  return out;
+}
+
+/// What the pictures must hold: the skin about the landmarks, the ears with it, in all its shapes;
+/// not the shoulders and the back of the head, where a scan has them.
+Points framed_points(const Results& r, const std::vector<Still>& stills,
+                     const tissue::FaceFrame& frame) {
+  const Vec3 beyond_low_m(0.04, 0.045, 0.06), beyond_high_m(0.04, 0.075, 0.02);
+  Vec3 low = Vec3::Constant(1e9), high = -low;
+  for (const auto& entry : r.inputs.landmarks) {
+    low = low.cwiseMin(frame.local(entry.second));
+    high = high.cwiseMax(frame.local(entry.second));
+  }
+  low -= beyond_low_m;
+  high += beyond_high_m;
+  const Performance& p = r.simulation.performance;
+  std::vector<Vec3> kept;
+  for (Eigen::Index v = 0; v < p.skin_rest.points.rows(); ++v) {
+    const Vec3 rest = p.skin_rest.points.row(v), local = frame.local(rest);
+    if ((local.array() < low.array()).any() || (local.array() > high.array()).any()) continue;
+    kept.push_back(local);
+    for (const Still& still : stills)
+      kept.push_back(
+          frame.local(rest + still.displacement->row(v).transpose().cast<double>().eval()));
+  }
+  Points points(Eigen::Index(kept.size()), 3);
+  for (std::size_t i = 0; i < kept.size(); ++i) points.row(Eigen::Index(i)) = kept[i].transpose();
+  return points;
+}
+
 }  // namespace
+
+double run_end_s(const Scene& scene, const Inputs& inputs) {
+  const auto& times = inputs.motion.motion.time_s;
+  return scene.time.end_s > 0 ? scene.time.end_s : times.back() - times.front();
+}
+
+std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double end_s) {
+  std::vector<double> shown;
+  for (const double t : wanted_s) {
+    const double at = std::min(t, end_s);
+    if (shown.empty() || at > shown.back()) shown.push_back(at);
+  }
+  return shown;
+}
 
 void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   const Performance& p = r.simulation.performance;
-  const auto& stills = r.simulation.still_displacement_m;
   const tissue::FaceFrame frame = tissue::face_frame(r.inputs.landmarks);
-  const auto in_face_frame = [&](const Points& points) {
-    Points out(points.rows(), 3);
-    for (Eigen::Index v = 0; v < points.rows(); ++v)
-      out.row(v) = frame.local(points.row(v)).transpose();
-    return out;
-  };
+  const std::vector<Still> stills = stills_of(r);
   double top = 1;
-  for (const auto& d : stills) top = std::max(top, longest_mm(d));
-  const Points rest = in_face_frame(p.skin_rest.points);
-  Points framed(r.inputs.landmarks.size(), 3);
-  Eigen::Index i = 0;
-  for (const auto& entry : r.inputs.landmarks)
-    framed.row(i++) = frame.local(entry.second).transpose();
+  for (const Still& still : stills) top = std::max(top, longest_mm(*still.displacement));
 
   render::RenderOptions options;
-  options.width_px = 260;
+  options.width_px = 280;
   options.height_px = 350;
+  const double aspect = double(options.width_px) / options.height_px;
+  const Points framed = framed_points(r, stills, frame);
+  const std::array views{render::front_view(), render::three_quarter_view()};
+  double height_m = 0;  // the face as large in either view
+  for (const Vec3& view : views)
+    height_m = std::max(height_m, render::framing(framed, view, aspect).height_m);
+
   render::ContactSheet sheet;
   sheet.title = r.scene.title.empty() ? r.inputs.scan.file.filename().string() : r.scene.title;
   sheet.note = "displacement of the skin; red: driven points";
   if (p.lip_cut_rest.rows() > 0) sheet.note += "; orange: where the joined lips were cut";
   sheet.columns = static_cast<int>(stills.size()) + 1;
   sheet.bar = render::ColourBar{{0, top}, "displacement (mm)"};
-  for (const Vec3& view : {render::front_view(), render::three_quarter_view()}) {
-    const render::Camera camera = render::framing(
-        framed, view, double(options.width_px) / options.height_px, Vec3::UnitY(), 0.16);
-    const TriMesh still{rest, p.skin_rest.triangles};
+  for (const Vec3& view : views) {
+    render::Camera camera = render::framing(framed, view, aspect);
+    camera.height_m = height_m;
+    const TriMesh rest{in_face_frame(frame, p.skin_rest.points), p.skin_rest.triangles};
     std::vector<render::Polyline> lines;
-    if (p.lip_cut_rest.rows() > 0) lines.push_back({in_face_frame(p.lip_cut_rest)});
+    if (p.lip_cut_rest.rows() > 0) lines.push_back({in_face_frame(frame, p.lip_cut_rest)});
     sheet.pictures.push_back(
-        {render::render({{.mesh = still}}, camera, options, markers(p, frame), lines), "rest"});
-    for (std::size_t s = 0; s < stills.size(); ++s) {
-      const TriMesh mesh{in_face_frame(moved(p, stills[s])), p.skin_rest.triangles};
+        {render::render({{.mesh = rest}}, camera, options, markers(p, frame), lines), "rest"});
+    for (const Still& still : stills) {
+      const TriMesh mesh{in_face_frame(frame, moved(p, *still.displacement)),
+                         p.skin_rest.triangles};
       const render::Surface surface{
-          .mesh = mesh, .scalar = 1e3F * stills[s].rowwise().norm(), .range = {0, top}};
-      sheet.pictures.push_back({render::render({surface}, camera, options),
-                                fmt::format("{:.2f} s", r.scene.output.contact_times_s[s])});
+          .mesh = mesh, .scalar = 1e3F * still.displacement->rowwise().norm(), .range = {0, top}};
+      sheet.pictures.push_back(
+          {render::render({surface}, camera, options), fmt::format("{:.2f} s", still.time_s)});
     }
   }
   render::write_png(file, render::contact_sheet(sheet));

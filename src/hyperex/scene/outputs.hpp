@@ -28,6 +28,13 @@ void write_outputs(const Results& results, const std::filesystem::path& director
 void write_report(const Results& results, const nlohmann::ordered_json& summary,
                   const std::filesystem::path& directory);
 
+/// Where the simulation ends, from the start of the motion.
+double run_end_s(const Scene& scene, const Inputs& inputs);
+
+/// Of the rising times of the wanted pictures those that a run of `end_s` shows: what is wanted
+/// later shows the end, which stands there once.
+std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double end_s);
+
 /// Rest and the still shapes from the front and three-quarter, coloured by displacement.
 void write_contact_sheet(const Results& results, const std::filesystem::path& file);
 
