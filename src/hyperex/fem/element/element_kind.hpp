@@ -4,14 +4,16 @@
 
 namespace hyperex::fem {
 
-/// How the change of volume is measured on a mesh of linear tetrahedra (docs/elements.md).
-///  tet4:       in each tetrahedron on its own; locks as nu nears 0.5
-///  tet4_nodal: averaged over the tetrahedra around each node; does not lock up to nu = 0.4999
-enum class ElementKind { tet4, tet4_nodal };
+/// How the change of volume is measured on a mesh of linear tetrahedra; docs/elements.md compares.
+///  tet4:      in each tetrahedron on its own; locks as nu nears 0.5
+///  tet4_star: in patches grown from stars of nodes that do not overlap; nu up to 0.4999
+enum class ElementKind { tet4, tet4_star };
+
+inline constexpr ElementKind kElementKinds[] = {ElementKind::tet4, ElementKind::tet4_star};
 
 /// As in scene files.
 constexpr std::string_view to_string(ElementKind kind) {
-  return kind == ElementKind::tet4 ? "tet4" : "tet4-nodal";
+  return kind == ElementKind::tet4 ? "tet4" : "tet4-star";
 }
 
 }  // namespace hyperex::fem
