@@ -138,17 +138,15 @@ SparseMatrix Assembler::zero_pattern(const Lists& neighbours) const {
   return m;
 }
 
-/// The stress of strain e is first tr(e) I + 2 shear e, its kept volumetric part included;
-/// `averaged` is what the bulk modulus leaves to the groups.
-struct Assembler::Moduli {
-  double first, shear, averaged;
-};
-
-Assembler::Moduli Assembler::moduli(const Material& material, Eigen::Index t) const {
-  const double shear = shear_modulus_pa(material.young_pa[t], material.poisson[t]);
-  const double bulk = bulk_modulus_pa(material.young_pa[t], material.poisson[t]);
-  const double kept = groups_.size() ? std::min(bulk, kept_ * shear) : bulk;
-  return {kept - 2 * shear / 3, shear, bulk - kept};
+std::vector<Assembler::Moduli> Assembler::moduli(const Material& material) const {
+  std::vector<Moduli> out(element_count());
+  for_each_index(element_count(), [&](Eigen::Index t) {
+    const double shear = shear_modulus_pa(material.young_pa[t], material.poisson[t]);
+    const double bulk = bulk_modulus_pa(material.young_pa[t], material.poisson[t]);
+    const double kept = groups_.size() ? std::min(bulk, kept_ * shear) : bulk;
+    out[t] = {kept - 2 * shear / 3, shear, bulk - kept};
+  });
+  return out;
 }
 
 /// kappa_g V_g of each group.
@@ -241,8 +239,7 @@ void Assembler::assemble(const Material& material, System& system) const {
   if (!fits(system.damping, narrow_)) system.damping = zero_pattern(narrow_);
   if (!fits(system.mass, narrow_)) system.mass = zero_pattern(narrow_);
 
-  std::vector<Moduli> of_element(element_count());
-  for_each_index(element_count(), [&](Eigen::Index t) { of_element[t] = moduli(material, t); });
+  const std::vector<Moduli> of_element = moduli(material);
   const std::vector<double> of_group = group_stiffness(of_element);
   for_each_index(node_count(), [&](Eigen::Index at) {
     const int n = static_cast<int>(at);

@@ -29,23 +29,31 @@ class Assembler {
   /// matrix is allocated. Parallel; the sums' order does not depend on the number of threads.
   void assemble(const Material& material, System& system) const;
 
-  /// Per element at displacement `d` (|nodes| x 3). The dilatation is the one that makes pressure:
-  /// the mean of the groups of the element; it equals the strain's trace for tet4 alone.
+  /// Per element at displacement `d` (|nodes| x 3). The stress is the one that does the work: the
+  /// sum of V_e stress_e : strain_e(v) is v^T K d. Its pressure is that of the element's groups.
   VoigtRows strain(const Points& d) const;
-  Eigen::VectorXd dilatation(const Points& d) const;
   VoigtRows stress_pa(const Material& material, const Points& d) const;
   Eigen::VectorXd von_mises_pa(const Material& material, const Points& d) const;
   /// -tr(stress) / 3: positive where compressed.
   Eigen::VectorXd pressure_pa(const Material& material, const Points& d) const;
+  /// theta, the mean of the groups of the element: the strain's trace for tet4 alone.
+  Eigen::VectorXd dilatation(const Points& d) const;
 
  private:
-  struct Moduli;  // of one element
+  /// Of one element: the stress of strain e is first tr(e) I + 2 shear e, its kept volumetric part
+  /// included; `averaged` is what the bulk modulus leaves to the groups.
+  struct Moduli {
+    double first, shear, averaged;
+  };
   void take_groups(const DilatationGroups& groups);
   void find_slots();
   SparseMatrix zero_pattern(const Lists& neighbours) const;
   const Lists& stiffness_neighbours() const { return groups_.size() ? wide_ : narrow_; }
   Eigen::Matrix<double, 4, 3> corner_values(const Points& d, Eigen::Index t) const;
-  Moduli moduli(const Material& material, Eigen::Index t) const;
+  Eigen::VectorXd own_dilatation(const Points& d) const;
+  Eigen::VectorXd group_dilatation(const Points& d) const;
+  Eigen::VectorXd spread(const Eigen::VectorXd& of_group) const;
+  std::vector<Moduli> moduli(const Material& material) const;
   std::vector<double> group_stiffness(const std::vector<Moduli>& moduli) const;
   void fill_elements(int n, const Material& material, const std::vector<Moduli>& moduli,
                      System& system) const;

@@ -23,19 +23,20 @@ VoigtRows Assembler::strain(const Points& d) const {
   return strain;
 }
 
-Eigen::VectorXd Assembler::dilatation(const Points& d) const {
-  assert(d.rows() == node_count());
-  Eigen::VectorXd of_group(groups_.size()), of_element(element_count());
+Eigen::VectorXd Assembler::group_dilatation(const Points& d) const {
+  Eigen::VectorXd theta(groups_.size());
   tbb::parallel_for(0, groups_.size(), [&](int g) {
-    of_group[g] = 0;
+    theta[g] = 0;
     for (int k = group_nodes_.start[g]; k < group_nodes_.start[g + 1]; ++k)
-      of_group[g] += d.row(group_nodes_.item[k]).dot(group_gradient_[k]);
+      theta[g] += d.row(group_nodes_.item[k]).dot(group_gradient_[k]);
   });
+  return theta;
+}
+
+/// Mean over the groups of each element.
+Eigen::VectorXd Assembler::spread(const Eigen::VectorXd& of_group) const {
+  Eigen::VectorXd of_element(element_count());
   tbb::parallel_for(0, static_cast<int>(element_count()), [&](int t) {
-    if (groups_.size() == 0) {
-      of_element[t] = shapes_[t].gradient.cwiseProduct(corner_values(d, t)).sum();
-      return;
-    }
     of_element[t] = 0;
     for (const int g : groups_of_[t]) of_element[t] += of_group[g];
     of_element[t] /= static_cast<double>(groups_of_[t].size());
@@ -43,25 +44,45 @@ Eigen::VectorXd Assembler::dilatation(const Points& d) const {
   return of_element;
 }
 
-VoigtRows Assembler::stress_pa(const Material& material, const Points& d) const {
-  const Eigen::VectorXd theta = dilatation(d);
-  VoigtRows stress = strain(d);
+Eigen::VectorXd Assembler::own_dilatation(const Points& d) const {
+  Eigen::VectorXd theta(element_count());
   tbb::parallel_for(Eigen::Index{0}, element_count(), [&](Eigen::Index t) {
-    const double shear = shear_modulus_pa(material.young_pa[t], material.poisson[t]);
-    const double bulk = bulk_modulus_pa(material.young_pa[t], material.poisson[t]);
-    auto s = stress.row(t);
-    const double normal = bulk * theta[t] - 2 * shear / 3 * s.head<3>().sum();
-    s *= shear;
-    s.head<3>() = (2 * s.head<3>()).array() + normal;
+    theta[t] = shapes_[t].gradient.cwiseProduct(corner_values(d, t)).sum();
   });
-  return stress;
+  return theta;
+}
+
+Eigen::VectorXd Assembler::dilatation(const Points& d) const {
+  assert(d.rows() == node_count());
+  return groups_.size() > 0 ? spread(group_dilatation(d)) : own_dilatation(d);
 }
 
 Eigen::VectorXd Assembler::pressure_pa(const Material& material, const Points& d) const {
-  Eigen::VectorXd pressure = dilatation(d);
+  assert(d.rows() == node_count());
+  const std::vector<Moduli> of_element = moduli(material);
+  Eigen::VectorXd pressure = own_dilatation(d);
   for (Eigen::Index t = 0; t < pressure.size(); ++t)
-    pressure[t] *= -bulk_modulus_pa(material.young_pa[t], material.poisson[t]);
-  return pressure;
+    pressure[t] *= -(of_element[t].first + 2 * of_element[t].shear / 3);
+  if (groups_.size() == 0) return pressure;
+  Eigen::VectorXd of_group = group_dilatation(d);
+  const std::vector<double> stiffness = group_stiffness(of_element);
+  for (int g = 0; g < groups_.size(); ++g)
+    of_group[g] = group_volume_[g] > 0 ? stiffness[g] / group_volume_[g] * of_group[g] : 0;
+  return pressure - spread(of_group);
+}
+
+VoigtRows Assembler::stress_pa(const Material& material, const Points& d) const {
+  const Eigen::VectorXd pressure = pressure_pa(material, d);
+  VoigtRows stress = strain(d);
+  tbb::parallel_for(Eigen::Index{0}, element_count(), [&](Eigen::Index t) {
+    const double shear = shear_modulus_pa(material.young_pa[t], material.poisson[t]);
+    auto s = stress.row(t);
+    s.head<3>().array() -= s.head<3>().mean();
+    s.head<3>() *= 2;
+    s *= shear;
+    s.head<3>().array() -= pressure[t];
+  });
+  return stress;
 }
 
 namespace {
