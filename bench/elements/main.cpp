@@ -41,8 +41,6 @@ std::vector<Candidate> candidates() {
   all.push_back({"patches of 8, kept 2", Candidate::patches, 2, 8});
   all.push_back({"P1-P1 projected", Candidate::stabilised_p1p1});
   all.push_back({"P2-P0", Candidate::quadratic});
-  if (const char* only = std::getenv("ONLY"))
-    std::erase_if(all, [&](const Candidate& c) { return c.name.find(only) == std::string::npos; });
   return all;
 }
 
@@ -86,7 +84,7 @@ std::string times(const Solution& s) {
 }
 const char* const kTimes = "unknowns,assemble_s,analyse_s,factor_s,solve_s,factor_entries";
 
-/// One element: P2-P0 stops a level earlier, as its unknowns are eight times as many.
+/// P2-P0 stops a level earlier, as its unknowns are eight times as many.
 void convergence(const std::filesystem::path& folder, Steps& progress) {
   auto out = fmt::output_file((folder / "convergence.csv").string());
   auto references = fmt::output_file((folder / "reference.csv").string());

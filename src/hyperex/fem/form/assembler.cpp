@@ -123,8 +123,12 @@ void Assembler::find_slots() {
 
 SparseMatrix Assembler::zero_pattern(const Lists& neighbours) const {
   const int nodes = neighbours.size();
+  const std::size_t count = 9 * neighbours.item.size();
+  if (count > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw NumericalError(
+        fmt::format("{} nodes make a matrix of {} entries: too many", nodes, count));
   SparseMatrix m(3 * nodes, 3 * nodes);
-  m.resizeNonZeros(9 * static_cast<Eigen::Index>(neighbours.item.size()));
+  m.resizeNonZeros(static_cast<Eigen::Index>(count));
   int* outer = m.outerIndexPtr();
   int* inner = m.innerIndexPtr();
   int filled = 0;
