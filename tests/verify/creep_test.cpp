@@ -49,7 +49,7 @@ double creep_error(ViscousForm form, double viscosity_share) {
     return test::flat(field);
   };
   const double dt_s = 5e-5;
-  Newmark newmark(s, rollers, dt_s);
+  Newmark newmark(s, rollers, {dt_s});
   newmark.set_state(stretch(kTraction / (9 * kBulk), 0), stretch(0, kTraction / (3 * eta)),
                     stretch(0, -kTraction * kShear / (3 * eta * eta)));
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rollers.size()));

@@ -47,7 +47,7 @@ TEST(DrivenMotion, EqualsADenseReference) {
   const auto prescribed = test::unknowns_where(
       box.nodes, [](const Vec3& p) { return p.x() < 1e-9 || p.x() > 0.04 - 1e-9; });
   const double dt_s = 2e-3;
-  Newmark newmark(s, prescribed, dt_s);
+  Newmark newmark(s, prescribed, {dt_s});
   DenseNewmark dense(s, prescribed, dt_s);
 
   // One end is held, the other moves as a mouth opens; a force acts on everything from step 20 on.
@@ -84,7 +84,7 @@ TEST(DrivenMotion, CarriesThePredictedStatesOfASetStart) {
   const System s = assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()));
   const auto prescribed =
       test::unknowns_where(box.nodes, [](const Vec3& p) { return p.x() < 1e-9; });
-  Newmark newmark(s, prescribed, 1e-3);
+  Newmark newmark(s, prescribed, {1e-3});
   DenseNewmark dense(s, prescribed, 1e-3);
   dense.d = 1e-3 * test::random_vector(s.mass.rows(), 1);
   dense.v = 1e-1 * test::random_vector(s.mass.rows(), 2);

@@ -53,7 +53,7 @@ TEST(OscillatingBar, KeepsItsEnergyOverAThousandStepsWithoutViscosity) {
   const Bar bar({6, 2, 2}, 0);
   const Eigen::VectorXd d = bar.bent(), v = Eigen::VectorXd::Zero(d.size());
   for (const double dt_s : {5e-4, 2e-3, 2e-2}) {
-    Newmark newmark(bar.system, bar.held, dt_s);
+    Newmark newmark(bar.system, bar.held, {dt_s});
     newmark.set_state(d, v, bar.balanced_acceleration(d, v));
     const double start = bar.energy(newmark);
     ASSERT_GT(start, 0);
@@ -72,7 +72,7 @@ TEST(OscillatingBar, KeepsItsEnergyOverAThousandStepsWithoutViscosity) {
 TEST(OscillatingBar, LosesWhatTheViscosityDissipates) {
   const Bar bar({6, 2, 2}, 40);
   const Eigen::VectorXd d = bar.bent(), v = Eigen::VectorXd::Zero(d.size());
-  Newmark newmark(bar.system, bar.held, 2e-3);
+  Newmark newmark(bar.system, bar.held, {2e-3});
   newmark.set_state(d, v, bar.balanced_acceleration(d, v));
   const double start = bar.energy(newmark);
   double dissipated = 0, worst = 0;
@@ -112,7 +112,7 @@ TEST(OscillatingBar, ConvergesWithOrderTwoInTheStep) {
 
   std::vector<double> d_error, v_error;
   for (const int steps : {60, 120, 240}) {
-    Newmark newmark(bar.system, bar.held, end / steps);
+    Newmark newmark(bar.system, bar.held, {end / steps});
     newmark.set_state(d, v, bar.balanced_acceleration(d, v));
     for (int i = 0; i < steps; ++i) newmark.step(bar.still());
     d_error.push_back((newmark.displacement()(free) - exact.head(f)).norm() / exact.head(f).norm());

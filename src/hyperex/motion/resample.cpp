@@ -9,26 +9,6 @@ namespace hyperex::motion {
 
 namespace {
 
-/// First derivatives of the C2 cubic spline with zero slope at both ends (a tridiagonal system,
-/// diagonally dominant: solved without pivoting).
-Eigen::MatrixXd spline_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y) {
-  const Eigen::Index n = y.rows();
-  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, y.cols());
-  std::vector<double> upper(t.size(), 0.0);
-  for (Eigen::Index i = 1; i + 1 < n; ++i) {
-    const std::size_t k = std::size_t(i);
-    const double h0 = t[k] - t[k - 1], h1 = t[k + 1] - t[k];
-    const double lower = 1 / h0, diagonal = 2 / h0 + 2 / h1;
-    const double pivot = diagonal - lower * upper[k - 1];
-    upper[k] = 1 / h1 / pivot;
-    m.row(i) = (3 * (y.row(i) - y.row(i - 1)) / (h0 * h0) +
-                3 * (y.row(i + 1) - y.row(i)) / (h1 * h1) - lower * m.row(i - 1)) /
-               pivot;
-  }
-  for (Eigen::Index i = n - 3; i >= 0; --i) m.row(i) -= upper[std::size_t(i)] * m.row(i + 1);
-  return m;
-}
-
 Eigen::MatrixXd monotone_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y) {
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(y.rows(), y.cols());
   for (Eigen::Index i = 1; i + 1 < y.rows(); ++i) {
@@ -70,6 +50,25 @@ Eigen::Isometry3d pose_at(const Motion& motion, double t) {
 }
 
 }  // namespace
+
+// A tridiagonal system, diagonally dominant: solved without pivoting.
+Eigen::MatrixXd spline_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y) {
+  const Eigen::Index n = y.rows();
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, y.cols());
+  std::vector<double> upper(t.size(), 0.0);
+  for (Eigen::Index i = 1; i + 1 < n; ++i) {
+    const std::size_t k = std::size_t(i);
+    const double h0 = t[k] - t[k - 1], h1 = t[k + 1] - t[k];
+    const double lower = 1 / h0, diagonal = 2 / h0 + 2 / h1;
+    const double pivot = diagonal - lower * upper[k - 1];
+    upper[k] = 1 / h1 / pivot;
+    m.row(i) = (3 * (y.row(i) - y.row(i - 1)) / (h0 * h0) +
+                3 * (y.row(i + 1) - y.row(i)) / (h1 * h1) - lower * m.row(i - 1)) /
+               pivot;
+  }
+  for (Eigen::Index i = n - 3; i >= 0; --i) m.row(i) -= upper[std::size_t(i)] * m.row(i + 1);
+  return m;
+}
 
 MotionCurve::MotionCurve(const Motion& motion, Interpolation interpolation)
     : time_s_(motion.time_s) {

@@ -167,8 +167,20 @@ void Boundary::add_springs(fem::SparseMatrix& stiffness) const {
         stiffness.coeffRef(3 * s.node + a, 3 * s.node + b) += s.stiffness(a, b);
 }
 
-void Boundary::at(const Points& point_displacement, Eigen::VectorXd& values,
-                  Eigen::VectorXd& force) {
+Boundary::JawMotion Boundary::follow(const Points& point_displacement) {
+  if (jaw_rows_.empty()) return {};
+  Points at(jaw_rows_.size(), 3), by(jaw_rows_.size(), 3);
+  for (std::size_t i = 0; i < jaw_rows_.size(); ++i) {
+    at.row(i) = rest_.row(jaw_rows_[i]);
+    by.row(i) = point_displacement.row(jaw_rows_[i]);
+  }
+  const Eigen::Isometry3d to = jaw_.follow(at, by);
+  return {to.linear() - Eigen::Matrix3d::Identity(), to.translation()};
+}
+
+void Boundary::prescribe(const Points& point_displacement, const JawMotion& jaw,
+                         Eigen::Ref<Eigen::VectorXd> values,
+                         Eigen::Ref<Eigen::VectorXd> force) const {
   for (std::size_t i = 0; i < source_.size(); ++i) {
     const auto [kind, row] = source_[i];
     if (kind == fixed)
@@ -178,23 +190,29 @@ void Boundary::at(const Points& point_displacement, Eigen::VectorXd& values,
           (driven_weights_.row(row) * point_displacement).transpose();
   }
   force.setZero();
-  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-  if (!jaw_rows_.empty()) {
-    Points at(jaw_rows_.size(), 3), by(jaw_rows_.size(), 3);
-    for (std::size_t i = 0; i < jaw_rows_.size(); ++i) {
-      at.row(i) = rest_.row(jaw_rows_[i]);
-      by.row(i) = point_displacement.row(jaw_rows_[i]);
-    }
-    turn = jaw_.follow(at, by);
-  }
   for (const Spring& s : springs_) {
     if (s.target == Spring::rest) continue;
     const Vec3 x = mesh_.volume.nodes.row(s.node);
     const Vec3 to = s.target == Spring::jaw
-                        ? Vec3(turn * x - x)
+                        ? Vec3(jaw.turn * x + jaw.slide)
                         : Vec3((field_weights_.row(s.row) * point_displacement).transpose());
     force.segment<3>(3 * s.node) += s.stiffness * to;
   }
+}
+
+std::vector<char> Boundary::acting_points() const {
+  const bool field = std::any_of(springs_.begin(), springs_.end(),
+                                 [](const Spring& s) { return s.target == Spring::field; });
+  std::vector<char> acts(rest_.rows(), 0);
+  for (Eigen::Index p = 0; p < rest_.rows(); ++p)
+    acts[p] = (driven_weights_.rows() > 0 && !driven_weights_.col(p).isZero(0)) ||
+              (field && !field_weights_.col(p).isZero(0));
+  return acts;
+}
+
+bool Boundary::jaw_acts() const {
+  return std::any_of(springs_.begin(), springs_.end(),
+                     [](const Spring& s) { return s.target == Spring::jaw; });
 }
 
 }  // namespace hyperex::reenact

@@ -22,13 +22,25 @@ class Boundary {
   void add_springs(fem::SparseMatrix& stiffness) const;
   /// Sorted unknowns 3 n + axis.
   const std::vector<int>& prescribed() const { return prescribed_; }
-  /// Sets values (one a prescribed unknown) and forces (all unknowns) for displacements of all the
-  /// motion's points (P x 3).
-  void at(const Points& point_displacement, Eigen::VectorXd& values, Eigen::VectorXd& force);
+  /// The jaw's displacement x -> turn x + slide (turn is a rotation less the identity) that follows
+  /// displacements of all the motion's points (P x 3), from the last answer on.
+  struct JawMotion {
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+    Vec3 slide = Vec3::Zero();
+  };
+  JawMotion follow(const Points& point_displacement);
+  double jaw_opening_deg() const { return jaw_.opening_deg(); }  ///< of the last answer
 
-  double jaw_opening_deg() const { return jaw_.opening_deg(); }
+  /// Sets values (one a prescribed unknown) and forces (all unknowns): linear in both arguments.
+  void prescribe(const Points& point_displacement, const JawMotion& jaw,
+                 Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<Eigen::VectorXd> force) const;
+
+  /// Per point of the motion: whether its displacement acts on the tissue other than by the jaw.
+  std::vector<char> acting_points() const;
+  bool jaw_acts() const;
   const std::vector<int>& driven_nodes() const { return driven_nodes_; }
   std::vector<int> held_nodes() const;
+  Eigen::Index node_count() const { return mesh_.volume.nodes.rows(); }
   int skull_count() const { return skull_count_; }
   int mandible_count() const { return mandible_count_; }
   /// Rows of the motion's points that drive.

@@ -8,13 +8,14 @@
 #include <cmath>
 #include <optional>
 
-#include "hyperex/core/progress.hpp"
-#include "hyperex/fem/time/newmark.hpp"
+#include "hyperex/fem/form/system.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/geodesic.hpp"
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/reenact/boundary.hpp"
+#include "hyperex/reenact/input_shapes.hpp"
 #include "hyperex/reenact/lip_contact.hpp"
+#include "hyperex/reenact/solve.hpp"
 #include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::reenact {
@@ -182,45 +183,48 @@ class Run {
     material.viscosity_pa_s.assign(tets, options_.tissue.viscosity_pa_s);
     material.density_kg_m3.assign(tets, options_.tissue.density_kg_m3);
     material.viscous_form = options_.tissue.viscous_form;
-    fem::System system = fem::assemble(mesh_.volume.nodes, mesh_.volume.tets, material);
+    fem::System system =
+        fem::assemble(mesh_.volume.nodes, mesh_.volume.tets, material, options_.solver.element);
     boundary.add_springs(system.stiffness);
     SimulationReport& report = result_.report;
     report.assemble_s = seconds_since(assemble_start);
 
     const auto simulate_start = std::chrono::steady_clock::now();
-    fem::Newmark newmark(system, boundary.prescribed(), options_.time.step_s);
-    report.factor_s = newmark.factor_seconds();
-    report.free_dofs = newmark.free_count();
-    report.steps = static_cast<int>(std::ceil(end_s_ / options_.time.step_s - 1e-9));
+    const double dt_s = options_.time.step_s;
+    report.steps = static_cast<int>(std::ceil(end_s_ / dt_s - 1e-9));
+    // What the shapes leave out must not show beside the error that the solver may make.
+    const InputShapes input = input_shapes(
+        boundary, [&](double t) { return input_.at(t); }, dt_s, report.steps,
+        1e-3 * options_.solver.tolerance);
+    std::vector<double> times;
+    for (const Shot& shot : shots_)
+      times.push_back(std::clamp(shot.time_s / dt_s, 0.0, static_cast<double>(report.steps)));
+    const Solution solution =
+        solve(system, boundary.prescribed(), input.drive, times, options_.solver, dt_s);
+    result_.performance.node_displacement_m.resize(result_.performance.frame_time_s.size());
+    for (std::size_t i = 0; i < shots_.size(); ++i)
+      store(shots_[i], Eigen::Map<const Points>(solution.displacement.col(i).data(),
+                                                mesh_.volume.nodes.rows(), 3));
+    report.greatest_opening_deg = input.greatest_opening_deg;
+    report.input_shapes = static_cast<int>(input.drive.shapes());
+    report.free_dofs = solution.free_dofs;
+    report.basis_size = solution.basis_size;
+    report.estimated_error = solution.estimated_error;
+    report.verified_error = solution.verified_error;
+    report.analyse_s = solution.analyse_s;
+    report.factor_s = solution.factor_s;
+    report.basis_s = solution.basis_s;
+    report.simulate_s =
+        seconds_since(simulate_start) - solution.analyse_s - solution.factor_s - solution.basis_s;
     report.driven_nodes = static_cast<int>(boundary.driven_nodes().size());
     report.skull_nodes = boundary.skull_count();
     report.mandible_nodes = boundary.mandible_count();
-    result_.performance.node_displacement_m.resize(result_.performance.frame_time_s.size());
-
-    Eigen::VectorXd values(boundary.prescribed().size()), force(3 * mesh_.volume.nodes.rows());
-    Points before = Points::Zero(mesh_.volume.nodes.rows(), 3), now = before;
-    std::size_t next = 0;
-    while (next < shots_.size() && shots_[next].time_s <= 0) store(shots_[next++], before);
-    Progress progress("simulating", report.steps);
-    for (int step = 1; step <= report.steps; ++step) {
-      const double t = step * options_.time.step_s;
-      boundary.at(input_.at(t), values, force);
-      newmark.step(values, force);
-      report.greatest_opening_deg =
-          std::max(report.greatest_opening_deg, boundary.jaw_opening_deg());
-      progress.update(step);
-      const bool wanted = next < shots_.size() && shots_[next].time_s <= t + 1e-12;
-      const bool soon = next < shots_.size() && shots_[next].time_s <= t + options_.time.step_s;
-      if (!wanted && !soon) continue;  // no shape is read off this step
-      before.swap(now);
-      now = Eigen::Map<const Points>(newmark.displacement().data(), now.rows(), 3);
-      while (next < shots_.size() && shots_[next].time_s <= t + 1e-12) {
-        const double a = 1 - (t - shots_[next].time_s) / options_.time.step_s;
-        store(shots_[next++], (1 - a) * before + a * now);
-      }
-    }
-    while (next < shots_.size()) store(shots_[next++], now);
-    report.simulate_s = seconds_since(simulate_start) - report.factor_s;
+    if (!solution.converged)
+      report.notes.push_back(
+          fmt::format("The reduced model stopped growing at {} vectors with an estimated error of "
+                      "{:.1e}, above "
+                      "solver.tolerance = {:g}: solver.method = \"direct\" has no such error.",
+                      solution.basis_size, solution.estimated_error, options_.solver.tolerance));
 
     Performance& p = result_.performance;
     p.nodes = mesh_.volume.nodes;

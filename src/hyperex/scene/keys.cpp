@@ -99,8 +99,9 @@ std::vector<Key> model_keys() {
           "between. Only where mesh.thickness_mm is 0."),
       number<Scene>("tissue.young_kpa", {"kPa", 1000, 1}, AT(tissue.young_pa), {0, 1e6, true},
                     "Young's modulus E."),
-      number<Scene>("tissue.poisson", none, AT(tissue.poisson), {-0.99, 0.4999},
-                    "Poisson's ratio. Linear tetrahedra move too little near 0.5."),
+      number<Scene>(
+          "tissue.poisson", none, AT(tissue.poisson), {-0.99, 0.4999},
+          "Poisson's ratio. With tissue.element = \"tet4\" the tissue moves too little near 0.5."),
       number<Scene>("tissue.viscosity_pa_s", {"Pa s"}, AT(tissue.viscosity_pa_s), {0, 1e7},
                     "Viscosity eta, of changes of shape."),
       number<Scene>("tissue.density_kg_m3", {"kg/m^3"}, AT(tissue.density_kg_m3), {0, 20000, true},
@@ -110,8 +111,11 @@ std::vector<Key> model_keys() {
           {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
           "The viscous tensor: Stokes' law, or the tensor printed in the source, which is not "
           "isotropic."),
-      choice<Scene, Element>("tissue.element", AT(tissue.element), {{"tet4", Element::tet4}},
-                             "The finite element: linear tetrahedra."),
+      choice<Scene, fem::ElementKind>(
+          "tissue.element", AT(tissue.element),
+          {{"tet4", fem::ElementKind::tet4}, {"tet4-star", fem::ElementKind::tet4_star}},
+          "The finite element: linear tetrahedra, plain, or with the change of volume averaged "
+          "over patches, which does not lock near poisson = 0.5 (docs/elements.md)."),
       choice<Scene, bool>("support.border", AT(support.border_held),
                           {{"held", true}, {"free", false}},
                           "The tissue's outer border, from the skin to the inner surface."),
@@ -157,6 +161,22 @@ std::vector<Key> run_keys() {
                     "node alone."),
       names<Scene>("drive.still_points", AT(drive.still_points), 0,
                    "Points that are held still on the skin."),
+      choice<Scene, SolverMethod>(
+          "solver.method", AT(solver.method),
+          {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},
+          "Projected onto the motions that the input makes, to solver.tolerance; or all unknowns "
+          "at "
+          "every step."),
+      number<Scene>("solver.tolerance", none, AT(solver.tolerance), {1e-9, 0.1},
+                    "Error allowed to the reduced model by its own estimate, over the largest "
+                    "displacement."),
+      number<Scene>("solver.newmark_beta", none, AT(solver.newmark_beta), {0.25, 1},
+                    "beta of Newmark's method."),
+      number<Scene>("solver.newmark_gamma", none, AT(solver.newmark_gamma), {0.5, 1},
+                    "gamma (delta) of Newmark's method; above 0.5 it damps. At most twice "
+                    "solver.newmark_beta."),
+      flag<Scene>("solver.verify", AT(solver.verify),
+                  "Run the full model beside the reduced one and tell its true error."),
       number<Scene>("time.step_s", seconds, AT(time.step_s), {1e-6, 0.1}, "The time step."),
       number<Scene>("time.end_s", seconds, AT(time.end_s), {0, 600},
                     "Where the simulation ends; the last sample of the recording is held. 0: at "
@@ -191,6 +211,7 @@ const std::vector<Section>& sections() {
       {"tissue", "The material."},
       {"support", "What holds the tissue from within and at its border."},
       {"drive", "What moves it."},
+      {"solver", "How the equations of motion are solved."},
       {"time", "Steps and frames."},
       {"output", "What is written."},
   };

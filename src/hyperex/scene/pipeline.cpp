@@ -30,6 +30,8 @@ class Stopwatch {
 
 reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& inputs) {
   reenact::SimulationOptions o;
+  o.solver = {scene.tissue.element,      scene.solver.method,        scene.solver.tolerance,
+              scene.solver.newmark_beta, scene.solver.newmark_gamma, scene.solver.verify};
   o.tissue = {scene.tissue.young_pa, scene.tissue.poisson, scene.tissue.viscosity_pa_s,
               scene.tissue.density_kg_m3, scene.tissue.viscous_form};
   o.support.border_held = scene.support.border_held;
@@ -83,6 +85,14 @@ Json summary_of(const Results& r) {
   s["tets"] = p.tets.rows();
   s["free_dofs"] = report.free_dofs;
   s["skin_vertices"] = p.skin_rest.points.rows();
+  s["element"] = fem::to_string(r.scene.tissue.element);
+  s["solver"] = report.basis_size > 0 ? "reduced" : "direct";
+  s["input_shapes"] = report.input_shapes;
+  if (report.basis_size > 0) {
+    s["basis_size"] = report.basis_size;
+    s["estimated_error"] = report.estimated_error;
+    if (report.verified_error >= 0) s["verified_error"] = report.verified_error;
+  }
   s["steps"] = report.steps;
   s["dt_s"] = r.scene.time.step_s;
   s["frames"] = p.frame_time_s.size();
@@ -167,7 +177,9 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
       reenact::simulate(mesh, inputs.landmarks, inputs.motion, simulation_options(scene, inputs));
   stage.lap();
   seconds["assemble"] = simulation.report.assemble_s;
+  seconds["analyse"] = simulation.report.analyse_s;
   seconds["factor"] = simulation.report.factor_s;
+  seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
   Results results{

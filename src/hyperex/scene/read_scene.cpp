@@ -218,6 +218,9 @@ void Reader::check_together() {
   if (scene.region.measured == Measured::none && !scene.drive.all_points &&
       scene.drive.points.empty())
     complain_given("drive.points", "one or more names, or \"all\", as region.measured is \"none\"");
+  if (scene.solver.newmark_gamma > 2 * scene.solver.newmark_beta)
+    complain_given("solver.newmark_gamma",
+                   "at most twice solver.newmark_beta: beyond, steps are not always stable");
   if (scene.time.end_s != 0 && scene.time.end_s < scene.time.step_s)
     complain_given("time.end_s", "0, or at least one time.step_s");
 }

@@ -66,14 +66,13 @@ struct MeshOptions {
   std::vector<ThicknessPoint> thickness_points;  ///< empty unless thickness_m is 0
 };
 
-enum class Element { tet4 };
 struct TissueOptions {
   double young_pa = 192.4e3;      ///< > 0, to 1 GPa
   double poisson = 0.495;         ///< -0.99 to 0.4999
   double viscosity_pa_s = 476.8;  ///< 0 to 1e7
   double density_kg_m3 = 1100;    ///< > 0, to 20000
   fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
-  Element element = Element::tet4;
+  fem::ElementKind element = fem::ElementKind::tet4_star;
 };
 
 using reenact::BoneLayer;
@@ -85,7 +84,7 @@ struct SupportOptions {
   BoneLayer skull_layer{1e7, 1e7};  ///< where the skull is sliding; each 0 to 1e12 Pa/m
   Mandible mandible = Mandible::follow;
   BoneLayer mandible_layer{3e7, 1e7};   ///< where the mandible is followed
-  double muscle_pa_per_m = 5e6;      ///< 0 to 1e12
+  double muscle_pa_per_m = 5e6;         ///< 0 to 1e12
   std::vector<std::string> jaw_points;  ///< empty: chosen automatically
 };
 
@@ -95,6 +94,14 @@ struct DriveOptions {
                                      "ibug68_8",  "ibug68_58", "ibug68_56"};
   double patch_radius_m = 0.008;          ///< 0 to 30 mm
   std::vector<std::string> still_points;  ///< held still on the skin
+};
+
+using reenact::SolverMethod;
+struct SolverOptions {
+  SolverMethod method = SolverMethod::reduced;
+  double tolerance = 1e-3;                          ///< 1e-9 to 0.1, of the largest displacement
+  double newmark_beta = 0.25, newmark_gamma = 0.5;  ///< 2 beta >= gamma >= 1/2, at most 1
+  bool verify = false;
 };
 
 struct TimeOptions {
@@ -126,6 +133,7 @@ struct Scene {
   TissueOptions tissue;
   SupportOptions support;
   DriveOptions drive;
+  SolverOptions solver;
   TimeOptions time;
   OutputOptions output;
 

@@ -76,7 +76,7 @@ TEST_F(StaticSolve, TakesAllUnknownsPrescribed) {
 }
 
 TEST_F(NewmarkSteps, SettlesOnTheStaticSolution) {
-  Newmark newmark(system, held, 5e-3);
+  Newmark newmark(system, held, {5e-3});
   EXPECT_EQ(newmark.free_count(), system.mass.cols() - static_cast<int>(held.size()));
   const Eigen::VectorXd given =
       1e-4 * test::random_vector(static_cast<Eigen::Index>(held.size()), 4);
@@ -93,13 +93,13 @@ TEST_F(NewmarkSteps, SettlesOnTheStaticSolution) {
 }
 
 TEST_F(NewmarkSteps, StandsStillWithoutInputAndGivesTheSameNumbersOnEachRun) {
-  Newmark still(system, held, 2e-3);
+  Newmark still(system, held, {2e-3});
   const auto count = static_cast<Eigen::Index>(held.size());
   for (int i = 0; i < 5; ++i) still.step(Eigen::VectorXd::Zero(count));
   EXPECT_EQ(still.displacement().norm(), 0);
 
   const auto run = [&] {
-    Newmark newmark(system, held, 2e-3);
+    Newmark newmark(system, held, {2e-3});
     for (int i = 1; i <= 20; ++i) newmark.step(Eigen::VectorXd::Constant(count, 1e-4 * i));
     return newmark.displacement();
   };
@@ -111,7 +111,7 @@ TEST_F(NewmarkSteps, RefusesANodeThatNoElementUses) {
   nodes.conservativeResize(nodes.rows() + 1, 3);
   nodes.bottomRows(1).setZero();
   const System s = assemble(nodes, box.tets, test::varied_material(box.tets.rows()));
-  EXPECT_THROW(Newmark(s, held, 2e-3), NumericalError);
+  EXPECT_THROW(Newmark(s, held, {2e-3}), NumericalError);
 }
 
 }  // namespace

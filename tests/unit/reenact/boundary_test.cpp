@@ -63,7 +63,7 @@ TEST_F(BoundaryTest, DrivenNodesTakeTheirPointsAndHeldOnesStay) {
   Boundary b = boundary();
   Eigen::VectorXd values(b.prescribed().size()), force(unknowns());
   const Points d = displacement(4);
-  b.at(d, values, force);
+  b.prescribe(d, b.follow(d), values, force);
   const std::set<int> driven(b.driven_nodes().begin(), b.driven_nodes().end());
   int held = 0;
   for (std::size_t i = 0; i < b.prescribed().size(); i += 3) {
@@ -92,9 +92,10 @@ TEST_F(BoundaryTest, IsLinearInTheDrivenPoints) {
   Boundary b = boundary();
   Eigen::VectorXd one(b.prescribed().size()), other = one, both = one;
   Eigen::VectorXd force_one(unknowns()), force_other = force_one, force_both = force_one;
-  b.at(displacement(2), one, force_one);
-  b.at(displacement(5), other, force_other);
-  b.at(2 * displacement(2) - 3 * displacement(5), both, force_both);
+  b.prescribe(displacement(2), b.follow(displacement(2)), one, force_one);
+  b.prescribe(displacement(5), b.follow(displacement(5)), other, force_other);
+  b.prescribe(2 * displacement(2) - 3 * displacement(5),
+              b.follow(2 * displacement(2) - 3 * displacement(5)), both, force_both);
   EXPECT_LT((both - 2 * one + 3 * other).norm(), 1e-12);
   EXPECT_LT((force_both - 2 * force_one + 3 * force_other).norm(), 1e-9);
 }
@@ -118,7 +119,7 @@ TEST_F(BoundaryTest, SpringsOfTheJawPullToWhereItTurns) {
   Boundary b = boundary();
   Eigen::VectorXd values(b.prescribed().size()), force(unknowns());
   const Points d = displacement(4);
-  b.at(d, values, force);
+  b.prescribe(d, b.follow(d), values, force);
   EXPECT_GT(b.jaw_opening_deg(), 5);
   Jaw jaw(face_.landmarks);
   const int chin = motion_.motion.index_of("ibug68_8");

@@ -128,7 +128,8 @@ TEST_F(Simulation, DrivenNodesTakeTheInputExactlyAndTheLastSampleIsHeld) {
   for (std::size_t f = 0; f < r.performance.frame_time_s.size(); ++f) {
     if (f % 3) continue;  // frames at 0, 0.1, 0.2 ... s are steps
     const double t = r.performance.frame_time_s[f];
-    boundary.at(curve.at(std::min(t, 7 / 30.0)) - motion.rest, values, force);
+    const Points d = curve.at(std::min(t, 7 / 30.0)) - motion.rest;
+    boundary.prescribe(d, boundary.follow(d), values, force);
     for (std::size_t i = 0; i < boundary.prescribed().size(); ++i) {
       const int u = boundary.prescribed()[i];
       EXPECT_NEAR(r.performance.node_displacement_m[f](u / 3, u % 3), values[i], 1e-8);

@@ -63,6 +63,7 @@ std::string scene_with(const std::string& key, const std::string& value) {
   std::string text = key + " = " + value + "\n";
   if (key != "scan.file") text += "scan.file = \"embedded\"\n";
   if (key != "motion.file") text += "motion.file = \"embedded\"\n";
+  if (key == "solver.newmark_gamma") text += "solver.newmark_beta = 0.5\n";  // at least half of it
   if (key == "scan.file") text += "scan.landmarks = \"points.json\"\n";
   return text;
 }
@@ -118,7 +119,8 @@ TEST(Keys, EachReachesItsFieldFromSet) {
   for (const Key& key : keys()) {
     SCOPED_TRACE(key.name);
     const auto file = folder.write("scene.toml", scene_with("scan.file", "\"face.ply\"") +
-                                                     "region.measured_points = [\"a\"]\n");
+                                                     "region.measured_points = [\"a\"]\n" +
+                                                     "solver.newmark_beta = 0.5\n");
     json value = other_value(key);
     if (key.kind == Kind::path) value = (folder / "face.ply").string();
     const Scene scene = read_scene(file, {key.name + "=" + toml(value)});

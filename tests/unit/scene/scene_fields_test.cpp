@@ -64,6 +64,12 @@ jaw_points = ["j1"]
 points = ["d1", "d2"]
 patch_radius_mm = 4.2
 still_points = ["s1"]
+[solver]
+method = "direct"
+tolerance = 0.004
+newmark_beta = 0.36
+newmark_gamma = 0.7
+verify = true
 [time]
 step_s = 0.0043
 end_s = 4.4
@@ -107,7 +113,12 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.tissue.viscosity_pa_s, 40);
   EXPECT_EQ(s.tissue.density_kg_m3, 941);
   EXPECT_EQ(s.tissue.viscous_form, fem::ViscousForm::printed);
-  EXPECT_EQ(s.tissue.element, Element::tet4);
+  EXPECT_EQ(s.tissue.element, fem::ElementKind::tet4);
+  EXPECT_EQ(s.solver.method, SolverMethod::direct);
+  EXPECT_EQ(s.solver.tolerance, 0.004);
+  EXPECT_EQ(s.solver.newmark_beta, 0.36);
+  EXPECT_EQ(s.solver.newmark_gamma, 0.7);
+  EXPECT_TRUE(s.solver.verify);
   EXPECT_FALSE(s.support.border_held);
   EXPECT_EQ(s.support.skull, Hold::held);
   EXPECT_EQ(s.support.skull_layer.across_pa_per_m, 51e6);

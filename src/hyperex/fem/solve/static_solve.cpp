@@ -9,11 +9,14 @@ namespace hyperex::fem {
 
 struct StaticSolver::Impl {
   PartitionedFactor factor;
+  SparseMatrix oc;
 };
 
-StaticSolver::StaticSolver(const SparseMatrix& stiffness, std::vector<int> prescribed)
-    : impl_(std::make_unique<Impl>(
-          Impl{PartitionedFactor(stiffness, std::move(prescribed), "static solution")})) {}
+StaticSolver::StaticSolver(const SparseMatrix& stiffness, std::vector<int> prescribed) {
+  PartitionedFactor factor(stiffness, std::move(prescribed), "static solution");
+  SparseMatrix oc = coupling(stiffness, factor.partition());
+  impl_ = std::make_unique<Impl>(Impl{std::move(factor), std::move(oc)});
+}
 
 StaticSolver::~StaticSolver() = default;
 StaticSolver::StaticSolver(StaticSolver&&) noexcept = default;
@@ -26,7 +29,8 @@ Eigen::VectorXd StaticSolver::solve(const Eigen::VectorXd& prescribed_values,
   assert(force.size() == 0 || force.size() == all.size());
   Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
   if (force.size() > 0) x = force(free);
-  impl_->factor.solve(prescribed_values, x);
+  x.noalias() -= impl_->oc * prescribed_values;
+  impl_->factor.solve(x);
   all(free) = x;
   all(prescribed) = prescribed_values;
   return all;

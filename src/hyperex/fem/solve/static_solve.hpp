@@ -10,8 +10,8 @@ namespace hyperex::fem {
 /// K_oo factored once, any number of right-hand sides: K_oo d_o = f_o - K_oc d_c.
 class StaticSolver {
  public:
-  /// `prescribed`: sorted unique unknowns. Throws NumericalError where K_oo is not positive definite
-  /// (too few supports).
+  /// `prescribed`: sorted unique unknowns. Throws NumericalError where K_oo is not positive
+  /// definite (too few supports).
   StaticSolver(const SparseMatrix& stiffness, std::vector<int> prescribed);
   ~StaticSolver();
   StaticSolver(StaticSolver&&) noexcept;

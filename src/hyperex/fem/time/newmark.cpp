@@ -1,131 +1,183 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/time/newmark.hpp"
 
-#include <tbb/parallel_for.h>
-
+#include <Eigen/IterativeLinearSolvers>
 #include <cassert>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
+#include "hyperex/fem/time/inertia.hpp"
 
 namespace hyperex::fem {
 namespace {
 
-/// The rows of M and C of the free unknowns, interleaved: q is bound by memory, and so reads the
-/// pattern once.
-struct InertiaRows {
-  struct Entry {
-    double mass, damping;
-    int column;
-  };
-  std::vector<int> start{0};
-  std::vector<Entry> entries;
+/// What Newmark's formulas multiply, for a step h.
+struct Factors {
+  double h;
+  double m_d, m_v, m_a;  // of M in A and q
+  double c_d, c_v, c_a;  // of C in A and q
+  double v_old, v_new;   // a in v1
 
-  InertiaRows(const System& system, const std::vector<int>& rows) {
-    // Both are symmetric: column r is row r.
-    entries.reserve(system.mass.nonZeros());
-    for (const int r : rows) {
-      const int end = system.mass.outerIndexPtr()[r + 1];
-      for (int k = system.mass.outerIndexPtr()[r]; k < end; ++k)
-        entries.push_back({system.mass.valuePtr()[k], system.damping.valuePtr()[k],
-                           system.mass.innerIndexPtr()[k]});
-      start.push_back(static_cast<int>(entries.size()));
-    }
-  }
-
-  /// out += M_o. u + C_o. w. Each row is summed by one thread in its own order.
-  void add_product(const Eigen::VectorXd& u, const Eigen::VectorXd& w, Eigen::VectorXd& out) const {
-    tbb::parallel_for(Eigen::Index{0}, out.size(), [&](Eigen::Index r) {
-      double sum = 0;
-      for (int k = start[r]; k < start[r + 1]; ++k)
-        sum += entries[k].mass * u[entries[k].column] + entries[k].damping * w[entries[k].column];
-      out[r] += sum;
-    });
-  }
+  explicit Factors(const NewmarkOptions& o)
+      : h(o.dt_s),
+        m_d(1 / (o.beta * h * h)),
+        m_v(1 / (o.beta * h)),
+        m_a(1 / (2 * o.beta) - 1),
+        c_d(o.gamma / (o.beta * h)),
+        c_v(o.gamma / o.beta - 1),
+        c_a(h * (o.gamma / (2 * o.beta) - 1)),
+        v_old(h * (1 - o.gamma)),
+        v_new(h * o.gamma) {}
 };
-
-SparseMatrix effective_stiffness(const System& system, double dt_s) {
-  assert(system.stiffness.nonZeros() == system.damping.nonZeros());
-  assert(system.stiffness.nonZeros() == system.mass.nonZeros());
-  SparseMatrix a = system.stiffness;
-  a.coeffs() += 4 / (dt_s * dt_s) * system.mass.coeffs() + 2 / dt_s * system.damping.coeffs();
-  return a;
-}
 
 }  // namespace
 
 struct Newmark::Impl {
-  double dt_s;
+  Factors by;
   PartitionedFactor factor;
+  SparseMatrix stiffness_oc;
   InertiaRows inertia;
-  Eigen::VectorXd d, v, a;  // all unknowns
-  Eigen::VectorXd d_next;   // all unknowns
-  Eigen::VectorXd u, w;     // the vectors that M and C multiply in q
-  Eigen::VectorXd x_o;      // free unknowns
+  System system;  // for the start alone
+  Kinematics state;
+  Eigen::VectorXd u, w, q;  // q = M u + C w, all unknowns
+  Eigen::VectorXd x_o;
 
-  Impl(const System& system, std::vector<int> prescribed, double dt)
-      : dt_s(dt),
-        factor(effective_stiffness(system, dt), std::move(prescribed), "time integration"),
-        inertia(system, factor.free()) {
+  Impl(const System& s, std::vector<int> prescribed, const NewmarkOptions& options)
+      : by(options),
+        factor(combined(s, by.c_d, by.m_d), std::move(prescribed), "time integration"),
+        stiffness_oc(coupling(s.stiffness, factor.partition())),
+        inertia(s),
+        system(s) {
+    clear();
+  }
+
+  void clear() {
     const Eigen::Index n = system.stiffness.cols();
-    d = v = a = d_next = u = w = Eigen::VectorXd::Zero(n);
+    state.d = state.v = state.a = u = w = q = Eigen::VectorXd::Zero(n);
     x_o = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(factor.free().size()));
   }
 
-  /// From x_o = f_o to the state at t+1.
-  void advance(const Eigen::VectorXd& prescribed_next) {
-    const double two_dt = 2 / dt_s, four_dt2 = 4 / (dt_s * dt_s);
-    u = four_dt2 * d + 2 * two_dt * v + a;
-    w = two_dt * d + v;
-    inertia.add_product(u, w, x_o);
-    factor.solve(prescribed_next, x_o);
-    d_next(factor.free()) = x_o;
-    d_next(factor.prescribed()) = prescribed_next;
-    a = four_dt2 * (d_next - d) - 2 * two_dt * v - a;
-    v = two_dt * (d_next - d) - v;
-    d.swap(d_next);
+  void start(const Eigen::VectorXd& force) {
+    const auto& free = factor.free();
+    Eigen::VectorXd a_all = state.a;
+    for (const int o : free) a_all[o] = 0;
+    inertia.product(a_all, state.v, q);
+    q += system.stiffness * state.d;
+    Eigen::VectorXd rest = -q(free);
+    if (force.size() > 0) rest += force(free);
+    if (rest.isZero(0)) {
+      state.a = a_all;
+      return;
+    }
+    // The consistent mass is well conditioned whatever the mesh: scaled by its diagonal, at most 5
+    // for linear tetrahedra (Wathen, IMA J. Numer. Anal. 7, 1987).
+    const SparseMatrix mass = free_lower(system.mass, factor.partition());
+    Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower> cg(mass);
+    cg.setTolerance(1e-14);
+    a_all(free) = cg.solve(rest);
+    if (!(cg.error() < 1e-10))
+      throw NumericalError("time integration: the initial acceleration was not found");
+    state.a = a_all;
+  }
+
+  void advance(const Kinematics& next, const Eigen::VectorXd& force) {
+    const Eigen::VectorXd &d = state.d, &v = state.v, &a = state.a;
+    u = by.m_d * d + by.m_v * v + by.m_a * a;
+    w = by.c_d * d + by.c_v * v + by.c_a * a;
+    const auto& prescribed = factor.prescribed();
+    for (std::size_t i = 0; i < prescribed.size(); ++i) {
+      u[prescribed[i]] = -next.a[i];
+      w[prescribed[i]] = -next.v[i];
+    }
+    inertia.product(u, w, q);
+    const auto& free = factor.free();
+    if (force.size() > 0)
+      for (std::size_t i = 0; i < free.size(); ++i) x_o[i] = q[free[i]] + force[free[i]];
+    else
+      for (std::size_t i = 0; i < free.size(); ++i) x_o[i] = q[free[i]];
+    x_o.noalias() -= stiffness_oc * next.d;
+    factor.solve(x_o);
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const int n = free[i];
+      const double a_next = by.m_d * (x_o[i] - d[n]) - by.m_v * v[n] - by.m_a * a[n];
+      state.v[n] += by.v_old * a[n] + by.v_new * a_next;
+      state.a[n] = a_next;
+      state.d[n] = x_o[i];
+    }
+    for (std::size_t i = 0; i < prescribed.size(); ++i) {
+      state.d[prescribed[i]] = next.d[i];
+      state.v[prescribed[i]] = next.v[i];
+      state.a[prescribed[i]] = next.a[i];
+    }
   }
 };
 
-Newmark::Newmark(const System& system, std::vector<int> prescribed, double dt_s) {
-  assert(dt_s > 0);
-  impl_ = std::make_unique<Impl>(system, std::move(prescribed), dt_s);
+Newmark::Newmark(const System& system, std::vector<int> prescribed, const NewmarkOptions& options) {
+  assert(options.dt_s > 0 && options.gamma >= 0.5 && 2 * options.beta >= options.gamma);
+  impl_ = std::make_unique<Impl>(system, std::move(prescribed), options);
 }
 Newmark::~Newmark() = default;
 Newmark::Newmark(Newmark&&) noexcept = default;
 
-void Newmark::step(const Eigen::VectorXd& prescribed_next) {
-  impl_->x_o.setZero();
-  impl_->advance(prescribed_next);
+void Newmark::refill(const System& system) {
+  impl_->factor.refactor(combined(system, impl_->by.c_d, impl_->by.m_d));
+  impl_->stiffness_oc = coupling(system.stiffness, impl_->factor.partition());
+  impl_->inertia.refill(system);
+  impl_->system = system;
+  impl_->clear();
 }
 
-void Newmark::step(const Eigen::VectorXd& prescribed_next, const Eigen::VectorXd& force_next) {
-  assert(force_next.size() == impl_->d.size());
-  impl_->x_o = force_next(impl_->factor.free());
-  impl_->advance(prescribed_next);
+void Newmark::start(const Eigen::VectorXd& d, const Eigen::VectorXd& v,
+                    const Eigen::VectorXd& prescribed_acceleration, const Eigen::VectorXd& force) {
+  Kinematics& state = impl_->state;
+  assert(d.size() == state.d.size() && v.size() == d.size());
+  state.d = d;
+  state.v = v;
+  state.a(impl_->factor.prescribed()) = prescribed_acceleration;
+  impl_->start(force);
+}
+
+void Newmark::step(const Kinematics& next, const Eigen::VectorXd& force) {
+  assert(next.d.size() == static_cast<Eigen::Index>(impl_->factor.prescribed().size()));
+  assert(next.v.size() == next.d.size() && next.a.size() == next.d.size());
+  assert(force.size() == 0 || force.size() == impl_->state.d.size());
+  impl_->advance(next, force);
+}
+
+void Newmark::step(const Eigen::VectorXd& prescribed_next, const Eigen::VectorXd& force) {
+  const Factors& by = impl_->by;
+  const Kinematics& state = impl_->state;
+  const auto& prescribed = impl_->factor.prescribed();
+  Kinematics next{prescribed_next, state.v(prescribed), state.a(prescribed)};
+  for (std::size_t i = 0; i < prescribed.size(); ++i) {
+    const int n = prescribed[i];
+    next.a[i] = by.m_d * (next.d[i] - state.d[n]) - by.m_v * state.v[n] - by.m_a * state.a[n];
+    next.v[i] += by.v_old * state.a[n] + by.v_new * next.a[i];
+  }
+  step(next, force);
 }
 
 void Newmark::set_state(const Eigen::VectorXd& d, const Eigen::VectorXd& v,
                         const Eigen::VectorXd& a) {
-  assert(d.size() == impl_->d.size() && v.size() == d.size() && a.size() == d.size());
-  impl_->d = d;
-  impl_->v = v;
-  impl_->a = a;
+  Kinematics& state = impl_->state;
+  assert(d.size() == state.d.size() && v.size() == d.size() && a.size() == d.size());
+  state = {d, v, a};
 }
 
-const Eigen::VectorXd& Newmark::displacement() const {
-  return impl_->d;
-}
-const Eigen::VectorXd& Newmark::velocity() const {
-  return impl_->v;
-}
-const Eigen::VectorXd& Newmark::acceleration() const {
-  return impl_->a;
+const Kinematics& Newmark::state() const {
+  return impl_->state;
 }
 int Newmark::free_count() const {
   return static_cast<int>(impl_->x_o.size());
 }
+double Newmark::analyse_seconds() const {
+  return impl_->factor.analyse_seconds();
+}
 double Newmark::factor_seconds() const {
   return impl_->factor.factor_seconds();
+}
+double Newmark::factor_entries() const {
+  return impl_->factor.cholesky().entries();
 }
 
 }  // namespace hyperex::fem

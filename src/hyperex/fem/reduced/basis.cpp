@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/fem/reduced/basis.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace hyperex::fem {
+
+int Basis::grow(Eigen::MatrixXd w, double least) {
+  // Twice is enough: Gram-Schmidt loses digits where a column nearly lies in the basis.
+  for (int pass = 0; pass < 2 && size_ > 0; ++pass)
+    add_product(vectors(), inner_products(k_vectors(), w), -1, w);
+  const Eigen::MatrixXd kw = symmetric_product(system_.stiffness, w);
+  Eigen::MatrixXd gram = inner_products(w, kw);
+  gram = (gram + gram.transpose()).eval() / 2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(gram);
+  const Eigen::Index n = w.cols();
+  const double strongest = n > 0 ? modes.eigenvalues()[n - 1] : 0;
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(w.rows(), n);
+  add_product(w, modes.eigenvectors(), 1, directions);
+  // Column j = sum_i u_i sqrt(lambda_i) Q_ji with u_i = w Q_i / sqrt(lambda_i).
+  Eigen::MatrixXd pick(n, 0);
+  for (Eigen::Index i = n - 1; i >= 0; --i) {
+    const double lambda = modes.eigenvalues()[i];
+    // Below, the squared entries are rounding, and so is the direction.
+    if (!(lambda > 1e-13 * strongest) || !(lambda > 0)) break;
+    const double moves =
+        directions.col(i).cwiseAbs().maxCoeff() * modes.eigenvectors().col(i).cwiseAbs().maxCoeff();
+    if (moves < least) continue;
+    pick.conservativeResize(Eigen::NoChange, pick.cols() + 1);
+    pick.col(pick.cols() - 1) = modes.eigenvectors().col(i) / std::sqrt(lambda);
+  }
+  if (pick.cols() == 0) return 0;
+  Eigen::MatrixXd more = Eigen::MatrixXd::Zero(w.rows(), pick.cols());
+  Eigen::MatrixXd k_more = more;
+  add_product(w, pick, 1, more);
+  add_product(kw, pick, 1, k_more);
+  append(more, k_more);
+  return static_cast<int>(pick.cols());
+}
+
+void Basis::append(const Eigen::MatrixXd& more, const Eigen::MatrixXd& k_more) {
+  const Eigen::Index rows = more.rows(), old = size_, size = old + more.cols();
+  if (size > vectors_.cols()) {
+    const Eigen::Index capacity = std::max(size, 2 * vectors_.cols());
+    for (Eigen::MatrixXd* part : {&vectors_, &k_, &c_, &m_})
+      part->conservativeResize(rows, capacity);
+  }
+  vectors_.middleCols(old, more.cols()) = more;
+  k_.middleCols(old, more.cols()) = k_more;
+  c_.middleCols(old, more.cols()) = symmetric_product(system_.damping, more);
+  m_.middleCols(old, more.cols()) = symmetric_product(system_.mass, more);
+  size_ = static_cast<int>(size);
+  const auto project = [&](const Eigen::MatrixXd& applied, Eigen::MatrixXd& projected) {
+    const Eigen::MatrixXd columns = inner_products(vectors(), applied.middleCols(old, more.cols()));
+    projected.conservativeResize(size, size);
+    projected.rightCols(more.cols()) = columns;
+    projected.bottomLeftCorner(more.cols(), old) = columns.topRows(old).transpose();
+  };
+  project(k_, stiffness_);
+  project(c_, damping_);
+  project(m_, mass_);
+}
+
+}  // namespace hyperex::fem

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "hyperex/fem/reduced/dense.hpp"
+
+namespace hyperex::fem {
+
+/// Vectors orthonormal in the product of K (to rounding of the weakest), zero on the prescribed
+/// unknowns, with K, C and M applied to them and projected onto them.
+class Basis {
+ public:
+  explicit Basis(const System& system) : system_(system) {}
+
+  /// Takes in the directions of the columns of `w` (all unknowns) that the basis lacks, the
+  /// strongest first, but none whose part in any column moves any unknown by less than `least`
+  /// (m). Returns how many.
+  int grow(Eigen::MatrixXd w, double least);
+
+  int size() const { return size_; }
+  auto vectors() const { return vectors_.leftCols(size_); }
+  auto k_vectors() const { return k_.leftCols(size_); }
+  auto c_vectors() const { return c_.leftCols(size_); }
+  auto m_vectors() const { return m_.leftCols(size_); }
+  const Eigen::MatrixXd& stiffness() const { return stiffness_; }  ///< size x size
+  const Eigen::MatrixXd& damping() const { return damping_; }
+  const Eigen::MatrixXd& mass() const { return mass_; }
+
+ private:
+  void append(const Eigen::MatrixXd& more, const Eigen::MatrixXd& k_more);
+
+  const System& system_;
+  int size_ = 0;
+  Eigen::MatrixXd vectors_, k_, c_, m_;  // 3 |nodes| x capacity
+  Eigen::MatrixXd stiffness_, damping_, mass_;
+};
+
+}  // namespace hyperex::fem

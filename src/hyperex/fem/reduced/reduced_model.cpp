@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/fem/reduced/reduced_model.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "hyperex/fem/reduced/basis.hpp"
+#include "hyperex/fem/reduced/reduced_newmark.hpp"
+
+namespace hyperex::fem {
+namespace {
+
+/// Instants at which the motion is looked at: closer at the start, where a jump of the acceleration
+/// would ring.
+constexpr int kInstants = 32;
+
+std::vector<int> instants(int steps) {
+  std::vector<int> at;
+  for (int step = 1; step < steps / kInstants; step *= 4) at.push_back(step);
+  for (int i = 1; i <= kInstants; ++i)
+    at.push_back(static_cast<int>(std::lround(static_cast<double>(steps) * i / kInstants)));
+  at.erase(std::remove(at.begin(), at.end(), 0), at.end());
+  at.erase(std::unique(at.begin(), at.end()), at.end());
+  return at;
+}
+
+Eigen::MatrixXd columns(const Eigen::MatrixXd& m, const std::vector<int>& at) {
+  return m(Eigen::all, at);
+}
+
+/// Rows of the free unknowns.
+Eigen::MatrixXd free_rows(const Eigen::MatrixXd& all, const Partition& partition) {
+  Eigen::MatrixXd part(partition.free.size(), all.cols());
+  for (Eigen::Index c = 0; c < all.cols(); ++c)
+    for (std::size_t i = 0; i < partition.free.size(); ++i) part(i, c) = all(partition.free[i], c);
+  return part;
+}
+
+Eigen::MatrixXd with_zeros(const Eigen::MatrixXd& part, const std::vector<int>& rows,
+                           Eigen::Index all_rows) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(all_rows, part.cols());
+  for (Eigen::Index c = 0; c < part.cols(); ++c)
+    for (std::size_t i = 0; i < rows.size(); ++i) all(rows[i], c) = part(i, c);
+  return all;
+}
+
+double greatest_node_motion(const Eigen::MatrixXd& d) {
+  double most = 0;
+  for (Eigen::Index c = 0; c < d.cols(); ++c)
+    for (Eigen::Index n = 0; n < d.rows(); n += 3)
+      most = std::max(most, d.col(c).segment<3>(n).squaredNorm());
+  return std::sqrt(most);
+}
+
+/// The forces that a drive lays on the free unknowns: static s + viscous s' + inertial s''.
+struct DriveForces {
+  Eigen::MatrixXd shapes;                      // D, all unknowns
+  Eigen::MatrixXd static_, viscous, inertial;  // F - K D, -C D, -M D
+
+  DriveForces(const System& system, const Partition& partition, const Drive& drive)
+      : shapes(with_zeros(drive.prescribed, partition.prescribed, partition.unknowns())),
+        static_(-symmetric_product(system.stiffness, shapes)),
+        viscous(-symmetric_product(system.damping, shapes)),
+        inertial(-symmetric_product(system.mass, shapes)) {
+    if (drive.force.rows() > 0) static_ += drive.force;
+  }
+};
+
+/// One growth of the basis and the motion that it gives.
+class Growth {
+ public:
+  Growth(const System& system, PartitionedFactor& factor, const Drive& drive,
+         const ReducedOptions& options)
+      : factor_(factor),
+        drive_(drive),
+        options_(options),
+        forces_(system, factor.partition(), drive),
+        basis_(system),
+        at_(instants(drive.steps())) {}
+
+  void begin() {
+    Eigen::MatrixXd w =
+        solved(forces_.static_ * drive_.s.rowwise().lpNorm<Eigen::Infinity>().asDiagonal());
+    basis_.grow(std::move(w), 0);
+    integrate();
+  }
+
+  /// Returns by how much the greatest motion of a node changed (m).
+  double grow() {
+    const ReducedMotion before = motion_;
+    const int size = basis_.size();
+    const double least = 0.02 * options_.tolerance * greatest_;
+    if (basis_.grow(solved(residual()), least) == 0) return 0;
+    integrate();
+    Eigen::MatrixXd change = columns(motion_.d, at_);
+    change.topRows(size) -= columns(before.d, at_);
+    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(forces_.shapes.rows(), change.cols());
+    add_product(basis_.vectors(), change, 1, moved);
+    return greatest_node_motion(moved);
+  }
+
+  double greatest() const { return greatest_; }
+  int size() const { return basis_.size(); }
+
+  Response response() const {
+    Response r;
+    r.basis_size = basis_.size();
+    r.greatest_displacement_m = greatest_;
+    const Eigen::Index shapes = drive_.shapes();
+    r.shapes.resize(forces_.shapes.rows(), basis_.size() + shapes);
+    r.shapes << basis_.vectors(), forces_.shapes;
+    r.course.resize(basis_.size() + shapes, drive_.s.cols());
+    r.course << motion_.d, drive_.s;
+    return r;
+  }
+
+ private:
+  Eigen::MatrixXd solved(const Eigen::MatrixXd& force) {
+    Eigen::MatrixXd x = free_rows(force, factor_.partition());
+    factor_.solve(x);
+    return with_zeros(x, factor_.free(), force.rows());
+  }
+
+  void integrate() {
+    const auto& v = basis_.vectors();
+    Eigen::MatrixXd force = inner_products(v, forces_.static_) * drive_.s;
+    force += inner_products(v, forces_.viscous) * drive_.rate;
+    force += inner_products(v, forces_.inertial) * drive_.second;
+    motion_ = integrate_reduced(basis_.stiffness(), basis_.damping(), basis_.mass(), force,
+                                options_.time);
+    Eigen::MatrixXd d = forces_.shapes * columns(drive_.s, at_);
+    add_product(v, columns(motion_.d, at_), 1, d);
+    greatest_ = greatest_node_motion(d);
+  }
+
+  /// What the motion leaves in the equation of motion at the instants.
+  Eigen::MatrixXd residual() const {
+    Eigen::MatrixXd r =
+        Eigen::MatrixXd::Zero(forces_.shapes.rows(), static_cast<Eigen::Index>(at_.size()));
+    add_product(forces_.static_, columns(drive_.s, at_), 1, r);
+    add_product(forces_.viscous, columns(drive_.rate, at_), 1, r);
+    add_product(forces_.inertial, columns(drive_.second, at_), 1, r);
+    add_product(basis_.k_vectors(), columns(motion_.d, at_), -1, r);
+    add_product(basis_.c_vectors(), columns(motion_.v, at_), -1, r);
+    add_product(basis_.m_vectors(), columns(motion_.a, at_), -1, r);
+    return r;
+  }
+
+  PartitionedFactor& factor_;
+  const Drive& drive_;
+  const ReducedOptions& options_;
+  DriveForces forces_;
+  Basis basis_;
+  std::vector<int> at_;
+  ReducedMotion motion_;
+  double greatest_ = 0;
+};
+
+}  // namespace
+
+Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps) const {
+  Eigen::MatrixXd at(course.rows(), static_cast<Eigen::Index>(times_in_steps.size()));
+  for (std::size_t i = 0; i < times_in_steps.size(); ++i) {
+    const double t = std::clamp(times_in_steps[i], 0.0, static_cast<double>(course.cols() - 1));
+    const auto before = std::min(static_cast<Eigen::Index>(t), course.cols() - 1);
+    const auto after = std::min(before + 1, course.cols() - 1);
+    const double share = t - static_cast<double>(before);
+    at.col(i) = (1 - share) * course.col(before) + share * course.col(after);
+  }
+  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(shapes.rows(), at.cols());
+  add_product(shapes, at, 1, d);
+  return d;
+}
+
+ReducedModel::ReducedModel(const System& system, std::vector<int> prescribed)
+    : system_(system), factor_(system.stiffness, std::move(prescribed), "reduced model") {}
+
+void ReducedModel::refill(const System& system) {
+  system_ = system;
+  factor_.refactor(system.stiffness);
+}
+
+Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {
+  assert(drive.steps() >= 1 && options.tolerance > 0);
+  assert(drive.prescribed.rows() == static_cast<Eigen::Index>(factor_.prescribed().size()));
+  Growth growth(system_, factor_, drive, options);
+  growth.begin();
+  double change = 0;
+  int passes = 0;
+  bool converged = false;
+  while (!converged && growth.size() < options.most_vectors) {
+    change = growth.grow();
+    ++passes;
+    converged = change <= options.tolerance * growth.greatest();
+  }
+  Response response = growth.response();
+  response.estimated_error = growth.greatest() > 0 ? change / growth.greatest() : 0;
+  response.converged = converged;
+  response.passes = passes;
+  return response;
+}
+
+}  // namespace hyperex::fem

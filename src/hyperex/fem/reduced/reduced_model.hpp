@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "hyperex/fem/solve/partitioned_factor.hpp"
+#include "hyperex/fem/time/drive.hpp"
+
+namespace hyperex::fem {
+
+struct ReducedOptions {
+  NewmarkOptions time;
+  double tolerance = 1e-3;  ///< wanted error over the greatest displacement of any node, all times
+  int most_vectors = 400;   ///< where the tolerance is not reached by then, `converged` is false
+};
+
+/// The response of a reduced model: d(step) = shapes * course.col(step), all unknowns.
+struct Response {
+  Eigen::MatrixXd shapes;              ///< 3 |nodes| x (basis + r)
+  Eigen::MatrixXd course;              ///< (basis + r) x (steps + 1)
+  int basis_size = 0;                  ///< vectors found for the free unknowns
+  double estimated_error = 0;          ///< over the greatest displacement
+  double greatest_displacement_m = 0;  ///< over the times that were looked at
+  bool converged = false;
+  int passes = 0;
+
+  /// 3 |nodes| x |times|: displacement at times in steps (3.25: a quarter from step 3 to 4), linear
+  /// between steps.
+  Eigen::MatrixXd displacement(const std::vector<double>& times_in_steps) const;
+};
+
+/// K d + C d' + M d'' = f projected onto the motions that its drive makes.
+///
+/// The basis begins with the static response to each shape of the drive, K_oo^-1 (F - K_oc D). It
+/// grows by static solutions for what the reduced motion leaves in the equation of motion at
+/// instants spread over the run, which brings in what viscosity and inertia add (for a slow motion
+/// these are the next terms of its expansion in powers of time scales, as in second-order Krylov
+/// methods: Bai and Su, SIAM J. Matrix Anal. 26, 2005; chosen by the residual as in greedy reduced
+/// bases: Haasdonk and Ohlberger, ESAIM M2AN 42, 2008), and is kept orthonormal in the energy
+/// (K) product. The error is estimated by how much the last growth moved any node at any of those
+/// instants; the better of the two motions is returned.
+///
+/// One factorisation of K_oo serves every drive. Numbers do not depend on the number of threads.
+class ReducedModel {
+ public:
+  /// Throws NumericalError where K_oo is not positive definite.
+  ReducedModel(const System& system, std::vector<int> prescribed);
+  /// Other values on the same patterns: keeps the ordering.
+  void refill(const System& system);
+
+  /// The response from rest (d = d' = 0 on the free unknowns at step 0, d'' in equilibrium).
+  Response run(const Drive& drive, const ReducedOptions& options);
+
+  int free_count() const { return static_cast<int>(factor_.free().size()); }
+  double analyse_seconds() const { return factor_.analyse_seconds(); }
+  double factor_seconds() const { return factor_.factor_seconds(); }
+  double factor_entries() const { return factor_.cholesky().entries(); }
+
+ private:
+  System system_;
+  PartitionedFactor factor_;
+};
+
+}  // namespace hyperex::fem

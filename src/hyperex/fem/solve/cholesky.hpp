@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <string>
+
+#include "hyperex/fem/form/system.hpp"
+
+namespace hyperex::fem {
+
+/// L L^T of a sparse symmetric positive definite matrix: ordered by METIS and factored in
+/// supernodes by CHOLMOD; solved for one right-hand side by a kernel of our own that reads the
+/// factor twice with both cores, where CHOLMOD's costs twice the time. One caller at a time.
+class Cholesky {
+ public:
+  /// Orders and analyses the pattern of `lower` (lower triangle, columns sorted, diagonal stored).
+  /// `purpose` begins the messages of its errors: "static solution: ...".
+  Cholesky(const SparseMatrix& lower, std::string purpose);
+  ~Cholesky();
+  Cholesky(Cholesky&&) noexcept;
+  Cholesky& operator=(Cholesky&&) noexcept;
+
+  /// Factors values on the analysed pattern; may be called again. Returns -1, or the column in
+  /// which the matrix is not positive definite to rounding: the factor is then of no use. Throws
+  /// NumericalError where memory runs out.
+  int factorize(const SparseMatrix& lower);
+
+  /// x := A^-1 x. Allocates nothing.
+  void solve(Eigen::VectorXd& x);
+  /// X := A^-1 X, the columns together: several times quicker than one after the other.
+  void solve(Eigen::MatrixXd& x);
+
+  int size() const;
+  double entries() const;         ///< of L, the zeros that supernodes store included
+  double entries_needed() const;  ///< of L as analysed, without them
+  double flops() const;           ///< of one factorisation
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hyperex::fem

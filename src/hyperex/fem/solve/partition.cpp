@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/fem/solve/partition.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace hyperex::fem {
+namespace {
+
+SparseMatrix free_rows(const SparseMatrix& a, const Partition& partition,
+                       const std::vector<int>& columns, bool lower) {
+  const auto first_kept = [&](SparseMatrix::InnerIterator& it, int column) {
+    while (it && lower && it.row() < column) ++it;
+  };
+  SparseMatrix part(partition.free.size(), columns.size());
+  int kept = 0;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    SparseMatrix::InnerIterator it(a, columns[c]);
+    for (first_kept(it, columns[c]); it; ++it) kept += partition.free_index[it.row()] >= 0;
+    part.outerIndexPtr()[c + 1] = kept;
+  }
+  part.resizeNonZeros(kept);
+  int filled = 0;
+  for (const int column : columns) {
+    SparseMatrix::InnerIterator it(a, column);
+    for (first_kept(it, column); it; ++it) {
+      const int row = partition.free_index[it.row()];
+      if (row < 0) continue;
+      part.innerIndexPtr()[filled] = row;
+      part.valuePtr()[filled++] = it.value();
+    }
+  }
+  return part;
+}
+
+}  // namespace
+
+Partition::Partition(int unknowns, std::vector<int> prescribed_)
+    : prescribed(std::move(prescribed_)), free_index(unknowns, 0) {
+  assert(std::is_sorted(prescribed.begin(), prescribed.end()));
+  assert(prescribed.empty() || (prescribed.front() >= 0 && prescribed.back() < unknowns));
+  for (const int c : prescribed) free_index[c] = -1;
+  for (int i = 0; i < unknowns; ++i)
+    if (free_index[i] == 0) {
+      free_index[i] = static_cast<int>(free.size());
+      free.push_back(i);
+    }
+  assert(free.size() + prescribed.size() == free_index.size());
+}
+
+SparseMatrix free_lower(const SparseMatrix& a, const Partition& partition) {
+  return free_rows(a, partition, partition.free, true);
+}
+
+SparseMatrix coupling(const SparseMatrix& a, const Partition& partition) {
+  return free_rows(a, partition, partition.prescribed, false);
+}
+
+SparseMatrix combined(const System& system, double damping_share, double mass_share) {
+  assert(system.damping.nonZeros() == system.mass.nonZeros());
+  SparseMatrix a = system.stiffness;
+  for (Eigen::Index column = 0; column < a.cols(); ++column) {
+    int at = a.outerIndexPtr()[column];
+    for (int k = system.damping.outerIndexPtr()[column];
+         k < system.damping.outerIndexPtr()[column + 1]; ++k) {
+      while (a.innerIndexPtr()[at] < system.damping.innerIndexPtr()[k]) ++at;
+      assert(at < a.outerIndexPtr()[column + 1]);
+      a.valuePtr()[at] +=
+          damping_share * system.damping.valuePtr()[k] + mass_share * system.mass.valuePtr()[k];
+    }
+  }
+  return a;
+}
+
+}  // namespace hyperex::fem
