@@ -7,8 +7,7 @@
 
 namespace hyperex::study {
 
-InfSup inf_sup(const Candidate& candidate, int cells) {
-  const Problem cube = unit_cube(cells);
+InfSup inf_sup(const Candidate& candidate, const Problem& cube) {
   const auto nodes = static_cast<int>(cube.nodes.rows());
   fem::DilatationGroups groups = groups_of(candidate, nodes, cube.tets);
   if (groups.tets.size() == 0)
@@ -53,7 +52,7 @@ InfSup inf_sup(const Candidate& candidate, int cells) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(schur, Eigen::EigenvaluesOnly).eigenvalues();
   int zeros = 0;
   while (zeros < values.size() && values[zeros] < 1e-9) ++zeros;
-  return {cells, groups.tets.size(), zeros - 1,
+  return {groups.tets.size(), zeros - 1,
           std::sqrt(values[std::min<Eigen::Index>(zeros, values.size() - 1)])};
 }
 

@@ -180,14 +180,17 @@ void face(const std::filesystem::path& folder, Steps& progress) {
 
 void stability(const std::filesystem::path& folder, Steps& progress) {
   auto out = fmt::output_file((folder / "infsup.csv").string());
-  out.print("candidate,cells,groups,spurious,constant\n");
+  out.print("candidate,mesh,cells,groups,spurious,constant\n");
   for (const Candidate& c : candidates()) {
     if (c.kept > 0 || c.family >= Candidate::stabilised_p1p1) continue;
     for (const int cells : {3, 4, 6, 8}) {
       if (c.family == Candidate::plain && cells > 4) continue;  // dense eigenvalues
       if (cells == 8 && c.family == Candidate::patches && c.size < 4) continue;
-      const InfSup i = inf_sup(c, cells);
-      out.print("\"{}\",{},{},{},{:.6g}\n", c.name, i.cells, i.groups, i.spurious, i.constant);
+      for (const Problem& cube : {unit_cube(cells), irregular_cube(cells)}) {
+        const InfSup i = inf_sup(c, cube);
+        out.print("\"{}\",{},{},{},{},{:.6g}\n", c.name, cube.name, cells, i.groups, i.spurious,
+                  i.constant);
+      }
       out.flush();
       progress.step();
     }

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes.hpp"
 
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace hyperex::study {
@@ -266,11 +271,57 @@ Problem unit_cube(int cells) {
                  return at;
                }),
        p);
+  // Nodes are numbered anew: what depends on numbers must not profit from a grid's.
+  std::vector<int> number(p.nodes.rows());
+  std::iota(number.begin(), number.end(), 0);
+  for (std::size_t i = number.size() - 1; i > 0; --i)
+    std::swap(number[i], number[random() % (i + 1)]);
+  const Points grid = p.nodes;
+  for (std::size_t n = 0; n < number.size(); ++n) p.nodes.row(number[n]) = grid.row(n);
+  for (int& corner : p.tets.reshaped()) corner = number[corner];
   p.support = [](const Vec3& x) {
     std::array<std::optional<double>, 3> held;
     if ((x.array() < 1e-9).any() || (x.array() > 1 - 1e-9).any()) held = {0.0, 0.0, 0.0};
     return held;
   };
+  return p;
+}
+
+Problem irregular_cube(int cells) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Base = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
+  using Delaunay =
+      CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Base>>;
+  Problem p = unit_cube(cells);
+  p.name = "irregular cube";
+  std::mt19937 random(2);
+  Delaunay mesh;
+  for (Eigen::Index n = 0; n < p.nodes.rows(); ++n) {
+    for (double& x : p.nodes.row(n))
+      if (x > 1e-9 && x < 1 - 1e-9) x += 0.3 / cells * (2.0 * random() / std::mt19937::max() - 1);
+    const auto x = p.nodes.row(n);
+    mesh.insert({x[0], x[1], x[2]})->info() = static_cast<int>(n);
+  }
+  std::vector<std::array<int, 4>> tets;
+  for (const auto& cell : mesh.finite_cell_handles()) {
+    std::array<int, 4> tet{};
+    Eigen::Matrix<double, 4, 3> corner;
+    for (int a = 0; a < 4; ++a) {
+      tet[a] = cell->vertex(a)->info();
+      corner.row(a) = p.nodes.row(tet[a]);
+    }
+    const Vec3 e[3] = {(corner.row(1) - corner.row(0)).transpose(),
+                       (corner.row(2) - corner.row(0)).transpose(),
+                       (corner.row(3) - corner.row(0)).transpose()};
+    const double volume = e[0].cross(e[1]).dot(e[2]) / 6;
+    // Flat ones on the cube's faces are of rounding alone.
+    if (std::abs(volume) < 1e-9) continue;
+    if (volume < 0) std::swap(tet[2], tet[3]);
+    tets.push_back(tet);
+  }
+  p.tets.resize(static_cast<Eigen::Index>(tets.size()), 4);
+  for (std::size_t t = 0; t < tets.size(); ++t)
+    for (int a = 0; a < 4; ++a) p.tets(static_cast<Eigen::Index>(t), a) = tets[t][a];
   return p;
 }
 

@@ -46,7 +46,11 @@ Problem inflated_sphere(int cells, double poisson);
 /// No error is set: a finer solution has to give it.
 Problem pulled_layer(int cells, int levels, double poisson);
 
-/// [0, 1]^3 with all nodes of its faces held, inner nodes moved a little from the grid.
+/// [0, 1]^3 with all nodes of its faces held, inner nodes moved a little from the grid,
+/// numbers shuffled.
 Problem unit_cube(int cells);
+
+/// The same cube by Delaunay tetrahedra of points that are far from a grid.
+Problem irregular_cube(int cells);
 
 }  // namespace hyperex::study

@@ -27,10 +27,8 @@ SHOWN = {  # name -> colour, marker
     "P1-P1 projected": ("#1f77b4", "D"),
     "P2-P0": ("#d62728", "*"),
 }
-LABEL = {"stars, kept 0": "node averages", "stars, kept 2": "node averages, 2 mu kept",
-         CHOSEN: "disjoint stars (tet4-star)", "patches of 4": "METIS patches of 4",
-         "patches of 8": "METIS patches of 8", "P1-P1 projected": "P1-P1, pressure projected",
-         "P2-P0": "quadratic, P2-P0"}
+LABEL = {"stars, kept 0": "node averages", CHOSEN: "disjoint stars (tet4-star)",
+         "P1-P1 projected": "P1-P1, pressure projected", "P2-P0": "quadratic, P2-P0"}
 LEGEND = 0.6  # inches below the axes
 POISSON = ["0.3", "0.495", "0.4999"]
 
@@ -41,7 +39,10 @@ def read(folder, name):
 
 
 def label(name):
-    return LABEL.get(name, name)
+    if name in LABEL:
+        return LABEL[name]
+    kept = re.fullmatch("stars, kept (.*)", name)
+    return f"node averages, {kept[1]} mu kept" if kept else name.replace("patches", "METIS patches")
 
 
 def convergence(rows, against, x_label, out):
@@ -119,20 +120,25 @@ def layer(rows, face, out):
 
 
 def inf_sup(rows, out):
-    figure, ax = plt.subplots(figsize=(6.4, 4.4))
-    for name, (colour, marker) in {**SHOWN, "patches of 24": ("#e3c7ee", "h"),
-                                   "patches of 12": ("#d9b3e6", "p")}.items():
-        line = [r for r in rows if r["candidate"] == name]
-        if line and name != "tet4":
-            ax.loglog([1 / float(r["cells"]) for r in line], [float(r["constant"]) for r in line],
-                      marker=marker, color=colour, label=label(name))
-    ax.set_xlabel("edge / side of the cube")
-    ax.set_ylabel("numerical inf-sup constant")
-    ax.set_xticks([1 / 8, 1 / 6, 1 / 4, 1 / 3], ["1/8", "1/6", "1/4", "1/3"])
-    ax.minorticks_off()
-    ax.grid(alpha=0.3, linewidth=0.5)
-    ax.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.56, 0.0))
-    figure.tight_layout()
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.6), sharey=True)
+    shown = {**SHOWN, "patches of 12": ("#d9b3e6", "p"), "patches of 24": ("#e3c7ee", "h")}
+    for ax, mesh in zip(axes, ("cube", "irregular cube")):
+        for name, (colour, marker) in shown.items():
+            line = [r for r in rows if r["candidate"] == name and r["mesh"] == mesh]
+            if line and name != "tet4":
+                ax.loglog([1 / float(r["cells"]) for r in line],
+                          [float(r["constant"]) for r in line], marker=marker, color=colour,
+                          label=label(name), linewidth=2.4 if name == CHOSEN else 1.1)
+        ax.set_title({"cube": "cells cut in six", "irregular cube": "Delaunay, scattered points"}[mesh],
+                     fontsize=10)
+        ax.set_xlabel("edge / side of the cube")
+        ax.set_xticks([1 / 8, 1 / 6, 1 / 4, 1 / 3], ["1/8", "1/6", "1/4", "1/3"])
+        ax.xaxis.set_minor_formatter(NullFormatter())
+        ax.grid(alpha=0.3, linewidth=0.5)
+    axes[0].set_ylabel("numerical inf-sup constant")
+    handles, names = axes[0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="lower center", ncol=4, frameon=False)
+    figure.tight_layout(rect=(0, LEGEND / figure.get_figheight(), 1, 1))
     figure.savefig(out, dpi=100)
     plt.close(figure)
 
@@ -150,7 +156,7 @@ def layer_table(rows):
     lines = []
     names = list(dict.fromkeys(r["candidate"] for r in rows))
     for name in names:
-        line = [label(name) if name in LABEL else name]
+        line = [label(name)]
         for levels in ("2", "4"):
             for nu in POISSON:
                 own = [r for r in rows if (r["candidate"], r["poisson"], r["cells"], r["levels"])
@@ -177,7 +183,7 @@ def face_table(rows):
             f"{1e3 * assemble:.1f}" if assemble else "-",
             f"{1e3 * float(r['analyse_s']):.0f}", f"{1e3 * float(r['factor_s']):.0f}",
             f"{1e3 * float(r['solve_s']):.1f}"]))
-    return table(["candidate", "unknowns", "entries of L (million)", "over tet4", "assemble anew (ms)",
+    return table(["candidate", "unknowns", "entries of L (million)", "over tet4", "assemble again, two cores (ms)",
                   "analyse (ms)", "factor (ms)", "solve (ms)"], lines)
 
 
@@ -204,11 +210,14 @@ def error_table(rows):
 def inf_sup_table(rows):
     lines = []
     for name in dict.fromkeys(r["candidate"] for r in rows):
-        own = {r["cells"]: r for r in rows if r["candidate"] == name}
-        lines.append(bold(name, [label(name)] + [
-            f"{float(own[c]['constant']):.4f} ({own[c]['spurious']} of {own[c]['groups']})"
-            if c in own else "" for c in ("3", "4", "6", "8")]))
-    return table(["candidate"] + [f"{c}^3 cells" for c in (3, 4, 6, 8)], lines)
+        line = [label(name)]
+        for mesh in ("cube", "irregular cube"):
+            own = {r["cells"]: r for r in rows if r["candidate"] == name and r["mesh"] == mesh}
+            line += [f"{float(own[c]['constant']):.4f} ({own[c]['spurious']} of {own[c]['groups']})"
+                     if c in own else "" for c in ("4", "6", "8")]
+        lines.append(bold(name, line))
+    return table(["candidate"] + [f"{mesh}, {c}^3" for mesh in ("cut cells", "Delaunay")
+                                  for c in (4, 6, 8)], lines)
 
 
 def reference_table(rows):

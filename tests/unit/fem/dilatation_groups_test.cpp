@@ -23,12 +23,13 @@ TEST_F(Stars, HoldEachTetrahedronOnce) {
   EXPECT_EQ(groups.kept, 0);
 }
 
-TEST_F(Stars, EachPatchHasTheWholeStarOfANode) {
+TEST_F(Stars, EachPatchHasTheWholeStarOfANodeAndIsNotSmall) {
   for (int g = 0; g < groups.tets.size(); ++g) {
     const auto patch = groups.tets[g];
     const auto whole = [&](int n) {
       return std::includes(patch.begin(), patch.end(), around[n].begin(), around[n].end());
     };
+    EXPECT_GE(patch.size(), 8) << "patch " << g;
     bool found = false;
     for (int n = 0; n < around.size() && !found; ++n) found = whole(n);
     EXPECT_TRUE(found) << "patch " << g;
@@ -36,7 +37,8 @@ TEST_F(Stars, EachPatchHasTheWholeStarOfANode) {
 }
 
 TEST_F(Stars, AreNeitherFewNorMany) {
-  // A star has a centre and about thirteen nodes around it that cannot be centres.
+  // A star has a centre and up to fourteen nodes around it that cannot be centres; some lie
+  // between.
   EXPECT_GE(groups.tets.size(), box.nodes.rows() / 14);
   EXPECT_LE(groups.tets.size(), box.nodes.rows() / 4);
 }
@@ -57,6 +59,23 @@ TEST(Groups, TakeOneTetrahedronAndANodeThatNoElementUses) {
   const DilatationGroups groups = disjoint_stars(5, one);
   EXPECT_EQ(groups.tets.size(), 1);
   EXPECT_EQ(groups.tets.item, std::vector<int>{0});
+}
+
+TEST(Groups, TakePartsTooSmallForAStarAndPartsApart) {
+  // A lone tetrahedron beside a box: a patch of its own.
+  const auto box = test::box_mesh({3, 3, 3}, Vec3(1, 1, 1));
+  Tetrahedra tets(box.tets.rows() + 1, 4);
+  const int n = static_cast<int>(box.nodes.rows());
+  tets << box.tets, n, n + 1, n + 2, n + 3;
+  const DilatationGroups groups = disjoint_stars(n + 4, tets);
+  std::vector<int> count(tets.rows(), 0);
+  bool alone = false;
+  for (int g = 0; g < groups.tets.size(); ++g) {
+    for (const int t : groups.tets[g]) ++count[t];
+    alone |= groups.tets[g].size() == 1 && groups.tets[g][0] == tets.rows() - 1;
+  }
+  EXPECT_TRUE(alone);
+  for (const int times : count) EXPECT_EQ(times, 1);
 }
 
 }  // namespace

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/form/dilatation_groups.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cassert>
 #include <queue>
 
 namespace hyperex::fem {
 namespace {
+
+/// Smaller stars, at corners and edges of the mesh, make no patch: where their nodes are held,
+/// nothing in them can move as a pressure wants.
+constexpr std::size_t kLeastStar = 8;
 
 /// Star (or -1) of each tetrahedron. Next is always the node with most neighbours in stars already,
 /// the first of several: stars then lie side by side, with little between them.
@@ -14,10 +18,11 @@ std::vector<int> pack_stars(const Lists& around, const Lists& neighbours, std::s
   std::vector<int> star(tet_count, -1), covered(around.size(), 0);
   std::vector<char> taken(around.size(), 0);       // in a star, as its centre or around it
   std::priority_queue<std::pair<int, int>> queue;  // (covered neighbours, -node), some outdated
-  for (int n = 0; n < around.size(); ++n)
-    if (!around[n].empty()) queue.emplace(0, -n);
-  int stars = 0;
-  while (!queue.empty()) {
+  const auto offer = [&](int n) {
+    if (around[n].size() >= kLeastStar) queue.emplace(covered[n], -n);
+  };
+  for (int n = 0; n < around.size(); ++n) offer(n);
+  for (int stars = 0; !queue.empty();) {
     const auto [count, negative] = queue.top();
     queue.pop();
     const int centre = -negative;
@@ -31,27 +36,48 @@ std::vector<int> pack_stars(const Lists& around, const Lists& neighbours, std::s
     for (const int n : newly) taken[n] = 1;
     for (const int n : newly)
       for (const int k : neighbours[n])
-        if (!taken[k]) queue.emplace(++covered[k], -k);
+        if (!taken[k]) {
+          ++covered[k];
+          offer(k);
+        }
   }
   return star;
 }
 
-/// The star that shares most corners with tetrahedron t, the first of several.
-int nearest_star(Eigen::Index t, const Tetrahedra& tets, const Lists& around,
-                 const std::vector<int>& star) {
+/// The patch that shares most corners with tetrahedron t, the first of several; -1 where none does.
+int nearest_patch(Eigen::Index t, const Tetrahedra& tets, const Lists& around,
+                  const std::vector<int>& patch) {
   int most = 0, nearest = -1;
   for (int a = 0; a < 4; ++a)
     for (const int other : around[tets(t, a)]) {
-      if (star[other] < 0) continue;
+      if (patch[other] < 0) continue;
       int shared = 0;
       for (int i = 0; i < 4; ++i) shared += (tets.row(other).array() == tets(t, i)).any();
       if (shared > most) {
         most = shared;
-        nearest = star[other];
+        nearest = patch[other];
       }
     }
-  assert(nearest >= 0);  // else the star of a corner would have fitted
   return nearest;
+}
+
+/// Gives every tetrahedron to a patch, layer by layer from the stars.
+void fill_between(const Tetrahedra& tets, const Lists& around, std::vector<int>& patch) {
+  int patches = patch.empty() ? 0 : *std::max_element(patch.begin(), patch.end()) + 1;
+  std::vector<int> open;
+  for (Eigen::Index t = 0; t < tets.rows(); ++t)
+    if (patch[t] < 0) open.push_back(static_cast<int>(t));
+  while (!open.empty()) {
+    const std::vector<int> before = patch;
+    for (const int t : open) patch[t] = nearest_patch(t, tets, around, before);
+    const std::size_t count = open.size();
+    std::erase_if(open, [&](int t) { return patch[t] >= 0; });
+    if (open.size() == count) {  // a part of the mesh too small for any star
+      for (const int t : around[tets(open.front(), 0)]) patch[t] = patches;
+      ++patches;
+      std::erase_if(open, [&](int t) { return patch[t] >= 0; });
+    }
+  }
 }
 
 }  // namespace
@@ -67,15 +93,12 @@ Lists corner_lists(const Tetrahedra& tets) {
 DilatationGroups disjoint_stars(Eigen::Index node_count, const Tetrahedra& tets) {
   const Lists corners = corner_lists(tets);
   const Lists around = transposed(corners, static_cast<int>(node_count));
-  const std::vector<int> star = pack_stars(around, joined(around, corners), tets.rows());
+  std::vector<int> patch = pack_stars(around, joined(around, corners), tets.rows());
+  fill_between(tets, around, patch);
   Lists patch_of_tet;
-  int stars = 0;
-  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    const int patch = star[t] >= 0 ? star[t] : nearest_star(t, tets, around, star);
-    patch_of_tet.append(std::array{patch});
-    stars = std::max(stars, patch + 1);
-  }
-  return {transposed(patch_of_tet, stars)};
+  for (const int p : patch) patch_of_tet.append(std::array{p});
+  const int count = patch.empty() ? 0 : *std::max_element(patch.begin(), patch.end()) + 1;
+  return {transposed(patch_of_tet, count)};
 }
 
 DilatationGroups dilatation_groups(ElementKind kind, Eigen::Index node_count,

@@ -24,11 +24,11 @@ struct DilatationGroups {
 DilatationGroups dilatation_groups(ElementKind kind, Eigen::Index node_count,
                                    const Tetrahedra& tets);
 
-/// Disjoint patches: the whole stars of nodes (all tetrahedra around one) that share no
-/// tetrahedron, as many as fit, packed tightly; each tetrahedron between them joins the star with
-/// which it shares most corners. A star has a node that can move as its constant pressure wants,
-/// and so the patches are stable where patches of the same size by any other rule are not. The same
-/// mesh gives the same patches.
+/// Disjoint patches: the whole stars of nodes (all tetrahedra around one, at least eight) that
+/// share no tetrahedron, as many as fit, packed tightly; each tetrahedron between them joins the
+/// patch with which it shares most corners. A star has a node that can move as its constant
+/// pressure wants, and so the patches are stable where patches of the same size by any other rule
+/// are not. The same mesh gives the same patches.
 DilatationGroups disjoint_stars(Eigen::Index node_count, const Tetrahedra& tets);
 
 /// The lists of corners of each tetrahedron.
