@@ -52,6 +52,7 @@ struct Cholesky::Impl {
   cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;  // workspaces of several right-hand sides
   std::vector<double> permuted;
   TriangularSolver triangular;
+  bool prepared = false;  // triangular
   double entries_needed = 0, flops = 0;
 
   Impl() {
@@ -133,13 +134,13 @@ int Cholesky::factorize(const SparseMatrix& lower) {
   Impl& m = *impl_;
   assert(lower.cols() == size());
   if (size() == 0) return -1;
-  const bool first = m.factor->x == nullptr;
   cholmod_sparse view = view_of(lower);
   cholmod_factorize(&view, m.factor, &m.common);
   if (m.common.status < CHOLMOD_OK) m.fail();
   if (m.common.status == CHOLMOD_NOT_POSDEF)
     return static_cast<const int*>(m.factor->Perm)[m.factor->minor];
-  if (first) m.triangular = TriangularSolver(m.supernodes());
+  if (!m.prepared) m.triangular = TriangularSolver(m.supernodes());
+  m.prepared = true;
   return m.lost_pivot(lower);
 }
 
