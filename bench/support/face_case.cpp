@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/face_case.hpp"
+
+#include <cmath>
+
+#include "hyperex/scene/inputs.hpp"
+#include "hyperex/scene/pipeline.hpp"
+#include "support/timing.hpp"
+
+namespace hyperex::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+scene::Scene scene_of(Face face) {
+  const fs::path examples = fs::path(HYPEREX_SOURCE_DIR) / "examples";
+  const fs::path scan =
+      fs::path(HYPEREX_SOURCE_DIR) / "../shared/data/ict/subject_A_neutral_scan.ply";
+  const bool subject_a = face == Face::subject_a_if_there && fs::exists(scan);
+  return scene::read_scene(examples / (subject_a ? "subject_a_mouth_open.toml" : "demo.toml"));
+}
+
+reenact::SimulationOptions options_of(const scene::Scene& s, const scene::Inputs& inputs) {
+  reenact::SimulationOptions o;
+  o.tissue = {s.tissue.young_pa, s.tissue.poisson, s.tissue.viscosity_pa_s, s.tissue.density_kg_m3,
+              s.tissue.viscous_form};
+  o.support.border_held = s.support.border_held;
+  o.support.skull = s.support.skull;
+  o.support.mandible = s.support.mandible;
+  o.support.skull_layer = s.support.skull_layer;
+  o.support.mandible_layer = s.support.mandible_layer;
+  o.support.muscle_pa_per_m = s.support.muscle_pa_per_m;
+  o.support.jaw_points = s.support.jaw_points;
+  o.drive = {inputs.driven, s.drive.still_points, s.drive.patch_radius_m, s.motion.gain};
+  o.time = {s.time.step_s, s.time.end_s, s.time.frame_rate_hz, {}};
+  return o;
+}
+
+}  // namespace
+
+FaceCase::FaceCase(Face face, const MeshSize& size) {
+  const scene::Scene scene = scene_of(face);
+  const scene::Inputs inputs = scene::read_inputs(scene);
+  name_ = scene.title;
+  landmarks_ = inputs.landmarks;
+  motion_ = inputs.motion;
+  options_ = options_of(scene, inputs);
+
+  tissue::TissueMeshOptions mesh = scene::mesh_options(scene);
+  if (size.element_size_m > 0) mesh.element_size_m = size.element_size_m;
+  if (size.layers > 0) mesh.layers = size.layers;
+  Stopwatch watch;
+  mesh_ = tissue::build_tissue_mesh(inputs.scan.mesh, landmarks_, mesh, inputs.scan.file.string());
+  mesh_s_ = watch.lap();
+  const auto region = reenact::measured_region(mesh_, landmarks_, motion_, options_.region);
+  boundary_ = std::make_unique<reenact::Boundary>(mesh_, landmarks_, motion_, region, options_);
+
+  curve_ = std::make_unique<motion::MotionCurve>(motion_.motion);
+  start_s_ = motion_.motion.time_s.front();
+  const double end_s =
+      options_.time.end_s > 0 ? options_.time.end_s : motion_.motion.time_s.back() - start_s_;
+  dt_s_ = options_.time.step_s;
+  steps_ = static_cast<int>(std::ceil(end_s / dt_s_ - 1e-9));
+  double most = -1;
+  for (double t = 0; t <= end_s; t += 1 / options_.time.frame_rate_hz)
+    if (const double moved = points_at(t).norm(); moved > most) {
+      most = moved;
+      peak_s_ = t;
+    }
+}
+
+Points FaceCase::points_at(double t_s) const {
+  return options_.drive.gain * (curve_->at(start_s_ + t_s) - curve_->at(start_s_));
+}
+
+fem::Material FaceCase::material(double viscosity_factor) const {
+  const auto tets = static_cast<std::size_t>(mesh_.volume.tets.rows());
+  fem::Material m;
+  m.young_pa.assign(tets, options_.tissue.young_pa);
+  m.poisson.assign(tets, options_.tissue.poisson);
+  m.viscosity_pa_s.assign(tets, viscosity_factor * options_.tissue.viscosity_pa_s);
+  m.density_kg_m3.assign(tets, options_.tissue.density_kg_m3);
+  m.viscous_form = options_.tissue.viscous_form;
+  return m;
+}
+
+void FaceCase::assemble(const fem::Assembler& assembler, const fem::Material& material,
+                        fem::System& system) const {
+  assembler.assemble(material, system);
+  boundary_->add_springs(system.stiffness);
+}
+
+fem::System FaceCase::system(fem::ElementKind kind, double viscosity_factor) const {
+  const fem::Assembler assembler(mesh_.volume.nodes, mesh_.volume.tets, kind);
+  fem::System system;
+  assemble(assembler, material(viscosity_factor), system);
+  return system;
+}
+
+fem::Drive FaceCase::shapes(const std::function<Points(double)>& points, double tolerance,
+                            int steps) const {
+  // Of the answer, not of this object: following the jaw begins at its last position.
+  reenact::Boundary boundary = *boundary_;
+  return reenact::input_shapes(boundary, points, dt_s_, steps, 1e-3 * tolerance).drive;
+}
+
+fem::Drive FaceCase::drive(double solver_tolerance, int steps) const {
+  return shapes([this](double t) { return points_at(t); }, solver_tolerance,
+                steps > 0 ? steps : steps_);
+}
+
+fem::Drive FaceCase::sine(double period_s, double solver_tolerance) const {
+  const Points peak = points_at(peak_s_);
+  return shapes([&](double t) -> Points { return std::sin(2 * M_PI * t / period_s) * peak; },
+                solver_tolerance, steps_);
+}
+
+std::vector<double> FaceCase::frames_in_steps() const {
+  std::vector<double> at;
+  const int frames =
+      std::max(1, static_cast<int>(std::ceil(steps_ * dt_s_ * options_.time.frame_rate_hz - 1e-6)));
+  for (int f = 0; f < frames; ++f) at.push_back(f / options_.time.frame_rate_hz / dt_s_);
+  return at;
+}
+
+std::vector<PointsF> FaceCase::carry_to_skin(const Eigen::MatrixXd& nodes) const {
+  std::vector<PointsF> frames;
+  for (Eigen::Index f = 0; f < nodes.cols(); ++f) {
+    const Eigen::Map<const Points> d(nodes.col(f).data(), nodes.rows() / 3, 3);
+    PointsF& skin = frames.emplace_back(mesh_.skin.points.rows(), 3);
+    for (Eigen::Index v = 0; v < skin.rows(); ++v) {
+      const tissue::Anchor& anchor = mesh_.anchors[v];
+      Eigen::RowVector3d at = anchor.weight[0] * d.row(anchor.node[0]);
+      for (int k = 1; k < 3; ++k) at += anchor.weight[k] * d.row(anchor.node[k]);
+      skin.row(v) = at.cast<float>();
+    }
+  }
+  return frames;
+}
+
+double greatest_apart(const Eigen::Ref<const Eigen::VectorXd>& a,
+                      const Eigen::Ref<const Eigen::VectorXd>& b) {
+  double most = 0;
+  for (Eigen::Index n = 0; n < a.size(); n += 3)
+    most = std::max(most, (a.segment<3>(n) - b.segment<3>(n)).squaredNorm());
+  return std::sqrt(most);
+}
+
+double greatest(const Eigen::Ref<const Eigen::MatrixXd>& d) {
+  double most = 0;
+  for (Eigen::Index c = 0; c < d.cols(); ++c)
+    for (Eigen::Index n = 0; n < d.rows(); n += 3)
+      most = std::max(most, d.col(c).segment<3>(n).squaredNorm());
+  return std::sqrt(most);
+}
+
+}  // namespace hyperex::bench

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "hyperex/fem/form/assembler.hpp"
+#include "hyperex/motion/resample.hpp"
+#include "hyperex/reenact/boundary.hpp"
+#include "hyperex/reenact/input_shapes.hpp"
+#include "hyperex/tissue/tissue_mesh.hpp"
+
+namespace hyperex::bench {
+
+/// What is measured on: subject A's mouth opening where the data set lies beside the checkout, else
+/// the face and motion that come with the program.
+enum class Face { subject_a_if_there, embedded };
+
+/// 0: as in the scene.
+struct MeshSize {
+  double element_size_m = 0;
+  int layers = 0;
+};
+
+/// A scene made ready for the solver as `hyperex run` does it: mesh, boundary, tissue and motion.
+class FaceCase {
+ public:
+  explicit FaceCase(Face face, const MeshSize& size = {});
+
+  std::string name() const { return name_; }
+  const tissue::TissueMesh& mesh() const { return mesh_; }
+  const reenact::Boundary& boundary() const { return *boundary_; }
+  const std::vector<int>& prescribed() const { return boundary_->prescribed(); }
+  double dt_s() const { return dt_s_; }
+  int steps() const { return steps_; }
+  const reenact::TissueValues& tissue() const { return options_.tissue; }
+  double mesh_seconds() const { return mesh_s_; }  ///< of building the tissue mesh
+
+  /// The scene's tissue with its viscosity multiplied.
+  fem::Material material(double viscosity_factor = 1) const;
+  /// With the springs of the bones and muscles.
+  void assemble(const fem::Assembler& assembler, const fem::Material& material,
+                fem::System& system) const;
+  fem::System system(fem::ElementKind kind, double viscosity_factor = 1) const;
+
+  /// The scene's motion, and as many shapes as `hyperex run` makes of it for a solver's tolerance.
+  fem::Drive drive(double solver_tolerance, int steps = 0) const;
+  /// The shape of the motion at its peak, times sin(2 pi t / period).
+  fem::Drive sine(double period_s, double solver_tolerance) const;
+
+  /// When frames are wanted, in steps.
+  std::vector<double> frames_in_steps() const;
+  /// The skin that displacements of the nodes (a column a frame) carry: |skin| x 3 a frame.
+  std::vector<PointsF> carry_to_skin(const Eigen::MatrixXd& nodes) const;
+
+ private:
+  Points points_at(double t_s) const;
+  fem::Drive shapes(const std::function<Points(double)>& points, double tolerance, int steps) const;
+
+  std::string name_;
+  io::Landmarks landmarks_;
+  reenact::AlignedMotion motion_;
+  reenact::SimulationOptions options_;
+  tissue::TissueMesh mesh_;
+  std::unique_ptr<reenact::Boundary> boundary_;
+  std::unique_ptr<motion::MotionCurve> curve_;
+  double dt_s_ = 0, start_s_ = 0, peak_s_ = 0, mesh_s_ = 0;
+  int steps_ = 0;
+};
+
+/// Greatest distance of any node between two columns of displacements, and the greatest
+/// displacement of any node (m).
+double greatest_apart(const Eigen::Ref<const Eigen::VectorXd>& a,
+                      const Eigen::Ref<const Eigen::VectorXd>& b);
+double greatest(const Eigen::Ref<const Eigen::MatrixXd>& d);
+
+}  // namespace hyperex::bench

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cholmod.h>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/fem/form/system.hpp"
+#include "hyperex/fem/solve/triangular.hpp"
+#include "support/timing.hpp"
+
+namespace hyperex::bench {
+
+/// CHOLMOD by itself, with an ordering of one's choice: what fem::Cholesky is compared with.
+class OwnCholmod {
+ public:
+  /// Analyses and factors the lower triangle. `ordering`: CHOLMOD_AMD, CHOLMOD_METIS ...
+  OwnCholmod(const fem::SparseMatrix& lower, int ordering) {
+    cholmod_start(&common_);
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.nmethods = 1;
+    common_.method[0].ordering = ordering;
+    common_.postorder = 1;
+    cholmod_sparse view{};
+    view.nrow = view.ncol = static_cast<std::size_t>(lower.cols());
+    view.nzmax = static_cast<std::size_t>(lower.nonZeros());
+    view.p = const_cast<int*>(lower.outerIndexPtr());
+    view.i = const_cast<int*>(lower.innerIndexPtr());
+    view.x = const_cast<double*>(lower.valuePtr());
+    view.stype = -1;
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = view.packed = 1;
+    Stopwatch watch;
+    factor_ = cholmod_analyze(&view, &common_);
+    analyse_s_ = watch.lap();
+    for (int i = 0; i < 2; ++i) {  // the second time memory is there, as in a re-factorisation
+      watch.lap();
+      cholmod_factorize(&view, factor_, &common_);
+      factor_s_ = watch.lap();
+    }
+    if (!factor_ || common_.status != CHOLMOD_OK) throw NumericalError("CHOLMOD did not factor");
+  }
+  ~OwnCholmod() {
+    cholmod_free_dense(&x_, &common_);
+    cholmod_free_dense(&y_, &common_);
+    cholmod_free_dense(&e_, &common_);
+    cholmod_free_factor(&factor_, &common_);
+    cholmod_finish(&common_);
+  }
+  OwnCholmod(const OwnCholmod&) = delete;
+
+  void solve(const Eigen::MatrixXd& b) {
+    cholmod_dense view{};
+    view.nrow = view.d = static_cast<std::size_t>(b.rows());
+    view.ncol = static_cast<std::size_t>(b.cols());
+    view.nzmax = static_cast<std::size_t>(b.size());
+    view.x = const_cast<double*>(b.data());
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &x_, nullptr, &y_, &e_, &common_);
+  }
+
+  fem::Supernodes supernodes() const {
+    fem::Supernodes s;
+    s.count = static_cast<int>(factor_->nsuper);
+    s.columns = static_cast<int>(factor_->n);
+    s.first = static_cast<const int*>(factor_->super);
+    s.row_start = static_cast<const int*>(factor_->pi);
+    s.value_start = static_cast<const int*>(factor_->px);
+    s.row = static_cast<const int*>(factor_->s);
+    s.value = static_cast<const double*>(factor_->x);
+    return s;
+  }
+  const int* permutation() const { return static_cast<const int*>(factor_->Perm); }
+  double entries() const { return static_cast<double>(factor_->xsize); }
+  double analyse_seconds() const { return analyse_s_; }
+  double factor_seconds() const { return factor_s_; }
+
+ private:
+  cholmod_common common_{};
+  cholmod_factor* factor_ = nullptr;
+  cholmod_dense *x_ = nullptr, *y_ = nullptr, *e_ = nullptr;
+  double analyse_s_ = 0, factor_s_ = 0;
+};
+
+}  // namespace hyperex::bench
