@@ -41,6 +41,7 @@ struct Newmark::Impl {
   Kinematics state;
   Eigen::VectorXd u, w, q;  // q = M u + C w, all unknowns
   Eigen::VectorXd x_o;
+  Kinematics own;  // of the prescribed unknowns, where only their displacement is given
 
   Impl(const System& s, std::vector<int> prescribed, const NewmarkOptions& options)
       : by(options),
@@ -55,6 +56,8 @@ struct Newmark::Impl {
     const Eigen::Index n = system.stiffness.cols();
     state.d = state.v = state.a = u = w = q = Eigen::VectorXd::Zero(n);
     x_o = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(factor.free().size()));
+    own.d = own.v = own.a =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(factor.prescribed().size()));
   }
 
   void start(const Eigen::VectorXd& force) {
@@ -148,11 +151,13 @@ void Newmark::step(const Eigen::VectorXd& prescribed_next, const Eigen::VectorXd
   const Factors& by = impl_->by;
   const Kinematics& state = impl_->state;
   const auto& prescribed = impl_->factor.prescribed();
-  Kinematics next{prescribed_next, state.v(prescribed), state.a(prescribed)};
+  Kinematics& next = impl_->own;
+  assert(prescribed_next.size() == next.d.size());
   for (std::size_t i = 0; i < prescribed.size(); ++i) {
     const int n = prescribed[i];
+    next.d[i] = prescribed_next[i];
     next.a[i] = by.m_d * (next.d[i] - state.d[n]) - by.m_v * state.v[n] - by.m_a * state.a[n];
-    next.v[i] += by.v_old * state.a[n] + by.v_new * next.a[i];
+    next.v[i] = state.v[n] + by.v_old * state.a[n] + by.v_new * next.a[i];
   }
   step(next, force);
 }
