@@ -69,6 +69,10 @@ Vec3 DriveField::opened(const Vec3& p, double margin) const {
   return p + std::clamp(margin / full_margin_m, -1.0, 1.0) * shift_;
 }
 
+double DriveField::openness() const {
+  return std::min(1.0, shift_.norm() / greatest_shift_m);
+}
+
 Eigen::MatrixXd DriveField::weights(const Points& places, const std::vector<double>& margin) const {
   Points at(places.rows(), 3);
   for (Eigen::Index j = 0; j < at.rows(); ++j)
@@ -125,9 +129,10 @@ DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& 
                        fmt::format("driven point {} lies {:.0f} mm off the skin after alignment; "
                                    "expected at most {:.0f} mm",
                                    p.name, d * 1e3, off_skin_m * 1e3));
+  const double radius = patch_radius_m * (1.5 - 0.5 * field.openness());
   std::set<int> nodes;
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (int v : patch_nodes(points, i, mesh, patch_radius_m)) nodes.insert(v);
+    for (int v : patch_nodes(points, i, mesh, radius)) nodes.insert(v);
   DrivenPatches patches;
   patches.nodes.assign(nodes.begin(), nodes.end());
   Points places(patches.nodes.size(), 3);

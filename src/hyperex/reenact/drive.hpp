@@ -26,6 +26,8 @@ class DriveField {
   /// u(place j) = sum_i weight(j, i) d_i; `margin[j]`: of place j, as TissueMesh::upper_margin.
   Eigen::MatrixXd weights(const Points& places, const std::vector<double>& margin) const;
   const std::vector<DrivenPoint>& points() const { return points_; }
+  /// How far the mouth was opened, over the most that it is: 0 to 1.
+  double openness() const;
 
  private:
   Vec3 opened(const Vec3& p, double margin) const;
@@ -46,8 +48,10 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
                                const io::Landmarks& landmarks);
 
 /// Skin nodes that take prescribed displacements: a patch around each driven point, reaching
-/// `patch_radius_m` (but at least the nearest node), never across the slit. In a patch the
-/// displacement is the field's.
+/// `patch_radius_m` where the lips part as far as counts and half as far again where they stay
+/// closed (but at least the nearest node), never across the slit. In a patch the displacement is
+/// the field's, which is the better guess than the tissue's where nothing parts and the worse one
+/// where the lips do (docs/fidelity.md).
 struct DrivenPatches {
   std::vector<int> nodes;   ///< outer nodes, rising
   Eigen::MatrixXd weights;  ///< |nodes| x |points|

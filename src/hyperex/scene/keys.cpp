@@ -156,9 +156,10 @@ std::vector<Key> run_keys() {
   return {
       names_or_all<Scene>("drive.points", AT(drive.points), AT(drive.all_points),
                           "Points of the recording that drive the skin."),
-      number<Scene>("drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m), {0, 30},
-                    "Radius of the patch of skin that a driven point moves; 0 takes the nearest "
-                    "node alone."),
+      number<Scene>(
+          "drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m), {0, 30},
+          "Radius of the patch of skin that a driven point moves where the lips part; half "
+          "as much again where they stay closed. 0 takes the nearest node alone."),
       names<Scene>("drive.still_points", AT(drive.still_points), 0,
                    "Points that are held still on the skin."),
       choice<Scene, SolverMethod>(
