@@ -5,8 +5,13 @@
 #include <algorithm>
 
 namespace hyperex::fem {
+namespace {
+/// Directions taken whatever they move: where the basis converges slowly, a growth by one or two
+/// changes the motion by less than what is missing, and so tells nothing of it.
+constexpr Eigen::Index kAtLeast = 6;
+}  // namespace
 
-int Basis::grow(Eigen::MatrixXd w, double least) {
+Basis::Grown Basis::grow(Eigen::MatrixXd w, double least) {
   // Twice is enough: Gram-Schmidt loses digits where a column nearly lies in the basis.
   for (int pass = 0; pass < 2 && size_ > 0; ++pass)
     add_product(vectors(), inner_products(k_vectors(), w), -1, w);
@@ -20,23 +25,28 @@ int Basis::grow(Eigen::MatrixXd w, double least) {
   add_product(w, modes.eigenvectors(), 1, directions);
   // Column j = sum_i u_i sqrt(lambda_i) Q_ji with u_i = w Q_i / sqrt(lambda_i).
   Eigen::MatrixXd pick(n, 0);
+  Grown grown;
   for (Eigen::Index i = n - 1; i >= 0; --i) {
     const double lambda = modes.eigenvalues()[i];
     // Below, the squared entries are rounding, and so is the direction.
     if (!(lambda > 1e-13 * strongest) || !(lambda > 0)) break;
     const double moves =
         directions.col(i).cwiseAbs().maxCoeff() * modes.eigenvectors().col(i).cwiseAbs().maxCoeff();
-    if (moves < least) continue;
+    if (moves < least && pick.cols() >= kAtLeast) {
+      grown.skipped += moves;
+      continue;
+    }
     pick.conservativeResize(Eigen::NoChange, pick.cols() + 1);
     pick.col(pick.cols() - 1) = modes.eigenvectors().col(i) / std::sqrt(lambda);
   }
-  if (pick.cols() == 0) return 0;
+  grown.taken = static_cast<int>(pick.cols());
+  if (grown.taken == 0) return grown;
   Eigen::MatrixXd more = Eigen::MatrixXd::Zero(w.rows(), pick.cols());
   Eigen::MatrixXd k_more = more;
   add_product(w, pick, 1, more);
   add_product(kw, pick, 1, k_more);
   append(more, k_more);
-  return static_cast<int>(pick.cols());
+  return grown;
 }
 
 void Basis::append(const Eigen::MatrixXd& more, const Eigen::MatrixXd& k_more) {

@@ -12,8 +12,12 @@ class Basis {
 
   /// Takes in the directions of the columns of `w` (all unknowns) that the basis lacks, the
   /// strongest first, but none whose part in any column moves any unknown by less than `least`
-  /// (m). Returns how many.
-  int grow(Eigen::MatrixXd w, double least);
+  /// (m).
+  struct Grown {
+    int taken = 0;       ///< how many directions
+    double skipped = 0;  ///< by how much those left out move any unknown together, at most (m)
+  };
+  Grown grow(Eigen::MatrixXd w, double least);
 
   int size() const { return size_; }
   auto vectors() const { return vectors_.leftCols(size_); }

@@ -86,18 +86,22 @@ class Growth {
     integrate();
   }
 
-  /// Returns by how much the greatest motion of a node changed (m).
+  /// Estimate of the error after one more growth (m).
   double grow() {
     const ReducedMotion before = motion_;
     const int size = basis_.size();
     const double least = 0.02 * options_.tolerance * greatest_;
-    if (basis_.grow(solved(residual()), least) == 0) return 0;
+    const Basis::Grown grown = basis_.grow(solved(residual()), least);
+    if (grown.taken == 0) return grown.skipped;
     integrate();
-    Eigen::MatrixXd change = columns(motion_.d, at_);
-    change.topRows(size) -= columns(before.d, at_);
-    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(forces_.shapes.rows(), change.cols());
-    add_product(basis_.vectors(), change, 1, moved);
-    return greatest_node_motion(moved);
+    Eigen::MatrixXd change = motion_.d;
+    change.topRows(size) -= before.d;
+    const std::vector<int> at = with_peaks(change);
+    Eigen::MatrixXd moved =
+        Eigen::MatrixXd::Zero(forces_.shapes.rows(), static_cast<Eigen::Index>(at.size()));
+    add_product(basis_.vectors(), columns(change, at), 1, moved);
+    changes_.push_back(greatest_node_motion(moved));
+    return yet_to_come() + grown.skipped;
   }
 
   double greatest() const { return greatest_; }
@@ -134,6 +138,35 @@ class Growth {
     greatest_ = greatest_node_motion(d);
   }
 
+  /// The instants, and those where the change stores the most energy: in a basis orthonormal in K
+  /// that is a sum of squares, known at all steps.
+  std::vector<int> with_peaks(const Eigen::MatrixXd& change) const {
+    const Eigen::VectorXd energy = change.colwise().squaredNorm();
+    std::vector<int> at = at_, peaks;
+    for (Eigen::Index t = 1; t < energy.size(); ++t)
+      if (energy[t] > energy[t - 1] && (t + 1 == energy.size() || energy[t] >= energy[t + 1]))
+        peaks.push_back(static_cast<int>(t));
+    const std::size_t kept = std::min<std::size_t>(peaks.size(), kInstants / 2);
+    std::partial_sort(
+        peaks.begin(), peaks.begin() + static_cast<std::ptrdiff_t>(kept), peaks.end(),
+        [&](int a, int b) { return energy[a] != energy[b] ? energy[a] > energy[b] : a < b; });
+    at.insert(at.end(), peaks.begin(), peaks.begin() + static_cast<std::ptrdiff_t>(kept));
+    return at;
+  }
+
+  /// All changes yet to come (m), were each smaller than the one before by the same factor q as
+  /// in the mean of the last three: c (q + q^2 + ...), at least c itself; c: the last change, or
+  /// where that fell below the trend, the trend.
+  double yet_to_come() const {
+    const std::size_t n = changes_.size(), from = n > 4 ? n - 4 : 0;
+    if (n < 2 || changes_.back() <= 0) return changes_.back();
+    const double mean =
+        std::pow(changes_.back() / changes_[from], 1.0 / static_cast<double>(n - 1 - from));
+    const double last = std::max(changes_.back(), mean * changes_[n - 2]);
+    const double q = std::min(mean, 0.95);
+    return last * std::max(1.0, q / (1 - q));
+  }
+
   /// What the motion leaves in the equation of motion at the instants.
   Eigen::MatrixXd residual() const {
     Eigen::MatrixXd r =
@@ -154,6 +187,7 @@ class Growth {
   Basis basis_;
   std::vector<int> at_;
   ReducedMotion motion_;
+  std::vector<double> changes_;  // of the greatest motion of a node, by each growth (m)
   double greatest_ = 0;
 };
 
@@ -186,16 +220,16 @@ Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {
   assert(drive.prescribed.rows() == static_cast<Eigen::Index>(factor_.prescribed().size()));
   Growth growth(system_, factor_, drive, options);
   growth.begin();
-  double change = 0;
+  double error = 0;
   int passes = 0;
   bool converged = false;
   while (!converged && growth.size() < options.most_vectors) {
-    change = growth.grow();
+    error = growth.grow();
     ++passes;
-    converged = change <= options.tolerance * growth.greatest();
+    converged = error <= options.tolerance * growth.greatest();
   }
   Response response = growth.response();
-  response.estimated_error = growth.greatest() > 0 ? change / growth.greatest() : 0;
+  response.estimated_error = growth.greatest() > 0 ? error / growth.greatest() : 0;
   response.converged = converged;
   response.passes = passes;
   return response;

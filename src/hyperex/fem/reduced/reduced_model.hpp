@@ -9,8 +9,10 @@ namespace hyperex::fem {
 
 struct ReducedOptions {
   NewmarkOptions time;
-  double tolerance = 1e-3;  ///< wanted error over the greatest displacement of any node, all times
-  int most_vectors = 400;   ///< where the tolerance is not reached by then, `converged` is false
+  /// Wanted error over the greatest displacement of any node, all times; rounding of the basis
+  /// allows 1e-6.
+  double tolerance = 1e-3;
+  int most_vectors = 400;  ///< where the tolerance is not reached by then, `converged` is false
 };
 
 /// The response of a reduced model: d(step) = shapes * course.col(step), all unknowns.
@@ -36,8 +38,10 @@ struct Response {
 /// these are the next terms of its expansion in powers of time scales, as in second-order Krylov
 /// methods: Bai and Su, SIAM J. Matrix Anal. 26, 2005; chosen by the residual as in greedy reduced
 /// bases: Haasdonk and Ohlberger, ESAIM M2AN 42, 2008), and is kept orthonormal in the energy
-/// (K) product. The error is estimated by how much the last growth moved any node at any of those
-/// instants; the better of the two motions is returned.
+/// (K) product. The error is estimated from how much the last growths moved any node (at those
+/// instants and where the change stores most energy): the sum of the changes yet to come were they
+/// to go on shrinking as they did; measured never to be exceeded by more than half where viscosity
+/// is a tenth of tissue's or more. The better of the last two motions is returned.
 ///
 /// One factorisation of K_oo serves every drive. Numbers do not depend on the number of threads.
 class ReducedModel {
@@ -53,7 +57,7 @@ class ReducedModel {
   int free_count() const { return static_cast<int>(factor_.free().size()); }
   double analyse_seconds() const { return factor_.analyse_seconds(); }
   double factor_seconds() const { return factor_.factor_seconds(); }
-  double factor_entries() const { return factor_.cholesky().entries(); }
+  double factor_entries() const { return factor_.factor_entries(); }
 
  private:
   System system_;
