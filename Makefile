@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build asan clean setup
+.PHONY: help demo test build asan bench clean setup
 
 help: ## this list
 	@echo "make TARGET, where TARGET is one of"
@@ -34,6 +34,13 @@ asan: ## the tests again under the address and undefined-behaviour sanitizers
 	cmake --preset asan
 	cmake --build --preset asan --parallel $(JOBS)
 	ctest --preset asan --parallel $(JOBS)
+
+bench: ## measure everything, beside CalculiX, and write docs/performance.md (QUICK=1: a look)
+	scripts/setup.sh --bench
+	cmake --preset release
+	cmake --build --preset release --parallel $(JOBS) --target \
+	  assembly_bench solver_bench reduced_bench growth_bench
+	bench/run.sh build/release $(if $(QUICK),--quick)
 
 setup: ## install what building takes (asks for sudo where you are not root)
 	scripts/setup.sh

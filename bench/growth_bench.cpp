@@ -37,7 +37,7 @@ class Stages {
   template <class Work>
   auto operator()(const char* name, Work work) {
     out_["stopped_at"] = name;
-    write_json(out_, file_);  // what is known should this stage be the last
+    if (file_ != "-") write_json(out_, file_);  // what is known should this stage be the last
     reset_peak_memory();
     Stopwatch watch;
     auto result = work();

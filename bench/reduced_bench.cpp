@@ -33,19 +33,24 @@ Eigen::MatrixXd full_run(const FaceCase& face, const fem::System& system, const 
   return out;
 }
 
-/// Greatest distance of any node at any step, over the greatest displacement of the truth.
-double true_error(const fem::Response& response, const Eigen::MatrixXd& truth) {
+struct TrueError {
+  double error = 0;  ///< greatest distance of any node at any step, over the greatest displacement
+  Eigen::Index step = 0;  ///< at which
+};
+TrueError true_error(const fem::Response& response, const Eigen::MatrixXd& truth) {
   constexpr Eigen::Index kChunk = 90;
-  double most = 0;
+  TrueError worst;
   for (Eigen::Index from = 0; from < truth.cols(); from += kChunk) {
     std::vector<double> at;
     for (Eigen::Index k = from; k < std::min(from + kChunk, truth.cols()); ++k)
       at.push_back(static_cast<double>(k));
     const Eigen::MatrixXd d = response.displacement(at);
     for (Eigen::Index k = 0; k < d.cols(); ++k)
-      most = std::max(most, greatest_apart(d.col(k), truth.col(from + k)));
+      if (const double apart = greatest_apart(d.col(k), truth.col(from + k)); apart > worst.error)
+        worst = {apart, from + k};
   }
-  return most / greatest(truth);
+  worst.error /= greatest(truth);
+  return worst;
 }
 
 /// Basis size and errors as the tolerance falls. `drive_of`: the drive as the program makes it for
@@ -64,13 +69,15 @@ Json sweep(const FaceCase& face, const fem::System& system, DriveOf drive_of,
     Stopwatch watch;
     const fem::Response response = model.run(drive, options);
     const double basis_s = watch.lap();
+    const TrueError error = true_error(response, truth);
     rows.push_back({{"tolerance", tolerance},
                     {"input_shapes", drive.shapes()},
                     {"basis_size", response.basis_size},
                     {"passes", response.passes},
                     {"basis_s", basis_s},
                     {"estimated_error", response.estimated_error},
-                    {"true_error", true_error(response, truth)},
+                    {"true_error", error.error},
+                    {"worst_step", error.step},
                     {"converged", response.converged}});
   }
   return {{"greatest_displacement_m", greatest(truth)}, {"rows", rows}};
@@ -167,7 +174,7 @@ Json edit_to_frame(const FaceCase& face, fem::ElementKind kind, const fem::Drive
 Json measure(bool quick) {
   const FaceCase face(Face::subject_a_if_there);
   const std::vector<double> tolerances =
-      quick ? std::vector<double>{1e-3, 1e-5} : std::vector<double>{1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+      quick ? std::vector<double>{1e-2, 1e-3} : std::vector<double>{1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
   Json out;
   for (const fem::ElementKind kind : fem::kElementKinds) {
     const fem::System system = face.system(kind);

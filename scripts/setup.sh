@@ -3,6 +3,7 @@
 # Installs what building Hyperex takes on Debian 12: Debian packages, then the npm packages of web/.
 #   scripts/setup.sh           to build and run
 #   scripts/setup.sh --tests   also a browser for the browser tests and CalculiX to compare with
+#   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
 # Says first what it will install, installs only what is missing, and is quick when nothing is.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -29,8 +30,9 @@ case "${1:-}" in
     packages+=(calculix-ccx)
     [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
     ;;
-  -h | --help) sed -n '3,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) die "unknown option $1 (there is only --tests)" ;;
+  --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
+  -h | --help) sed -n '3,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) die "unknown option $1 (there are --tests and --bench)" ;;
 esac
 
 node_is_enough() {

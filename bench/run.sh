@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Measures and writes docs/performance.md with its figures: bench/run.sh BUILD [--quick]
+# One program after the other, so that none disturbs another. --quick leaves out the large meshes
+# and the fine tolerances, and writes its page into BUILD/bench instead.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+build=$1
+quick=${2:-}
+results=$build/bench/results
+rm -rf "$results"
+mkdir -p "$results"
+SECONDS=0
+say() { printf 'bench: %4d s  %s\n' "$SECONDS" "$*"; }
+
+say "assembly"
+"$build/bin/assembly_bench" --benchmark_out="$results/assembly.json" --benchmark_out_format=json \
+  --benchmark_repetitions=3 --benchmark_min_time=0.3 > /dev/null 2> "$results/assembly.log"
+say "the full model, number types, CalculiX"
+"$build/bin/solver_bench" "$results/solver.json" $quick
+say "the reduced model"
+"$build/bin/reduced_bench" "$results/reduced.json" $quick
+
+# Size of elements at the mouth and layers for about 6, 25, 100 and 250 thousand nodes.
+sizes=("0.0029 2" "0.00171 3" "0.00102 5" "0.00079 8")
+[[ -z "$quick" ]] || sizes=("${sizes[@]:0:2}")
+for at in "${!sizes[@]}"; do
+  read -r size layers <<< "${sizes[$at]}"
+  for element in tet4 tet4-star; do
+    say "growth: $element, elements of $size m in $layers layers"
+    # Where memory or time runs out, the page says at what stage.
+    timeout 300 "$build/bin/growth_bench" --size "$size" --layers "$layers" --element "$element" \
+      --out "$results/growth_${at}_$element.json" 2> "$results/growth_${at}_$element.log" ||
+      say "... stopped before its end"
+  done
+done
+
+if [[ -n "$quick" ]]; then
+  /usr/bin/python3 bench/report.py "$results" "$build/bench" --quick
+  say "written: $build/bench/performance.md"
+else
+  /usr/bin/python3 bench/report.py "$results" docs
+  say "written: docs/performance.md"
+fi
