@@ -14,6 +14,8 @@ namespace {
 constexpr int kBeyond = 12;
 /// A turn counts as much as the way of a point at this distance from the axis (m).
 constexpr double kLever = 0.1;
+/// Less is rounding of places in space (m).
+constexpr double kLeastWay = 1e-12;
 
 /// The numbers of the input at one time, in this order: the acting points' displacements, then
 /// kLever times the jaw's turn, then its slide.
@@ -55,7 +57,7 @@ Eigen::MatrixXd principal_directions(const Eigen::MatrixXd& input, double tolera
   // A motion recorded at 30 Hz is smooth between its frames: some hundred instants span it.
   const Eigen::Index stride = std::max<Eigen::Index>(1, input.cols() / 600);
   const Eigen::MatrixXd some = input(Eigen::all, Eigen::seq(0, Eigen::last, stride));
-  const double allowed = tolerance * input.cwiseAbs().maxCoeff();
+  const double allowed = std::max(tolerance * input.cwiseAbs().maxCoeff(), kLeastWay);
   Eigen::MatrixXd directions;
   if (some.rows() <= some.cols()) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(some * some.transpose());
