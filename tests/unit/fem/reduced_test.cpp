@@ -78,6 +78,7 @@ TEST(Basis, TellsWhatItLeavesOut) {
   EXPECT_GT(grown.skipped, 1e-7);
   EXPECT_LT(grown.skipped, 1e-4);
   EXPECT_EQ(basis.grow(Eigen::MatrixXd::Zero(w.rows(), 3), 0).taken, 0);
+  EXPECT_EQ(basis.grow(w.leftCols(0), 0).taken, 0);
 }
 
 TEST(ReducedNewmark, EqualsADenseReference) {

@@ -12,6 +12,7 @@ constexpr Eigen::Index kAtLeast = 6;
 }  // namespace
 
 Basis::Grown Basis::grow(Eigen::MatrixXd w, double least) {
+  if (w.cols() == 0) return {};  // of which there are no eigenvalues
   // Twice is enough: Gram-Schmidt loses digits where a column nearly lies in the basis.
   for (int pass = 0; pass < 2 && size_ > 0; ++pass)
     add_product(vectors(), inner_products(k_vectors(), w), -1, w);
@@ -20,7 +21,7 @@ Basis::Grown Basis::grow(Eigen::MatrixXd w, double least) {
   gram = (gram + gram.transpose()).eval() / 2;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(gram);
   const Eigen::Index n = w.cols();
-  const double strongest = n > 0 ? modes.eigenvalues()[n - 1] : 0;
+  const double strongest = modes.eigenvalues()[n - 1];
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(w.rows(), n);
   add_product(w, modes.eigenvectors(), 1, directions);
   // Column j = sum_i u_i sqrt(lambda_i) Q_ji with u_i = w Q_i / sqrt(lambda_i).
