@@ -65,8 +65,8 @@ def sentence_on_machine(solver, quick):
 Written by `make bench` on {datetime.date.today()} at commit {commit}: every number below comes from
 that run, none is typed. {"**A quick look: few repeats, no large meshes.** " if quick else ""}Medians unless said otherwise.
 
-{m["processor"]}, {m["cores"]} cores, {caches}, {size(m["memory_bytes"])} of memory; other programs kept
-{m["load_before"]:.1f} cores busy when the run began. Measured on: {case["name"]} ({case["nodes"]} nodes,
+{m["processor"]}, {m["cores"]} cores, {caches}, {size(m["memory_bytes"])} of memory; load average
+{m["load_before"]:.1f} as this part began. Measured on: {case["name"]} ({case["nodes"]} nodes,
 {case["tets"]} tetrahedra, {case["steps"]} steps of {1e3 * case["dt_s"]:g} ms).
 
 How fast this machine reads (best of several passes, widest vectors):
@@ -168,7 +168,7 @@ def step_section(solver):
         e = solver["elements"][name]
         for s, b in zip(e["steps"], bounds(solver, name)):
             rest = max(0, s["step_s"] - s["solve_s"] - s["product_s"] - s["coupling_s"])
-            rows.append([name, s["threads"], f"**{time(s['step_s'])}**", time(s["solve_s"]),
+            rows.append([name, s["threads"], f"{s['cores_busy']:.2f}", f"**{time(s['step_s'])}**", time(s["solve_s"]),
                          time(s["product_s"]), time(s["coupling_s"]), time(rest),
                          *[f"{time(b[k])} ({s['step_s'] / b[k]:.1f})"
                            for k in ("memory", "like", "cache")]])
@@ -178,10 +178,11 @@ def step_section(solver):
 solves, the product with mass and damping, the product with the prescribed displacements, the rest
 (what is left of the step). The bound is the time to read the factor twice, the least that any solver
 with this factor takes: at the rate of memory, of an array as large as the factor, and of the cache; in
-brackets the step over the bound. A factor that fits the last cache may pass the bound of memory.
+brackets the step over the bound. "Cores busy" is processor time over time: where two threads keep no
+more than one core busy, other programs had the second, and the row says nothing of two threads. A factor that fits the last cache may pass the bound of memory.
 
 """
-    text += table(["element", "threads", "step", "solves", "M and C", "K_oc", "rest", "bound: memory",
+    text += table(["element", "threads", "cores busy", "step", "solves", "M and C", "K_oc", "rest", "bound: memory",
                    "as large", "cache"], rows)
     text += "\n![Parts of a step](images/performance_step.png)\n"
     return text + trials(solver) + calculix_section(solver)
@@ -234,8 +235,7 @@ def calculix_section(solver):
 The same mesh, linear tetrahedra, the same nodes driven and held (no springs of bones and muscles),
 implicit dynamics with Rayleigh damping, two threads, in the same run: {ccx["few"]} steps in
 {time(ccx["few_s"])}, {ccx["many"]} steps in {time(ccx["many_s"])}; the difference is
-**{time(ccx["step_s"])} a step, {ccx["step_s"] / own:.0f} times ours** ({time(own)}). It writes the displacements of all nodes at each step, and factors
-each step anew, as a program for any problem must.
+**{time(ccx["step_s"])} a step, {ccx["step_s"] / own:.0f} times ours** ({time(own)}). It also writes the displacements of all nodes at each step.
 """
 
 
@@ -266,8 +266,8 @@ the same by the full model for its first step:
     text += """
 Tolerance asked for, and error as estimated and as it is: the greatest distance of any node at any of
 the steps to the full model driven by the motion without anything left out, over the greatest
-displacement. "Hard": the motion's peak times a sine of 0.27 s, a tenth of the viscosity; it starts with
-a jump of the velocity.
+displacement. "Hard": the motion's peak times a sine of 0.27 s, a tenth of the viscosity: from rest
+to full speed within the first steps.
 
 """
     rows = []

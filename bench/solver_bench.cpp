@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <ctime>
 #include <map>
 
 #include "hyperex/fem/solve/partitioned_factor.hpp"
@@ -33,8 +34,13 @@ fem::SparseMatrix step_matrix(const fem::System& system, double h) {
   return fem::combined(system, 2 / h, 4 / (h * h));
 }
 
+struct StepTimes {
+  double step_s;      ///< median
+  double cores_busy;  ///< processor time over time: whether the threads ran at once
+};
+
 /// Every step of the motion, timed one by one.
-double step_seconds(const FaceCase& face, fem::Newmark& newmark, const fem::Drive& drive) {
+StepTimes step_times(const FaceCase& face, fem::Newmark& newmark, const fem::Drive& drive) {
   const auto& prescribed = face.prescribed();
   fem::Kinematics next = drive.prescribed_at(0);
   Eigen::VectorXd force = drive.force_at(0);
@@ -43,7 +49,8 @@ double step_seconds(const FaceCase& face, fem::Newmark& newmark, const fem::Driv
   v(prescribed) = next.v;
   newmark.start(d, v, next.a, force);
   std::vector<double> s;
-  Stopwatch watch;
+  Stopwatch watch, all;
+  const std::clock_t cpu = std::clock();
   for (int step = 1; step <= drive.steps(); ++step) {
     watch.lap();
     next.d.noalias() = drive.prescribed * drive.s.col(step);
@@ -53,7 +60,8 @@ double step_seconds(const FaceCase& face, fem::Newmark& newmark, const fem::Driv
     newmark.step(next, force);
     s.push_back(watch.lap());
   }
-  return median(s);
+  const double cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  return {median(s), cpu_s / all.lap()};
 }
 
 /// The parts of a step in turn, as they follow each other in it, so that each finds the caches as
@@ -105,7 +113,8 @@ Json full_model(const FaceCase& face, const fem::System& system, const fem::Driv
   for (const int threads : {1, 2}) {
     if (threads > cores()) break;
     const Threads limit(kThreads, static_cast<std::size_t>(threads));
-    Json t{{"threads", threads}, {"step_s", step_seconds(face, newmark, drive)}};
+    const StepTimes times = step_times(face, newmark, drive);
+    Json t{{"threads", threads}, {"step_s", times.step_s}, {"cores_busy", times.cores_busy}};
     t.update(step_parts(system, factor, effort.repeats));
     // What no solver that reads L twice can beat: where memory is slow, and as it would be if the
     // factor's bytes could be read at the rate of an array as large.
