@@ -43,7 +43,7 @@ Assembler::Assembler(const Points& nodes, const Tetrahedra& tets, ElementKind ki
     : Assembler(nodes, tets, dilatation_groups(kind, nodes.rows(), tets)) {}
 
 Assembler::Assembler(const Points& nodes, const Tetrahedra& tets, const DilatationGroups& groups)
-    : shapes_(shapes_of(nodes, tets)), corners_(tets.rows()) {
+    : nodes_(nodes), shapes_(shapes_of(nodes, tets)), corners_(tets.rows()) {
   assert(tets.rows() == 0 || (tets.minCoeff() >= 0 && tets.maxCoeff() < nodes.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
     for (int a = 0; a < 4; ++a) corners_[t][a] = tets(t, a);
@@ -239,6 +239,7 @@ void Assembler::assemble(const Material& material, System& system) const {
     return m.cols() == 3 * node_count() && m.isCompressed() &&
            m.nonZeros() == 9 * static_cast<Eigen::Index>(neighbours.item.size());
   };
+  system.nodes = nodes_;
   if (!fits(system.stiffness, wide)) system.stiffness = zero_pattern(wide);
   if (!fits(system.damping, narrow_)) system.damping = zero_pattern(narrow_);
   if (!fits(system.mass, narrow_)) system.mass = zero_pattern(narrow_);

@@ -59,6 +59,7 @@ class Assembler {
                      System& system) const;
   void fill_groups(int n, const std::vector<double>& stiffness, System& system) const;
 
+  Points nodes_;
   std::vector<Tet4> shapes_;
   std::vector<std::array<int, 4>> corners_;
   Lists tets_around_;    // node -> tetrahedra

@@ -16,6 +16,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;  // column-major, both triangl
 /// entries, zeros included.
 struct System {
   SparseMatrix stiffness, damping, mass;
+  Points nodes;  ///< |nodes| x 3, m: what an iterative solver knows of rigid motions
 };
 
 /// An Assembler used once (form/assembler.hpp, where its errors stand).

@@ -207,8 +207,9 @@ Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps
   return d;
 }
 
-ReducedModel::ReducedModel(const System& system, std::vector<int> prescribed)
-    : system_(system), factor_(system.stiffness, std::move(prescribed), "reduced model") {}
+ReducedModel::ReducedModel(const System& system, std::vector<int> prescribed, LinearSolver wanted)
+    : system_(system),
+      factor_(system.stiffness, std::move(prescribed), "reduced model", system.nodes, wanted) {}
 
 void ReducedModel::refill(const System& system) {
   system_ = system;

@@ -47,7 +47,8 @@ struct Response {
 class ReducedModel {
  public:
   /// Throws NumericalError where K_oo is not positive definite.
-  ReducedModel(const System& system, std::vector<int> prescribed);
+  ReducedModel(const System& system, std::vector<int> prescribed,
+               LinearSolver wanted = LinearSolver::automatic);
   /// Other values on the same patterns: keeps the ordering.
   void refill(const System& system);
 
@@ -58,6 +59,8 @@ class ReducedModel {
   double analyse_seconds() const { return factor_.analyse_seconds(); }
   double factor_seconds() const { return factor_.factor_seconds(); }
   double factor_entries() const { return factor_.factor_entries(); }
+  LinearSolver solver() const { return factor_.solver(); }           ///< cholesky or iterative
+  int last_iterations() const { return factor_.last_iterations(); }  ///< of the last growth
 
  private:
   System system_;

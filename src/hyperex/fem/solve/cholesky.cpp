@@ -113,14 +113,19 @@ struct Cholesky::Impl {
   }
 };
 
-Cholesky::Cholesky(const SparseMatrix& lower, std::string purpose)
+Cholesky::Cholesky(const SparseMatrix& lower, std::string purpose, std::vector<int> order)
     : impl_(std::make_unique<Impl>()) {
   assert(lower.rows() == lower.cols() && lower.isCompressed());
   impl_->purpose = std::move(purpose);
   impl_->permuted.resize(static_cast<std::size_t>(lower.cols()));
   if (lower.cols() == 0) return;
   cholmod_sparse view = view_of(lower);
-  impl_->factor = cholmod_analyze(&view, &impl_->common);
+  if (!order.empty()) {
+    assert(static_cast<Eigen::Index>(order.size()) == lower.cols());
+    impl_->common.method[0].ordering = CHOLMOD_GIVEN;
+  }
+  impl_->factor =
+      cholmod_analyze_p(&view, order.empty() ? nullptr : order.data(), nullptr, 0, &impl_->common);
   if (!impl_->factor || impl_->common.status < CHOLMOD_OK) impl_->fail();
   impl_->entries_needed = impl_->common.lnz;
   impl_->flops = impl_->common.fl;

@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hyperex/fem/form/system.hpp"
 
@@ -13,8 +14,9 @@ namespace hyperex::fem {
 class Cholesky {
  public:
   /// Orders and analyses the pattern of `lower` (lower triangle, columns sorted, diagonal stored).
-  /// `purpose` begins the messages of its errors: "static solution: ...".
-  Cholesky(const SparseMatrix& lower, std::string purpose);
+  /// `purpose` begins the messages of its errors: "static solution: ...". `order`: the k-th column
+  /// to eliminate (node_order.hpp); empty: found here, on the graph of unknowns, by METIS.
+  Cholesky(const SparseMatrix& lower, std::string purpose, std::vector<int> order = {});
   ~Cholesky();
   Cholesky(Cholesky&&) noexcept;
   Cholesky& operator=(Cholesky&&) noexcept;

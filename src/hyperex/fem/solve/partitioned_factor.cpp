@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/fem/solve/node_order.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -14,28 +15,36 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Cholesky analysed(const SparseMatrix& lower, const std::string& purpose, double& seconds) {
-  const auto start = std::chrono::steady_clock::now();
-  Cholesky cholesky(lower, purpose);
-  seconds = seconds_since(start);
-  return cholesky;
-}
-
 }  // namespace
 
 PartitionedFactor::PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed,
-                                     std::string purpose)
-    : partition_(static_cast<int>(a.cols()), std::move(prescribed)),
-      purpose_(std::move(purpose)),
-      lower_(free_lower(a, partition_)),
-      cholesky_(analysed(lower_, purpose_, analyse_s_)) {
+                                     std::string purpose, const Points& nodes, LinearSolver wanted)
+    : partition_(static_cast<int>(a.cols()), std::move(prescribed)), purpose_(std::move(purpose)) {
+  const auto start = std::chrono::steady_clock::now();
+  pick(a, nodes, wanted);
+  analyse_s_ = seconds_since(start);
   refactor(a);
 }
 
+void PartitionedFactor::pick(const SparseMatrix& a, const Points& nodes, LinearSolver wanted) {
+  const SparseMatrix lower = free_lower(a, partition_);
+  std::vector<int> node_of(free().size());
+  for (std::size_t i = 0; i < node_of.size(); ++i) node_of[i] = free()[i] / 3;
+  NodeOrder order = order_by_nodes(lower, node_of);
+  forecast_ = {order.entries, order.flops};
+  const bool can_choose = nodes.rows() > 0;
+  assert(can_choose || wanted != LinearSolver::iterative);
+  if (can_choose &&
+      pick_linear_solver(wanted, forecast_, available_memory_bytes()) == LinearSolver::iterative)
+    iterative_.emplace(a, partition_, nodes, purpose_);
+  else
+    cholesky_.emplace(lower, purpose_, std::move(order.unknowns));
+}
+
 void PartitionedFactor::refactor(const SparseMatrix& a) {
-  lower_ = free_lower(a, partition_);
   const auto start = std::chrono::steady_clock::now();
-  const int lost = cholesky_.factorize(lower_);
+  const int lost =
+      cholesky_ ? cholesky_->factorize(free_lower(a, partition_)) : iterative_->factorize(a);
   factor_s_ = seconds_since(start);
   if (lost < 0) return;
   const int unknown = free()[lost];
@@ -44,6 +53,32 @@ void PartitionedFactor::refactor(const SparseMatrix& a) {
       "too few supports to hold every part of the mesh ({} unknowns are prescribed), or a node "
       "that no element uses",
       purpose_, free().size(), unknown / 3, "xyz"[unknown % 3], prescribed().size()));
+}
+
+LinearSolver PartitionedFactor::solver() const {
+  return cholesky_ ? LinearSolver::cholesky : LinearSolver::iterative;
+}
+
+double PartitionedFactor::factor_entries() const {
+  return cholesky_ ? cholesky_->entries() : iterative_->entries();
+}
+
+void PartitionedFactor::solve(Eigen::VectorXd& x_o) {
+  if (cholesky_) return cholesky_->solve(x_o);
+  Eigen::MatrixXd x = x_o;
+  iterative_->solve(x);
+  x_o = x;
+}
+
+void PartitionedFactor::solve(Eigen::MatrixXd& x_o) {
+  cholesky_ ? cholesky_->solve(x_o) : iterative_->solve(x_o);
+}
+
+void PartitionedFactor::solve(Eigen::VectorXd& x_o, const Eigen::VectorXd& guess) {
+  if (cholesky_) return cholesky_->solve(x_o);
+  Eigen::MatrixXd x = x_o;
+  iterative_->solve(x, guess);
+  x_o = x;
 }
 
 }  // namespace hyperex::fem

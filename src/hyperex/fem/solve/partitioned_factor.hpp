@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <cassert>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hyperex/fem/solve/cholesky.hpp"
+#include "hyperex/fem/solve/iterative_solver.hpp"
+#include "hyperex/fem/solve/linear_solver.hpp"
 #include "hyperex/fem/solve/partition.hpp"
 
 namespace hyperex::fem {
 
 /// A symmetric positive definite matrix A with its unknowns split into prescribed (c) and free (o):
-/// A_oo factored, A_oc left to the caller. Shared by the static solver, the time integrator and the
-/// reduced model. One caller at a time.
+/// A_oo made ready for solving, A_oc left to the caller. Shared by the static solver, the time
+/// integrator and the reduced model. One caller at a time.
 class PartitionedFactor {
  public:
   /// `prescribed`: sorted unique unknowns. `purpose` begins the message of the NumericalError
   /// thrown where A_oo is not positive definite, to rounding: "static solution: ...".
-  PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed, std::string purpose);
+  /// `nodes`: positions (m), which the iterative solver needs; without them (no rows) it is not
+  /// picked, and asking for it is an error of the caller: asserted.
+  PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed, std::string purpose,
+                    const Points& nodes = {}, LinearSolver wanted = LinearSolver::automatic);
 
   /// Other values on the same pattern: ordering and analysis are kept.
   void refactor(const SparseMatrix& a);
@@ -25,18 +32,33 @@ class PartitionedFactor {
   const std::vector<int>& free() const { return partition_.free; }
   double analyse_seconds() const { return analyse_s_; }
   double factor_seconds() const { return factor_s_; }  ///< of the last factorisation
-  const Cholesky& cholesky() const { return cholesky_; }
 
-  /// x_o := A_oo^-1 x_o. Allocates nothing.
-  void solve(Eigen::VectorXd& x_o) { cholesky_.solve(x_o); }
-  void solve(Eigen::MatrixXd& x_o) { cholesky_.solve(x_o); }
+  LinearSolver solver() const;  ///< cholesky or iterative
+  const FactorForecast& forecast() const { return forecast_; }
+  /// Numbers stored by the factor or, together, by those of the subdomains.
+  double factor_entries() const;
+  int last_iterations() const { return iterative_ ? iterative_->last_iterations() : 0; }
+  /// Only where solver() is cholesky.
+  const Cholesky& cholesky() const {
+    assert(cholesky_);
+    return *cholesky_;
+  }
+
+  /// x_o := A_oo^-1 x_o. With Cholesky nothing is allocated.
+  void solve(Eigen::VectorXd& x_o);
+  void solve(Eigen::MatrixXd& x_o);
+  /// The same for a solution expected near `guess`: saves iterations.
+  void solve(Eigen::VectorXd& x_o, const Eigen::VectorXd& guess);
 
  private:
+  void pick(const SparseMatrix& a, const Points& nodes, LinearSolver wanted);
+
   Partition partition_;
   std::string purpose_;
-  SparseMatrix lower_;
   double analyse_s_ = 0, factor_s_ = 0;
-  Cholesky cholesky_;
+  FactorForecast forecast_;
+  std::optional<Cholesky> cholesky_;
+  std::optional<IterativeSolver> iterative_;
 };
 
 }  // namespace hyperex::fem

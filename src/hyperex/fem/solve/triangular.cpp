@@ -3,7 +3,6 @@
 
 #include <tbb/parallel_invoke.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -11,21 +10,102 @@
 namespace hyperex::fem {
 namespace {
 
-using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-using Segment = Eigen::Map<Eigen::VectorXd>;
+// A factor is read once down and once up at the speed of the memory: the kernels are compiled for
+// each kind of vector unit and picked when the program starts.
+#if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+#define HX_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define HX_CLONES
+#endif
+
+/// Columns of a lower triangle and what lies under it: x := L11^-1 x, sum := L21 x. `l`: height x
+/// columns, column-major; `sum` has height - columns numbers.
+HX_CLONES void solve_down(const double* __restrict l, int height, int columns,
+                          double* __restrict x, double* __restrict sum) {
+  const int below = height - columns;
+  for (int i = 0; i < below; ++i) sum[i] = 0;
+  int j = 0;
+  for (; j + 4 <= columns; j += 4) {
+    const double* __restrict c0 = l + static_cast<std::ptrdiff_t>(j) * height;
+    const double *__restrict c1 = c0 + height, *__restrict c2 = c1 + height,
+                             *__restrict c3 = c2 + height;
+    const double x0 = x[j] / c0[j];
+    const double x1 = (x[j + 1] - c0[j + 1] * x0) / c1[j + 1];
+    const double x2 = (x[j + 2] - c0[j + 2] * x0 - c1[j + 2] * x1) / c2[j + 2];
+    const double x3 =
+        (x[j + 3] - c0[j + 3] * x0 - c1[j + 3] * x1 - c2[j + 3] * x2) / c3[j + 3];
+    x[j] = x0;
+    x[j + 1] = x1;
+    x[j + 2] = x2;
+    x[j + 3] = x3;
+    for (int i = j + 4; i < columns; ++i)
+      x[i] -= c0[i] * x0 + c1[i] * x1 + c2[i] * x2 + c3[i] * x3;
+    for (int i = 0; i < below; ++i)
+      sum[i] += c0[columns + i] * x0 + c1[columns + i] * x1 + c2[columns + i] * x2 +
+                c3[columns + i] * x3;
+  }
+  for (; j < columns; ++j) {
+    const double* __restrict c = l + static_cast<std::ptrdiff_t>(j) * height;
+    const double x0 = x[j] / c[j];
+    x[j] = x0;
+    for (int i = j + 1; i < columns; ++i) x[i] -= c[i] * x0;
+    for (int i = 0; i < below; ++i) sum[i] += c[columns + i] * x0;
+  }
+}
+
+/// x := L11^-T (x - L21^T above).
+HX_CLONES void solve_up(const double* __restrict l, int height, int columns, double* __restrict x,
+                        const double* __restrict above) {
+  const int below = height - columns;
+  int j = columns;
+  for (; j >= 4; j -= 4) {
+    const double* __restrict c0 = l + static_cast<std::ptrdiff_t>(j - 4) * height;
+    const double *__restrict c1 = c0 + height, *__restrict c2 = c1 + height,
+                             *__restrict c3 = c2 + height;
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+#pragma omp simd reduction(+ : s0, s1, s2, s3)
+    for (int i = 0; i < below; ++i) {
+      s0 += c0[columns + i] * above[i];
+      s1 += c1[columns + i] * above[i];
+      s2 += c2[columns + i] * above[i];
+      s3 += c3[columns + i] * above[i];
+    }
+#pragma omp simd reduction(+ : s0, s1, s2, s3)
+    for (int i = j; i < columns; ++i) {
+      s0 += c0[i] * x[i];
+      s1 += c1[i] * x[i];
+      s2 += c2[i] * x[i];
+      s3 += c3[i] * x[i];
+    }
+    const double x3 = (x[j - 1] - s3) / c3[j - 1];
+    const double x2 = (x[j - 2] - s2 - c2[j - 1] * x3) / c2[j - 2];
+    const double x1 = (x[j - 3] - s1 - c1[j - 1] * x3 - c1[j - 2] * x2) / c1[j - 3];
+    x[j - 4] = (x[j - 4] - s0 - c0[j - 1] * x3 - c0[j - 2] * x2 - c0[j - 3] * x1) / c0[j - 4];
+    x[j - 3] = x1;
+    x[j - 2] = x2;
+    x[j - 1] = x3;
+  }
+  for (; j > 0; --j) {
+    const double* __restrict c = l + static_cast<std::ptrdiff_t>(j - 1) * height;
+    double s = 0;
+#pragma omp simd reduction(+ : s)
+    for (int i = 0; i < below; ++i) s += c[columns + i] * above[i];
+#pragma omp simd reduction(+ : s)
+    for (int i = j; i < columns; ++i) s += c[i] * x[i];
+    x[j - 1] = (x[j - 1] - s) / c[j - 1];
+  }
+}
 
 struct Panel {
   int columns, below;
-  const int* rows;  // below the diagonal block
-  Block diagonal, under;
+  const int* rows;      // below the diagonal block
+  const double* value;  // (columns + below) x columns
 };
 
 Panel panel(const Supernodes& f, int s) {
   const int columns = f.first[s + 1] - f.first[s], height = f.row_start[s + 1] - f.row_start[s];
-  const double* value = f.value + f.value_start[s];
   return {columns, height - columns, f.row + f.row_start[s] + columns,
-          Block(value, columns, columns, Eigen::OuterStride<>(height)),
-          Block(value + columns, height - columns, columns, Eigen::OuterStride<>(height))};
+          f.value + f.value_start[s]};
 }
 
 /// Parent of each supernode: the one that holds its first row below the diagonal block; -1: root.
@@ -111,11 +191,10 @@ TriangularSolver::TriangularSolver(const Supernodes& f)
 void TriangularSolver::solve(const Supernodes& f, double* y) {
   const auto forward_half = [&](int h) {
     std::fill(top_sum_[h].begin(), top_sum_[h].end(), 0.0);
+    double* const sum = work_[h].data();
     for (const int s : half_[h]) {
       const Panel p = panel(f, s);
-      Segment x(y + f.first[s], p.columns), sum(work_[h].data(), p.below);
-      p.diagonal.triangularView<Eigen::Lower>().solveInPlace(x);
-      sum.noalias() = p.under * x;
+      solve_down(p.value, p.columns + p.below, p.columns, y + f.first[s], sum);
       for (int i = 0; i < inner_[s]; ++i) y[p.rows[i]] -= sum[i];
       for (int i = inner_[s]; i < p.below; ++i) top_sum_[h][top_index_[p.rows[i]]] += sum[i];
     }
@@ -125,17 +204,14 @@ void TriangularSolver::solve(const Supernodes& f, double* y) {
     y[top_row_[i]] -= top_sum_[0][i] + top_sum_[1][i];
   for (const int s : top_) {
     const Panel p = panel(f, s);
-    Segment x(y + f.first[s], p.columns), sum(work_[0].data(), p.below);
-    p.diagonal.triangularView<Eigen::Lower>().solveInPlace(x);
-    sum.noalias() = p.under * x;
-    for (int i = 0; i < p.below; ++i) y[p.rows[i]] -= sum[i];
+    solve_down(p.value, p.columns + p.below, p.columns, y + f.first[s], work_[0].data());
+    for (int i = 0; i < p.below; ++i) y[p.rows[i]] -= work_[0][i];
   }
   const auto backward = [&](int s, int h) {
     const Panel p = panel(f, s);
-    Segment x(y + f.first[s], p.columns), above(work_[h].data(), p.below);
+    double* const above = work_[h].data();
     for (int i = 0; i < p.below; ++i) above[i] = y[p.rows[i]];
-    x.noalias() -= p.under.transpose() * above;
-    p.diagonal.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+    solve_up(p.value, p.columns + p.below, p.columns, y + f.first[s], above);
   };
   for (auto s = top_.rbegin(); s != top_.rend(); ++s) backward(*s, 0);
   const auto backward_half = [&](int h) {

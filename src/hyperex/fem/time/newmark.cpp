@@ -43,9 +43,11 @@ struct Newmark::Impl {
   Eigen::VectorXd x_o;
   Kinematics own;  // of the prescribed unknowns, where only their displacement is given
 
-  Impl(const System& s, std::vector<int> prescribed, const NewmarkOptions& options)
+  Impl(const System& s, std::vector<int> prescribed, const NewmarkOptions& options,
+       LinearSolver wanted)
       : by(options),
-        factor(combined(s, by.c_d, by.m_d), std::move(prescribed), "time integration"),
+        factor(combined(s, by.c_d, by.m_d), std::move(prescribed), "time integration", s.nodes,
+               wanted),
         stiffness_oc(coupling(s.stiffness, factor.partition())),
         inertia(s),
         system(s) {
@@ -99,7 +101,10 @@ struct Newmark::Impl {
     else
       for (std::size_t i = 0; i < free.size(); ++i) x_o[i] = q[free[i]];
     x_o.noalias() -= stiffness_oc * next.d;
-    factor.solve(x_o);
+    if (factor.solver() == LinearSolver::iterative)
+      factor.solve(x_o, (d + by.h * v + 0.5 * by.h * by.h * a)(free));
+    else
+      factor.solve(x_o);
     for (std::size_t i = 0; i < free.size(); ++i) {
       const int n = free[i];
       const double a_next = by.m_d * (x_o[i] - d[n]) - by.m_v * v[n] - by.m_a * a[n];
@@ -115,9 +120,10 @@ struct Newmark::Impl {
   }
 };
 
-Newmark::Newmark(const System& system, std::vector<int> prescribed, const NewmarkOptions& options) {
+Newmark::Newmark(const System& system, std::vector<int> prescribed, const NewmarkOptions& options,
+                 LinearSolver wanted) {
   assert(options.dt_s > 0 && options.gamma >= 0.5 && 2 * options.beta >= options.gamma);
-  impl_ = std::make_unique<Impl>(system, std::move(prescribed), options);
+  impl_ = std::make_unique<Impl>(system, std::move(prescribed), options, wanted);
 }
 Newmark::~Newmark() = default;
 Newmark::Newmark(Newmark&&) noexcept = default;
@@ -182,7 +188,13 @@ double Newmark::factor_seconds() const {
   return impl_->factor.factor_seconds();
 }
 double Newmark::factor_entries() const {
-  return impl_->factor.cholesky().entries();
+  return impl_->factor.factor_entries();
+}
+LinearSolver Newmark::solver() const {
+  return impl_->factor.solver();
+}
+int Newmark::last_iterations() const {
+  return impl_->factor.last_iterations();
 }
 
 }  // namespace hyperex::fem
