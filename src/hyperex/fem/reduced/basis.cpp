@@ -6,8 +6,9 @@
 
 namespace hyperex::fem {
 namespace {
-/// Directions taken whatever they move: where the basis converges slowly, a growth by one or two
-/// changes the motion by less than what is missing, and so tells nothing of it.
+/// Directions taken even where they move a hundredth of what is asked (less may be rounding): where
+/// the basis converges slowly, a growth by one or two changes the motion by less than what is
+/// missing, and so tells nothing of it.
 constexpr Eigen::Index kAtLeast = 6;
 }  // namespace
 
@@ -33,7 +34,7 @@ Basis::Grown Basis::grow(Eigen::MatrixXd w, double least) {
     if (!(lambda > 1e-13 * strongest) || !(lambda > 0)) break;
     const double moves =
         directions.col(i).cwiseAbs().maxCoeff() * modes.eigenvectors().col(i).cwiseAbs().maxCoeff();
-    if (moves < least && pick.cols() >= kAtLeast) {
+    if (moves < (pick.cols() < kAtLeast ? 0.01 * least : least)) {
       grown.skipped += moves;
       continue;
     }

@@ -159,7 +159,8 @@ class Growth {
   /// where that fell below the trend, the trend.
   double yet_to_come() const {
     const std::size_t n = changes_.size(), from = n > 4 ? n - 4 : 0;
-    if (n < 2 || changes_.back() <= 0) return changes_.back();
+    if (changes_.back() <= 0) return 0;
+    if (n < 2) return 10 * changes_.back();  // one growth tells no trend
     const double mean =
         std::pow(changes_.back() / changes_[from], 1.0 / static_cast<double>(n - 1 - from));
     const double last = std::max(changes_.back(), mean * changes_[n - 2]);
