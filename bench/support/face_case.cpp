@@ -111,8 +111,14 @@ fem::Drive FaceCase::drive(double solver_tolerance, int steps) const {
 
 fem::Drive FaceCase::sine(double period_s, double solver_tolerance) const {
   const Points peak = points_at(peak_s_);
-  return shapes([&](double t) -> Points { return std::sin(2 * M_PI * t / period_s) * peak; },
-                solver_tolerance, steps_);
+  // As a recording of it would come in: sampled at the camera's instants, then the same spline.
+  motion::Motion recorded = motion_.motion;
+  for (std::size_t k = 0; k < recorded.time_s.size(); ++k)
+    recorded.positions[k] =
+        std::sin(2 * M_PI * (recorded.time_s[k] - start_s_) / period_s) * peak;
+  const motion::MotionCurve curve(recorded);
+  return shapes([&](double t) -> Points { return curve.at(start_s_ + t); }, solver_tolerance,
+                steps_);
 }
 
 std::vector<double> FaceCase::frames_in_steps() const {

@@ -45,7 +45,7 @@ class FaceCase {
 
   /// The scene's motion, and as many shapes as `hyperex run` makes of it for a solver's tolerance.
   fem::Drive drive(double solver_tolerance, int steps = 0) const;
-  /// The shape of the motion at its peak, times sin(2 pi t / period).
+  /// The shape of the motion at its peak, times sin(2 pi t / period), as a recording of it.
   fem::Drive sine(double period_s, double solver_tolerance) const;
 
   /// When frames are wanted, in steps.
