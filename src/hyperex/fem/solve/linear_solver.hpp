@@ -26,11 +26,12 @@ struct FactorForecast {
 
 /// CHOLMOD counts a factor's entries in 32 bits.
 inline constexpr double kMostFactorEntries = 2147483647.0;
-/// Stored over needed entries of a supernodal factor: 1.15 to 1.21 measured from 5,000 to 250,000
-/// nodes.
+/// Stored over needed entries of a supernodal factor of soft tissue: 1.21 to 1.15 measured from
+/// 5,000 to 250,000 nodes.
 inline constexpr double kStoredShare = 1.25;
 /// Share of the memory available that the factor may take. Where it fits, Cholesky is the quicker
-/// whatever the size (measured up to 250,000 nodes), and so memory alone decides.
+/// (measured up to 100,000 nodes: five times for a reduced model; at 250,000 by its flops), and so
+/// memory alone decides.
 inline constexpr double kFactorShare = 0.5;
 
 /// Never `automatic`: what `wanted` comes to for a factor as forecast, `available_bytes` of memory
