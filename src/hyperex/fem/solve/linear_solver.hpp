@@ -30,8 +30,8 @@ inline constexpr double kMostFactorEntries = 2147483647.0;
 /// 5,000 to 250,000 nodes.
 inline constexpr double kStoredShare = 1.25;
 /// Share of the memory available that the factor may take. Where it fits, Cholesky is the quicker
-/// (measured up to 100,000 nodes: five times for a reduced model; at 250,000 by its flops), and so
-/// memory alone decides.
+/// (at 100,000 nodes 16 right-hand sides alone took the other one several times as long as
+/// factorising), and so memory alone decides.
 inline constexpr double kFactorShare = 0.5;
 
 /// Never `automatic`: what `wanted` comes to for a factor as forecast, `available_bytes` of memory
