@@ -22,9 +22,9 @@ class Interrupted : public GoodInputs {
       const int to = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
       ::dup2(to, 1);
       ::dup2(to, 2);
-      // Half an hour, were it left alone.
+      // Minutes, were it left alone.
       ::execl(HYPEREX_PROGRAM, HYPEREX_PROGRAM, "run", scene.c_str(), "--out", out.c_str(), "--set",
-              "time.step_s=1e-6", "--set", "time.end_s=600", nullptr);
+              "time.step_s=3.1e-4", "--set", "time.end_s=600", nullptr);
       ::_exit(127);
     }
     const fs::path temporary = in(".out." + std::to_string(program) + ".tmp");

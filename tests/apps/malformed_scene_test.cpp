@@ -26,6 +26,8 @@ const std::vector<Fault> kScenes{
     key("NegativeStiffness", "tissue.young_kpa=-5", {"tissue.young_kpa", "-5", "above 0", "kPa"}),
     key("Incompressible", "tissue.poisson=0.5", {"tissue.poisson", "0.5", "0.4999"}),
     key("NoStep", "time.step_s=0", {"time.step_s", "= 0", "1e-06"}),
+    key("MillionsOfSteps", "time.step_s=1e-6' --set 'time.end_s=600",
+        {"time.step_s", "1e-06", "at least", "steps"}),
     key("NotANumber", "tissue.density_kg_m3=nan", {"tissue.density_kg_m3", "nan"}),
     key("EndBeforeTheFirstStep", "time.end_s=0.001", {"time.end_s", "0.001", "step"}),
     key("UnknownChoice", "support.skull=glued", {"support.skull", "glued", "held", "free"}),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/fem/form/system.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/geodesic.hpp"
@@ -191,7 +192,13 @@ class Run {
 
     const auto simulate_start = std::chrono::steady_clock::now();
     const double dt_s = options_.time.step_s;
-    report.steps = static_cast<int>(std::ceil(end_s_ / dt_s - 1e-9));
+    const double steps = std::ceil(end_s_ / dt_s - 1e-9);
+    if (steps > kMostSteps)
+      throw InputError(motion_.motion.source,
+                       fmt::format("{:g} s in steps of time.step_s = {:g} are {:.0f} steps; "
+                                   "expected at most {:.0f}",
+                                   end_s_, dt_s, steps, kMostSteps));
+    report.steps = static_cast<int>(steps);
     // What the shapes leave out must not show beside the error that the solver may make.
     const InputShapes input = input_shapes(
         boundary, [&](double t) { return input_.at(t); }, dt_s, report.steps,

@@ -36,6 +36,9 @@ struct DriveOptions {
   double gain = 1;
 };
 
+/// The courses of all steps are kept: more would fill the memory.
+constexpr double kMostSteps = 2e6;
+
 struct TimeOptions {
   double step_s = 0.002, end_s = 0, frame_rate_hz = 30;
   std::vector<double> still_times_s;  ///< extra shapes wanted, for pictures

@@ -221,6 +221,11 @@ void Reader::check_together() {
   if (scene.solver.newmark_gamma > 2 * scene.solver.newmark_beta)
     complain_given("solver.newmark_gamma",
                    "at most twice solver.newmark_beta: beyond, steps are not always stable");
+  if (scene.time.end_s > reenact::kMostSteps * scene.time.step_s)
+    complain_given("time.step_s", fmt::format("at least {:g}, for at most {:.0f} steps to "
+                                              "time.end_s = {:g}",
+                                              scene.time.end_s / reenact::kMostSteps,
+                                              reenact::kMostSteps, scene.time.end_s));
   if (scene.time.end_s != 0 && scene.time.end_s < scene.time.step_s)
     complain_given("time.end_s", "0, or at least one time.step_s");
 }
