@@ -20,22 +20,6 @@ scene::Scene scene_of(Face face) {
   return scene::read_scene(examples / (subject_a ? "subject_a_mouth_open.toml" : "demo.toml"));
 }
 
-reenact::SimulationOptions options_of(const scene::Scene& s, const scene::Inputs& inputs) {
-  reenact::SimulationOptions o;
-  o.tissue = {s.tissue.young_pa, s.tissue.poisson, s.tissue.viscosity_pa_s, s.tissue.density_kg_m3,
-              s.tissue.viscous_form};
-  o.support.border_held = s.support.border_held;
-  o.support.skull = s.support.skull;
-  o.support.mandible = s.support.mandible;
-  o.support.skull_layer = s.support.skull_layer;
-  o.support.mandible_layer = s.support.mandible_layer;
-  o.support.muscle_pa_per_m = s.support.muscle_pa_per_m;
-  o.support.jaw_points = s.support.jaw_points;
-  o.drive = {inputs.driven, s.drive.still_points, s.drive.patch_radius_m, s.motion.gain};
-  o.time = {s.time.step_s, s.time.end_s, s.time.frame_rate_hz, {}};
-  return o;
-}
-
 }  // namespace
 
 FaceCase::FaceCase(Face face, const MeshSize& size) {
@@ -44,7 +28,7 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
   name_ = scene.title;
   landmarks_ = inputs.landmarks;
   motion_ = inputs.motion;
-  options_ = options_of(scene, inputs);
+  options_ = scene::simulation_options(scene, inputs);
 
   tissue::TissueMeshOptions mesh = scene::mesh_options(scene);
   if (size.element_size_m > 0) mesh.element_size_m = size.element_size_m;
@@ -114,8 +98,7 @@ fem::Drive FaceCase::sine(double period_s, double solver_tolerance) const {
   // As a recording of it would come in: sampled at the camera's instants, then the same spline.
   motion::Motion recorded = motion_.motion;
   for (std::size_t k = 0; k < recorded.time_s.size(); ++k)
-    recorded.positions[k] =
-        std::sin(2 * M_PI * (recorded.time_s[k] - start_s_) / period_s) * peak;
+    recorded.positions[k] = std::sin(2 * M_PI * (recorded.time_s[k] - start_s_) / period_s) * peak;
   const motion::MotionCurve curve(recorded);
   return shapes([&](double t) -> Points { return curve.at(start_s_ + t); }, solver_tolerance,
                 steps_);

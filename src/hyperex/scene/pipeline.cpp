@@ -4,29 +4,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
-
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
-#include "hyperex/scene/inputs.hpp"
+#include "hyperex/core/stopwatch.hpp"
 #include "hyperex/scene/outputs.hpp"
 
 namespace hyperex::scene {
-namespace {
 using Json = nlohmann::ordered_json;
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double s = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return s;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& inputs) {
   reenact::SimulationOptions o;
@@ -51,6 +35,7 @@ reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& 
   return o;
 }
 
+namespace {
 Json quality_json(const tissue::TissueMesh& mesh) {
   const tissue::MeshQuality& q = mesh.quality;
   Json shares = Json::object();

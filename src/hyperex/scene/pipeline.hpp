@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/scene/inputs.hpp"
 #include "hyperex/scene/scene.hpp"
 
 namespace hyperex::scene {
@@ -19,5 +20,7 @@ std::vector<std::string> check_scene(const Scene& scene);
 
 /// Mesh options as tissue/ understands them.
 tissue::TissueMeshOptions mesh_options(const Scene& scene);
+/// Options of the simulation as reenact/ understands them.
+reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& inputs);
 
 }  // namespace hyperex::scene
