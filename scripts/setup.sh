@@ -18,6 +18,9 @@ packages=(
   libtinygltf-dev libtinyobjloader-dev libstb-dev zlib1g-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   libcairo2-dev fonts-dejavu-core  # pictures with words on them
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev  # pictures of recordings
+  libopencv-videoio-dev    # video files and webcams
+  libfreenect-dev libopenni2-dev   # depth cameras
   libgtest-dev libgmock-dev
 )
 

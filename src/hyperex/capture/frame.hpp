@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cstddef>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+namespace hyperex::capture {
+
+/// A pinhole camera without distortion; pixel centres at integers. The camera's frame has x to the
+/// right, y down, z forward:  u = fx x / z + cx,  v = fy y / z + cy.
+struct Intrinsics {
+  double fx_px = 0, fy_px = 0;  ///< > 0
+  double cx_px = 0, cy_px = 0;
+  int width_px = 0, height_px = 0;  ///< > 0
+};
+
+/// One moment of a recording or a camera.
+struct Frame {
+  std::size_t index = 0;  ///< in the source, from 0; of a live source dropped ones leave gaps
+  double time_s = 0;      ///< the source's own clock; rises from valid frame to valid frame
+  cv::Mat colour;         ///< CV_8UC3, BGR, height_px x width_px; empty where it cannot be read
+  cv::Mat depth_m;    ///< CV_32FC1, z in metres, registered to the colour picture and of its size,
+                      ///< 0 = no reading; empty = colour only
+  bool valid = true;  ///< false: do not measure on it, see `fault`; pictures may be empty
+  std::string fault;  ///< one line: why not valid; empty where valid
+};
+
+}  // namespace hyperex::capture

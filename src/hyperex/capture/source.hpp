@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/capture/frame.hpp"
+
+namespace hyperex::capture {
+
+/// Where frames come from: a recording, a video, a camera. One consumer, one thread.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  FrameSource() = default;
+  FrameSource(const FrameSource&) = delete;
+  FrameSource& operator=(const FrameSource&) = delete;
+
+  /// Of the colour picture; constant over the source.
+  virtual const Intrinsics& intrinsics() const = 0;
+  /// False: colour only; metres are then unknown until a length in the picture is stated.
+  virtual bool has_depth() const = 0;
+  /// True: frames come at the pace of a clock and are lost where nobody fetches them.
+  virtual bool live() const = 0;
+  /// Frames in all, the invalid ones among them; nothing where that is not known beforehand.
+  virtual std::optional<std::size_t> frame_count() const = 0;
+  /// The next frame, nothing at the end. A faulty one comes as invalid with its `fault`. Throws
+  /// InputError where (almost) all frames turn out faulty, or the camera is lost.
+  /// The pictures are the caller's: the source does not touch them again.
+  virtual std::optional<Frame> next() = 0;
+  /// What the user should know of how this source is read, one sentence each: guessed intrinsics,
+  /// pairs by nearest time, depth whose registration is unknown.
+  virtual std::vector<std::string> notes() const { return {}; }
+};
+
+}  // namespace hyperex::capture
