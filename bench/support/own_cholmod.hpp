@@ -3,8 +3,7 @@
 #include <cholmod.h>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/fem/form/system.hpp"
-#include "hyperex/fem/solve/triangular.hpp"
+#include "hyperex/fem/solve/cholmod_view.hpp"
 #include "support/timing.hpp"
 
 namespace hyperex::bench {
@@ -19,17 +18,7 @@ class OwnCholmod {
     common_.nmethods = 1;
     common_.method[0].ordering = ordering;
     common_.postorder = 1;
-    cholmod_sparse view{};
-    view.nrow = view.ncol = static_cast<std::size_t>(lower.cols());
-    view.nzmax = static_cast<std::size_t>(lower.nonZeros());
-    view.p = const_cast<int*>(lower.outerIndexPtr());
-    view.i = const_cast<int*>(lower.innerIndexPtr());
-    view.x = const_cast<double*>(lower.valuePtr());
-    view.stype = -1;
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = view.packed = 1;
+    cholmod_sparse view = fem::cholmod_view(lower);
     Stopwatch watch;
     factor_ = cholmod_analyze(&view, &common_);
     analyse_s_ = watch.lap();
@@ -60,17 +49,7 @@ class OwnCholmod {
     cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &x_, nullptr, &y_, &e_, &common_);
   }
 
-  fem::Supernodes supernodes() const {
-    fem::Supernodes s;
-    s.count = static_cast<int>(factor_->nsuper);
-    s.columns = static_cast<int>(factor_->n);
-    s.first = static_cast<const int*>(factor_->super);
-    s.row_start = static_cast<const int*>(factor_->pi);
-    s.value_start = static_cast<const int*>(factor_->px);
-    s.row = static_cast<const int*>(factor_->s);
-    s.value = static_cast<const double*>(factor_->x);
-    return s;
-  }
+  fem::Supernodes supernodes() const { return fem::supernodes_of(*factor_); }
   const int* permutation() const { return static_cast<const int*>(factor_->Perm); }
   double entries() const { return static_cast<double>(factor_->xsize); }
   double analyse_seconds() const { return analyse_s_; }

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/form/system.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/geodesic.hpp"
@@ -21,10 +21,6 @@
 
 namespace hyperex::reenact {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// A time at which a shape is wanted, and where it goes.
 struct Shot {
@@ -176,7 +172,7 @@ class Run {
 
   void integrate() {
     Boundary boundary(mesh_, landmarks_, motion_, region_, options_);
-    const auto assemble_start = std::chrono::steady_clock::now();
+    Stopwatch watch;
     const auto tets = static_cast<std::size_t>(mesh_.volume.tets.rows());
     fem::Material material;
     material.young_pa.assign(tets, options_.tissue.young_pa);
@@ -188,9 +184,8 @@ class Run {
         fem::assemble(mesh_.volume.nodes, mesh_.volume.tets, material, options_.solver.element);
     boundary.add_springs(system.stiffness);
     SimulationReport& report = result_.report;
-    report.assemble_s = seconds_since(assemble_start);
+    report.assemble_s = watch.lap();
 
-    const auto simulate_start = std::chrono::steady_clock::now();
     const double dt_s = options_.time.step_s;
     const double steps = std::ceil(end_s_ / dt_s - 1e-9);
     if (steps > kMostSteps)
@@ -216,13 +211,13 @@ class Run {
     report.input_shapes = static_cast<int>(input.drive.shapes());
     report.free_dofs = solution.free_dofs;
     report.basis_size = solution.basis_size;
+    report.linear_solver = solution.linear_solver;
     report.estimated_error = solution.estimated_error;
     report.verified_error = solution.verified_error;
     report.analyse_s = solution.analyse_s;
     report.factor_s = solution.factor_s;
     report.basis_s = solution.basis_s;
-    report.simulate_s =
-        seconds_since(simulate_start) - solution.analyse_s - solution.factor_s - solution.basis_s;
+    report.simulate_s = watch.lap() - solution.analyse_s - solution.factor_s - solution.basis_s;
     report.driven_nodes = static_cast<int>(boundary.driven_nodes().size());
     report.skull_nodes = boundary.skull_count();
     report.mandible_nodes = boundary.mandible_count();

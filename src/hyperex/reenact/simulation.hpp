@@ -6,6 +6,7 @@
 
 #include "hyperex/fem/element/element_kind.hpp"
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
+#include "hyperex/fem/solve/linear_solver.hpp"
 #include "hyperex/reenact/alignment.hpp"
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/reenact/skin_measured.hpp"
@@ -58,6 +59,7 @@ enum class SolverMethod {
 struct SolverOptions {
   fem::ElementKind element = fem::ElementKind::tet4;
   SolverMethod method = SolverMethod::reduced;
+  fem::LinearSolver linear = fem::LinearSolver::automatic;
   double tolerance = 1e-3;          ///< of the reduced model, over the greatest displacement
   double beta = 0.25, gamma = 0.5;  ///< of Newmark's method
   bool verify = false;              ///< run the full model too and measure the reduced one's error
@@ -76,9 +78,10 @@ struct SimulationOptions {
 /// What happened, for the summary.
 struct SimulationReport {
   int free_dofs = 0, steps = 0, driven_nodes = 0, skull_nodes = 0, mandible_nodes = 0;
-  int input_shapes = 0, basis_size = 0;  ///< basis_size 0: full model
-  double estimated_error = -1;           ///< of the reduced model, over the greatest displacement
-  double verified_error = -1;            ///< measured against the full model; below 0: not measured
+  int input_shapes = 0, basis_size = 0;                            ///< basis_size 0: full model
+  fem::LinearSolver linear_solver = fem::LinearSolver::automatic;  ///< the one picked
+  double estimated_error = -1;  ///< of the reduced model, over the greatest displacement
+  double verified_error = -1;   ///< measured against the full model; below 0: not measured
   double assemble_s = 0, analyse_s = 0, factor_s = 0, basis_s = 0, simulate_s = 0;
   int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
   double greatest_opening_deg = 0;  ///< of the jaw

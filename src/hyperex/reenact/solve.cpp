@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/reenact/solve.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/reduced/reduced_model.hpp"
 #include "hyperex/fem/time/newmark.hpp"
 
 namespace hyperex::reenact {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 Solution solve_full(const fem::System& system, const std::vector<int>& prescribed,
                     const fem::Drive& drive, const std::vector<double>& times,
-                    const fem::NewmarkOptions& options) {
+                    const fem::NewmarkOptions& options, fem::LinearSolver linear) {
   Solution out;
-  fem::Newmark newmark(system, prescribed, options);
+  fem::Newmark newmark(system, prescribed, options, linear);
+  out.linear_solver = newmark.solver();
   out.free_dofs = newmark.free_count();
   out.analyse_s = newmark.analyse_seconds();
   out.factor_s = newmark.factor_seconds();
 
-  const auto start = Clock::now();
+  Stopwatch watch;
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.stiffness.cols());
   fem::Kinematics next = drive.prescribed_at(0);
   Eigen::VectorXd force = drive.force_at(0);
@@ -55,24 +51,24 @@ Solution solve_full(const fem::System& system, const std::vector<int>& prescribe
     progress.update(step);
     read_off(step);
   }
-  out.step_s = seconds_since(start);
+  out.step_s = watch.lap();
   return out;
 }
 
 Solution solve_reduced(const fem::System& system, const std::vector<int>& prescribed,
                        const fem::Drive& drive, const std::vector<double>& times,
-                       const fem::ReducedOptions& options) {
+                       const fem::ReducedOptions& options, fem::LinearSolver linear) {
   Solution out;
-  fem::ReducedModel model(system, prescribed);
+  fem::ReducedModel model(system, prescribed, linear);
+  out.linear_solver = model.solver();
   out.free_dofs = model.free_count();
   out.analyse_s = model.analyse_seconds();
   out.factor_s = model.factor_seconds();
-  auto start = Clock::now();
+  Stopwatch watch;
   const fem::Response response = model.run(drive, options);
-  out.basis_s = seconds_since(start);
-  start = Clock::now();
+  out.basis_s = watch.lap();
   out.displacement = response.displacement(times);
-  out.step_s = seconds_since(start);
+  out.step_s = watch.lap();
   out.basis_size = response.basis_size;
   out.estimated_error = response.estimated_error;
   out.converged = response.converged;
@@ -97,11 +93,13 @@ Solution solve(const fem::System& system, const std::vector<int>& prescribed,
                const SolverOptions& options, double dt_s) {
   const fem::NewmarkOptions time{dt_s, options.beta, options.gamma};
   if (options.method == SolverMethod::direct)
-    return solve_full(system, prescribed, drive, times, time);
-  Solution out = solve_reduced(system, prescribed, drive, times, {time, options.tolerance});
+    return solve_full(system, prescribed, drive, times, time, options.linear);
+  Solution out =
+      solve_reduced(system, prescribed, drive, times, {time, options.tolerance}, options.linear);
   if (options.verify)
-    out.verified_error = difference(
-        out.displacement, solve_full(system, prescribed, drive, times, time).displacement);
+    out.verified_error =
+        difference(out.displacement,
+                   solve_full(system, prescribed, drive, times, time, options.linear).displacement);
   return out;
 }
 

@@ -11,6 +11,7 @@ namespace hyperex::reenact {
 struct Solution {
   Eigen::MatrixXd displacement;  ///< 3 |nodes| x |times|, m
   int free_dofs = 0, basis_size = 0;
+  fem::LinearSolver linear_solver = fem::LinearSolver::automatic;  ///< the one picked
   double estimated_error = -1;  ///< of the reduced model, over the greatest displacement
   double verified_error = -1;   ///< against the full model, where asked for: over these times
   bool converged = true;

@@ -168,6 +168,14 @@ std::vector<Key> run_keys() {
           "Projected onto the motions that the input makes, to solver.tolerance; or all unknowns "
           "at "
           "every step."),
+      choice<Scene, fem::LinearSolver>(
+          "solver.linear", AT(solver.linear),
+          {{"auto", fem::LinearSolver::automatic},
+           {"cholesky", fem::LinearSolver::cholesky},
+           {"iterative", fem::LinearSolver::iterative}},
+          "How linear systems are solved: by a Cholesky factor; by conjugate gradients on "
+          "overlapping subdomains, which takes less memory and more time; or the first where it "
+          "fits the memory, else the second."),
       number<Scene>("solver.tolerance", none, AT(solver.tolerance), {1e-9, 0.1},
                     "Error allowed to the reduced model by its own estimate, over the largest "
                     "displacement."),

@@ -14,8 +14,9 @@ using Json = nlohmann::ordered_json;
 
 reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& inputs) {
   reenact::SimulationOptions o;
-  o.solver = {scene.tissue.element,      scene.solver.method,        scene.solver.tolerance,
-              scene.solver.newmark_beta, scene.solver.newmark_gamma, scene.solver.verify};
+  o.solver = {scene.tissue.element,   scene.solver.method,       scene.solver.linear,
+              scene.solver.tolerance, scene.solver.newmark_beta, scene.solver.newmark_gamma,
+              scene.solver.verify};
   o.tissue = {scene.tissue.young_pa, scene.tissue.poisson, scene.tissue.viscosity_pa_s,
               scene.tissue.density_kg_m3, scene.tissue.viscous_form};
   o.support.border_held = scene.support.border_held;
@@ -72,6 +73,7 @@ Json summary_of(const Results& r) {
   s["skin_vertices"] = p.skin_rest.points.rows();
   s["element"] = fem::to_string(r.scene.tissue.element);
   s["solver"] = report.basis_size > 0 ? "reduced" : "direct";
+  s["linear_solver"] = fem::to_string(report.linear_solver);
   s["input_shapes"] = report.input_shapes;
   if (report.basis_size > 0) {
     s["basis_size"] = report.basis_size;

@@ -99,6 +99,7 @@ struct DriveOptions {
 using reenact::SolverMethod;
 struct SolverOptions {
   SolverMethod method = SolverMethod::reduced;
+  fem::LinearSolver linear = fem::LinearSolver::automatic;
   double tolerance = 1e-3;                          ///< 1e-9 to 0.1, of the largest displacement
   double newmark_beta = 0.25, newmark_gamma = 0.5;  ///< 2 beta >= gamma >= 1/2, at most 1
   bool verify = false;

@@ -93,6 +93,21 @@ TEST_F(SolveFace, ReducedAgreesWithDirectToItsTolerance) {
   }
 }
 
+TEST_F(SolveFace, LinearSolverReachesBothMethods) {
+  for (const SolverMethod method : {SolverMethod::reduced, SolverMethod::direct}) {
+    SolverOptions options;
+    options.method = method;
+    const Solution picked = run(options);
+    EXPECT_EQ(picked.linear_solver, fem::LinearSolver::cholesky) << "of a mesh this small";
+    options.linear = fem::LinearSolver::iterative;
+    const Solution other = run(options);
+    EXPECT_EQ(other.linear_solver, fem::LinearSolver::iterative);
+    const double apart = greatest(other.displacement - picked.displacement);
+    EXPECT_GT(apart, 0);
+    EXPECT_LT(apart, 1e-6 * greatest(picked.displacement));
+  }
+}
+
 TEST_F(SolveFace, BetaAndGammaReachBothMethods) {
   const Solution full = direct();
   const double most = greatest(full.displacement);

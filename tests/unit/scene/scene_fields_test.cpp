@@ -67,6 +67,7 @@ still_points = ["s1"]
 [solver]
 method = "direct"
 tolerance = 0.004
+linear = "iterative"
 newmark_beta = 0.36
 newmark_gamma = 0.7
 verify = true
@@ -116,6 +117,7 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.tissue.element, fem::ElementKind::tet4);
   EXPECT_EQ(s.solver.method, SolverMethod::direct);
   EXPECT_EQ(s.solver.tolerance, 0.004);
+  EXPECT_EQ(s.solver.linear, fem::LinearSolver::iterative);
   EXPECT_EQ(s.solver.newmark_beta, 0.36);
   EXPECT_EQ(s.solver.newmark_gamma, 0.7);
   EXPECT_TRUE(s.solver.verify);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/fem/solve/triangular.hpp"
+#include "hyperex/fem/solve/cholmod_view.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -27,21 +27,6 @@ void keep_blas_to_one_thread() {
 /// A pivot this small against its own diagonal entry is rounding: the direction has no stiffness.
 /// (A free body leaves about 1e-15; a bar a hundred elements long still has 1e-8.)
 constexpr double kLeastPivot = 1e-12;
-
-cholmod_sparse view_of(const SparseMatrix& lower) {
-  cholmod_sparse view{};
-  view.nrow = view.ncol = static_cast<std::size_t>(lower.cols());
-  view.nzmax = static_cast<std::size_t>(lower.nonZeros());
-  view.p = const_cast<int*>(lower.outerIndexPtr());
-  view.i = const_cast<int*>(lower.innerIndexPtr());
-  view.x = const_cast<double*>(lower.valuePtr());
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = view.packed = 1;
-  return view;
-}
 
 }  // namespace
 
@@ -83,17 +68,7 @@ struct Cholesky::Impl {
                                                                             : "CHOLMOD"));
   }
 
-  Supernodes supernodes() const {
-    Supernodes s;
-    s.count = static_cast<int>(factor->nsuper);
-    s.columns = static_cast<int>(factor->n);
-    s.first = static_cast<const int*>(factor->super);
-    s.row_start = static_cast<const int*>(factor->pi);
-    s.value_start = static_cast<const int*>(factor->px);
-    s.row = static_cast<const int*>(factor->s);
-    s.value = static_cast<const double*>(factor->x);
-    return s;
-  }
+  Supernodes supernodes() const { return supernodes_of(*factor); }
 
   /// The column of the first pivot that is nothing but rounding; -1: none.
   int lost_pivot(const SparseMatrix& lower) const {
@@ -119,7 +94,7 @@ Cholesky::Cholesky(const SparseMatrix& lower, std::string purpose, std::vector<i
   impl_->purpose = std::move(purpose);
   impl_->permuted.resize(static_cast<std::size_t>(lower.cols()));
   if (lower.cols() == 0) return;
-  cholmod_sparse view = view_of(lower);
+  cholmod_sparse view = cholmod_view(lower);
   if (!order.empty()) {
     assert(static_cast<Eigen::Index>(order.size()) == lower.cols());
     impl_->common.method[0].ordering = CHOLMOD_GIVEN;
@@ -139,7 +114,7 @@ int Cholesky::factorize(const SparseMatrix& lower) {
   Impl& m = *impl_;
   assert(lower.cols() == size());
   if (size() == 0) return -1;
-  cholmod_sparse view = view_of(lower);
+  cholmod_sparse view = cholmod_view(lower);
   cholmod_factorize(&view, m.factor, &m.common);
   if (m.common.status < CHOLMOD_OK) m.fail();
   if (m.common.status == CHOLMOD_NOT_POSDEF)

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/fem/solve/cholmod_view.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -45,16 +46,7 @@ NodeOrder order_by_nodes(const SparseMatrix& lower, const std::vector<int>& node
     }
     start.push_back(static_cast<int>(item.size()));
   }
-  cholmod_sparse graph{};
-  graph.nrow = graph.ncol = static_cast<std::size_t>(nodes);
-  graph.nzmax = item.size();
-  graph.p = start.data();
-  graph.i = item.data();
-  graph.stype = -1;
-  graph.itype = CHOLMOD_INT;
-  graph.xtype = CHOLMOD_PATTERN;
-  graph.dtype = CHOLMOD_DOUBLE;
-  graph.sorted = graph.packed = 1;
+  cholmod_sparse graph = cholmod_view(nodes, start.data(), item.data(), nullptr);
   Common common;
   cholmod_factor* factor = cholmod_analyze(&graph, &common);
   if (!factor || common.status < CHOLMOD_OK) {

@@ -3,31 +3,24 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/solve/node_order.hpp"
 
 namespace hyperex::fem {
-namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-}  // namespace
 
 PartitionedFactor::PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed,
                                      std::string purpose, const Points& nodes, LinearSolver wanted)
     : partition_(static_cast<int>(a.cols()), std::move(prescribed)), purpose_(std::move(purpose)) {
-  const auto start = std::chrono::steady_clock::now();
-  pick(a, nodes, wanted);
-  analyse_s_ = seconds_since(start);
-  refactor(a);
+  Stopwatch watch;
+  const SparseMatrix lower = free_lower(a, partition_);
+  pick(a, lower, nodes, wanted);
+  analyse_s_ = watch.lap();
+  factor(a, lower);
 }
 
-void PartitionedFactor::pick(const SparseMatrix& a, const Points& nodes, LinearSolver wanted) {
-  const SparseMatrix lower = free_lower(a, partition_);
+void PartitionedFactor::pick(const SparseMatrix& a, const SparseMatrix& lower, const Points& nodes,
+                             LinearSolver wanted) {
   std::vector<int> node_of(free().size());
   for (std::size_t i = 0; i < node_of.size(); ++i) node_of[i] = free()[i] / 3;
   NodeOrder order = order_by_nodes(lower, node_of);
@@ -42,10 +35,17 @@ void PartitionedFactor::pick(const SparseMatrix& a, const Points& nodes, LinearS
 }
 
 void PartitionedFactor::refactor(const SparseMatrix& a) {
-  const auto start = std::chrono::steady_clock::now();
-  const int lost =
-      cholesky_ ? cholesky_->factorize(free_lower(a, partition_)) : iterative_->factorize(a);
-  factor_s_ = seconds_since(start);
+  Stopwatch watch;
+  const SparseMatrix lower = cholesky_ ? free_lower(a, partition_) : SparseMatrix();
+  const double extract_s = watch.lap();
+  factor(a, lower);
+  factor_s_ += extract_s;
+}
+
+void PartitionedFactor::factor(const SparseMatrix& a, const SparseMatrix& lower) {
+  Stopwatch watch;
+  const int lost = cholesky_ ? cholesky_->factorize(lower) : iterative_->factorize(a);
+  factor_s_ = watch.lap();
   if (lost < 0) return;
   const int unknown = free()[lost];
   throw NumericalError(fmt::format(

@@ -51,7 +51,9 @@ class PartitionedFactor {
   void solve(Eigen::VectorXd& x_o, const Eigen::VectorXd& guess);
 
  private:
-  void pick(const SparseMatrix& a, const Points& nodes, LinearSolver wanted);
+  void pick(const SparseMatrix& a, const SparseMatrix& lower, const Points& nodes,
+            LinearSolver wanted);
+  void factor(const SparseMatrix& a, const SparseMatrix& lower);
 
   Partition partition_;
   std::string purpose_;
