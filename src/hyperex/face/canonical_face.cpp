@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/face/canonical_face.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -29,7 +29,7 @@ __asm__(
 extern "C" const char hyperex_canonical_face_begin[], hyperex_canonical_face_end[];
 extern "C" const char hyperex_canonical_landmarks_begin[], hyperex_canonical_landmarks_end[];
 
-namespace hyperex::tissue {
+namespace hyperex::face {
 
 namespace {
 
@@ -175,4 +175,4 @@ std::string mirrored_landmark(const std::string& name) {
   return prefix + std::to_string(mirror[std::size_t(std::stoi(name.substr(prefix.size())))]);
 }
 
-}  // namespace hyperex::tissue
+}  // namespace hyperex::face
