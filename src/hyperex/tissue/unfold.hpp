@@ -15,6 +15,10 @@ struct Visibility {
   Eigen::VectorXd least;  ///< |V|
 };
 Visibility visibility_of(const TriMesh& mesh);
+/// The same after the flagged vertices have `moved`: looks at them and their neighbours alone.
+/// `fans`: vertex_triangles of the mesh.
+void update_visibility(const TriMesh& mesh, const std::vector<char>& moved,
+                       const std::vector<std::vector<int>>& fans, Visibility& visibility);
 
 /// Makes a surface fit to be thickened: smooths it around folded vertices (visibility below
 /// `least`), and where that does not help drops the triangles around them. Says what it did.

@@ -48,9 +48,11 @@ class LayerBuilder {
                const VolumeMeshOptions& options)
       : outer_(outer),
         options_(options),
-        around_(vertex_neighbours(outer.triangles, outer.points.rows())) {
+        around_(vertex_neighbours(outer.triangles, outer.points.rows())),
+        fans_(vertex_triangles(outer.triangles, outer.points.rows())),
+        unsound_(outer.triangles.rows(), 1) {
     normals_ = vertex_normals(outer);
-    visible_ = visibility_of(outer_).direction;
+    visible_ = visibility_of(outer_);
     inward_ = -(thickness.asDiagonal() * normals_);
     smooth_all(8, 0.5);
     wanted_ = inward_.rowwise().norm();
@@ -79,14 +81,16 @@ class LayerBuilder {
 
   Vec3 point(int f, int k) const { return outer_.points.row(outer_.triangles(f, k)); }
   bool sound(int f) const;
-  std::vector<char> unsound_vertices() const;
+  std::vector<char> unsound_vertices(const std::vector<char>& changed);
   void flatten(const std::vector<char>& bad);
   Vec3 mean_around(const Points& values, int v) const;
 
   TriMesh outer_;
   VolumeMeshOptions options_;
-  std::vector<std::vector<int>> around_;
-  Points normals_, visible_, inward_;
+  std::vector<std::vector<int>> around_, fans_;
+  std::vector<char> unsound_;  // per triangle
+  Visibility visible_;
+  Points normals_, inward_;
   Eigen::VectorXd wanted_;
 };
 
@@ -121,8 +125,9 @@ int LayerBuilder::untangle() {
   constexpr int rounds = 160;
   constexpr double thinnest_share =
       0.3;  // of the wanted thickness; thinner layers make flat elements
+  std::vector<char> bad(inward_.rows(), 1);
   for (int round = 0; round < rounds; ++round) {
-    const std::vector<char> bad = unsound_vertices();
+    bad = unsound_vertices(bad);
     if (std::count(bad.begin(), bad.end(), 1) == 0)
       return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
     if (round >= rounds / 4 && round % 4 == 0) flatten(bad);
@@ -131,7 +136,7 @@ int LayerBuilder::untangle() {
       if (!bad[v]) continue;
       touched[v] = 1;
       const Vec3 mean = mean_around(old, static_cast<int>(v));
-      const Vec3 clear = -visible_.row(v).transpose() * old.row(v).norm();
+      const Vec3 clear = -visible_.direction.row(v).transpose() * old.row(v).norm();
       const double turn = std::min(1.0, round / 40.0);
       const Vec3 target = (1 - turn) * mean + turn * clear;
       const double length = old.row(v).norm();
@@ -152,11 +157,17 @@ int LayerBuilder::untangle() {
       left);
 }
 
-std::vector<char> LayerBuilder::unsound_vertices() const {
-  std::vector<char> bad(inward_.rows(), 0);
-  for (Eigen::Index f = 0; f < outer_.triangles.rows(); ++f)
-    if (!sound(static_cast<int>(f)))
+/// Looks again at the triangles of changed vertices alone: a fold is small, the face is not.
+std::vector<char> LayerBuilder::unsound_vertices(const std::vector<char>& changed) {
+  std::vector<char> stale(unsound_.size(), 0), bad(inward_.rows(), 0);
+  for (std::size_t v = 0; v < changed.size(); ++v)
+    if (changed[v])
+      for (const int f : fans_[v]) stale[f] = 1;
+  for (std::size_t f = 0; f < unsound_.size(); ++f) {
+    if (stale[f]) unsound_[f] = !sound(static_cast<int>(f));
+    if (unsound_[f])
       for (int k = 0; k < 3; ++k) bad[outer_.triangles(f, k)] = 1;
+  }
   return bad;
 }
 
@@ -166,7 +177,7 @@ void LayerBuilder::flatten(const std::vector<char>& bad) {
     if (bad[v])
       outer_.points.row(v) =
           0.6 * old.row(v) + 0.4 * mean_around(old, static_cast<int>(v)).transpose();
-  visible_ = visibility_of(outer_).direction;
+  update_visibility(outer_, bad, fans_, visible_);
 }
 
 Vec3 LayerBuilder::mean_around(const Points& values, int v) const {

@@ -84,6 +84,21 @@ TEST(Visibility, IsNotPositiveWhereFolded) {
   EXPECT_LE(visibility_of(fan(rim, {0, 0, 0})).least[6], 0);
 }
 
+TEST(Visibility, UpdateAfterAMoveIsThatOfTheWhole) {
+  test::Sheet sheet = test::sheet_mesh({10, 10}, {0.05, 0.05});
+  TriMesh& mesh = sheet.mesh;
+  Visibility seen = visibility_of(mesh);
+  std::vector<char> moved(mesh.points.rows(), 0);
+  for (const auto& [x, y] : {std::pair{5, 5}, {9, 2}, {0, 10}}) {
+    moved[sheet.vertex(x, y)] = 1;
+    mesh.points.row(sheet.vertex(x, y)) += Eigen::RowVector3d(0.004, -0.002, 0.003);
+  }
+  update_visibility(mesh, moved, vertex_triangles(mesh.triangles, mesh.points.rows()), seen);
+  const Visibility whole = visibility_of(mesh);
+  EXPECT_EQ(seen.direction, whole.direction);
+  EXPECT_EQ(seen.least, whole.least);
+}
+
 TEST(Unfold, LeavesASmoothSurfaceAlone) {
   const TriMesh mesh = test::sheet_mesh({10, 10}, {0.05, 0.05}, [](double x, double y) {
                          return 4 * x * (0.05 - x) + 3 * y * (0.05 - y);
