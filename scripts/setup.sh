@@ -17,8 +17,10 @@ packages=(
   libembree-dev libtbb-dev # rays and closest points; threads
   libtinygltf-dev libtinyobjloader-dev libstb-dev zlib1g-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+  libopencv-dnn-dev libflatbuffers-dev flatbuffers-compiler  # the landmark networks
   libcairo2-dev fonts-dejavu-core  # pictures with words on them
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev  # pictures of recordings
+  libturbojpeg0-dev        # tells torn pictures from sound ones
   libopencv-videoio-dev    # video files and webcams
   libfreenect-dev libopenni2-dev   # depth cameras
   libgtest-dev libgmock-dev

@@ -24,10 +24,13 @@ class FrameSource {
   virtual bool live() const = 0;
   /// Frames in all, the invalid ones among them; nothing where that is not known beforehand.
   virtual std::optional<std::size_t> frame_count() const = 0;
-  /// The next frame, nothing at the end. A faulty one comes as invalid with its `fault`. Throws
-  /// InputError where (almost) all frames turn out faulty, or the camera is lost.
-  /// The pictures are the caller's: the source does not touch them again.
+  /// The next frame, nothing at the end. A faulty one comes as invalid with its `fault`, and with
+  /// what could be read of it. Throws InputError at the end where fewer than one frame in ten was
+  /// valid, and where a camera gives no frame at all; one that is lost later ends the source with a
+  /// note. The pictures are the caller's: the source does not touch them again.
   virtual std::optional<Frame> next() = 0;
+  /// Frames that were lost because nobody fetched them in time (live sources).
+  virtual std::size_t dropped() const { return 0; }
   /// What the user should know of how this source is read, one sentence each: guessed intrinsics,
   /// pairs by nearest time, depth whose registration is unknown.
   virtual std::vector<std::string> notes() const { return {}; }

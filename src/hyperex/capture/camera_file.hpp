@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hyperex/capture/frame.hpp"
+
+namespace hyperex::capture {
+
+/// What a camera.toml tells:
+///   width, height          whole pixels > 0
+///   fx, fy, cx, cy         pixels; pinhole without distortion, pixel centres at integers
+///   depth_scale = 5000     stored depth value per metre, where depth is stored as whole numbers
+///   fps                    > 0, not needed
+struct Camera {
+  Intrinsics intrinsics;
+  double depth_per_metre = 5000;
+  std::vector<std::string> notes;  ///< keys that are not used
+};
+
+/// Throws InputError where the file is no TOML, a key is missing, out of range, or states a lens
+/// distortion (k1, k2, ... other than 0), which the pinhole model would ignore.
+Camera read_camera_file(const std::filesystem::path& file);
+
+/// A centred pinhole camera of square pixels whose longer side spans `field_of_view_deg`:
+///   f = long side / (2 tan(field of view / 2)),  cx = (width - 1) / 2,  cy = (height - 1) / 2.
+/// Throws InputError outside 10 to 170 degrees.
+Intrinsics guess_intrinsics(int width_px, int height_px, double field_of_view_deg);
+
+/// "640 x 480"
+std::string size_text(int width_px, int height_px);
+
+}  // namespace hyperex::capture
