@@ -2,27 +2,16 @@
 // Writes the canonical face that the npm package @mediapipe/face_mesh (Apache-2.0) carries as OBJ:
 //   node extract_canonical_face.mjs PACKAGE_FOLDER canonical_face.obj
 // 468 vertices in centimetres with texture coordinates, 898 triangles.
-// The package packs its assets into one .data file; the loader script lists the byte offsets. The
-// asset itself is a protocol buffer: GeometryPipelineMetadata { Mesh3d canonical_mesh = 1; ... },
+// The asset is a protocol buffer: GeometryPipelineMetadata { Mesh3d canonical_mesh = 1; ... },
 // Mesh3d { ... repeated float vertex_buffer = 3 (x y z u v); repeated uint32 index_buffer = 4 }.
-import { readFileSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { writeFileSync } from 'node:fs';
+import { assetBytes } from './packed_assets.mjs';
 
 const ASSET = 'geometry_pipeline_metadata_landmarks.binarypb';
-const STEM = 'face_mesh_solution_packed_assets';
 
 function fail(message) {
   console.error(`extract_canonical_face: ${message}`);
   process.exit(1);
-}
-
-function assetBytes(folder) {
-  const loader = readFileSync(join(folder, `${STEM}_loader.js`), 'utf8');
-  const match = loader.match(/loadPackage\((\{.*\})\)/);
-  if (!match) fail(`no list of files in ${STEM}_loader.js`);
-  const entry = JSON.parse(match[1]).files.find((file) => file.filename.endsWith(ASSET));
-  if (!entry) fail(`${ASSET} is not in the package`);
-  return readFileSync(join(folder, `${STEM}.data`)).subarray(entry.start, entry.end);
 }
 
 /** Top-level fields of a protocol-buffer message: [number, wire type, value]. */
@@ -79,7 +68,13 @@ function canonicalMesh(bytes) {
 
 const [folder, target] = process.argv.slice(2);
 if (!folder || !target) fail('usage: extract_canonical_face.mjs PACKAGE_FOLDER canonical_face.obj');
-const { vertices, indices } = canonicalMesh(assetBytes(folder));
+let bytes;
+try {
+  bytes = assetBytes(folder, ASSET);
+} catch (error) {
+  fail(error.message);
+}
+const { vertices, indices } = canonicalMesh(bytes);
 if (vertices.length !== 468 * 5 || indices.length !== 898 * 3)
   fail(`expected 468 vertices and 898 triangles, found ${vertices.length / 5} and ${indices.length / 3}`);
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/network/landmark_tracker.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/dnn.hpp>
+#include <stdexcept>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/tracking/network/model_bytes.hpp"
+#include "hyperex/tracking/network/tflite_network.hpp"
+
+namespace hyperex::tracking {
+namespace {
+
+constexpr int right_eye_outer = 33, left_eye_outer = 263;  // vertices of the canonical face
+
+/// Where to look next: 1.5 x the longer side of the points' box, upright along the eyes.
+FaceRegion region_of(const FacePoints& points) {
+  const Eigen::Vector2d along =
+      (points.row(left_eye_outer) - points.row(right_eye_outer)).head<2>();
+  const double angle = std::atan2(along.y(), along.x());
+  const Eigen::Matrix2d picture_from_square = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  const Eigen::Matrix<double, face_point_count, 2> turned =
+      points.leftCols<2>() * picture_from_square;
+  const Eigen::Vector2d low = turned.colwise().minCoeff(), high = turned.colwise().maxCoeff();
+  const Eigen::Vector2d centre = picture_from_square * (low + high) / 2;
+  return {centre.x(), centre.y(), 1.5 * (high - low).maxCoeff(), angle};
+}
+
+/// Whether two squares differ too little for the network to see another picture.
+bool settled(const FaceRegion& a, const FaceRegion& b) {
+  constexpr double shift = 0.02, growth = 0.03, turn_rad = 0.03;
+  return std::hypot(a.x - b.x, a.y - b.y) < shift * a.side_px &&
+         std::abs(a.side_px - b.side_px) < growth * a.side_px &&
+         std::abs(std::remainder(a.angle_rad - b.angle_rad, 2 * M_PI)) < turn_rad;
+}
+
+}  // namespace
+
+struct LandmarkTracker::Impl {
+  explicit Impl(const LandmarkOptions& o) : options(o), finder(o.finder) {
+    if (network.outputs.size() != 2)
+      throw InputError("face_landmark.tflite", "has not the two outputs points and score");
+  }
+
+  LandmarkOptions options;
+  FaceFinder finder;
+  Network network = read_tflite(face_landmark_bytes(), "face_landmark.tflite");
+  cv::Mat scratch, patch, input;
+  std::vector<cv::Mat> outputs;
+  bool following = false;
+  FaceRegion next;  // where to look in the next picture, while following
+  int faces_in_view = 0, since_look_around = 0;
+
+  FaceLandmarks look_at(const cv::Mat& bgr, const FaceRegion& region) {
+    cut_out(bgr, region, network.width_px, false, scratch, patch);
+    cv::dnn::blobFromImage(patch, input, 1 / 255.0, {}, {}, true);
+    network.net.setInput(input);
+    network.net.forward(outputs, network.outputs);
+    const bool points_first = outputs[0].total() > outputs[1].total();
+    const float* numbers = outputs[points_first ? 0 : 1].ptr<float>();
+    FaceLandmarks found;
+    found.score = 1 / (1 + std::exp(-double(outputs[points_first ? 1 : 0].ptr<float>()[0])));
+    found.region = region;
+    found.faces_in_view = std::max(1, faces_in_view);
+    for (int i = 0; i < face_point_count; ++i) {
+      const cv::Point2d p = region.picture_from_square(numbers[3 * i] / network.width_px,
+                                                       numbers[3 * i + 1] / network.height_px);
+      found.points_px.row(i) << p.x, p.y, numbers[3 * i + 2] * region.side_px / network.width_px;
+    }
+    return found;
+  }
+
+  std::optional<FaceLandmarks> follow(const cv::Mat& bgr) {
+    if (options.look_around_every > 0 && ++since_look_around >= options.look_around_every) {
+      since_look_around = 0;
+      faces_in_view = std::max(1, int(finder.find(bgr).size()));
+    }
+    FaceLandmarks found = look_at(bgr, next);
+    if (found.score < options.least_score) return std::nullopt;
+    return found;
+  }
+
+  std::optional<FaceLandmarks> find(const cv::Mat& bgr) {
+    const auto& faces = finder.find(bgr);
+    faces_in_view = int(faces.size());
+    since_look_around = 0;
+    for (const FoundFace& face : faces) {
+      FaceLandmarks found = look_at(bgr, face.region());
+      for (int round = 0; round < options.settling_rounds; ++round) {
+        const FaceRegion region = region_of(found.points_px);
+        if (found.score < options.least_score || settled(region, found.region)) break;
+        found = look_at(bgr, region);
+      }
+      found.found_anew = true;
+      if (found.score >= options.least_score) return found;
+    }
+    return std::nullopt;
+  }
+};
+
+LandmarkTracker::LandmarkTracker(const LandmarkOptions& options)
+    : impl_(std::make_unique<Impl>(options)) {}
+LandmarkTracker::~LandmarkTracker() = default;
+LandmarkTracker::LandmarkTracker(LandmarkTracker&&) noexcept = default;
+LandmarkTracker& LandmarkTracker::operator=(LandmarkTracker&&) noexcept = default;
+
+std::optional<FaceLandmarks> LandmarkTracker::track(const cv::Mat& bgr) {
+  if (bgr.empty() || bgr.type() != CV_8UC3)
+    throw std::invalid_argument("LandmarkTracker::track: a picture of type CV_8UC3 is wanted");
+  Impl& my = *impl_;
+  std::optional<FaceLandmarks> found;
+  if (my.following) found = my.follow(bgr);
+  if (!found) found = my.find(bgr);
+  my.following = found.has_value();
+  if (found) my.next = region_of(found->points_px);
+  return found;
+}
+
+FaceLandmarks LandmarkTracker::look_at(const cv::Mat& bgr, const FaceRegion& region) {
+  if (bgr.empty() || bgr.type() != CV_8UC3 || !(region.side_px > 0))
+    throw std::invalid_argument(
+        "LandmarkTracker::look_at: a picture of type CV_8UC3 and a square are wanted");
+  return impl_->look_at(bgr, region);
+}
+
+void LandmarkTracker::reset() {
+  impl_->following = false;
+}
+
+}  // namespace hyperex::tracking

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "hyperex/tracking/network/face_finder.hpp"
+#include "hyperex/tracking/network/face_region.hpp"
+
+namespace hyperex::tracking {
+
+inline constexpr int face_point_count = 468;
+/// One row a vertex of the canonical face (tissue/canonical_face.hpp): x right, y down in pixels of
+/// the picture, pixel centres at integers; z in pixels too, relative to the head, smaller is
+/// nearer. Points may lie outside the picture.
+using FacePoints = Eigen::Matrix<double, face_point_count, 3, Eigen::RowMajor>;
+
+struct FaceLandmarks {
+  FacePoints points_px;
+  double score = 0;         ///< that there is a face where the points are, 0 to 1
+  int faces_in_view = 1;    ///< at the last look at the whole picture
+  bool found_anew = false;  ///< by the detector in this picture; else followed from the last one
+  FaceRegion region;        ///< the square of the picture that the network saw
+};
+
+struct LandmarkOptions {
+  FaceFinderOptions finder;
+  double least_score = 0.5;  ///< below it the face counts as lost, 0 to 1
+  /// A face found anew: its square is taken from the points again until it settles, at most so
+  /// often.
+  int settling_rounds = 4;
+  /// Pictures between two looks at the whole picture while a face is followed (they keep
+  /// faces_in_view true); 0: none.
+  int look_around_every = 30;
+};
+
+/// Finds a face and follows it from picture to picture: the 468 points of MediaPipe Face Mesh
+/// (Y. Kartynnik et al., "Real-time Facial Surface Geometry from Monocular Video on Mobile GPUs",
+/// CVPR Workshop 2019). The points of one picture tell where to look in the next; a lost face is
+/// looked for in the whole picture. Of several faces the largest is taken, and kept while it is
+/// followed. The pictures need not be of one size. The same pictures give the same points.
+class LandmarkTracker {
+ public:
+  explicit LandmarkTracker(const LandmarkOptions& options = {});
+  ~LandmarkTracker();
+  LandmarkTracker(LandmarkTracker&&) noexcept;
+  LandmarkTracker& operator=(LandmarkTracker&&) noexcept;
+
+  /// The face in a picture (CV_8UC3, BGR, not empty; std::invalid_argument otherwise), or nothing
+  /// where there is none.
+  std::optional<FaceLandmarks> track(const cv::Mat& bgr);
+  /// The points in a region known from elsewhere, whatever was followed before; no look at the
+  /// score. Does not change what is followed.
+  FaceLandmarks look_at(const cv::Mat& bgr, const FaceRegion& region);
+  /// Forgets the face that was followed.
+  void reset();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hyperex::tracking
