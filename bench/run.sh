@@ -29,7 +29,7 @@ for at in "${!sizes[@]}"; do
   for element in tet4 tet4-star; do
     say "growth: $element, elements of $size m in $layers layers"
     # Where memory or time runs out, the page says at what stage.
-    timeout 300 "$build/bin/growth_bench" --size "$size" --layers "$layers" --element "$element" \
+    timeout 900 "$build/bin/growth_bench" --size "$size" --layers "$layers" --element "$element" \
       --out "$results/growth_${at}_$element.json" 2> "$results/growth_${at}_$element.log" ||
       say "... stopped before its end"
   done

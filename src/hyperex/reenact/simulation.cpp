@@ -202,7 +202,7 @@ class Run {
     for (const Shot& shot : shots_)
       times.push_back(std::clamp(shot.time_s / dt_s, 0.0, static_cast<double>(report.steps)));
     const Solution solution =
-        solve(system, boundary.prescribed(), input.drive, times, options_.solver, dt_s);
+        solve(std::move(system), boundary.prescribed(), input.drive, times, options_.solver, dt_s);
     result_.performance.node_displacement_m.resize(result_.performance.frame_time_s.size());
     for (std::size_t i = 0; i < shots_.size(); ++i)
       store(shots_[i], Eigen::Map<const Points>(solution.displacement.col(i).data(),

@@ -11,18 +11,18 @@
 namespace hyperex::reenact {
 namespace {
 
-Solution solve_full(const fem::System& system, const std::vector<int>& prescribed,
-                    const fem::Drive& drive, const std::vector<double>& times,
-                    const fem::NewmarkOptions& options, fem::LinearSolver linear) {
+Solution solve_full(fem::System system, const std::vector<int>& prescribed, const fem::Drive& drive,
+                    const std::vector<double>& times, const fem::NewmarkOptions& options,
+                    fem::LinearSolver linear) {
   Solution out;
-  fem::Newmark newmark(system, prescribed, options, linear);
+  fem::Newmark newmark(std::move(system), prescribed, options, linear);
   out.linear_solver = newmark.solver();
   out.free_dofs = newmark.free_count();
   out.analyse_s = newmark.analyse_seconds();
   out.factor_s = newmark.factor_seconds();
 
   Stopwatch watch;
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.stiffness.cols());
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(newmark.displacement().size());
   fem::Kinematics next = drive.prescribed_at(0);
   Eigen::VectorXd force = drive.force_at(0);
   Eigen::VectorXd d = zero, v = zero;
@@ -55,11 +55,11 @@ Solution solve_full(const fem::System& system, const std::vector<int>& prescribe
   return out;
 }
 
-Solution solve_reduced(const fem::System& system, const std::vector<int>& prescribed,
+Solution solve_reduced(fem::System system, const std::vector<int>& prescribed,
                        const fem::Drive& drive, const std::vector<double>& times,
                        const fem::ReducedOptions& options, fem::LinearSolver linear) {
   Solution out;
-  fem::ReducedModel model(system, prescribed, linear);
+  fem::ReducedModel model(std::move(system), prescribed, linear);
   out.linear_solver = model.solver();
   out.free_dofs = model.free_count();
   out.analyse_s = model.analyse_seconds();
@@ -88,18 +88,18 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth) {
 
 }  // namespace
 
-Solution solve(const fem::System& system, const std::vector<int>& prescribed,
-               const fem::Drive& drive, const std::vector<double>& times,
-               const SolverOptions& options, double dt_s) {
+Solution solve(fem::System system, const std::vector<int>& prescribed, const fem::Drive& drive,
+               const std::vector<double>& times, const SolverOptions& options, double dt_s) {
   const fem::NewmarkOptions time{dt_s, options.beta, options.gamma};
   if (options.method == SolverMethod::direct)
-    return solve_full(system, prescribed, drive, times, time, options.linear);
-  Solution out =
-      solve_reduced(system, prescribed, drive, times, {time, options.tolerance}, options.linear);
-  if (options.verify)
-    out.verified_error =
-        difference(out.displacement,
-                   solve_full(system, prescribed, drive, times, time, options.linear).displacement);
+    return solve_full(std::move(system), prescribed, drive, times, time, options.linear);
+  const fem::ReducedOptions reduced{time, options.tolerance};
+  if (!options.verify)
+    return solve_reduced(std::move(system), prescribed, drive, times, reduced, options.linear);
+  Solution out = solve_reduced(system, prescribed, drive, times, reduced, options.linear);
+  const Solution full =
+      solve_full(std::move(system), prescribed, drive, times, time, options.linear);
+  out.verified_error = difference(out.displacement, full.displacement);
   return out;
 }
 

@@ -19,7 +19,7 @@ struct Solution {
 };
 
 /// `times_in_steps`: rising, from 0 to the drive's last step; linear between steps.
-Solution solve(const fem::System& system, const std::vector<int>& prescribed,
+Solution solve(fem::System system, const std::vector<int>& prescribed,
                const fem::Drive& drive, const std::vector<double>& times_in_steps,
                const SolverOptions& options, double dt_s);
 

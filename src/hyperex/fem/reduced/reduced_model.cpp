@@ -208,13 +208,13 @@ Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps
   return d;
 }
 
-ReducedModel::ReducedModel(const System& system, std::vector<int> prescribed, LinearSolver wanted)
-    : system_(system),
-      factor_(system.stiffness, std::move(prescribed), "reduced model", system.nodes, wanted) {}
+ReducedModel::ReducedModel(System system, std::vector<int> prescribed, LinearSolver wanted)
+    : system_(std::move(system)),
+      factor_(system_.stiffness, std::move(prescribed), "reduced model", system_.nodes, wanted) {}
 
-void ReducedModel::refill(const System& system) {
-  system_ = system;
-  factor_.refactor(system.stiffness);
+void ReducedModel::refill(System system) {
+  system_ = std::move(system);
+  factor_.refactor(system_.stiffness);
 }
 
 Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {

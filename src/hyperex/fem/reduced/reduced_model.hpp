@@ -42,17 +42,17 @@ struct Response {
 /// instants and where the change stores most energy): the sum of the changes yet to come were they
 /// to go on shrinking as they did; measured never to be exceeded by more than half where viscosity
 /// is a tenth of tissue's or more and the steps resolve the motion. It falls short for a run of one
-/// single step, and tenfold with much numerical damping (gamma = 0.9) at 1e-5: there, verify against
-/// the full model. The better of the last two motions is returned.
+/// single step, and tenfold with much numerical damping (gamma = 0.9) at 1e-5: there, verify
+/// against the full model. The better of the last two motions is returned.
 ///
 /// One factorisation of K_oo serves every drive. Numbers do not depend on the number of threads.
 class ReducedModel {
  public:
   /// Throws NumericalError where K_oo is not positive definite.
-  ReducedModel(const System& system, std::vector<int> prescribed,
+  ReducedModel(System system, std::vector<int> prescribed,
                LinearSolver wanted = LinearSolver::automatic);
   /// Other values on the same patterns: keeps the ordering.
-  void refill(const System& system);
+  void refill(System system);
 
   /// The response from rest (d = d' = 0 on the free unknowns at step 0, d'' in equilibrium).
   Response run(const Drive& drive, const ReducedOptions& options);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/solve/linear_solver.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <fstream>
 #include <optional>
@@ -38,6 +41,13 @@ double available_memory_bytes() {
   const auto limit = number_in("/sys/fs/cgroup/memory.max");
   const auto used = number_in("/sys/fs/cgroup/memory.current");
   if (limit && used) available = std::min(available, std::max(0.0, *limit - *used));
+  rlimit space{};
+  std::ifstream pages("/proc/self/statm");
+  if (double used_pages = 0;
+      getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY && pages >> used_pages)
+    available = std::min(
+        available, std::max(0.0, static_cast<double>(space.rlim_cur) -
+                                     used_pages * static_cast<double>(sysconf(_SC_PAGESIZE))));
   return available;
 }
 

@@ -32,14 +32,15 @@ inline constexpr double kStoredShare = 1.25;
 /// Share of the memory available that the factor may take. Where it fits, Cholesky is the quicker
 /// (at 100,000 nodes 16 right-hand sides alone took the other one several times as long as
 /// factorising), and so memory alone decides.
-inline constexpr double kFactorShare = 0.5;
+inline constexpr double kFactorShare = 0.8;
 
 /// Never `automatic`: what `wanted` comes to for a factor as forecast, `available_bytes` of memory
 /// being free. An explicit wish is granted, a factor beyond kMostFactorEntries excepted.
 LinearSolver pick_linear_solver(LinearSolver wanted, const FactorForecast& forecast,
                                 double available_bytes);
 
-/// MemAvailable of /proc/meminfo, less where a control group grants less; without either: 4 GiB.
+/// MemAvailable of /proc/meminfo, less where a control group or a limit on the address space grants
+/// less; without any: 4 GiB.
 double available_memory_bytes();
 
 }  // namespace hyperex::fem

@@ -37,25 +37,25 @@ struct Newmark::Impl {
   PartitionedFactor factor;
   SparseMatrix stiffness_oc;
   InertiaRows inertia;
-  System system;  // for the start alone
+  SparseMatrix stiffness, mass;  // for the start alone
   Kinematics state;
   Eigen::VectorXd u, w, q;  // q = M u + C w, all unknowns
   Eigen::VectorXd x_o;
   Kinematics own;  // of the prescribed unknowns, where only their displacement is given
 
-  Impl(const System& s, std::vector<int> prescribed, const NewmarkOptions& options,
-       LinearSolver wanted)
+  Impl(System s, std::vector<int> prescribed, const NewmarkOptions& options, LinearSolver wanted)
       : by(options),
         factor(combined(s, by.c_d, by.m_d), std::move(prescribed), "time integration", s.nodes,
                wanted),
         stiffness_oc(coupling(s.stiffness, factor.partition())),
         inertia(s),
-        system(s) {
+        stiffness(std::move(s.stiffness)),
+        mass(std::move(s.mass)) {
     clear();
   }
 
   void clear() {
-    const Eigen::Index n = system.stiffness.cols();
+    const Eigen::Index n = stiffness.cols();
     state.d = state.v = state.a = u = w = q = Eigen::VectorXd::Zero(n);
     x_o = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(factor.free().size()));
     own.d = own.v = own.a =
@@ -67,7 +67,7 @@ struct Newmark::Impl {
     Eigen::VectorXd a_all = state.a;
     for (const int o : free) a_all[o] = 0;
     inertia.product(a_all, state.v, q);
-    q += system.stiffness * state.d;
+    q += stiffness * state.d;
     Eigen::VectorXd rest = -q(free);
     if (force.size() > 0) rest += force(free);
     if (rest.isZero(0)) {
@@ -76,8 +76,8 @@ struct Newmark::Impl {
     }
     // The consistent mass is well conditioned whatever the mesh: scaled by its diagonal, at most 5
     // for linear tetrahedra (Wathen, IMA J. Numer. Anal. 7, 1987).
-    const SparseMatrix mass = free_lower(system.mass, factor.partition());
-    Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower> cg(mass);
+    const SparseMatrix mass_oo = free_lower(mass, factor.partition());
+    Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower> cg(mass_oo);
     cg.setTolerance(1e-14);
     a_all(free) = cg.solve(rest);
     if (!(cg.error() < 1e-10))
@@ -120,19 +120,20 @@ struct Newmark::Impl {
   }
 };
 
-Newmark::Newmark(const System& system, std::vector<int> prescribed, const NewmarkOptions& options,
+Newmark::Newmark(System system, std::vector<int> prescribed, const NewmarkOptions& options,
                  LinearSolver wanted) {
   assert(options.dt_s > 0 && options.gamma >= 0.5 && 2 * options.beta >= options.gamma);
-  impl_ = std::make_unique<Impl>(system, std::move(prescribed), options, wanted);
+  impl_ = std::make_unique<Impl>(std::move(system), std::move(prescribed), options, wanted);
 }
 Newmark::~Newmark() = default;
 Newmark::Newmark(Newmark&&) noexcept = default;
 
-void Newmark::refill(const System& system) {
+void Newmark::refill(System system) {
   impl_->factor.refactor(combined(system, impl_->by.c_d, impl_->by.m_d));
   impl_->stiffness_oc = coupling(system.stiffness, impl_->factor.partition());
   impl_->inertia.refill(system);
-  impl_->system = system;
+  impl_->stiffness = std::move(system.stiffness);
+  impl_->mass = std::move(system.mass);
   impl_->clear();
 }
 

@@ -30,13 +30,13 @@ class Newmark {
  public:
   /// `prescribed`: sorted unique unknowns 3 n + axis. Throws NumericalError where A_oo is not
   /// positive definite. All start values are zero.
-  Newmark(const System& system, std::vector<int> prescribed, const NewmarkOptions& options,
+  Newmark(System system, std::vector<int> prescribed, const NewmarkOptions& options,
           LinearSolver wanted = LinearSolver::automatic);
   ~Newmark();
   Newmark(Newmark&&) noexcept;
 
   /// Other values on the same patterns: keeps the ordering; the state goes back to zero.
-  void refill(const System& system);
+  void refill(System system);
 
   /// Sets displacement and velocity of all unknowns (3 |nodes|) and the acceleration of the
   /// prescribed ones; that of the free ones follows from the equation of motion at this time.
