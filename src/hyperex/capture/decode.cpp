@@ -2,11 +2,13 @@
 #include "hyperex/capture/decode.hpp"
 
 #include <turbojpeg.h>
+#include <zlib.h>
 
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
+#include <string_view>
 #include <vector>
 
 #include "hyperex/capture/camera_file.hpp"
@@ -22,13 +24,24 @@ bool begins_with(const Bytes& bytes, std::string_view magic) {
                     [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
 }
 
-/// libpng prints its complaints; the commonest tear, a file cut short, is seen before it is asked.
-bool is_cut_png(const Bytes& bytes) {
-  using namespace std::string_view_literals;
-  constexpr auto end = "IEND\xAE\x42\x60\x82"sv;
+/// PNG checks itself, chunk by chunk. Done here first, as libpng prints its complaints itself.
+bool is_torn_png(const Bytes& bytes) {
+  constexpr std::string_view magic = "\x89PNG\r\n\x1A\n";
   if (!begins_with(bytes, "\x89PNG")) return false;
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return text.rfind(end) == std::string_view::npos;
+  const auto number = [&](std::size_t at) {
+    return std::size_t{bytes[at]} << 24 | std::size_t{bytes[at + 1]} << 16 |
+           std::size_t{bytes[at + 2]} << 8 | std::size_t{bytes[at + 3]};
+  };
+  // A chunk: its length, its four letters, so many bytes, the check sum of letters and bytes.
+  for (std::size_t at = magic.size(); at + 12 <= bytes.size();) {
+    const std::size_t length = number(at);
+    if (length > bytes.size() - at - 12) return true;
+    const unsigned char* letters = bytes.data() + at + 4;
+    if (crc32(0, letters, static_cast<uInt>(length + 4)) != number(at + 8 + length)) return true;
+    if (std::equal(letters, letters + 4, "IEND")) return false;
+    at += 12 + length;
+  }
+  return true;
 }
 
 /// A byte or two too many before the end: what webcams write day in, day out, and no tear.
@@ -65,7 +78,7 @@ Decoded decode(const fs::path& file, int flags) {
   if (bytes.empty()) return {{}, file.string() + ": empty file"};
   if ((flags & cv::IMREAD_COLOR) != 0 && begins_with(bytes, "\xFF\xD8"))
     return decode_jpeg(bytes, file.string());
-  if (is_cut_png(bytes)) return {{}, file.string() + ": torn picture (the file is cut short)"};
+  if (is_torn_png(bytes)) return {{}, file.string() + ": torn picture (cut short or damaged)"};
   try {
     cv::Mat picture = cv::imdecode(bytes, flags);
     if (!picture.empty()) return {picture, {}};

@@ -9,7 +9,7 @@ struct SourceOptions {
   /// Leave the depth out, as if there were none.
   bool colour_only = false;
   /// A camera.toml (camera_file.hpp) that goes before what the source says or would guess.
-  std::filesystem::path camera_file;
+  std::filesystem::path camera_file = {};
   /// Where nobody knows the camera: degrees across the longer side of its picture, 10 to 170.
   /// Webcams and phones lie between 50 and 75.
   double field_of_view_deg = 60;

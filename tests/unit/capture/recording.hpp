@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "hyperex/capture/source.hpp"
+
+namespace hyperex::capture::test {
+
+inline constexpr int width_px = 64, height_px = 48;
+
+/// A folder of its own, removed at the end.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+void write_text(const std::filesystem::path& file, const std::string& text);
+std::string read_text(const std::filesystem::path& file);
+/// Keeps the first `share` of the file.
+void tear(const std::filesystem::path& file, double share);
+
+/// Blue = column, green = row, red = 10 frame: smooth, so that JPEG keeps it within a few grey
+/// levels.
+cv::Mat colour_picture(int frame, int width = width_px, int height = height_px);
+/// 1000 mm + 10 frame + column, with no reading in the first row.
+cv::Mat depth_picture_mm(int frame, int width = width_px, int height = height_px);
+
+/// A sound recording of `frames` frames at 10 Hz in TUM's layout, JPEG and 16-bit PNG at 1000 per
+/// metre, with all three lists. Names are rgb/0.jpg, depth/0.png, rgb/1.jpg and so on.
+void write_recording(const std::filesystem::path& folder, int frames);
+
+/// Every frame to the end.
+std::vector<Frame> read_all(FrameSource& source);
+/// The message of the InputError that `act` throws; "" where it throws none.
+std::string input_error(const std::function<void()>& act);
+
+}  // namespace hyperex::capture::test
