@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/fit/face_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/core/stopwatch.hpp"
+
+namespace hyperex::tracking {
+
+namespace {
+
+/// A frame that waits, and what the network saw in it.
+struct Waiting {
+  TrackedFrame frame;
+  std::optional<Observation> seen;
+  bool found_anew = false;
+};
+
+constexpr double kRegionMargin = 0.15;  // around the points, of their extent
+
+cv::Rect region_around(const Points& px) {
+  const Eigen::RowVector3d low = px.colwise().minCoeff(), high = px.colwise().maxCoeff();
+  const double margin = kRegionMargin * std::max(high.x() - low.x(), high.y() - low.y());
+  const int x = int(std::floor(low.x() - margin)), y = int(std::floor(low.y() - margin));
+  return {x, y, int(std::ceil(high.x() + margin)) - x, int(std::ceil(high.y() + margin)) - y};
+}
+
+}  // namespace
+
+struct FaceTracker::Impl {
+  Impl(const FaceModel& m, const capture::Intrinsics& c, const TrackerOptions& o)
+      : model(m), camera(c), options(o), network(o.network) {}
+
+  const FaceModel& model;
+  capture::Intrinsics camera;
+  TrackerOptions options;
+  LandmarkTracker network;
+  std::deque<Waiting> waiting;
+  int faces = 0;
+  std::optional<Neutral> neutral;
+  std::unique_ptr<FrameFit> fit;
+  Template skin;
+  std::optional<FaceState> before;
+  TrackerTimes times;
+
+  Waiting look(const capture::Frame& frame) {
+    Waiting seen;
+    seen.frame.index = frame.index;
+    seen.frame.time_s = frame.time_s;
+    if (!frame.valid || frame.colour.empty()) {
+      seen.frame.fault = frame.fault.empty() ? "no picture" : frame.fault;
+      return seen;
+    }
+    Stopwatch watch;
+    const auto face = network.track(frame.colour);
+    times.network_s += watch.lap();
+    ++times.frames;
+    if (!face) {
+      seen.frame.fault = "no face found";
+      return seen;
+    }
+    seen.frame.network_score = face->score;
+    seen.frame.faces_in_view = face->faces_in_view;
+    seen.found_anew = face->found_anew;
+    Observation observation;
+    observation.network_px = face->points_px;
+    if (options.use_depth) observation.depth_m = frame.depth_m;
+    observation.picture = fine_picture(frame.colour, region_around(observation.network_px));
+    times.picture_s += watch.lap();
+    seen.seen = std::move(observation);
+    return seen;
+  }
+
+  void find_neutral() {
+    std::vector<Observation> frames;
+    for (const Waiting& one : waiting)
+      if (one.seen) frames.push_back(*one.seen);
+    if (frames.empty()) return;
+    Stopwatch watch;
+    neutral = estimate_neutral(model, camera, frames, options.neutral);
+    fit = std::make_unique<FrameFit>(model, camera, neutral->points_m, neutral->scale, options.fit);
+    times.neutral_s += watch.lap();
+  }
+
+  TrackedFrame track(Waiting& one) {
+    TrackedFrame frame = std::move(one.frame);
+    if (!one.seen || !fit) {
+      if (one.seen) frame.fault = "the person's shape is not known";
+      before.reset();
+      return frame;
+    }
+    Stopwatch watch;
+    const Observation& seen = *one.seen;
+    FaceState start = fit->at_rest();
+    const bool anew = !before || one.found_anew;
+    if (anew)
+      start.camera_from_head = fit->first_pose(seen);
+    else
+      start = *before;
+    FaceState state = fit->fit(seen, start, anew ? nullptr : &*before,
+                               skin.empty() ? nullptr : &skin, &frame.report);
+    frame.valid = true;
+    frame.camera_from_head = state.camera_from_head;
+    frame.weights = state.weights;
+    frame.vertices_m = fit->vertices(state);
+    if (skin.empty())
+      skin = Template(seen.picture, camera, state.camera_from_head, frame.vertices_m,
+                      model.mesh.triangles, options.fit.photometric);
+    before = std::move(state);
+    times.fit_s += watch.lap();
+    return frame;
+  }
+
+  std::vector<TrackedFrame> give() {
+    std::vector<TrackedFrame> given;
+    for (; !waiting.empty(); waiting.pop_front()) given.push_back(track(waiting.front()));
+    return given;
+  }
+};
+
+FaceTracker::FaceTracker(const FaceModel& model, const capture::Intrinsics& camera,
+                         const TrackerOptions& options)
+    : impl_(std::make_unique<Impl>(model, camera, options)) {}
+FaceTracker::~FaceTracker() = default;
+
+std::vector<TrackedFrame> FaceTracker::feed(const capture::Frame& frame) {
+  Waiting seen = impl_->look(frame);
+  if (seen.seen) ++impl_->faces;
+  impl_->waiting.push_back(std::move(seen));
+  if (!impl_->neutral) {
+    if (impl_->faces < impl_->options.neutral_frames) return {};
+    impl_->find_neutral();
+  }
+  return impl_->give();
+}
+
+std::vector<TrackedFrame> FaceTracker::finish() {
+  if (!impl_->neutral) impl_->find_neutral();
+  return impl_->give();
+}
+
+const std::optional<Neutral>& FaceTracker::neutral() const {
+  return impl_->neutral;
+}
+const TrackerTimes& FaceTracker::times() const {
+  return impl_->times;
+}
+
+}  // namespace hyperex::tracking

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/capture/frame.hpp"
+#include "hyperex/tracking/fit/frame_fit.hpp"
+#include "hyperex/tracking/fit/neutral.hpp"
+#include "hyperex/tracking/network/landmark_tracker.hpp"
+
+namespace hyperex::tracking {
+
+struct TrackerOptions {
+  FitOptions fit;
+  NeutralOptions neutral;
+  LandmarkOptions network;
+  int neutral_frames =
+      30;  ///< >= 1; the person's shape is estimated on the first so many with a face
+  bool use_depth = true;
+};
+
+/// The face in one frame.
+struct TrackedFrame {
+  std::size_t index = 0;  ///< in the source
+  double time_s = 0;
+  bool valid = false;
+  std::string fault;  ///< why not valid
+  Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
+  Eigen::VectorXd weights;  ///< of the model's animation units; empty where not valid
+  Points vertices_m;        ///< |V| x 3, head frame; empty where not valid
+  FitReport report;
+  double network_score = 0;
+  int faces_in_view = 0;
+};
+
+/// Seconds spent, by stage, over the frames so far.
+struct TrackerTimes {
+  double network_s = 0, picture_s = 0, neutral_s = 0, fit_s = 0;
+  std::size_t frames = 0;
+};
+
+/// Follows one face from frame to frame: the landmark network, then the model's fit. The first
+/// frames are held back until the person's shape is known from them; from then on a frame fed is a
+/// frame given. A frame without a face, or not valid itself, comes back as not valid, and the face
+/// is found again after.
+class FaceTracker {
+ public:
+  /// `model` must outlive the tracker.
+  FaceTracker(const FaceModel& model, const capture::Intrinsics& camera,
+              const TrackerOptions& options = {});
+  ~FaceTracker();
+
+  /// Takes the next frame; gives those that are finished, in order: none while the shape is not
+  /// known, then all that were held back, then one.
+  std::vector<TrackedFrame> feed(const capture::Frame& frame);
+  /// The source has ended: gives what is still held back.
+  std::vector<TrackedFrame> finish();
+
+  /// Nothing before the shape is known.
+  const std::optional<Neutral>& neutral() const;
+  const TrackerTimes& times() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hyperex::tracking

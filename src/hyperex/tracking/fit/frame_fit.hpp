@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "hyperex/capture/frame.hpp"
+#include "hyperex/tracking/fit/depth_view.hpp"
+#include "hyperex/tracking/fit/photometric.hpp"
+#include "hyperex/tracking/fit/vertex_system.hpp"
+#include "hyperex/tracking/model/face_model.hpp"
+
+namespace hyperex::tracking {
+
+/// What one frame shows of a face.
+struct Observation {
+  Points network_px;    ///< 468 x 3: the landmark network's points, pixels
+  cv::Mat depth_m;      ///< CV_32F or empty
+  FinePicture picture;  ///< value may be empty: nothing is compared then
+};
+
+/// A face in one frame.
+struct FaceState {
+  Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
+  Eigen::VectorXd weights;  ///< of the animation units
+  Points free_m;            ///< |V| x 3, head frame: what the units do not explain
+};
+
+/// How much each source counts. Standard deviations a priori; a larger one counts less.
+struct FitOptions {
+  int iterations = 4;
+  double network_px = 2.5;        ///< of a network point
+  double network_outline_px = 6;  ///< of one on the face's outline, which slides on the skin
+  double network_robust_px = 4;   ///< Geman-McClure
+  double depth_m = 0.001;         ///< of a vertex against the surface, along its normal
+  double depth_robust_m = 0.004;
+  PatchOptions patch;
+  double photometric_weight = 1;
+  PhotometricOptions photometric;
+  double units = 1;             ///< times the unit's typical weight
+  double units_step = 0.5;      ///< times the typical weight, from one frame to the next
+  double free_m = 0.003;        ///< of a vertex off the units
+  double free_bend_m = 0.0005;  ///< of a vertex against the mean of its neighbours
+  double free_step_m = 0.002;   ///< from one frame to the next
+  double pose_step_rad = 0.05, pose_step_m = 0.02;
+};
+
+/// How well a frame was met.
+struct FitReport {
+  double network_rms_px = 0;     ///< over the paired vertices
+  double depth_rms_m = 0;        ///< over the vertices with depth
+  double depth_share = 0;        ///< of the vertices facing the camera that had depth
+  double photometric_share = 0;  ///< of the template's pixels that agree
+};
+
+/// Fits pose, units and free displacements of one person's face to one frame:
+///   min  sum |project(T (N + A alpha + d)) - u|^2 / s_u^2           network points, robust
+///      + sum (n . (T (N + A alpha + d) - q))^2 / s_q^2              depth, point to plane, robust
+///      + sum (I(project(.)) - I_0)^2 / s_I^2                        skin against its template
+///      + |alpha / s_alpha|^2 + |alpha - alpha_before|^2 / ... + |d|^2 / ... + |L d|^2 / ...
+/// by Gauss and Newton's method with weights renewed in each iteration: pose and alpha first (d =
+/// 0), then d with those held. Own code rather than Ceres: the measurements are first summed to a
+/// form over vertex displacements, which both steps share and which costs 60 times less than a row
+/// of derivatives by all parameters for every pixel.
+class FrameFit {
+ public:
+  /// `neutral_m`: the person's vertices at rest, head frame; `unit_scale`: the person's size
+  /// relative to the model's.
+  FrameFit(const FaceModel& model, const capture::Intrinsics& camera, const Points& neutral_m,
+           double unit_scale, const FitOptions& options);
+
+  /// From `start`; `before`, where given, is the state a frame earlier.
+  FaceState fit(const Observation& seen, const FaceState& start, const FaceState* before,
+                const Template* skin, FitReport* report = nullptr);
+
+  /// Vertices in the head's frame.
+  Points vertices(const FaceState& state) const;
+  const Points& neutral() const { return neutral_m_; }
+  FaceState at_rest() const;
+
+  /// A pose from the network's points alone (scaled orthography), its distance from depth where
+  /// there is any.
+  Eigen::Isometry3d first_pose(const Observation& seen) const;
+
+  /// Sum of the robust costs without priors, and its derivative by pose (turn and shift in the
+  /// head's frame) and units: for the comparison with finite differences. Weights of robust losses
+  /// and planes are those at `state`.
+  VertexSystem measure(const Observation& seen, const FaceState& state, const Template* skin,
+                       FitReport* report = nullptr) const;
+  /// d vertex / d (turn, shift, weights), 3 |V| x (6 + K).
+  VertexSystem::RowMatrix parameter_jacobian(const FaceState& state) const;
+
+ private:
+  void add_network(VertexSystem& system, const Observation& seen, const FaceState& state,
+                   const Points& vertices, FitReport* report) const;
+  void add_depth(VertexSystem& system, const Observation& seen, const FaceState& state,
+                 const Points& vertices, FitReport* report) const;
+  void step_parameters(const VertexSystem& system, FaceState& state, const FaceState* before) const;
+  void solve_free(const VertexSystem& system, FaceState& state, const FaceState* before);
+
+  const FaceModel& model_;
+  capture::Intrinsics camera_;
+  Points neutral_m_;
+  FitOptions options_;
+  VertexSystem::RowMatrix unit_matrix_;  // 3|V| x K
+  Eigen::VectorXd typical_;
+  std::vector<bool> on_outline_;
+  SparseMatrix free_prior_;  // upper triangle, with the pattern of the data
+  Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper> factor_;
+  bool analysed_ = false;
+};
+
+}  // namespace hyperex::tracking

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/fit/neutral.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cassert>
+
+#include "hyperex/geometry/transform.hpp"
+
+namespace hyperex::tracking {
+
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+/// Sums over frames of one vertex at rest.
+struct VertexMean {
+  Points sum;
+  Eigen::VectorXd weight;
+};
+
+double outer_eye_distance(const FaceModel& model, const Points& points) {
+  return (landmark_at(model.landmarks.at("exocanthion_L"), points) -
+          landmark_at(model.landmarks.at("exocanthion_R"), points))
+      .norm();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The person's size relative to the model, from depth: similarities onto the vertices as depth has
+/// them; nothing where there is too little depth.
+std::optional<double> scale_from_depth(const FaceModel& model, const capture::Intrinsics& camera,
+                                       const std::vector<Observation>& frames) {
+  std::vector<double> scales;
+  for (const Observation& seen : frames) {
+    if (seen.depth_m.empty()) continue;
+    std::vector<Vec3> from, to;
+    for (const auto& [vertex, network] : model.pairs) {
+      const Eigen::Vector2d px = seen.network_px.row(network).head<2>().transpose();
+      const int u = int(std::lround(px.x())), v = int(std::lround(px.y()));
+      if (u < 0 || v < 0 || u >= seen.depth_m.cols || v >= seen.depth_m.rows) continue;
+      const float z = seen.depth_m.at<float>(v, u);
+      if (z <= 0) continue;
+      from.push_back(model.mesh.points.row(vertex).transpose());
+      to.push_back(double(z) * ray(camera, px));
+    }
+    if (from.size() < std::max<std::size_t>(12, model.pairs.size() / 4)) continue;
+    Points a(Eigen::Index(from.size()), 3), b(a.rows(), 3);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      a.row(Eigen::Index(i)) = from[i].transpose();
+      b.row(Eigen::Index(i)) = to[i].transpose();
+    }
+    // The outline often looks past the face: twice without what fits badly.
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(a.rows());
+    Similarity fit = fit_similarity(a, b, weights);
+    for (int round = 0; round < 5; ++round) {
+      for (Eigen::Index i = 0; i < a.rows(); ++i) {
+        const double off = (fit * Vec3(a.row(i).transpose()) - Vec3(b.row(i).transpose())).norm();
+        weights[i] = 1 / square(1 + square(off / 0.01));
+      }
+      fit = fit_similarity(a, b, weights);
+    }
+    scales.push_back(fit.scale);
+  }
+  if (scales.empty()) return std::nullopt;
+  return median(scales);
+}
+
+/// Where one frame puts the vertices at rest.
+void add_frame(const FaceModel& model, const capture::Intrinsics& camera, const Observation& seen,
+               const FrameFit& fit, const FaceState& state, const PatchOptions& patch_options,
+               VertexMean& mean) {
+  const Points now = fit.vertices(state);
+  const Eigen::Isometry3d head_from_camera = state.camera_from_head.inverse();
+  for (const auto& [vertex, network] : model.pairs) {
+    const Eigen::Vector2d px = seen.network_px.row(network).head<2>().transpose();
+    const Vec3 expected = state.camera_from_head * Vec3(now.row(vertex).transpose());
+    Vec3 found = expected.z() * ray(camera, px);
+    double weight = 0.3;
+    if (!seen.depth_m.empty()) {
+      const auto patch = surface_patch(seen.depth_m, camera, px, expected.z(), patch_options);
+      if (patch) {
+        found = patch->point;
+        weight = 1;
+      }
+    }
+    const Vec3 at_rest =
+        head_from_camera * found - (now.row(vertex) - fit.neutral().row(vertex)).transpose();
+    if ((at_rest - Vec3(fit.neutral().row(vertex).transpose())).norm() > 0.03) continue;
+    mean.sum.row(vertex) += weight * at_rest.transpose();
+    mean.weight[vertex] += weight;
+  }
+}
+
+Eigen::VectorXd fit_shape(const FaceModel& model, double scale, const VertexMean& mean) {
+  const Eigen::Index units = Eigen::Index(model.shape_units.size());
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(units, units);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(units);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3 * model.vertex_count(), units);
+  for (Eigen::Index k = 0; k < units; ++k) {
+    const DeformationUnit& unit = model.shape_units[std::size_t(k)];
+    for (std::size_t i = 0; i < unit.vertices.size(); ++i)
+      columns.block<3, 1>(3 * unit.vertices[i], k) =
+          scale * unit.displacement_m.row(Eigen::Index(i)).transpose();
+    hessian(k, k) += 1 / square(unit.typical);
+  }
+  constexpr double kModel_m = 0.004;  // how well any person's face is one of the model's
+  for (Eigen::Index v = 0; v < model.vertex_count(); ++v) {
+    if (mean.weight[v] <= 0) continue;
+    const Vec3 target =
+        (mean.sum.row(v) / mean.weight[v] - scale * model.mesh.points.row(v)).transpose();
+    const auto rows = columns.middleRows<3>(3 * v);
+    hessian += rows.transpose() * rows / square(kModel_m);
+    right += rows.transpose() * target / square(kModel_m);
+  }
+  return hessian.ldlt().solve(right);
+}
+
+/// The means held to the model's shape, its differences smooth over the mesh.
+Points smoothed(const FaceModel& model, const Points& shape, const VertexMean& mean,
+                const NeutralOptions& options) {
+  const SparseMatrix laplacian = mesh_laplacian(model.mesh);
+  SparseMatrix matrix = laplacian.transpose() * laplacian / square(options.bend_m);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(model.vertex_count(), 3);
+  constexpr double kWeak = 1e2;  // a centimetre: where nothing else is known
+  for (Eigen::Index v = 0; v < model.vertex_count(); ++v) {
+    const double weight = std::min(1.0, mean.weight[v]) / square(options.vertex_m);
+    matrix.coeffRef(v, v) += weight + kWeak;
+    if (mean.weight[v] > 0)
+      right.row(v) = weight * (mean.sum.row(v) / mean.weight[v] - shape.row(v));
+  }
+  const Eigen::SimplicialLDLT<SparseMatrix> factor(matrix);
+  return shape + Points(factor.solve(right));
+}
+
+}  // namespace
+
+Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& camera,
+                         const std::vector<Observation>& frames, const NeutralOptions& options) {
+  assert(!frames.empty());
+  Neutral neutral;
+  const auto scale = scale_from_depth(model, camera, frames);
+  neutral.metric = scale.has_value();
+  neutral.scale =
+      scale.value_or(options.eye_distance_m / outer_eye_distance(model, model.mesh.points));
+  neutral.shape = Eigen::VectorXd::Zero(Eigen::Index(model.shape_units.size()));
+  neutral.points_m = neutral.scale * model.mesh.points;
+  for (int round = 0; round < options.rounds; ++round) {
+    FrameFit fit(model, camera, neutral.points_m, neutral.scale, options.fit);
+    VertexMean mean{Points::Zero(model.vertex_count(), 3),
+                    Eigen::VectorXd::Zero(model.vertex_count())};
+    PatchOptions patch = options.fit.patch;
+    patch.gate_m = round == 0 ? 0.03 : 0.012;
+    for (const Observation& seen : frames) {
+      FaceState state = fit.at_rest();
+      state.camera_from_head = fit.first_pose(seen);
+      state = fit.fit(seen, state, nullptr, nullptr);
+      state.free_m.setZero();
+      add_frame(model, camera, seen, fit, state, patch, mean);
+    }
+    neutral.shape = fit_shape(model, neutral.scale, mean);
+    const Points shape =
+        neutral.scale * deformed(model.mesh.points, model.shape_units, neutral.shape);
+    neutral.points_m = smoothed(model, shape, mean, options);
+    if (!neutral.metric)
+      neutral.points_m *= options.eye_distance_m / outer_eye_distance(model, neutral.points_m);
+  }
+  return neutral;
+}
+
+}  // namespace hyperex::tracking

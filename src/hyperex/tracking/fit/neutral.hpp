@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "hyperex/tracking/fit/frame_fit.hpp"
+
+namespace hyperex::tracking {
+
+struct NeutralOptions {
+  FitOptions fit;
+  int rounds = 3;
+  double vertex_m = 0.001;  ///< of a vertex's mean over the frames
+  double bend_m = 0.001;    ///< of a vertex's difference from the model against its neighbours'
+  double eye_distance_m = 0.09;  ///< outer corner to outer corner, where there is no depth
+};
+
+/// A person's face at rest.
+struct Neutral {
+  Points points_m;        ///< |V| x 3, head frame
+  double scale = 1;       ///< of the person relative to the model
+  Eigen::VectorXd shape;  ///< weights of the model's shape units
+  bool metric = false;    ///< from depth; false: from the stated distance of the eyes
+};
+
+/// The person's shape from some frames, at least one. Round by round each frame is fitted with the
+/// shape so far; then each vertex becomes the mean over the frames of where the picture and the
+/// depth at its network point put it, taken back to rest, and is held to the model's shape units
+/// and to its neighbours as its spread asks for.
+Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& camera,
+                         const std::vector<Observation>& frames,
+                         const NeutralOptions& options = {});
+
+}  // namespace hyperex::tracking

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/fit/photometric.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <opencv2/imgproc.hpp>
+
+#include "hyperex/tracking/fit/depth_view.hpp"
+
+namespace hyperex::tracking {
+
+namespace {
+
+constexpr double kFineSigma_px = 0.8, kLocalMeanSigma_px = 6;
+
+double bilinear(const cv::Mat& picture, double u, double v) {
+  const int x = int(u), y = int(v);
+  const double a = u - x, b = v - y;
+  const float *top = picture.ptr<float>(y) + x, *below = picture.ptr<float>(y + 1) + x;
+  return (1 - b) * ((1 - a) * double(top[0]) + a * double(top[1])) +
+         b * ((1 - a) * double(below[0]) + a * double(below[1]));
+}
+
+bool inside(const cv::Mat& picture, double u, double v) {
+  return u >= 0 && v >= 0 && u < picture.cols - 1 && v < picture.rows - 1;
+}
+
+using Pixels = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+Pixels project_all(const capture::Intrinsics& camera, const Eigen::Isometry3d& camera_from_head,
+                   const Points& points) {
+  Pixels pixels(points.rows(), 2);
+  for (Eigen::Index v = 0; v < points.rows(); ++v)
+    pixels.row(v) = project(camera, camera_from_head * Vec3(points.row(v).transpose())).transpose();
+  return pixels;
+}
+
+/// 255 where a pixel is no farther than `width_px` from an edge that has one triangle only.
+cv::Mat border_mask(const Pixels& px, const Triangles& triangles, const FinePicture& picture,
+                    double width_px) {
+  std::map<std::pair<int, int>, int> uses;
+  for (const auto t : triangles.rowwise())
+    for (int k = 0; k < 3; ++k) ++uses[std::minmax(t[k], t[(k + 1) % 3])];
+  cv::Mat free(picture.value.size(), CV_8U, cv::Scalar(255)), distance;
+  constexpr int kShift = 4;
+  const auto at = [&](int v) {
+    return cv::Point(int(std::lround((px(v, 0) - picture.origin.x) * (1 << kShift))),
+                     int(std::lround((px(v, 1) - picture.origin.y) * (1 << kShift))));
+  };
+  for (const auto& [edge, count] : uses)
+    if (count == 1) cv::line(free, at(edge.first), at(edge.second), 0, 1, cv::LINE_8, kShift);
+  cv::distanceTransform(free, distance, cv::DIST_L2, cv::DIST_MASK_5);
+  return distance <= width_px;
+}
+
+}  // namespace
+
+FinePicture fine_picture(const cv::Mat& bgr, cv::Rect region) {
+  region &= cv::Rect(0, 0, bgr.cols, bgr.rows);
+  FinePicture fine;
+  fine.origin = region.tl();
+  if (region.width < 8 || region.height < 8) return fine;
+  cv::Mat grey, smooth, mean;
+  cv::cvtColor(bgr(region), grey, cv::COLOR_BGR2GRAY);
+  grey.convertTo(grey, CV_32F);
+  cv::GaussianBlur(grey, smooth, {}, kFineSigma_px);
+  // A box three times over is a Gaussian, at a cost that does not grow with its width.
+  const int side = int(std::lround(kLocalMeanSigma_px * 2));
+  cv::blur(grey, mean, {side | 1, side | 1});
+  cv::blur(mean, mean, {side | 1, side | 1});
+  fine.value = smooth - mean;
+  cv::Sobel(fine.value, fine.gradient_x, CV_32F, 1, 0, 3, 1.0 / 8);
+  cv::Sobel(fine.value, fine.gradient_y, CV_32F, 0, 1, 3, 1.0 / 8);
+  return fine;
+}
+
+Template::Template(const FinePicture& picture, const capture::Intrinsics& camera,
+                   const Eigen::Isometry3d& camera_from_head, const Points& head_points,
+                   const Triangles& triangles, const PhotometricOptions& options)
+    : triangles_(triangles), options_(options) {
+  if (picture.value.empty()) return;
+  const Pixels px = project_all(camera, camera_from_head, head_points);
+  const cv::Mat border = border_mask(px, triangles, picture, options.border_px);
+  for (int t = 0; t < triangles.rows(); ++t) {
+    const Eigen::Vector2d origin(picture.origin.x, picture.origin.y);
+    const Eigen::Vector2d a = px.row(triangles(t, 0)).transpose() - origin,
+                          b = px.row(triangles(t, 1)).transpose() - origin,
+                          c = px.row(triangles(t, 2)).transpose() - origin;
+    const Eigen::Vector2d e = b - a, f = c - a;
+    const double area = e.x() * f.y() - e.y() * f.x();
+    // Counter-clockwise from outside is clockwise in a picture whose y goes down: negative.
+    if (area > -0.5) continue;
+    const int x0 = std::max(1, int(std::ceil(std::min({a.x(), b.x(), c.x()})))),
+              x1 = std::min(picture.value.cols - 2,
+                            int(std::floor(std::max({a.x(), b.x(), c.x()})))),
+              y0 = std::max(1, int(std::ceil(std::min({a.y(), b.y(), c.y()})))),
+              y1 = std::min(picture.value.rows - 2,
+                            int(std::floor(std::max({a.y(), b.y(), c.y()}))));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        const Eigen::Vector2d d = Eigen::Vector2d(x, y) - a;
+        const double wb = (d.x() * f.y() - d.y() * f.x()) / area,
+                     wc = (e.x() * d.y() - e.y() * d.x()) / area;
+        if (wb < 0 || wc < 0 || wb + wc > 1 || border.at<uchar>(y, x)) continue;
+        if (std::hypot(picture.gradient_x.at<float>(y, x), picture.gradient_y.at<float>(y, x)) <
+            options.least_gradient)
+          continue;
+        samples_.push_back(
+            {t, {float(1 - wb - wc), float(wb), float(wc)}, picture.value.at<float>(y, x)});
+      }
+  }
+}
+
+double Template::add_to(VertexSystem& system, const FinePicture& picture,
+                        const capture::Intrinsics& camera,
+                        const Eigen::Isometry3d& camera_from_head, const Points& head_points,
+                        double weight) const {
+  if (samples_.empty() || picture.value.empty()) return 0;
+  const Pixels px = project_all(camera, camera_from_head, head_points);
+  struct Seen {
+    double u, v, value;
+  };
+  std::vector<Seen> seen(samples_.size());
+  double product = 0, square = 0;
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    const Sample& sample = samples_[s];
+    Eigen::RowVector2d at(-picture.origin.x, -picture.origin.y);
+    for (int k = 0; k < 3; ++k)
+      at += double(sample.weights[k]) * px.row(triangles_(sample.triangle, k));
+    if (!inside(picture.value, at.x(), at.y())) {
+      seen[s] = {-1, -1, 0};
+      continue;
+    }
+    seen[s] = {at.x(), at.y(), bilinear(picture.value, at.x(), at.y())};
+    product += double(sample.value) * seen[s].value;
+    square += double(sample.value) * double(sample.value);
+  }
+  if (square <= 0) return 0;
+  // Contrast follows the brightness of the scene.
+  const double gain = std::clamp(product / square, 0.2, 3.0);
+  const double noise = options_.noise * std::max(gain, 0.4);
+  const double scale = weight / (noise * noise * options_.pixels_as_one);
+  const Eigen::Matrix3d turn = camera_from_head.linear();
+  std::size_t agreeing = 0;
+  for (std::size_t s = 0; s < samples_.size();) {
+    const int t = samples_[s].triangle;
+    Eigen::Matrix<double, 2, 9> jacobian_of_corners;
+    for (int k = 0; k < 3; ++k)
+      jacobian_of_corners.middleCols<3>(3 * k) =
+          project_jacobian(camera,
+                           camera_from_head * Vec3(head_points.row(triangles_(t, k)).transpose())) *
+          turn;
+    // In the plane of the picture: six coordinates, then carried to nine.
+    Eigen::Matrix<double, 6, 6> h = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::Matrix<double, 6, 1> g = Eigen::Matrix<double, 6, 1>::Zero();
+    for (; s < samples_.size() && samples_[s].triangle == t; ++s) {
+      if (seen[s].u < 0) continue;
+      const double error = seen[s].value - gain * double(samples_[s].value);
+      const double relative = error / (3 * noise);
+      if (std::abs(relative) < 1) ++agreeing;
+      const double robust = 1 / ((1 + relative * relative) * (1 + relative * relative));
+      const double gx = bilinear(picture.gradient_x, seen[s].u, seen[s].v),
+                   gy = bilinear(picture.gradient_y, seen[s].u, seen[s].v);
+      Eigen::Matrix<double, 6, 1> j;
+      for (int k = 0; k < 3; ++k) {
+        j[2 * k] = double(samples_[s].weights[k]) * gx;
+        j[2 * k + 1] = double(samples_[s].weights[k]) * gy;
+      }
+      h.noalias() += (scale * robust) * j * j.transpose();
+      g += (scale * robust * error) * j;
+    }
+    Eigen::Matrix<double, 6, 9> wide = Eigen::Matrix<double, 6, 9>::Zero();
+    for (int k = 0; k < 3; ++k)
+      wide.block<2, 3>(2 * k, 3 * k) = jacobian_of_corners.middleCols<3>(3 * k);
+    system.add_triangle(t, wide.transpose() * h * wide, wide.transpose() * g);
+  }
+  return double(agreeing) / double(samples_.size());
+}
+
+}  // namespace hyperex::tracking

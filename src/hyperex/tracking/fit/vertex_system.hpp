@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Dense>
+#include <array>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/tracking/model/mesh_laplacian.hpp"
+
+namespace hyperex::tracking {
+
+/// What the measurements of one frame say of the vertices, as a quadratic form in their
+/// displacements d (|V| x 3, head frame):  E(d) = 1/2 d^T H d + g^T d + constant.
+/// H couples only vertices that share an edge of the mesh. The pattern is made once; a frame clears
+/// and fills.
+class VertexSystem {
+ public:
+  /// Rows 3 v ... 3 v + 2 of vertex v.
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  explicit VertexSystem(const TriMesh& mesh);
+
+  void clear();
+  /// Adds 1/2 weight (r + j d_v)^2.
+  void add_row(int vertex, const Eigen::RowVector3d& j, double r, double weight);
+  /// Adds 1/2 weight (r + sum_k bary_k jacobian_k d_k)^2 over the corners of a triangle, already
+  /// summed over its pixels: `hessian` over the nine corner coordinates, `gradient` likewise.
+  void add_triangle(int triangle, const Eigen::Matrix<double, 9, 9>& hessian,
+                    const Eigen::Matrix<double, 9, 1>& gradient);
+
+  Eigen::Index vertex_count() const { return Eigen::Index(diagonal_.size()); }
+  /// H times a matrix of 3 |V| rows.
+  RowMatrix times(const RowMatrix& right) const;
+  const Eigen::VectorXd& gradient() const { return gradient_; }
+  /// H of one vertex with itself.
+  const Eigen::Matrix3d& diagonal(int vertex) const { return diagonal_[std::size_t(vertex)]; }
+
+  /// The upper triangle of H + `smoothness` (3 |V| x 3 |V| with at least the pattern of the mesh's
+  /// edges, as smoothness_pattern() has it) written into `out`, which is a copy of `smoothness`
+  /// after.
+  void add_to(SparseMatrix& out) const;
+
+ private:
+  struct Edge {
+    int a, b;  // a < b
+  };
+  std::vector<Edge> edges_;
+  std::vector<std::array<int, 3>> triangle_edges_;  // (0,1), (1,2), (2,0)
+  Triangles triangles_;
+  std::vector<Eigen::Matrix3d> diagonal_, edge_blocks_;  // edge block: rows a, columns b
+  Eigen::VectorXd gradient_;
+};
+
+}  // namespace hyperex::tracking

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <map>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/tracking/model/candide.hpp"
+#include "hyperex/tracking/model/face_model.hpp"
+#include "hyperex/tracking/model/tables.hpp"
+
+namespace hyperex::tracking {
+
+namespace {
+
+constexpr int kVertices = 113, kAnimationUnits = 14, kJawDrop = 3;
+constexpr int kOuterEyeCorners[] = {20, 53};
+constexpr double kEyeDistance_m = 0.094;  // a grown person's, outer corner to outer corner
+
+DeformationUnit unit_of(const CandideUnit& from, double metres_per_unit) {
+  std::map<int, Vec3> moved;  // a vertex listed twice moves by the sum
+  for (std::size_t i = 0; i < from.vertices.size(); ++i) {
+    Vec3& d = moved.try_emplace(from.vertices[i], Vec3::Zero()).first->second;
+    d += metres_per_unit * from.displacement.row(Eigen::Index(i)).transpose();
+  }
+  DeformationUnit unit;
+  unit.name = from.name;
+  unit.displacement_m.resize(Eigen::Index(moved.size()), 3);
+  for (const auto& [vertex, d] : moved) {
+    unit.displacement_m.row(Eigen::Index(unit.vertices.size())) = d.transpose();
+    unit.vertices.push_back(vertex);
+  }
+  return unit;
+}
+
+}  // namespace
+
+FaceModel candide_model(const std::string& wfm_file) {
+  const CandideFile file = read_candide(wfm_file);
+  if (file.mesh.points.rows() != kVertices || file.animation_units.size() != kAnimationUnits)
+    throw InputError(wfm_file,
+                     fmt::format("{} vertices and {} animation units, expected CANDIDE-3's {} and "
+                                 "{}",
+                                 file.mesh.points.rows(), file.animation_units.size(), kVertices,
+                                 kAnimationUnits));
+  const double eyes =
+      (file.mesh.points.row(kOuterEyeCorners[0]) - file.mesh.points.row(kOuterEyeCorners[1]))
+          .norm();
+  if (!(eyes > 0))
+    throw InputError(wfm_file, "the outer eye corners, vertices 20 and 53, are one point");
+  const double scale = kEyeDistance_m / eyes;
+  FaceModel model;
+  model.name = "candide";
+  model.mesh = {scale * file.mesh.points, file.mesh.triangles};
+  for (const auto& unit : file.shape_units) {
+    model.shape_units.push_back(unit_of(unit, scale));
+    model.shape_units.back().typical = 0.5;
+  }
+  for (const auto& unit : file.animation_units)
+    model.animation_units.push_back(unit_of(unit, scale));
+  for (const auto& row :
+       table_rows(candide_units_table(), "unit,facs,arkit,arkit_negative,scale")) {
+    DeformationUnit& unit =
+        model.animation_units[std::size_t(table_indices(row.at(0), kAnimationUnits)[0])];
+    unit.facs = row.at(1);
+    unit.arkit = row.at(2);
+    unit.arkit_negative = row.at(3);
+    unit.arkit_scale = table_number(row.at(4));
+    unit.typical = 0.5;
+  }
+  for (const auto& row : table_rows(candide_pairs_table(), "candide,network"))
+    model.pairs.push_back(
+        {table_indices(row.at(0), kVertices)[0], table_indices(row.at(1), 468)[0]});
+  for (const auto& row : table_rows(candide_landmarks_table(), "name,vertices"))
+    model.landmarks[row.at(0)] = table_indices(row.at(1), kVertices);
+  model.jaw_drop = kJawDrop;
+  return model;
+}
+
+}  // namespace hyperex::tracking

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/model/face_model.hpp"
+
+#include <cassert>
+
+namespace hyperex::tracking {
+
+int FaceModel::animation_unit(const std::string& unit_name) const {
+  for (std::size_t k = 0; k < animation_units.size(); ++k)
+    if (animation_units[k].name == unit_name) return int(k);
+  return -1;
+}
+
+Points deformed(const Points& base, const std::vector<DeformationUnit>& units,
+                const Eigen::VectorXd& weights) {
+  assert(weights.size() == Eigen::Index(units.size()));
+  Points points = base;
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    const double weight = weights[Eigen::Index(k)];
+    if (weight == 0) continue;
+    for (std::size_t i = 0; i < units[k].vertices.size(); ++i)
+      points.row(units[k].vertices[i]) += weight * units[k].displacement_m.row(Eigen::Index(i));
+  }
+  return points;
+}
+
+Vec3 landmark_at(const std::vector<int>& vertices, const Points& points) {
+  assert(!vertices.empty());
+  Vec3 sum = Vec3::Zero();
+  for (const int vertex : vertices) sum += points.row(vertex).transpose();
+  return sum / double(vertices.size());
+}
+
+}  // namespace hyperex::tracking

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyperex::tracking {
+
+/// The tables of model/data, carried inside the program.
+std::string_view canonical_units_table();
+std::string_view candide_pairs_table();
+std::string_view candide_landmarks_table();
+std::string_view candide_units_table();
+
+/// The rows of such a table as cells, without comments, blank lines and the line `header`.
+/// They are ours: a fault in them is a fault of the build.
+std::vector<std::vector<std::string>> table_rows(std::string_view text, std::string_view header);
+/// A cell as number; std::logic_error where it is none.
+double table_number(const std::string& cell);
+/// A cell of numbers between blanks, each 0 to end - 1; std::logic_error otherwise.
+std::vector<int> table_indices(const std::string& cell, int end);
+
+}  // namespace hyperex::tracking
