@@ -103,7 +103,7 @@ void add_mesh(CLI::App& program) {
   command
       ->add_option("--element-size-mm", options->element_size_mm, "Edge length at the mouth (mm)")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 30.0));
+      ->check(CLI::Range(0.5, 30.0));
   command->add_option("--layers", options->layers, "Layers of elements")
       ->capture_default_str()
       ->check(CLI::Range(1, 8));

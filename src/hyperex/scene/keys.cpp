@@ -77,7 +77,7 @@ std::vector<Key> input_keys() {
 
 std::vector<Key> model_keys() {
   return {
-      number<Scene>("mesh.element_size_mm", millimetres, AT(mesh.element_size_m), {1, 30},
+      number<Scene>("mesh.element_size_mm", millimetres, AT(mesh.element_size_m), {0.5, 30},
                     "Edge length of the tetrahedra along the skin."),
       integer<Scene>("mesh.layers", AT(mesh.layers), {1, 8},
                      "Layers of elements between the skin and the inner surface."),

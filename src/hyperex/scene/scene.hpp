@@ -58,7 +58,7 @@ struct ThicknessPoint {
   double thickness_m = 0.01;  ///< 1 to 40 mm
 };
 struct MeshOptions {
-  double element_size_m = 0.0033;  ///< 1 to 30 mm
+  double element_size_m = 0.0033;  ///< 0.5 to 30 mm
   int layers = 2;                  ///< 1 to 8
   double thickness_m = 0;          ///< 0: published depths, else the same everywhere (1 to 40 mm)
   LipCut cut_lips = LipCut::automatic;

@@ -28,7 +28,7 @@ struct FactorForecast {
 inline constexpr double kMostFactorEntries = 2147483647.0;
 /// Stored over needed entries of a supernodal factor of soft tissue: 1.21 to 1.15 measured from
 /// 5,000 to 250,000 nodes.
-inline constexpr double kStoredShare = 1.25;
+inline constexpr double kStoredShare = 1.2;
 /// Share of the memory available that the factor may take. Where it fits, Cholesky is the quicker
 /// (at 100,000 nodes 16 right-hand sides alone took the other one several times as long as
 /// factorising), and so memory alone decides.

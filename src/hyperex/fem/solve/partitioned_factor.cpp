@@ -12,23 +12,36 @@ namespace hyperex::fem {
 PartitionedFactor::PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed,
                                      std::string purpose, const Points& nodes, LinearSolver wanted)
     : partition_(static_cast<int>(a.cols()), std::move(prescribed)), purpose_(std::move(purpose)) {
+  make(a, nullptr, nodes, wanted);
+}
+
+PartitionedFactor::PartitionedFactor(SparseMatrix&& a, std::vector<int> prescribed,
+                                     std::string purpose, const Points& nodes, LinearSolver wanted)
+    : partition_(static_cast<int>(a.cols()), std::move(prescribed)), purpose_(std::move(purpose)) {
+  make(a, &a, nodes, wanted);
+}
+
+void PartitionedFactor::make(const SparseMatrix& a, SparseMatrix* spare, const Points& nodes,
+                             LinearSolver wanted) {
   Stopwatch watch;
   const SparseMatrix lower = free_lower(a, partition_);
-  pick(a, lower, nodes, wanted);
+  constexpr double entry_bytes = sizeof(double) + sizeof(int);
+  pick(a, lower, nodes, wanted, spare ? entry_bytes * static_cast<double>(a.nonZeros()) : 0);
+  if (spare && cholesky_) *spare = SparseMatrix();
   analyse_s_ = watch.lap();
   factor(a, lower);
 }
 
 void PartitionedFactor::pick(const SparseMatrix& a, const SparseMatrix& lower, const Points& nodes,
-                             LinearSolver wanted) {
+                             LinearSolver wanted, double spare_bytes) {
   std::vector<int> node_of(free().size());
   for (std::size_t i = 0; i < node_of.size(); ++i) node_of[i] = free()[i] / 3;
   NodeOrder order = order_by_nodes(lower, node_of);
   forecast_ = {order.entries, order.flops};
   const bool can_choose = nodes.rows() > 0;
   assert(can_choose || wanted != LinearSolver::iterative);
-  if (can_choose &&
-      pick_linear_solver(wanted, forecast_, available_memory_bytes()) == LinearSolver::iterative)
+  if (can_choose && pick_linear_solver(wanted, forecast_, available_memory_bytes() + spare_bytes) ==
+                        LinearSolver::iterative)
     iterative_.emplace(a, partition_, nodes, purpose_);
   else
     cholesky_.emplace(lower, purpose_, std::move(order.unknowns));

@@ -23,6 +23,9 @@ class PartitionedFactor {
   /// picked, and asking for it is an error of the caller: asserted.
   PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed, std::string purpose,
                     const Points& nodes = {}, LinearSolver wanted = LinearSolver::automatic);
+  /// The same for a matrix that nobody else needs: it goes as soon as its factor can do without.
+  PartitionedFactor(SparseMatrix&& a, std::vector<int> prescribed, std::string purpose,
+                    const Points& nodes = {}, LinearSolver wanted = LinearSolver::automatic);
 
   /// Other values on the same pattern: ordering and analysis are kept.
   void refactor(const SparseMatrix& a);
@@ -51,8 +54,9 @@ class PartitionedFactor {
   void solve(Eigen::VectorXd& x_o, const Eigen::VectorXd& guess);
 
  private:
+  void make(const SparseMatrix& a, SparseMatrix* spare, const Points& nodes, LinearSolver wanted);
   void pick(const SparseMatrix& a, const SparseMatrix& lower, const Points& nodes,
-            LinearSolver wanted);
+            LinearSolver wanted, double spare_bytes);
   void factor(const SparseMatrix& a, const SparseMatrix& lower);
 
   Partition partition_;

@@ -34,9 +34,9 @@ struct Factors {
 
 struct Newmark::Impl {
   Factors by;
+  InertiaRows inertia;
   PartitionedFactor factor;
   SparseMatrix stiffness_oc;
-  InertiaRows inertia;
   SparseMatrix stiffness, mass;  // for the start alone
   Kinematics state;
   Eigen::VectorXd u, w, q;  // q = M u + C w, all unknowns
@@ -45,13 +45,19 @@ struct Newmark::Impl {
 
   Impl(System s, std::vector<int> prescribed, const NewmarkOptions& options, LinearSolver wanted)
       : by(options),
-        factor(combined(s, by.c_d, by.m_d), std::move(prescribed), "time integration", s.nodes,
-               wanted),
-        stiffness_oc(coupling(s.stiffness, factor.partition())),
         inertia(s),
+        factor(step_matrix(s, by), std::move(prescribed), "time integration", s.nodes, wanted),
+        stiffness_oc(coupling(s.stiffness, factor.partition())),
         stiffness(std::move(s.stiffness)),
         mass(std::move(s.mass)) {
     clear();
+  }
+
+  /// A of the free unknowns and the others; the damping goes, whose values are in `inertia`.
+  static SparseMatrix step_matrix(System& s, const Factors& by) {
+    SparseMatrix a = combined(s, by.c_d, by.m_d);
+    s.damping = SparseMatrix();
+    return a;
   }
 
   void clear() {
