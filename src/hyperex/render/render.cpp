@@ -109,7 +109,7 @@ void cast_rays(const std::vector<Prepared>& prepared, const RayScene& scene, con
         const double py = options.height_px / 2.0 - y - (s / n + 0.5) / n;
         const auto hit =
             scene.look_at(static_cast<float>(px * m_per_px), static_cast<float>(py * m_per_px));
-        if (!hit) continue;
+        if (!hit || (options.hide_backs && hit->normal.z() < 0)) continue;
         const Prepared& p = prepared[hit->surface];
         sum += shaded(p.colour_at(*hit), p.normal_at(*hit), hit->normal.z() < 0);
         ++hits;
@@ -170,6 +170,27 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
   for (const Polyline& line : lines) draw_line(line, scene, camera, options, canvas);
   for (const Marker& marker : markers) draw_marker(marker, scene, camera, options, canvas);
   return canvas.image();
+}
+
+std::vector<std::optional<Picked>> pick(const std::vector<Surface>& surfaces, const Camera& camera,
+                                        int width_px, int height_px,
+                                        const Eigen::MatrixX2d& places) {
+  const RayScene scene(surfaces, camera);
+  const double m_per_px = camera.height_m / height_px;
+  std::vector<std::optional<Picked>> picked(static_cast<size_t>(places.rows()));
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+    const auto hit = scene.look_at(static_cast<float>((places(i, 0) - width_px / 2.0) * m_per_px),
+                                   static_cast<float>((height_px / 2.0 - places(i, 1)) * m_per_px));
+    if (!hit) continue;
+    Picked p{.surface = hit->surface, .triangle = hit->triangle, .facing = hit->normal.z()};
+    const TriMesh& mesh = surfaces[static_cast<size_t>(hit->surface)].mesh;
+    for (int k = 0; k < 3; ++k) {
+      p.weights[k] = hit->weight[k];
+      p.point += hit->weight[k] * mesh.points.row(mesh.triangles(hit->triangle, k)).transpose();
+    }
+    picked[static_cast<size_t>(i)] = p;
+  }
+  return picked;
 }
 
 }  // namespace hyperex::render

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
@@ -45,6 +46,8 @@ struct RenderOptions {
   Colour background = palette::background;
   /// How far below a surface (along the view) a marker or line still shows, m.
   double overlay_bias_m = 1e-3;
+  /// Where a surface is seen from behind (its triangles run clockwise) the background is painted.
+  bool hide_backs = false;
 };
 
 /// Casts rays at the surfaces (Embree, one geometry a surface; back faces darkened) under two
@@ -54,5 +57,19 @@ struct RenderOptions {
 Image render(const std::vector<Surface>& surfaces, const Camera& camera,
              const RenderOptions& options = {}, const std::vector<Marker>& markers = {},
              const std::vector<Polyline>& lines = {});
+
+/// Where the ray through a place of the picture first meets a surface.
+struct Picked {
+  int surface = -1, triangle = -1;
+  Vec3 weights = Vec3::Zero();  ///< barycentric
+  Vec3 point = Vec3::Zero();    ///< m
+  double facing = 0;  ///< cosine between the facet's normal and the view; < 0: from behind
+};
+
+/// Rays through places of a picture of that camera: `places` n x 2, x right, y down, pixel centres
+/// at half integers. Nothing where a ray meets no surface.
+std::vector<std::optional<Picked>> pick(const std::vector<Surface>& surfaces, const Camera& camera,
+                                        int width_px, int height_px,
+                                        const Eigen::MatrixX2d& places);
 
 }  // namespace hyperex::render

@@ -101,6 +101,14 @@ struct FaceFinder::Impl {
     }
   }
 
+  const std::vector<FoundFace>& joined() {
+    join_same_faces(boxes, options.same_face_overlap, faces);
+    std::stable_sort(faces.begin(), faces.end(), [](const FoundFace& a, const FoundFace& b) {
+      return a.box.area() > b.box.area();
+    });
+    return faces;
+  }
+
   void look_closer(const cv::Mat& bgr) {
     const double side = 2.0 / 3 * std::min(bgr.cols, bgr.rows);
     const auto steps = [&](int length) {
@@ -114,6 +122,13 @@ struct FaceFinder::Impl {
   }
 };
 
+namespace {
+void check(const cv::Mat& bgr) {
+  if (bgr.empty() || bgr.type() != CV_8UC3)
+    throw std::invalid_argument("FaceFinder: a picture of type CV_8UC3 is wanted");
+}
+}  // namespace
+
 FaceFinder::FaceFinder(const FaceFinderOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->options = options;
 }
@@ -122,18 +137,20 @@ FaceFinder::FaceFinder(FaceFinder&&) noexcept = default;
 FaceFinder& FaceFinder::operator=(FaceFinder&&) noexcept = default;
 
 const std::vector<FoundFace>& FaceFinder::find(const cv::Mat& bgr) {
-  if (bgr.empty() || bgr.type() != CV_8UC3)
-    throw std::invalid_argument("FaceFinder::find: a picture of type CV_8UC3 is wanted");
+  check(bgr);
   Impl& my = *impl_;
   my.boxes.clear();
   my.look_at(bgr,
              {(bgr.cols - 1) / 2.0, (bgr.rows - 1) / 2.0, double(std::max(bgr.cols, bgr.rows)), 0});
   if (my.boxes.empty() && my.options.look_closer) my.look_closer(bgr);
-  join_same_faces(my.boxes, my.options.same_face_overlap, my.faces);
-  std::stable_sort(my.faces.begin(), my.faces.end(), [](const FoundFace& a, const FoundFace& b) {
-    return a.box.area() > b.box.area();
-  });
-  return my.faces;
+  return my.joined();
+}
+
+const std::vector<FoundFace>& FaceFinder::find_in(const cv::Mat& bgr, const FaceRegion& square) {
+  check(bgr);
+  impl_->boxes.clear();
+  impl_->look_at(bgr, square);
+  return impl_->joined();
 }
 
 }  // namespace hyperex::tracking

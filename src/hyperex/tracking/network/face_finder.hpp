@@ -40,6 +40,9 @@ class FaceFinder {
   /// The faces in a picture (CV_8UC3, BGR, not empty), the largest box first. The result is valid
   /// until the next call.
   const std::vector<FoundFace>& find(const cv::Mat& bgr);
+  /// The faces in one square of a picture, which may be turned: faces that stand upright in it.
+  /// FoundFace::box then has its sides along the square's.
+  const std::vector<FoundFace>& find_in(const cv::Mat& bgr, const FaceRegion& square);
 
  private:
   struct Impl;

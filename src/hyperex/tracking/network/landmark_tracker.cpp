@@ -16,7 +16,23 @@ namespace {
 
 constexpr int right_eye_outer = 33, left_eye_outer = 263;  // vertices of the canonical face
 
-/// Where to look next: 1.5 x the longer side of the points' box, upright along the eyes.
+/// Whether two squares differ so little that the points hardly would (a tenth of a pixel of 192).
+bool settled(const FaceRegion& a, const FaceRegion& b) {
+  constexpr double shift = 0.004, growth = 0.006, turn_rad = 0.006;
+  return std::hypot(a.x - b.x, a.y - b.y) < shift * a.side_px &&
+         std::abs(a.side_px - b.side_px) < growth * a.side_px &&
+         std::abs(std::remainder(a.angle_rad - b.angle_rad, 2 * M_PI)) < turn_rad;
+}
+
+void check(const cv::Mat& bgr, const FaceRegion& region) {
+  if (bgr.empty() || bgr.type() != CV_8UC3)
+    throw std::invalid_argument("LandmarkTracker: a picture of type CV_8UC3 is wanted");
+  if (!(region.side_px > 0))
+    throw std::invalid_argument("LandmarkTracker: a square with a side above 0 is wanted");
+}
+
+}  // namespace
+
 FaceRegion region_of(const FacePoints& points) {
   const Eigen::Vector2d along =
       (points.row(left_eye_outer) - points.row(right_eye_outer)).head<2>();
@@ -28,16 +44,6 @@ FaceRegion region_of(const FacePoints& points) {
   const Eigen::Vector2d centre = picture_from_square * (low + high) / 2;
   return {centre.x(), centre.y(), 1.5 * (high - low).maxCoeff(), angle};
 }
-
-/// Whether two squares differ too little for the network to see another picture.
-bool settled(const FaceRegion& a, const FaceRegion& b) {
-  constexpr double shift = 0.02, growth = 0.03, turn_rad = 0.03;
-  return std::hypot(a.x - b.x, a.y - b.y) < shift * a.side_px &&
-         std::abs(a.side_px - b.side_px) < growth * a.side_px &&
-         std::abs(std::remainder(a.angle_rad - b.angle_rad, 2 * M_PI)) < turn_rad;
-}
-
-}  // namespace
 
 struct LandmarkTracker::Impl {
   explicit Impl(const LandmarkOptions& o) : options(o), finder(o.finder) {
@@ -73,6 +79,16 @@ struct LandmarkTracker::Impl {
     return found;
   }
 
+  FaceLandmarks settle(const cv::Mat& bgr, const FaceRegion& first) {
+    FaceLandmarks found = look_at(bgr, first);
+    for (int round = 0; round < options.settling_rounds; ++round) {
+      const FaceRegion region = region_of(found.points_px);
+      if (found.score < options.least_score || settled(region, found.region)) break;
+      found = look_at(bgr, region);
+    }
+    return found;
+  }
+
   std::optional<FaceLandmarks> follow(const cv::Mat& bgr) {
     if (options.look_around_every > 0 && ++since_look_around >= options.look_around_every) {
       since_look_around = 0;
@@ -88,12 +104,7 @@ struct LandmarkTracker::Impl {
     faces_in_view = int(faces.size());
     since_look_around = 0;
     for (const FoundFace& face : faces) {
-      FaceLandmarks found = look_at(bgr, face.region());
-      for (int round = 0; round < options.settling_rounds; ++round) {
-        const FaceRegion region = region_of(found.points_px);
-        if (found.score < options.least_score || settled(region, found.region)) break;
-        found = look_at(bgr, region);
-      }
+      FaceLandmarks found = settle(bgr, face.region());
       found.found_anew = true;
       if (found.score >= options.least_score) return found;
     }
@@ -108,8 +119,7 @@ LandmarkTracker::LandmarkTracker(LandmarkTracker&&) noexcept = default;
 LandmarkTracker& LandmarkTracker::operator=(LandmarkTracker&&) noexcept = default;
 
 std::optional<FaceLandmarks> LandmarkTracker::track(const cv::Mat& bgr) {
-  if (bgr.empty() || bgr.type() != CV_8UC3)
-    throw std::invalid_argument("LandmarkTracker::track: a picture of type CV_8UC3 is wanted");
+  check(bgr, {0, 0, 1, 0});
   Impl& my = *impl_;
   std::optional<FaceLandmarks> found;
   if (my.following) found = my.follow(bgr);
@@ -120,10 +130,13 @@ std::optional<FaceLandmarks> LandmarkTracker::track(const cv::Mat& bgr) {
 }
 
 FaceLandmarks LandmarkTracker::look_at(const cv::Mat& bgr, const FaceRegion& region) {
-  if (bgr.empty() || bgr.type() != CV_8UC3 || !(region.side_px > 0))
-    throw std::invalid_argument(
-        "LandmarkTracker::look_at: a picture of type CV_8UC3 and a square are wanted");
+  check(bgr, region);
   return impl_->look_at(bgr, region);
+}
+
+FaceLandmarks LandmarkTracker::settle(const cv::Mat& bgr, const FaceRegion& first) {
+  check(bgr, first);
+  return impl_->settle(bgr, first);
 }
 
 void LandmarkTracker::reset() {

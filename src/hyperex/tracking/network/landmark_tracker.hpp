@@ -16,6 +16,10 @@ inline constexpr int face_point_count = 468;
 /// nearer. Points may lie outside the picture.
 using FacePoints = Eigen::Matrix<double, face_point_count, 3, Eigen::RowMajor>;
 
+/// Where the landmark network should look for a face with these points: 1.5 x the longer side of
+/// their box, upright along the eyes.
+FaceRegion region_of(const FacePoints& points_px);
+
 struct FaceLandmarks {
   FacePoints points_px;
   double score = 0;         ///< that there is a face where the points are, 0 to 1
@@ -29,7 +33,7 @@ struct LandmarkOptions {
   double least_score = 0.5;  ///< below it the face counts as lost, 0 to 1
   /// A face found anew: its square is taken from the points again until it settles, at most so
   /// often.
-  int settling_rounds = 4;
+  int settling_rounds = 8;
   /// Pictures between two looks at the whole picture while a face is followed (they keep
   /// faces_in_view true); 0: none.
   int look_around_every = 30;
@@ -53,6 +57,9 @@ class LandmarkTracker {
   /// The points in a region known from elsewhere, whatever was followed before; no look at the
   /// score. Does not change what is followed.
   FaceLandmarks look_at(const cv::Mat& bgr, const FaceRegion& region);
+  /// The same, the region taken from the points again until it settles (settling_rounds); stops
+  /// where the score falls below least_score.
+  FaceLandmarks settle(const cv::Mat& bgr, const FaceRegion& first);
   /// Forgets the face that was followed.
   void reset();
 

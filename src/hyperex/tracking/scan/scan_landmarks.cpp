@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/scan/scan_landmarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <opencv2/core.hpp>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/tracking/scan/find_front.hpp"
+
+namespace hyperex::tracking {
+namespace {
+
+/// One picture's rays: a point of each in the plane of the camera's target.
+struct Observation {
+  Vec3 to_viewer;
+  Points on_rays;  // 468 x 3
+  double score = 0;
+};
+
+/// Vertex -> the vertex on the other side of the canonical face.
+std::vector<int> mirrored_vertices() {
+  const Points& points = face::canonical_face().mesh.points;
+  std::vector<int> mirror(face_point_count);
+  for (int i = 0; i < face_point_count; ++i) {
+    const Vec3 image = points.row(i).transpose().cwiseProduct(Vec3(-1, 1, 1));
+    (points.rowwise() - image.transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&mirror[std::size_t(i)]);
+  }
+  return mirror;
+}
+
+/// The points of a picture's mirror image, brought back.
+FacePoints unmirrored(const FacePoints& points, int width_px, const std::vector<int>& mirror) {
+  FacePoints back;
+  for (int i = 0; i < face_point_count; ++i) {
+    const auto p = points.row(mirror[std::size_t(i)]);
+    back.row(i) << width_px - 1 - p.x(), p.y(), p.z();
+  }
+  return back;
+}
+
+Observation observe(const ScanView& view, const FacePoints& points_px, double score) {
+  Observation o{view.camera.to_viewer.normalized(), Points(face_point_count, 3), score};
+  for (int i = 0; i < face_point_count; ++i)
+    o.on_rays.row(i) = view.point_on_ray(points_px(i, 0), points_px(i, 1)).transpose();
+  return o;
+}
+
+std::vector<Observation> look_from_views(const ScanViewer& viewer, LandmarkTracker& tracker,
+                                         const FacePose& pose, const ScanLandmarkOptions& options) {
+  constexpr double least_score = 0.5;
+  const std::vector<int> mirror = mirrored_vertices();
+  const Points laid = pose.scan_from_canonical.apply(face::canonical_face().mesh.points);
+  std::vector<Observation> seen;
+  Progress progress("finding landmarks", long(options.views_deg.size()));
+  cv::Mat mirrored;
+  for (const auto& [yaw, pitch] : options.views_deg) {
+    constexpr double rad = std::numbers::pi / 180;
+    const ScanView view =
+        viewer.look(face_camera(pose, yaw * rad, pitch * rad), scan_picture_px, 2);
+    const FacePoints expected = view.seen(laid);
+    const FaceLandmarks plain = tracker.settle(view.bgr, region_of(expected));
+    if (plain.score >= least_score) seen.push_back(observe(view, plain.points_px, plain.score));
+    cv::flip(view.bgr, mirrored, 1);
+    const FaceLandmarks turned =
+        tracker.settle(mirrored, region_of(unmirrored(expected, mirrored.cols, mirror)));
+    if (turned.score >= least_score)
+      seen.push_back(
+          observe(view, unmirrored(turned.points_px, mirrored.cols, mirror), turned.score));
+    progress.update(&options.views_deg.back() - &options.views_deg.front());
+  }
+  return seen;
+}
+
+Vec3 normal_of(const TriMesh& mesh, int triangle) {
+  const auto corner = [&](int k) -> Vec3 {
+    return mesh.points.row(mesh.triangles(triangle, k)).transpose();
+  };
+  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+}
+
+/// Distance of a point from a view's ray.
+double distance(const Observation& o, int i, const Vec3& point) {
+  const Vec3 away = point - o.on_rays.row(i).transpose();
+  return (away - o.to_viewer * o.to_viewer.dot(away)).norm();
+}
+
+/// Where the rays of one face point come nearest to each other.
+Vec3 agreed(const std::vector<Observation>& seen, int i, Vec3 point, const Vec3& normal,
+            double tolerance_m) {
+  constexpr int rounds = 10;
+  constexpr double depth_prior = 1e-3;  // holds the depth where one view alone sees the point
+  for (int round = 0; round < rounds; ++round) {
+    Eigen::Matrix3d sum = depth_prior * Eigen::Matrix3d::Identity();
+    Vec3 right = depth_prior * point;
+    for (const Observation& o : seen) {
+      const double facing = std::max(0.05, normal.dot(o.to_viewer));
+      const double off = distance(o, i, point) / tolerance_m;
+      const double weight = o.score * facing * facing / (1 + off * off);
+      const Eigen::Matrix3d across =
+          weight * (Eigen::Matrix3d::Identity() - o.to_viewer * o.to_viewer.transpose());
+      sum += across;
+      right += across * o.on_rays.row(i).transpose();
+    }
+    const Vec3 next = sum.ldlt().solve(right);
+    const double moved = (next - point).norm();
+    point = next;
+    if (moved < 1e-6) break;
+  }
+  return point;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
+                                  const std::string& source, const ScanLandmarkOptions& options) {
+  const ScanViewer viewer(scan, colours);
+  LandmarkTracker tracker;
+  const auto pose = find_front(viewer, tracker);
+  if (!pose)
+    throw InputError(source,
+                     "no face was found in this scan from any side: expected a face, its triangles "
+                     "running counter-clockwise as seen from outside; give its landmarks by hand "
+                     "(docs/landmarks.md)");
+  const auto seen = look_from_views(viewer, tracker, *pose, options);
+  if (seen.empty())
+    throw InputError(source, "a face was found but not recognised again from its front");
+
+  const face::CanonicalFace& canonical = face::canonical_face();
+  const SurfaceTree surface(scan);
+  const Points laid = pose->scan_from_canonical.apply(canonical.mesh.points);
+  Points points(face_point_count, 3);
+  std::vector<double> off;
+  ScanLandmarks found;
+  for (int i = 0; i < face_point_count; ++i) {
+    const Vec3 normal = normal_of(scan, surface.query(laid.row(i).transpose()).triangle);
+    const Vec3 point = agreed(seen, i, laid.row(i).transpose(), normal, options.tolerance_m);
+    for (const Observation& o : seen) off.push_back(distance(o, i, point));
+    points.row(i) = point.transpose();
+  }
+  for (const auto& entry : canonical.landmarks)
+    found.landmarks[entry.first] = surface.query(canonical.landmark(entry.first, points)).point;
+  found.face_points.resize(face_point_count, 3);
+  for (int i = 0; i < face_point_count; ++i)
+    found.face_points.row(i) = surface.query(points.row(i).transpose()).point.transpose();
+  found.scan_from_canonical = fit_similarity(canonical.mesh.points, points);
+  found.views = int(seen.size());
+  for (const Observation& o : seen) found.score += o.score / double(seen.size());
+  found.spread_m = median(off);
+  return found;
+}
+
+}  // namespace hyperex::tracking

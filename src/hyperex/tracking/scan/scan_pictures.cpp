@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+
+#include "hyperex/render/contact_sheet.hpp"
+#include "hyperex/tracking/scan/scan_landmarks.hpp"
+
+namespace hyperex::tracking {
+namespace {
+
+/// A vertex on a seam of the texture has several places there; the last one serves.
+render::VertexColours texture_at_vertices(const io::Scan& scan) {
+  const cv::Mat bgr = cv::imdecode(scan.texture->bytes, cv::IMREAD_COLOR);
+  if (bgr.empty()) return {};
+  render::VertexColours colours = render::VertexColours::Constant(scan.mesh.points.rows(), 3, 200);
+  const auto pixel = [](float share, int count) {
+    return std::clamp(int(std::floor((share - std::floor(share)) * float(count))), 0, count - 1);
+  };
+  for (Eigen::Index corner = 0; corner < scan.corner_uv.rows(); ++corner) {
+    const auto uv = scan.corner_uv.row(corner);
+    if (!uv.allFinite()) continue;
+    const auto& colour = bgr.at<cv::Vec3b>(pixel(uv[1], bgr.rows), pixel(uv[0], bgr.cols));
+    colours.row(scan.mesh.triangles(corner / 3, corner % 3)) << colour[2], colour[1], colour[0];
+  }
+  return colours;
+}
+
+}  // namespace
+
+render::VertexColours picture_colours(const io::Scan& scan) {
+  if (scan.vertex_colour.rows() > 0) return scan.vertex_colour.leftCols<3>();
+  if (scan.texture && scan.corner_uv.rows() > 0) return texture_at_vertices(scan);
+  return {};
+}
+
+render::Image draw_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
+                                  const ScanLandmarks& found, const std::string& title) {
+  std::vector<render::Marker> markers;
+  for (const auto& [name, at] : found.landmarks)
+    markers.push_back(
+        {at, name.starts_with("ibug68_") ? render::palette::held : render::palette::driven,
+         name.starts_with("ibug68_") ? 3.0 : 2.0});
+  const Eigen::Matrix3d scan_from_face = found.scan_from_canonical.rotation;
+  const render::RenderOptions size{.width_px = 520, .height_px = 640};
+  render::ContactSheet sheet{
+      .title = title, .note = "blue: the 68 iBUG points; red: anatomical landmarks", .columns = 3};
+  constexpr double turn = 0.75;
+  for (const auto& [yaw, caption] :
+       {std::pair{-turn, "from the subject's right"}, std::pair{0.0, "front"},
+        std::pair{turn, "from the subject's left"}}) {
+    const Vec3 side(std::sin(yaw), 0, std::cos(yaw));
+    const render::Camera camera =
+        render::framing(found.face_points, scan_from_face * side,
+                        double(size.width_px) / size.height_px, scan_from_face.col(1), 0.1);
+    sheet.pictures.push_back(
+        {render::render({{.mesh = scan, .colours = colours}}, camera, size, markers), caption});
+  }
+  return render::contact_sheet(sheet);
+}
+
+}  // namespace hyperex::tracking
