@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/capture/open_source.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "hyperex/capture/buffered.hpp"
+#include "hyperex/capture/kinect.hpp"
+#include "hyperex/capture/openni.hpp"
+#include "hyperex/capture/tum_folder.hpp"
+#include "hyperex/capture/video.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/io/number.hpp"
+
+namespace hyperex::capture {
+namespace {
+namespace fs = std::filesystem;
+
+std::unique_ptr<FrameSource> latest(std::unique_ptr<FrameSource> source) {
+  return std::make_unique<LatestFrame>(std::move(source));
+}
+
+bool is_oni(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return std::tolower(c); });
+  return extension == ".oni";
+}
+
+int webcam_number(const std::string& spec) {
+  if (spec == "webcam") return 0;
+  const auto number = io::parse_integer(std::string_view(spec).substr(7));
+  if (!number || *number < 0 || *number > 255)
+    throw InputError(io::quotable(spec) + ": expected webcam:N with N from 0 to 255");
+  return static_cast<int>(*number);
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_source(const std::string& spec, const SourceOptions& options) {
+  std::error_code ignored;
+  if (fs::is_directory(spec, ignored)) return open_tum_folder(spec, options);
+  if (fs::exists(spec, ignored))
+    return is_oni(spec) ? open_oni(spec, options) : open_video(spec, options);
+  if (spec == "kinect") return latest(open_kinect(options));
+  if (spec == "openni") return latest(open_openni("", options));
+  if (spec.starts_with("openni:")) return latest(open_openni(spec.substr(7), options));
+  if (spec == "webcam" || spec.starts_with("webcam:"))
+    return latest(open_webcam(webcam_number(spec), options));
+  throw InputError(io::quotable(spec) +
+                   ": no such folder or file; expected a recording (folder, video file, .oni) or a "
+                   "camera (kinect, openni, webcam:N)");
+}
+
+}  // namespace hyperex::capture

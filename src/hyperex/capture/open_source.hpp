@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <string>
+
+#include "hyperex/capture/options.hpp"
+#include "hyperex/capture/source.hpp"
+
+namespace hyperex::capture {
+
+/// A source by what a user writes:
+///   a folder             a recording in TUM's layout (tum_folder.hpp)
+///   a file *.oni         a recording by OpenNI2 (openni.hpp)
+///   any other file       a video (video.hpp)
+///   kinect               the first Kinect (kinect.hpp)
+///   openni, openni:URI   a camera through OpenNI2 (openni.hpp)
+///   webcam, webcam:N     /dev/videoN, 0 where no number is given (video.hpp)
+/// What exists on disk goes before a word for a device. Live sources come wrapped in LatestFrame:
+/// a slow consumer loses frames, counted by dropped(), and does not fall behind.
+/// Throws InputError for anything else, naming these.
+std::unique_ptr<FrameSource> open_source(const std::string& spec,
+                                         const SourceOptions& options = {});
+
+}  // namespace hyperex::capture
