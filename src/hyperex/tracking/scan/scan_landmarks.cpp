@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <opencv2/core.hpp>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
@@ -56,28 +55,45 @@ Observation observe(const ScanView& view, const FacePoints& points_px, double sc
   return o;
 }
 
-std::vector<Observation> look_from_views(const ScanViewer& viewer, LandmarkTracker& tracker,
-                                         const FacePose& pose, const ScanLandmarkOptions& options) {
-  constexpr double least_score = 0.5;
+/// The scan as a mirror at x = 0 shows it.
+TriMesh mirrored(const TriMesh& mesh) {
+  TriMesh image = mesh;
+  image.points.col(0) *= -1;
+  image.triangles.col(1).swap(image.triangles.col(2));
+  return image;
+}
+
+render::Camera mirrored(render::Camera camera) {
+  for (Vec3* v : {&camera.target, &camera.to_viewer, &camera.up}) v->x() *= -1;
+  return camera;
+}
+
+/// Two pictures a view, one of the scan and one of its mirror image, lit from the same side: what
+/// the network prefers on one side of a face, and what the lamps make it see, then cancel.
+std::vector<Observation> look_from_views(const TriMesh& scan, const render::VertexColours& colours,
+                                         LandmarkTracker& tracker, const FacePose& pose,
+                                         const ScanLandmarkOptions& options) {
+  constexpr double least_score = 0.5, rad = std::numbers::pi / 180;
   const std::vector<int> mirror = mirrored_vertices();
   const Points laid = pose.scan_from_canonical.apply(face::canonical_face().mesh.points);
+  const TriMesh image = mirrored(scan);
+  const ScanViewer viewer(scan, colours), image_viewer(image, colours);
   std::vector<Observation> seen;
   Progress progress("finding landmarks", long(options.views_deg.size()));
-  cv::Mat mirrored;
-  for (const auto& [yaw, pitch] : options.views_deg) {
-    constexpr double rad = std::numbers::pi / 180;
-    const ScanView view =
-        viewer.look(face_camera(pose, yaw * rad, pitch * rad), scan_picture_px, 2);
+  for (std::size_t v = 0; v < options.views_deg.size(); ++v) {
+    const auto [yaw, pitch] = options.views_deg[v];
+    const render::Camera camera = face_camera(pose, yaw * rad, pitch * rad);
+    const ScanView view = viewer.look(camera, scan_picture_px, 2);
     const FacePoints expected = view.seen(laid);
     const FaceLandmarks plain = tracker.settle(view.bgr, region_of(expected));
     if (plain.score >= least_score) seen.push_back(observe(view, plain.points_px, plain.score));
-    cv::flip(view.bgr, mirrored, 1);
+    const ScanView image_view = image_viewer.look(mirrored(camera), scan_picture_px, 2);
     const FaceLandmarks turned =
-        tracker.settle(mirrored, region_of(unmirrored(expected, mirrored.cols, mirror)));
+        tracker.settle(image_view.bgr, region_of(unmirrored(expected, scan_picture_px, mirror)));
     if (turned.score >= least_score)
       seen.push_back(
-          observe(view, unmirrored(turned.points_px, mirrored.cols, mirror), turned.score));
-    progress.update(&options.views_deg.back() - &options.views_deg.front());
+          observe(view, unmirrored(turned.points_px, scan_picture_px, mirror), turned.score));
+    progress.update(long(v) + 1);
   }
   return seen;
 }
@@ -131,15 +147,14 @@ double median(std::vector<double> values) {
 
 ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const std::string& source, const ScanLandmarkOptions& options) {
-  const ScanViewer viewer(scan, colours);
   LandmarkTracker tracker;
-  const auto pose = find_front(viewer, tracker);
+  const auto pose = find_front(ScanViewer(scan, colours), tracker);
   if (!pose)
     throw InputError(source,
                      "no face was found in this scan from any side: expected a face, its triangles "
                      "running counter-clockwise as seen from outside; give its landmarks by hand "
                      "(docs/landmarks.md)");
-  const auto seen = look_from_views(viewer, tracker, *pose, options);
+  const auto seen = look_from_views(scan, colours, tracker, *pose, options);
   if (seen.empty())
     throw InputError(source, "a face was found but not recognised again from its front");
 
