@@ -10,6 +10,7 @@
 
 #include "hyperex/capture/camera_file.hpp"
 #include "hyperex/capture/faults.hpp"
+#include "hyperex/capture/kinect_depth.hpp"
 #include "hyperex/capture/pairing.hpp"
 #include "hyperex/core/error.hpp"
 
@@ -100,14 +101,28 @@ class Kinect : public FrameSource {
       check(freenect_start_video(device_), "a colour stream");
       if (colour_only_) return;
       freenect_set_depth_callback(device_, on_depth);
-      check(freenect_set_depth_mode(device_, freenect_find_depth_mode(FREENECT_RESOLUTION_MEDIUM,
-                                                                      FREENECT_DEPTH_REGISTERED)),
-            "depth registered to colour");
+      choose_depth_mode();
       check(freenect_start_depth(device_), "a depth stream");
     } catch (...) {
       close();
       throw;
     }
+  }
+  /// Asked for by listing: a driver may end the program when asked for a mode it has not.
+  void choose_depth_mode() {
+    const auto set = [&](freenect_depth_format format) {
+      for (int i = 0; i < freenect_get_depth_mode_count(); ++i) {
+        const freenect_frame_mode mode = freenect_get_depth_mode(i);
+        if (mode.is_valid != 0 && mode.depth_format == format && mode.width == width_px)
+          return freenect_set_depth_mode(device_, mode) >= 0;
+      }
+      return false;
+    };
+    if (set(FREENECT_DEPTH_REGISTERED)) return;
+    if (!set(FREENECT_DEPTH_11BIT)) throw InputError("kinect: offers no depth of 640 x 480");
+    is_raw_ = true;
+    notes_.push_back(
+        "kinect: the driver does not register depth to colour; done by the nominal calibration");
   }
   static void check(int result, const char* what) {
     if (result < 0) throw InputError(fmt::format("kinect: refuses {}", what));
@@ -131,10 +146,14 @@ class Kinect : public FrameSource {
     if (self.colour_only_) self.pairing_.add_depth({colour.time_s, {}});
     self.pairing_.add_colour(std::move(colour));
   }
-  static void on_depth(freenect_device* device, void* depth_mm, std::uint32_t ticks) {
+  static void on_depth(freenect_device* device, void* data, std::uint32_t ticks) {
     auto& self = *static_cast<Kinect*>(freenect_get_user(device));
     TimedPicture depth{self.clock_.seconds(ticks), {}};
-    cv::Mat(height_px, width_px, CV_16UC1, depth_mm).convertTo(depth.picture, CV_32F, 1e-3);
+    const cv::Mat values(height_px, width_px, CV_16UC1, data);
+    if (self.is_raw_)
+      depth.picture = registered_nominally(values, self.intrinsics_);
+    else
+      values.convertTo(depth.picture, CV_32F, 1e-3);
     self.pairing_.add_depth(std::move(depth));
   }
 
@@ -174,7 +193,7 @@ class Kinect : public FrameSource {
   freenect_context* context_ = nullptr;
   freenect_device* device_ = nullptr;
   std::optional<double> last_time_s_;
-  bool colour_only_, lost_ = false;
+  bool colour_only_, is_raw_ = false, lost_ = false;
 };
 
 }  // namespace

@@ -13,8 +13,10 @@ namespace hyperex::capture {
 /// frame; colour and depth are paired where they are at most 20 ms apart. Not mirrored.
 /// The device does not tell its colour camera's intrinsics: SourceOptions::camera_file, else the
 /// nominal 525 pixels (and a note says so).
-/// Throws InputError where there is no Kinect, it cannot be opened, or gives no frame within 5 s.
-/// A program that loads libfreenect's fakenect library instead replays a recording.
+/// Where the driver offers raw depth alone, the nominal calibration registers it (and a note says
+/// so). Throws InputError where there is no Kinect, it cannot be opened, or gives no frame within 5
+/// s. A program that loads libfreenect's fakenect library instead replays a recording. Debian's
+/// fakenect is one that offers raw depth alone.
 std::unique_ptr<FrameSource> open_kinect(const SourceOptions& options = {});
 
 }  // namespace hyperex::capture

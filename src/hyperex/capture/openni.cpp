@@ -4,9 +4,14 @@
 #include <OpenNI.h>
 #include <fmt/format.h>
 
-#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <mutex>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "hyperex/capture/buffered.hpp"
 #include "hyperex/capture/camera_file.hpp"
@@ -29,6 +34,46 @@ std::string reason() {
   while (text.ends_with(' ')) text.pop_back();
   return text.empty() ? "" : " (" + text + ")";
 }
+
+/// OpenNI remembers every thread that ever waited for a frame and later asks whether it still
+/// lives, which crashes where it does not. So one thread that never ends does all the waiting.
+class WaitingThread {
+ public:
+  /// Runs `work` there and gives its result.
+  template <class Work>
+  static auto run(Work work) {
+    std::packaged_task<decltype(work())()> task(std::move(work));
+    auto result = task.get_future();
+    WaitingThread& self = instance();
+    {
+      const std::lock_guard lock(self.mutex_);
+      self.tasks_.push_back([&task] { task(); });
+    }
+    self.changed_.notify_one();
+    return result.get();
+  }
+
+ private:
+  static WaitingThread& instance() {
+    static WaitingThread& self = *new WaitingThread;  // lives as long as its thread: to the end
+    return self;
+  }
+  WaitingThread() {
+    std::thread([this] {
+      while (true) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return !tasks_.empty(); });
+        const auto task = std::move(tasks_.front());
+        tasks_.pop_front();
+        lock.unlock();
+        task();
+      }
+    }).detach();
+  }
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> tasks_;
+};
 
 /// OpenNI counts its initialisations.
 struct Session {
@@ -159,6 +204,11 @@ class OpenniSource : public FrameSource {
   std::vector<std::string> notes() const override { return notes_; }
 
   std::optional<Frame> next() override {
+    return WaitingThread::run([this] { return next_frame(); });
+  }
+
+ private:
+  std::optional<Frame> next_frame() {
     if (ended_) return std::nullopt;
     while (true) {
       if (auto frame = take()) return frame;
@@ -180,7 +230,6 @@ class OpenniSource : public FrameSource {
     }
   }
 
- private:
   void prepare_file() {
     openni::PlaybackControl* playback = device_.getPlaybackControl();
     if (playback == nullptr) throw InputError(name_ + ": is no recording");

@@ -127,13 +127,8 @@ class VideoFile : public Capture {
  private:
   static cv::VideoCapture open(const fs::path& file) {
     if (!fs::is_regular_file(file)) throw InputError(file, "no such file");
-    try {
-      for (const int reader : {cv::CAP_FFMPEG, cv::CAP_ANY}) {
-        cv::VideoCapture capture(file.string(), reader);
-        if (capture.isOpened()) return capture;
-      }
-    } catch (const cv::Exception&) {
-    }
+    cv::VideoCapture capture(file.string(), cv::CAP_FFMPEG);
+    if (capture.isOpened()) return capture;
     throw InputError(file, "no video that can be read");
   }
   double start() {

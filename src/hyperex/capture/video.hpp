@@ -13,7 +13,7 @@ namespace hyperex::capture {
 /// The camera is SourceOptions::camera_file, else guessed from SourceOptions::field_of_view_deg
 /// (and a note says so).
 
-/// What OpenCV's video readers open. Times are the file's own where they rise, else counted by its
+/// What FFmpeg opens. Times are the file's own where they rise, else counted by its
 /// frame rate. frame_count() is what the container states. A file that ends before that is read as
 /// far as it goes and gets a note. Throws InputError where no frame can be read.
 std::unique_ptr<FrameSource> open_video(const std::filesystem::path& file,

@@ -40,7 +40,8 @@ class Stream : public oni::driver::StreamBase {
 
   OniBool isPropertySupported(int id) override {
     return id == ONI_STREAM_PROPERTY_VIDEO_MODE || id == ONI_STREAM_PROPERTY_HORIZONTAL_FOV ||
-           id == ONI_STREAM_PROPERTY_VERTICAL_FOV || id == ONI_STREAM_PROPERTY_MIRRORING;
+           id == ONI_STREAM_PROPERTY_VERTICAL_FOV || id == ONI_STREAM_PROPERTY_MIRRORING ||
+           id == ONI_STREAM_PROPERTY_CROPPING || id == ONI_STREAM_PROPERTY_MAX_VALUE;
   }
   OniStatus getProperty(int id, void* data, int* size) override {
     switch (id) {
@@ -52,6 +53,11 @@ class Stream : public oni::driver::StreamBase {
         return give(0.75f * fov_rad, data, size);
       case ONI_STREAM_PROPERTY_MIRRORING:
         return give(OniBool{mirrored_}, data, size);
+      case ONI_STREAM_PROPERTY_MAX_VALUE:
+        return give(int{10000}, data, size);
+      // Recordings of sensors without it cannot be replayed.
+      case ONI_STREAM_PROPERTY_CROPPING:
+        return give(OniCropping{0, 0, 0, width, height}, data, size);
       default:
         return ONI_STATUS_NOT_IMPLEMENTED;
     }
