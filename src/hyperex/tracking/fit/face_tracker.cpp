@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/geometry/transform.hpp"
 
 namespace hyperex::tracking {
 
@@ -18,6 +19,17 @@ struct Waiting {
 };
 
 constexpr double kRegionMargin = 0.15;  // around the points, of their extent
+
+/// Keeps the frames in which the face is as in the first: their network points, laid over the
+/// first's by a similarity, agree with them to within the network's own noise.
+void keep_resting(std::vector<Observation>& frames, double at_rest_px) {
+  const Points first = frames.front().network_px;
+  std::erase_if(frames, [&](const Observation& seen) {
+    const Similarity onto = fit_similarity(seen.network_px, first);
+    const Points off = onto.apply(seen.network_px) - first;
+    return std::sqrt(off.leftCols<2>().rowwise().squaredNorm().mean()) > at_rest_px;
+  });
+}
 
 cv::Rect region_around(const Points& px) {
   const Eigen::RowVector3d low = px.colwise().minCoeff(), high = px.colwise().maxCoeff();
@@ -40,7 +52,7 @@ struct FaceTracker::Impl {
   int faces = 0;
   std::optional<Neutral> neutral;
   std::unique_ptr<FrameFit> fit;
-  Template skin;
+  std::optional<Skin> skin;
   std::optional<FaceState> before;
   TrackerTimes times;
 
@@ -66,7 +78,8 @@ struct FaceTracker::Impl {
     Observation observation;
     observation.network_px = face->points_px;
     if (options.use_depth) observation.depth_m = frame.depth_m;
-    observation.picture = fine_picture(frame.colour, region_around(observation.network_px));
+    observation.pictures =
+        skin_pictures(frame.colour, region_around(observation.network_px), options.fit);
     times.picture_s += watch.lap();
     seen.seen = std::move(observation);
     return seen;
@@ -77,6 +90,7 @@ struct FaceTracker::Impl {
     for (const Waiting& one : waiting)
       if (one.seen) frames.push_back(*one.seen);
     if (frames.empty()) return;
+    keep_resting(frames, options.at_rest_px);
     Stopwatch watch;
     neutral = estimate_neutral(model, camera, frames, options.neutral);
     fit = std::make_unique<FrameFit>(model, camera, neutral->points_m, neutral->scale, options.fit);
@@ -98,15 +112,13 @@ struct FaceTracker::Impl {
       start.camera_from_head = fit->first_pose(seen);
     else
       start = *before;
-    FaceState state = fit->fit(seen, start, anew ? nullptr : &*before,
-                               skin.empty() ? nullptr : &skin, &frame.report);
+    FaceState state =
+        fit->fit(seen, start, anew ? nullptr : &*before, skin ? &*skin : nullptr, &frame.report);
     frame.valid = true;
     frame.camera_from_head = state.camera_from_head;
     frame.weights = state.weights;
     frame.vertices_m = fit->vertices(state);
-    if (skin.empty())
-      skin = Template(seen.picture, camera, state.camera_from_head, frame.vertices_m,
-                      model.mesh.triangles, options.fit.photometric);
+    if (!skin) skin = fit->skin_of(seen, state);
     before = std::move(state);
     times.fit_s += watch.lap();
     return frame;

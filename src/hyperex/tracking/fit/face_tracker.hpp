@@ -17,8 +17,10 @@ struct TrackerOptions {
   FitOptions fit;
   NeutralOptions neutral;
   LandmarkOptions network;
-  int neutral_frames =
-      30;  ///< >= 1; the person's shape is estimated on the first so many with a face
+  /// >= 1; the person's shape is estimated on the first so many frames with a face, of those in
+  /// which it is at rest: as in the first.
+  int neutral_frames = 30;
+  double at_rest_px = 0.5;  ///< root mean square over the network's points
   bool use_depth = true;
 };
 

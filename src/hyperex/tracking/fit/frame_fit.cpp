@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
+#include <set>
 
+#include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "hyperex/tracking/model/mesh_border.hpp"
+#include "hyperex/tracking/model/tables.hpp"
 
 namespace hyperex::tracking {
 
@@ -24,39 +26,9 @@ double robust(double residual, double scale) {
 }
 
 std::vector<bool> outline(const TriMesh& mesh) {
-  std::map<std::pair<int, int>, int> uses;
-  for (const auto t : mesh.triangles.rowwise())
-    for (int k = 0; k < 3; ++k) ++uses[std::minmax(t[k], t[(k + 1) % 3])];
-  // Of the loops of border edges, the longest.
-  std::map<int, std::vector<int>> next;
-  for (const auto& [edge, count] : uses)
-    if (count == 1) {
-      next[edge.first].push_back(edge.second);
-      next[edge.second].push_back(edge.first);
-    }
-  std::vector<int> loop_of(std::size_t(mesh.points.rows()), -1);
-  std::vector<double> length;
-  for (const auto& [seed, unused] : next) {
-    if (loop_of[std::size_t(seed)] >= 0) continue;
-    const int loop = int(length.size());
-    length.push_back(0);
-    std::vector<int> waiting = {seed};
-    loop_of[std::size_t(seed)] = loop;
-    while (!waiting.empty()) {
-      const int v = waiting.back();
-      waiting.pop_back();
-      for (const int w : next[v]) {
-        length[std::size_t(loop)] += (mesh.points.row(v) - mesh.points.row(w)).norm();
-        if (loop_of[std::size_t(w)] >= 0) continue;
-        loop_of[std::size_t(w)] = loop;
-        waiting.push_back(w);
-      }
-    }
-  }
   std::vector<bool> on(std::size_t(mesh.points.rows()), false);
-  if (length.empty()) return on;
-  const int longest = int(std::max_element(length.begin(), length.end()) - length.begin());
-  for (std::size_t v = 0; v < on.size(); ++v) on[v] = loop_of[v] == longest;
+  for (const auto& [a, b] : border_edges(mesh).outline)
+    on[std::size_t(a)] = on[std::size_t(b)] = true;
   return on;
 }
 
@@ -73,6 +45,15 @@ Points normals_of(const Points& points, const Triangles& triangles) {
     if (length > 0) normals.row(v) /= length;
   }
   return normals;
+}
+
+/// The network's points of a kind (model/data/network_points.csv).
+std::set<int> network_points(const std::string& kind) {
+  std::set<int> points;
+  for (const auto& row : table_rows(network_points_table(), "kind,points"))
+    if (row.at(0) == kind)
+      for (const int point : table_indices(row.at(1), 468)) points.insert(point);
+  return points;
 }
 
 SparseMatrix free_prior(const TriMesh& mesh, const FitOptions& options) {
@@ -112,6 +93,15 @@ FrameFit::FrameFit(const FaceModel& model, const capture::Intrinsics& camera,
       options_(options),
       on_outline_(outline(model.mesh)),
       free_prior_(free_prior(model.mesh, options)) {
+  on_inner_lip_.assign(on_outline_.size(), false);
+  in_lip_ = on_inner_lip_;
+  const std::set<int> inside = network_points("inside_lip");
+  const auto& inner_lip = face::lip_contour();
+  for (const auto& [vertex, network] : model.pairs) {
+    in_lip_[std::size_t(vertex)] = inside.contains(network);
+    on_inner_lip_[std::size_t(vertex)] =
+        std::find(inner_lip.begin(), inner_lip.end(), network) != inner_lip.end();
+  }
   const Eigen::Index units = Eigen::Index(model.animation_units.size());
   unit_matrix_ = VertexSystem::RowMatrix::Zero(3 * model.vertex_count(), units);
   typical_.resize(units);
@@ -180,8 +170,9 @@ void FrameFit::add_network(VertexSystem& system, const Observation& seen, const 
     const Eigen::Vector2d error =
         project(camera_, p) - seen.network_px.row(network).head<2>().transpose();
     squares += error.squaredNorm();
-    const double sigma =
-        on_outline_[std::size_t(vertex)] ? options_.network_outline_px : options_.network_px;
+    const double sigma = on_outline_[std::size_t(vertex)] ? options_.network_outline_px
+                         : in_lip_[std::size_t(vertex)]   ? options_.network_inner_lip_px
+                                                          : options_.network_px;
     const double weight = robust(error.norm(), options_.network_robust_px) / square(sigma);
     const Eigen::Matrix<double, 2, 3> j = project_jacobian(camera_, p) * turn;
     system.add_row(vertex, j.row(0), error.x(), weight);
@@ -198,6 +189,7 @@ void FrameFit::add_depth(VertexSystem& system, const Observation& seen, const Fa
   double squares = 0;
   int used = 0, facing = 0;
   for (int v = 0; v < vertices.rows(); ++v) {
+    if (on_inner_lip_[std::size_t(v)]) continue;  // lip and what lies behind it in one patch
     const Vec3 p = state.camera_from_head * Vec3(vertices.row(v).transpose());
     const Vec3 normal = turn * normals.row(v).transpose();
     if (-normal.dot(p.normalized()) < kLeastCosine) continue;
@@ -218,15 +210,21 @@ void FrameFit::add_depth(VertexSystem& system, const Observation& seen, const Fa
   }
 }
 
-VertexSystem FrameFit::measure(const Observation& seen, const FaceState& state,
-                               const Template* skin, FitReport* report) const {
+VertexSystem FrameFit::measure(const Observation& seen, const FaceState& state, const Skin* skin,
+                               bool coarse, FitReport* report) const {
   VertexSystem system(model_.mesh);
   const Points points = vertices(state);
   add_network(system, seen, state, points, report);
   add_depth(system, seen, state, points, report);
   if (skin && options_.photometric_weight > 0) {
-    const double share = skin->add_to(system, seen.picture, camera_, state.camera_from_head, points,
-                                      options_.photometric_weight);
+    const auto add = [&](const Template& then, const FinePicture& now) {
+      return then.add_to(system, now, camera_, state.camera_from_head, points,
+                         options_.photometric_weight);
+    };
+    const SkinPictures& now = seen.pictures;
+    const double share =
+        coarse ? add(skin->coarse_grey, now.coarse_grey) : add(skin->grey, now.grey);
+    coarse ? add(skin->coarse_chroma, now.coarse_chroma) : add(skin->chroma, now.chroma);
     if (report) report->photometric_share = share;
   }
   return system;
@@ -245,11 +243,14 @@ VertexSystem::RowMatrix FrameFit::parameter_jacobian(const FaceState& state) con
   return jacobian;
 }
 
-void FrameFit::step_parameters(const VertexSystem& system, FaceState& state,
-                               const FaceState* before) const {
-  const VertexSystem::RowMatrix jacobian = parameter_jacobian(state);
-  Eigen::MatrixXd hessian = jacobian.transpose() * system.times(jacobian);
-  Eigen::VectorXd gradient = jacobian.transpose() * system.gradient();
+Eigen::VectorXd FrameFit::parameter_step(const VertexSystem& system,
+                                         const VertexSystem::RowMatrix& moved,
+                                         const VertexSystem::RowMatrix& jacobian,
+                                         const FaceState& state, const FaceState* before) const {
+  Eigen::MatrixXd hessian = jacobian.transpose() * moved;
+  // As if the free displacements were none: they take only what the units leave.
+  const Eigen::Map<const Eigen::VectorXd> free(state.free_m.data(), state.free_m.size());
+  Eigen::VectorXd gradient = jacobian.transpose() * system.gradient() - moved.transpose() * free;
   for (Eigen::Index k = 0; k < typical_.size(); ++k) {
     const double prior = 1 / square(options_.units * typical_[k]);
     hessian(6 + k, 6 + k) += prior;
@@ -259,45 +260,89 @@ void FrameFit::step_parameters(const VertexSystem& system, FaceState& state,
     hessian(6 + k, 6 + k) += step;
     gradient[6 + k] += step * (state.weights[k] - before->weights[k]);
   }
-  hessian.diagonal().head<3>().array() += 1e-3;  // a face that nothing was measured of stays
-  hessian.diagonal().segment<3>(3).array() += 1e-3;
-  const Eigen::VectorXd step = hessian.ldlt().solve(-gradient);
-  if (!step.allFinite()) return;
+  hessian.diagonal().head<6>().array() += 1e-3;  // a face that nothing was measured of stays
+  return hessian.ldlt().solve(-gradient);
+}
+
+void FrameFit::move(FaceState& state, const Eigen::VectorXd& step) const {
   const Vec3 turn = step.head<3>();
-  Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d head = Eigen::Isometry3d::Identity();
   if (turn.norm() > 0)
-    move.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  move.translation() = step.segment<3>(3);
-  state.camera_from_head = state.camera_from_head * move;
+    head.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  head.translation() = step.segment<3>(3);
+  state.camera_from_head = state.camera_from_head * head;
   state.weights += step.tail(typical_.size());
 }
 
-void FrameFit::solve_free(const VertexSystem& system, FaceState& state, const FaceState* before) {
-  SparseMatrix matrix = free_prior_;
-  system.add_to(matrix);
-  if (!analysed_) {
-    factor_.analyzePattern(matrix);
-    analysed_ = true;
-  }
-  factor_.factorize(matrix);
-  if (factor_.info() != Eigen::Success) return;
-  Eigen::VectorXd right = -system.gradient();
+void FrameFit::iterate(const VertexSystem& system, FaceState& state, const FaceState* before) {
+  const VertexSystem::RowMatrix jacobian = parameter_jacobian(state);
+  const VertexSystem::RowMatrix moved = system.times(jacobian);
+  const Eigen::VectorXd step = parameter_step(system, moved, jacobian, state, before);
+  if (!step.allFinite()) return;
+  // Free displacements d, from those now to new ones: (H + S) d_new = H d - g - H J step + prior.
+  const Eigen::Map<Eigen::VectorXd> free(state.free_m.data(), state.free_m.size());
+  Eigen::VectorXd right = system.times(free) - system.gradient() - moved * step;
   if (before)
     right += Eigen::Map<const Eigen::VectorXd>(before->free_m.data(), before->free_m.size()) /
              square(options_.free_step_m);
+  SparseMatrix matrix = free_prior_;
+  system.add_to(matrix);
+  if (!analysed_) factor_.analyzePattern(matrix);
+  analysed_ = true;
+  factor_.factorize(matrix);
+  move(state, step);
+  if (factor_.info() != Eigen::Success) return;
   const Eigen::VectorXd solution = factor_.solve(right);
-  state.free_m = Eigen::Map<const Points>(solution.data(), state.free_m.rows(), 3);
+  if (solution.allFinite())
+    state.free_m = Eigen::Map<const Points>(solution.data(), state.free_m.rows(), 3);
+}
+
+Skin FrameFit::skin_of(const Observation& seen, const FaceState& state) const {
+  const Points points = vertices(state);
+  const auto of = [&](const FinePicture& picture, PhotometricOptions options, bool coarse) {
+    if (coarse) options.least_gradient *= options_.coarse_gradient;
+    return Template(picture, camera_, state.camera_from_head, points, model_.mesh.triangles,
+                    options);
+  };
+  const SkinPictures& now = seen.pictures;
+  return {of(now.grey, options_.grey, false), of(now.chroma, options_.chroma, false),
+          of(now.coarse_grey, options_.grey, true), of(now.coarse_chroma, options_.chroma, true)};
+}
+
+SkinPictures skin_pictures(const cv::Mat& bgr, cv::Rect region, const FitOptions& options) {
+  return {fine_picture(bgr, region, Channel::grey, options.fine_sigma_px),
+          fine_picture(bgr, region, Channel::chroma, options.chroma_sigma_px),
+          fine_picture(bgr, region, Channel::grey, options.coarse_sigma_px),
+          fine_picture(bgr, region, Channel::chroma, options.coarse_sigma_px)};
 }
 
 FaceState FrameFit::fit(const Observation& seen, const FaceState& start, const FaceState* before,
-                        const Template* skin, FitReport* report) {
+                        const Skin* skin, FitReport* report) {
   FaceState state = start;
-  state.free_m.setZero();
-  for (int iteration = 0; iteration < options_.iterations; ++iteration) {
-    const bool coarse = iteration == 0;  // skin is compared only where it is nearly in place
-    step_parameters(measure(seen, state, coarse ? nullptr : skin), state, before);
+  {
+    // First where the network says that the points went since the frame before: its error in both
+    // is much the same. Skin is compared only where it is nearly in place.
+    Observation moved = seen;
+    if (before && before->network_offset_px.rows())
+      for (std::size_t i = 0; i < model_.pairs.size(); ++i)
+        moved.network_px.row(model_.pairs[i].network).head<2>() +=
+            before->network_offset_px.row(Eigen::Index(i));
+    iterate(measure(moved, state, nullptr), state, before);
   }
-  solve_free(measure(seen, state, skin, report), state, before);
+  for (int iteration = 1; iteration < options_.iterations; ++iteration) {
+    const bool last = iteration + 1 == options_.iterations;
+    iterate(measure(seen, state, skin, iteration <= options_.coarse_iterations,
+                    last ? report : nullptr),
+            state, before);
+  }
+  const Points points = vertices(state);
+  state.network_offset_px.resize(Eigen::Index(model_.pairs.size()), 2);
+  for (std::size_t i = 0; i < model_.pairs.size(); ++i)
+    state.network_offset_px.row(Eigen::Index(i)) =
+        project(camera_,
+                state.camera_from_head * Vec3(points.row(model_.pairs[i].vertex).transpose()))
+            .transpose() -
+        seen.network_px.row(model_.pairs[i].network).head<2>();
   return state;
 }
 

@@ -15,11 +15,21 @@
 
 namespace hyperex::tracking {
 
+/// A picture in the channels that are compared, fine and coarse.
+struct SkinPictures {
+  FinePicture grey, chroma, coarse_grey, coarse_chroma;
+};
+
 /// What one frame shows of a face.
 struct Observation {
-  Points network_px;    ///< 468 x 3: the landmark network's points, pixels
-  cv::Mat depth_m;      ///< CV_32F or empty
-  FinePicture picture;  ///< value may be empty: nothing is compared then
+  Points network_px;      ///< 468 x 3: the landmark network's points, pixels
+  cv::Mat depth_m;        ///< CV_32F or empty
+  SkinPictures pictures;  ///< values may be empty: nothing is compared then
+};
+
+/// The skin in the frame that others are compared with.
+struct Skin {
+  Template grey, chroma, coarse_grey, coarse_chroma;
 };
 
 /// A face in one frame.
@@ -27,6 +37,8 @@ struct FaceState {
   Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
   Eigen::VectorXd weights;  ///< of the animation units
   Points free_m;            ///< |V| x 3, head frame: what the units do not explain
+  /// One row a pair of the model: where the fit put the vertex less where the network saw it.
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> network_offset_px;
 };
 
 /// How much each source counts. Standard deviations a priori; a larger one counts less.
@@ -34,12 +46,20 @@ struct FitOptions {
   int iterations = 4;
   double network_px = 2.5;        ///< of a network point
   double network_outline_px = 6;  ///< of one on the face's outline, which slides on the skin
-  double network_robust_px = 4;   ///< Geman-McClure
-  double depth_m = 0.001;         ///< of a vertex against the surface, along its normal
+  /// Of one within the lips' outer border: it sees the lips as they look, not where the skin goes.
+  double network_inner_lip_px = 8;
+  double network_robust_px = 4;  ///< Geman-McClure
+  double depth_m = 0.001;        ///< of a vertex against the surface, along its normal
   double depth_robust_m = 0.004;
   PatchOptions patch;
   double photometric_weight = 1;
-  PhotometricOptions photometric;
+  PhotometricOptions grey{.channel = Channel::grey};
+  PhotometricOptions chroma{
+      .channel = Channel::chroma, .noise = 4, .robust = 25, .least_gradient = 4};
+  double fine_sigma_px = 0.8, chroma_sigma_px = 1.2;
+  double coarse_sigma_px = 2.5;  ///< of the smoother pictures that are compared first
+  double coarse_gradient = 0.5;  ///< PhotometricOptions::least_gradient there, of that of the fine
+  int coarse_iterations = 1;
   double units = 1;             ///< times the unit's typical weight
   double units_step = 0.5;      ///< times the typical weight, from one frame to the next
   double free_m = 0.003;        ///< of a vertex off the units
@@ -47,6 +67,9 @@ struct FitOptions {
   double free_step_m = 0.002;   ///< from one frame to the next
   double pose_step_rad = 0.05, pose_step_m = 0.02;
 };
+
+/// `region`: around the face.
+SkinPictures skin_pictures(const cv::Mat& bgr, cv::Rect region, const FitOptions& options);
 
 /// How well a frame was met.
 struct FitReport {
@@ -74,7 +97,9 @@ class FrameFit {
 
   /// From `start`; `before`, where given, is the state a frame earlier.
   FaceState fit(const Observation& seen, const FaceState& start, const FaceState* before,
-                const Template* skin, FitReport* report = nullptr);
+                const Skin* skin, FitReport* report = nullptr);
+  /// What to compare later frames with.
+  Skin skin_of(const Observation& seen, const FaceState& state) const;
 
   /// Vertices in the head's frame.
   Points vertices(const FaceState& state) const;
@@ -88,8 +113,8 @@ class FrameFit {
   /// Sum of the robust costs without priors, and its derivative by pose (turn and shift in the
   /// head's frame) and units: for the comparison with finite differences. Weights of robust losses
   /// and planes are those at `state`.
-  VertexSystem measure(const Observation& seen, const FaceState& state, const Template* skin,
-                       FitReport* report = nullptr) const;
+  VertexSystem measure(const Observation& seen, const FaceState& state, const Skin* skin,
+                       bool coarse = false, FitReport* report = nullptr) const;
   /// d vertex / d (turn, shift, weights), 3 |V| x (6 + K).
   VertexSystem::RowMatrix parameter_jacobian(const FaceState& state) const;
 
@@ -98,8 +123,12 @@ class FrameFit {
                    const Points& vertices, FitReport* report) const;
   void add_depth(VertexSystem& system, const Observation& seen, const FaceState& state,
                  const Points& vertices, FitReport* report) const;
-  void step_parameters(const VertexSystem& system, FaceState& state, const FaceState* before) const;
-  void solve_free(const VertexSystem& system, FaceState& state, const FaceState* before);
+  Eigen::VectorXd parameter_step(const VertexSystem& system, const VertexSystem::RowMatrix& moved,
+                                 const VertexSystem::RowMatrix& jacobian, const FaceState& state,
+                                 const FaceState* before) const;
+  void move(FaceState& state, const Eigen::VectorXd& step) const;
+  /// One step of Gauss and Newton from `state`, which is where `system` was measured.
+  void iterate(const VertexSystem& system, FaceState& state, const FaceState* before);
 
   const FaceModel& model_;
   capture::Intrinsics camera_;
@@ -107,7 +136,7 @@ class FrameFit {
   FitOptions options_;
   VertexSystem::RowMatrix unit_matrix_;  // 3|V| x K
   Eigen::VectorXd typical_;
-  std::vector<bool> on_outline_;
+  std::vector<bool> on_outline_, in_lip_, on_inner_lip_;
   SparseMatrix free_prior_;  // upper triangle, with the pattern of the data
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper> factor_;
   bool analysed_ = false;

@@ -151,8 +151,10 @@ Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& came
       scale.value_or(options.eye_distance_m / outer_eye_distance(model, model.mesh.points));
   neutral.shape = Eigen::VectorXd::Zero(Eigen::Index(model.shape_units.size()));
   neutral.points_m = neutral.scale * model.mesh.points;
+  FitOptions rigid = options.fit;
+  rigid.units = 1e-4;  // at rest: nothing but the head's pose
   for (int round = 0; round < options.rounds; ++round) {
-    FrameFit fit(model, camera, neutral.points_m, neutral.scale, options.fit);
+    FrameFit fit(model, camera, neutral.points_m, neutral.scale, rigid);
     VertexMean mean{Points::Zero(model.vertex_count(), 3),
                     Eigen::VectorXd::Zero(model.vertex_count())};
     PatchOptions patch = options.fit.patch;

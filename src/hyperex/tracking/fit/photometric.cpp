@@ -2,17 +2,18 @@
 #include "hyperex/tracking/fit/photometric.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "hyperex/tracking/fit/depth_view.hpp"
+#include "hyperex/tracking/model/mesh_border.hpp"
 
 namespace hyperex::tracking {
 
 namespace {
 
-constexpr double kFineSigma_px = 0.8, kLocalMeanSigma_px = 6;
+constexpr double kLocalMeanSigma_px = 6;
 
 double bilinear(const cv::Mat& picture, double u, double v) {
   const int x = int(u), y = int(v);
@@ -36,40 +37,56 @@ Pixels project_all(const capture::Intrinsics& camera, const Eigen::Isometry3d& c
   return pixels;
 }
 
-/// 255 where a pixel is no farther than `width_px` from an edge that has one triangle only.
-cv::Mat border_mask(const Pixels& px, const Triangles& triangles, const FinePicture& picture,
-                    double width_px) {
-  std::map<std::pair<int, int>, int> uses;
-  for (const auto t : triangles.rowwise())
-    for (int k = 0; k < 3; ++k) ++uses[std::minmax(t[k], t[(k + 1) % 3])];
-  cv::Mat free(picture.value.size(), CV_8U, cv::Scalar(255)), distance;
+/// Not 0 where a pixel is too near to an edge that has one triangle only: the face's outline, which
+/// slides over the skin as the head turns, or an opening.
+cv::Mat border_mask(const Pixels& px, const TriMesh& mesh, const FinePicture& picture,
+                    const PhotometricOptions& options) {
+  const BorderEdges border = border_edges(mesh);
   constexpr int kShift = 4;
   const auto at = [&](int v) {
     return cv::Point(int(std::lround((px(v, 0) - picture.origin.x) * (1 << kShift))),
                      int(std::lround((px(v, 1) - picture.origin.y) * (1 << kShift))));
   };
-  for (const auto& [edge, count] : uses)
-    if (count == 1) cv::line(free, at(edge.first), at(edge.second), 0, 1, cv::LINE_8, kShift);
-  cv::distanceTransform(free, distance, cv::DIST_L2, cv::DIST_MASK_5);
-  return distance <= width_px;
+  const auto near = [&](const std::vector<std::pair<int, int>>& edges, double width_px) -> cv::Mat {
+    cv::Mat free(picture.value.size(), CV_8U, cv::Scalar(255)), distance;
+    for (const auto& [a, b] : edges) cv::line(free, at(a), at(b), 0, 1, cv::LINE_8, kShift);
+    cv::distanceTransform(free, distance, cv::DIST_L2, cv::DIST_MASK_5);
+    return distance <= width_px;
+  };
+  return near(border.outline, options.outline_px) | near(border.openings, options.border_px);
 }
 
 }  // namespace
 
-FinePicture fine_picture(const cv::Mat& bgr, cv::Rect region) {
+FinePicture fine_picture(const cv::Mat& bgr, cv::Rect region, Channel channel, double sigma_px) {
   region &= cv::Rect(0, 0, bgr.cols, bgr.rows);
   FinePicture fine;
   fine.origin = region.tl();
   if (region.width < 8 || region.height < 8) return fine;
-  cv::Mat grey, smooth, mean;
-  cv::cvtColor(bgr(region), grey, cv::COLOR_BGR2GRAY);
-  grey.convertTo(grey, CV_32F);
-  cv::GaussianBlur(grey, smooth, {}, kFineSigma_px);
-  // A box three times over is a Gaussian, at a cost that does not grow with its width.
-  const int side = int(std::lround(kLocalMeanSigma_px * 2));
-  cv::blur(grey, mean, {side | 1, side | 1});
-  cv::blur(mean, mean, {side | 1, side | 1});
-  fine.value = smooth - mean;
+  if (channel == Channel::grey) {
+    cv::Mat grey, mean;
+    cv::cvtColor(bgr(region), grey, cv::COLOR_BGR2GRAY);
+    grey.convertTo(grey, CV_32F);
+    cv::GaussianBlur(grey, fine.value, {}, sigma_px);
+    // A box twice over is nearly a Gaussian, at a cost that does not grow with its width.
+    const int side = int(std::lround(kLocalMeanSigma_px * 2)) | 1;
+    cv::blur(grey, mean, {side, side});
+    cv::blur(mean, mean, {side, side});
+    fine.value -= mean;
+  } else {
+    static const std::array<float, 256> logarithm = [] {
+      std::array<float, 256> table;
+      for (int i = 0; i < 256; ++i) table[std::size_t(i)] = 100 * std::log(float(i) + 16);
+      return table;
+    }();
+    cv::Mat ratio(region.size(), CV_32F);
+    for (int y = 0; y < region.height; ++y) {
+      const cv::Vec3b* from = bgr.ptr<cv::Vec3b>(region.y + y) + region.x;
+      float* to = ratio.ptr<float>(y);
+      for (int x = 0; x < region.width; ++x) to[x] = logarithm[from[x][2]] - logarithm[from[x][1]];
+    }
+    cv::GaussianBlur(ratio, fine.value, {}, sigma_px);
+  }
   cv::Sobel(fine.value, fine.gradient_x, CV_32F, 1, 0, 3, 1.0 / 8);
   cv::Sobel(fine.value, fine.gradient_y, CV_32F, 0, 1, 3, 1.0 / 8);
   return fine;
@@ -81,7 +98,14 @@ Template::Template(const FinePicture& picture, const capture::Intrinsics& camera
     : triangles_(triangles), options_(options) {
   if (picture.value.empty()) return;
   const Pixels px = project_all(camera, camera_from_head, head_points);
-  const cv::Mat border = border_mask(px, triangles, picture, options.border_px);
+  const cv::Mat border = border_mask(px, {head_points, triangles}, picture, options);
+  const auto facing = [&](int t) {
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k)
+      corners.col(k) = camera_from_head * Vec3(head_points.row(triangles(t, k)).transpose());
+    const Vec3 normal = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+    return -normal.normalized().dot(corners.rowwise().mean().normalized());
+  };
   for (int t = 0; t < triangles.rows(); ++t) {
     const Eigen::Vector2d origin(picture.origin.x, picture.origin.y);
     const Eigen::Vector2d a = px.row(triangles(t, 0)).transpose() - origin,
@@ -90,7 +114,7 @@ Template::Template(const FinePicture& picture, const capture::Intrinsics& camera
     const Eigen::Vector2d e = b - a, f = c - a;
     const double area = e.x() * f.y() - e.y() * f.x();
     // Counter-clockwise from outside is clockwise in a picture whose y goes down: negative.
-    if (area > -0.5) continue;
+    if (area > -0.5 || facing(t) < options.least_cosine) continue;
     const int x0 = std::max(1, int(std::ceil(std::min({a.x(), b.x(), c.x()})))),
               x1 = std::min(picture.value.cols - 2,
                             int(std::floor(std::max({a.x(), b.x(), c.x()})))),
@@ -138,7 +162,8 @@ double Template::add_to(VertexSystem& system, const FinePicture& picture,
   }
   if (square <= 0) return 0;
   // Contrast follows the brightness of the scene.
-  const double gain = std::clamp(product / square, 0.2, 3.0);
+  const double gain =
+      options_.channel == Channel::grey ? std::clamp(product / square, 0.2, 3.0) : 1;
   const double noise = options_.noise * std::max(gain, 0.4);
   const double scale = weight / (noise * noise * options_.pixels_as_one);
   const Eigen::Matrix3d turn = camera_from_head.linear();
@@ -157,8 +182,8 @@ double Template::add_to(VertexSystem& system, const FinePicture& picture,
     for (; s < samples_.size() && samples_[s].triangle == t; ++s) {
       if (seen[s].u < 0) continue;
       const double error = seen[s].value - gain * double(samples_[s].value);
-      const double relative = error / (3 * noise);
-      if (std::abs(relative) < 1) ++agreeing;
+      const double relative = error / (options_.robust * std::max(gain, 0.4));
+      if (std::abs(error) < 3 * noise) ++agreeing;
       const double robust = 1 / ((1 + relative * relative) * (1 + relative * relative));
       const double gx = bilinear(picture.gradient_x, seen[s].u, seen[s].v),
                    gy = bilinear(picture.gradient_y, seen[s].u, seen[s].v);

@@ -9,19 +9,28 @@
 
 namespace hyperex::tracking {
 
-/// A picture's fine structure around a face: the grey values less their local mean, which takes out
-/// most of what light and shading do, and its gradient.
+/// What of a picture is compared.
+enum class Channel {
+  grey,   ///< grey levels (0 to 255) less their local mean, which takes out most of the shading
+  chroma  ///< 100 ln((R + 16) / (G + 16)): lips against skin, whatever the shading
+};
+
+/// One channel of a picture around a face, with its gradient.
 struct FinePicture {
-  cv::Mat value, gradient_x, gradient_y;  ///< CV_32F, grey levels (0 to 255) and per pixel
+  cv::Mat value, gradient_x, gradient_y;  ///< CV_32F, levels and levels per pixel
   cv::Point origin;                       ///< of these pictures in the whole one
 };
-/// `region` is clipped to the picture. `bgr`: CV_8UC3.
-FinePicture fine_picture(const cv::Mat& bgr, cv::Rect region);
+/// `region` is clipped to the picture. `bgr`: CV_8UC3. `sigma_px`: what is finer is smoothed away.
+FinePicture fine_picture(const cv::Mat& bgr, cv::Rect region, Channel channel, double sigma_px);
 
 struct PhotometricOptions {
-  double noise = 3;           ///< grey levels, of one pixel of the fine picture
-  double least_gradient = 3;  ///< grey levels per pixel: smoother skin tells nothing
-  double border_px = 1.5;     ///< pixels nearer to the mesh's border are not used
+  Channel channel = Channel::grey;
+  double noise = 3;           ///< levels, of one pixel
+  double robust = 20;         ///< levels: pixels that differ more hardly count (Geman-McClure)
+  double least_gradient = 6;  ///< levels per pixel: smoother skin shows light, not skin
+  double outline_px = 5;      ///< pixels nearer to the face's outline are not used
+  double least_cosine = 0.5;  ///< between the skin's normal and the line of sight
+  double border_px = 1.5;     ///< nor those nearer to the openings of eyes and mouth
   double pixels_as_one = 8;   ///< neighbouring pixels err alike: so many count as one
 };
 

@@ -176,6 +176,8 @@ const FaceModel& canonical_model() {
     made.name = "canonical";
     made.mesh = {face.mesh.points, opened_triangles(face)};
     made.landmarks = face.landmarks;
+    for (const auto& row : table_rows(canonical_landmarks_table(), "name,vertices"))
+      made.landmarks[row.at(0)] = table_indices(row.at(1), int(face.mesh.points.rows()));
     const Points& points = made.mesh.points;
     for (int v = 0; v < points.rows(); ++v) made.pairs.push_back({v, v});
     made.shape_units = size_units(points);

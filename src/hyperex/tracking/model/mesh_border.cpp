@@ -33,8 +33,7 @@ BorderEdges border_edges(const TriMesh& mesh) {
   }
   BorderEdges border;
   if (length.empty()) return border;
-  const auto longest =
-      std::size_t(std::max_element(length.begin(), length.end()) - length.begin());
+  const auto longest = std::size_t(std::max_element(length.begin(), length.end()) - length.begin());
   for (const auto& [edge, count] : uses)
     if (count == 1)
       (piece_of[edge.first] == longest ? border.outline : border.openings).push_back(edge);

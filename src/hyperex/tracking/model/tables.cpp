@@ -12,14 +12,19 @@
   "hyperex_" symbol "_begin:\n.incbin \"" file "\"\nhyperex_" symbol "_end:\n"
 __asm__(".pushsection .rodata\n"  //
         HYPEREX_TABLE("canonical_units", HYPEREX_MODEL_DATA "/canonical_units.csv")
-            HYPEREX_TABLE("candide_pairs", HYPEREX_MODEL_DATA "/candide_pairs.csv")
-                HYPEREX_TABLE("candide_landmarks", HYPEREX_MODEL_DATA "/candide_landmarks.csv")
-                    HYPEREX_TABLE("candide_units", HYPEREX_MODEL_DATA
-                                  "/candide_units.csv") ".byte 0\n.popsection\n");
+            HYPEREX_TABLE("tracked_landmarks", HYPEREX_MODEL_DATA "/canonical_landmarks.csv")
+                HYPEREX_TABLE("network_points", HYPEREX_MODEL_DATA "/network_points.csv")
+                    HYPEREX_TABLE("candide_pairs", HYPEREX_MODEL_DATA "/candide_pairs.csv")
+                        HYPEREX_TABLE("candide_landmarks",
+                                      HYPEREX_MODEL_DATA "/candide_landmarks.csv")
+                            HYPEREX_TABLE("candide_units", HYPEREX_MODEL_DATA
+                                          "/candide_units.csv") ".byte 0\n.popsection\n");
 
 extern "C" const char hyperex_canonical_units_begin[], hyperex_canonical_units_end[],
-    hyperex_candide_pairs_begin[], hyperex_candide_pairs_end[], hyperex_candide_landmarks_begin[],
-    hyperex_candide_landmarks_end[], hyperex_candide_units_begin[], hyperex_candide_units_end[];
+    hyperex_tracked_landmarks_begin[], hyperex_tracked_landmarks_end[],
+    hyperex_network_points_begin[], hyperex_network_points_end[], hyperex_candide_pairs_begin[],
+    hyperex_candide_pairs_end[], hyperex_candide_landmarks_begin[], hyperex_candide_landmarks_end[],
+    hyperex_candide_units_begin[], hyperex_candide_units_end[];
 
 namespace hyperex::tracking {
 
@@ -31,6 +36,12 @@ namespace {
 
 std::string_view canonical_units_table() {
   return {hyperex_canonical_units_begin, hyperex_canonical_units_end};
+}
+std::string_view canonical_landmarks_table() {
+  return {hyperex_tracked_landmarks_begin, hyperex_tracked_landmarks_end};
+}
+std::string_view network_points_table() {
+  return {hyperex_network_points_begin, hyperex_network_points_end};
 }
 std::string_view candide_pairs_table() {
   return {hyperex_candide_pairs_begin, hyperex_candide_pairs_end};

@@ -8,6 +8,8 @@ namespace hyperex::tracking {
 
 /// The tables of model/data, carried inside the program.
 std::string_view canonical_units_table();
+std::string_view canonical_landmarks_table();
+std::string_view network_points_table();
 std::string_view candide_pairs_table();
 std::string_view candide_landmarks_table();
 std::string_view candide_units_table();
