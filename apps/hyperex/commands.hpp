@@ -9,6 +9,7 @@ namespace hyperex::cli {
 
 void add_check(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_landmarks(CLI::App& program);
 void add_mesh(CLI::App& program);
 void add_run(CLI::App& program);
 void add_scene_reference(CLI::App& program);

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   program.footer("hyperex SUBCOMMAND --help tells more, with an example.");
   hyperex::cli::add_run(program);
   hyperex::cli::add_check(program);
+  hyperex::cli::add_landmarks(program);
   hyperex::cli::add_mesh(program);
   hyperex::cli::add_compare(program);
   hyperex::cli::add_symmetry(program);

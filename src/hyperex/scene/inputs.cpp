@@ -14,6 +14,7 @@
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/landmarks.hpp"
+#include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -51,8 +52,9 @@ void read_scan(const Scene& scene, Inputs& in) {
 }
 
 void complete(const Scene& scene, const io::Landmarks& given, Inputs& in) {
-  const std::string source =
-      scene.scan.source.embedded ? "embedded face" : scene.scan.landmarks.string();
+  const std::string source = scene.scan.source.embedded     ? "embedded face"
+                             : scene.scan.landmarks.empty() ? in.scan.file.string()
+                                                            : scene.scan.landmarks.string();
   auto completed = tissue::complete_landmarks(given, needed_landmarks(), in.scan.mesh, source);
   in.landmarks = std::move(completed.landmarks);
   in.placed = std::move(completed.placed);
@@ -61,6 +63,17 @@ void complete(const Scene& scene, const io::Landmarks& given, Inputs& in) {
         fmt::format("{} of {} landmarks were not given and were placed by fitting the canonical "
                     "face to the {} given ones and the scan",
                     in.placed.size(), in.landmarks.size(), given.size()));
+}
+
+io::Landmarks find_landmarks(Inputs& in) {
+  auto found = tracking::find_scan_landmarks(in.scan.mesh, tracking::picture_colours(in.scan),
+                                             in.scan.file.string());
+  in.notes.push_back(fmt::format(
+      "the scene names no landmarks: {} were found on the scan in {} pictures, which lie {:.1f} mm "
+      "(median) from where all agree; hyperex landmarks draws them, scan.landmarks names better "
+      "ones",
+      found.landmarks.size(), found.views, 1e3 * found.spread_m));
+  return std::move(found.landmarks);
 }
 
 motion::Motion read_motion(const Scene& scene, Inputs& in) {
@@ -163,9 +176,12 @@ Inputs read_inputs(const Scene& scene) {
     scan_read = true;
   });
   problems.attempt([&] {
-    given = scene.scan.landmarks.empty()
-                ? tissue::embedded_face().landmarks
-                : io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);
+    if (!scene.scan.landmarks.empty())
+      given = io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);
+    else if (scene.scan.source.embedded)
+      given = tissue::embedded_face().landmarks;
+    else if (scan_read)
+      given = find_landmarks(in);
   });
   if (!scene.motion.source.embedded)
     problems.attempt([&] { steadied = steady(scene, read_motion(scene, in), in); });

@@ -208,9 +208,6 @@ void Reader::complain_given(const std::string& key, const std::string& expected)
 }
 
 void Reader::check_together() {
-  if (!scene.scan.source.embedded && !given_.count("scan.landmarks"))
-    complain_given("scan.landmarks",
-                   "the path of a file, required unless scan.file is \"embedded\"");
   if (scene.region.measured == Measured::points && scene.region.measured_points.empty())
     complain_given("region.measured_points", "one or more names, as region.measured is \"points\"");
   if (scene.mesh.thickness_m != 0 && !scene.mesh.thickness_points.empty())

@@ -27,7 +27,7 @@ struct Source {
 struct ScanOptions {
   Source source;                       ///< required; embedded: the canonical face
   std::optional<io::LengthUnit> unit;  ///< none: guessed from the size ("guess")
-  std::filesystem::path landmarks;     ///< required unless the face is embedded; else empty
+  std::filesystem::path landmarks;     ///< empty: found on the scan, or the embedded face's own
   std::optional<io::LengthUnit> landmarks_unit;  ///< none: as the file says ("file")
 };
 

@@ -297,7 +297,11 @@ class Builder {
 
 Network read_tflite(std::span<const std::uint8_t> bytes, const std::string& source) {
   const TfliteConstants constants(bytes, source);
-  return Builder(constants.graph(), constants).build();
+  try {
+    return Builder(constants.graph(), constants).build();
+  } catch (const cv::Exception& error) {
+    constants.fail("has a layer that OpenCV refuses: " + error.err);
+  }
 }
 
 }  // namespace hyperex::tracking

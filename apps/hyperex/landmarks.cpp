@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/io/landmarks.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "commands.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/io/scan.hpp"
+#include "hyperex/tracking/scan/scan_landmarks.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path scan, out, picture;
+  std::string unit;
+};
+
+void check_folder(const std::filesystem::path& file) {
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(file, "cannot be written: there is no folder " + folder.string());
+}
+
+std::string text(const Vec3& v) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
+}
+
+void run(const Options& options) {
+  std::filesystem::path picture = options.picture;
+  if (picture.empty()) picture = std::filesystem::path(options.out).replace_extension(".png");
+  for (const auto& file : {options.out, picture}) check_folder(file);
+  if (picture == options.out)
+    throw InputError(options.out, "is to hold the landmarks and the picture: expected two files");
+  const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
+  const io::Scan scan = io::read_scan(options.scan, unit);
+  if (scan.unit_guessed)
+    std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
+  const auto colours = tracking::picture_colours(scan);
+  const auto found = tracking::find_scan_landmarks(scan.mesh, colours, options.scan.string());
+  const auto image = tracking::draw_scan_landmarks(
+      scan.mesh, colours, found, "Landmarks of " + options.scan.filename().string());
+  render::write_png(picture, image);
+  try {
+    io::write_landmarks(options.out, found.landmarks, scan.unit);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(picture, ignored);
+    throw;
+  }
+  const Eigen::Matrix3d& scan_from_face = found.scan_from_canonical.rotation;
+  std::cout << fmt::format(
+      "{} landmarks from {} pictures, which lie {:.1f} mm (median) from where all agree\n"
+      "the face looks along {}, its top is along {}\n"
+      "written to {}; look at {}\n",
+      found.landmarks.size(), found.views, 1e3 * found.spread_m, text(scan_from_face.col(2)),
+      text(scan_from_face.col(1)), options.out.string(), picture.string());
+}
+
+}  // namespace
+
+void add_landmarks(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "landmarks",
+      "Find the landmarks of a scan, however it is turned: the 68 iBUG points and the anatomical "
+      "ones (docs/landmarks.md)");
+  command->add_option("SCAN", options->scan, "PLY, OBJ, STL, glTF or GLB, with or without colour")
+      ->required();
+  command->add_option("--out", options->out, "Where to write them (.json)")->required();
+  command->add_option("--picture", options->picture,
+                      "Where to draw them (.png; default: --out with that ending)");
+  command->add_option("--unit", options->unit, "Unit of the scan, where it should not be guessed")
+      ->check(CLI::IsMember({"mm", "cm", "m"}));
+  command->footer("Example: hyperex landmarks scan.ply --out scan_landmarks.json");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hyperex::cli

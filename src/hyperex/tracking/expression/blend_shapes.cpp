@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/expression/blend_shapes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/io/csv.hpp"
+#include "hyperex/tracking/expression/openface_table.hpp"
+#include "hyperex/tracking/expression/timecode.hpp"
+#include "hyperex/tracking/model/tables.hpp"
+
+namespace hyperex::tracking {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// "mouthSmile*" -> Left and Right; other names as they are.
+std::vector<std::string> sides_of(const std::string& pattern) {
+  if (pattern.empty() || pattern.back() != '*') return {pattern};
+  const std::string stem = pattern.substr(0, pattern.size() - 1);
+  return {stem + "Left", stem + "Right"};
+}
+
+void check_time(const io::CsvTable& table, const std::vector<double>& time_s) {
+  for (std::size_t k = 0; k < time_s.size(); ++k) {
+    const std::string at = fmt::format("{:g} s", time_s[k]);
+    if (!std::isfinite(time_s[k]))
+      throw InputError({table.file, table.lines[k], "time", "nothing", "a time"});
+    if (k > 0 && !(time_s[k] > time_s[k - 1]))
+      throw InputError({table.file, table.lines[k], "time", at,
+                        fmt::format("later than {:g} s, the row before", time_s[k - 1])});
+  }
+  if (time_s.size() < 2) throw InputError(table.file, "fewer than two rows; expected a recording");
+}
+
+/// The names of ARKit's 52 blend shapes.
+const std::set<std::string>& arkit_names() {
+  static const std::set<std::string> names = [] {
+    std::set<std::string> all;
+    for (const char* pattern :
+         {"browDown*",      "browInnerUp",     "browOuterUp*",    "cheekPuff",       "cheekSquint*",
+          "eyeBlink*",      "eyeLookDown*",    "eyeLookIn*",      "eyeLookOut*",     "eyeLookUp*",
+          "eyeSquint*",     "eyeWide*",        "jawForward",      "jawLeft",         "jawOpen",
+          "jawRight",       "mouthClose",      "mouthDimple*",    "mouthFrown*",     "mouthFunnel",
+          "mouthLeft",      "mouthLowerDown*", "mouthPress*",     "mouthPucker",     "mouthRight",
+          "mouthRollLower", "mouthRollUpper",  "mouthShrugLower", "mouthShrugUpper", "mouthSmile*",
+          "mouthStretch*",  "mouthUpperUp*",   "noseSneer*",      "tongueOut"})
+      for (const auto& name : sides_of(pattern)) all.insert(name);
+    return all;
+  }();
+  return names;
+}
+
+}  // namespace
+
+BlendShapes read_arkit(const std::filesystem::path& file) {
+  double rate_hz = 0;
+  const io::CsvTable table = io::read_csv(file, [](const std::string& name, std::string_view cell) {
+    return name == "Timecode" ? timecode_frames(cell) : std::nullopt;
+  });
+  BlendShapes out;
+  out.file = file;
+  const auto rows = table.values.rows();
+  out.time_s.assign(static_cast<std::size_t>(rows), kNan);
+  std::optional<int> time;
+  for (const char* name : {"time_s", "time", "timestamp"})
+    if (!time) time = table.find(name);
+  const std::optional<int> timecode = table.find("Timecode");
+  if (!time && !timecode)
+    throw InputError(file, "has no time: expected a column time_s, time, timestamp or Timecode");
+  if (time) {
+    for (Eigen::Index k = 0; k < rows; ++k) out.time_s[k] = table.values(k, *time);
+  } else {
+    std::vector<double> codes(static_cast<std::size_t>(rows));
+    for (Eigen::Index k = 0; k < rows; ++k) codes[k] = table.values(k, *timecode);
+    rate_hz = frame_rate_of(codes);
+    for (Eigen::Index k = 0; k < rows; ++k) out.time_s[k] = timecode_seconds(codes[k], rate_hz);
+    const double start = out.time_s.empty() ? 0 : out.time_s.front();
+    for (double& t : out.time_s) t -= start;
+    out.notes.push_back(fmt::format("timecodes read at {:g} frames a second", rate_hz));
+  }
+  check_time(table, out.time_s);
+
+  std::vector<int> columns;
+  std::vector<std::string> left_out;
+  for (std::size_t c = 0; c < table.names.size(); ++c) {
+    std::string name = table.names[c];
+    name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
+    if (arkit_names().contains(name)) {
+      out.names.push_back(name);
+      columns.push_back(static_cast<int>(c));
+    } else if (static_cast<int>(c) != time.value_or(-1) && name != "timecode") {
+      left_out.push_back(table.names[c]);
+    }
+  }
+  if (columns.empty())
+    throw InputError(file, "has no column named after a blend shape of ARKit, such as jawOpen");
+  if (!left_out.empty())
+    out.notes.push_back(fmt::format("columns left out: {}", fmt::join(left_out, ", ")));
+  out.weights.resize(rows, static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index k = 0; k < rows; ++k)
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const double w = table.values(k, columns[c]);
+      if (w < -0.05 || w > 1.5)
+        throw InputError({file, table.lines[static_cast<std::size_t>(k)],
+                          table.names[static_cast<std::size_t>(columns[c])], fmt::format("{:g}", w),
+                          "a weight from 0 to 1"});
+      out.weights(k, static_cast<Eigen::Index>(c)) = std::isnan(w) ? w : std::clamp(w, 0.0, 1.0);
+    }
+  return out;
+}
+
+BlendShapes read_openface(const std::filesystem::path& file) {
+  constexpr double kMostIntensity = 5;
+  const io::CsvTable table = io::read_csv(file);
+  BlendShapes out;
+  out.file = file;
+  const auto rows = table.values.rows();
+  const int time = table.column("timestamp");
+  for (Eigen::Index k = 0; k < rows; ++k) out.time_s.push_back(table.values(k, time));
+  check_time(table, out.time_s);
+  out.weights.resize(rows, 0);
+  bool any = false;
+  for (const auto& row : table_rows(openface_arkit_table(), "action_unit,blend_shape,share")) {
+    const auto column = table.find(row.at(0) + "_r");
+    if (!column) continue;
+    any = true;
+    for (const auto& name : sides_of(row.at(1))) {
+      auto at = std::find(out.names.begin(), out.names.end(), name) - out.names.begin();
+      if (at == static_cast<std::ptrdiff_t>(out.names.size())) {
+        out.names.push_back(name);
+        out.weights.conservativeResize(Eigen::NoChange, out.weights.cols() + 1);
+        out.weights.rightCols(1).setZero();
+      }
+      out.weights.col(at) += table.values.col(*column) / kMostIntensity * table_number(row.at(2));
+    }
+    for (Eigen::Index k = 0; k < rows; ++k)
+      if (const double r = table.values(k, *column); r < 0 || r > kMostIntensity)
+        throw InputError({file, table.lines[static_cast<std::size_t>(k)], row.at(0) + "_r",
+                          fmt::format("{:g}", r), "an intensity from 0 to 5"});
+  }
+  if (!any)
+    throw InputError(file,
+                     "has no intensities of action units: expected columns AU01_r, AU02_r ...");
+  out.weights = out.weights.cwiseMin(1);
+  int lost = 0;
+  if (const auto success = table.find("success"))
+    for (Eigen::Index k = 0; k < rows; ++k)
+      if (table.values(k, *success) < 0.5) {
+        out.weights.row(k).setConstant(kNan);
+        ++lost;
+      }
+  if (lost > 0) out.notes.push_back(fmt::format("{} of {} frames without a face", lost, rows));
+  out.notes.emplace_back("OpenFace tells no sides: left and right move alike");
+  return out;
+}
+
+motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
+                         std::vector<std::string>& notes) {
+  std::set<std::string> used;
+  const auto mean_of = [&](const std::string& pattern) -> Eigen::VectorXd {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(shapes.weights.rows());
+    if (pattern.empty()) return sum;
+    const auto names = sides_of(pattern);
+    for (const auto& name : names)
+      for (std::size_t c = 0; c < shapes.names.size(); ++c)
+        if (shapes.names[c] == name) {
+          sum += shapes.weights.col(static_cast<Eigen::Index>(c)) / double(names.size());
+          used.insert(name);
+        }
+    return sum;
+  };
+  Eigen::MatrixXd alpha(shapes.weights.rows(),
+                        static_cast<Eigen::Index>(model.animation_units.size()));
+  for (std::size_t u = 0; u < model.animation_units.size(); ++u) {
+    const DeformationUnit& unit = model.animation_units[u];
+    alpha.col(static_cast<Eigen::Index>(u)) =
+        (mean_of(unit.arkit) - mean_of(unit.arkit_negative)) / unit.arkit_scale;
+  }
+  if (used.empty())
+    throw InputError(shapes.file, fmt::format("moves nothing of the {} face: it has none of {}",
+                                              model.name, fmt::join(shapes.names, ", ")));
+  std::vector<std::string> idle;
+  for (std::size_t c = 0; c < shapes.names.size(); ++c)
+    if (!used.contains(shapes.names[c]) &&
+        shapes.weights.col(static_cast<Eigen::Index>(c)).cwiseAbs().maxCoeff() > 0)
+      idle.push_back(shapes.names[c]);
+  if (!idle.empty())
+    notes.push_back(
+        fmt::format("the {} face does not move with {}", model.name, fmt::join(idle, ", ")));
+
+  motion::Motion out;
+  out.source = shapes.file.string();
+  out.time_s = shapes.time_s;
+  for (const auto& [name, vertices] : model.landmarks) out.names.push_back(name);
+  for (Eigen::Index k = 0; k < alpha.rows(); ++k) {
+    Points at = Points::Constant(static_cast<Eigen::Index>(out.names.size()), 3, kNan);
+    if (alpha.row(k).allFinite()) {
+      const Points face =
+          deformed(model.mesh.points, model.animation_units, alpha.row(k).transpose());
+      Eigen::Index i = 0;
+      for (const auto& [name, vertices] : model.landmarks)
+        at.row(i++) = landmark_at(vertices, face).transpose();
+    }
+    out.positions.push_back(std::move(at));
+  }
+  return out;
+}
+
+}  // namespace hyperex::tracking
