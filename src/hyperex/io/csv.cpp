@@ -46,11 +46,13 @@ std::vector<std::string> read_names(const std::filesystem::path& file, int line,
   return names;
 }
 
-double read_cell(const CsvTable& table, int line, std::size_t column, std::string_view cell) {
+double read_cell(const CsvTable& table, int line, std::size_t column, std::string_view cell,
+                 const TextReader& number_of) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   cell = trimmed(cell);
   if (cell.empty()) return nan;
-  const auto number = parse_number(cell);
+  auto number = parse_number(cell);
+  if (!number && number_of) number = number_of(table.names[column], cell);
   if (!number || std::isinf(*number))
     throw InputError({table.file, line,
                       fmt::format("column {} ({})", column + 1, quotable(table.names[column])),
@@ -72,6 +74,10 @@ int CsvTable::column(const std::string& name) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {
+  return read_csv(file, {});
+}
+
+CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of) {
   const std::string text = read_file(file);
   CsvTable table;
   table.file = file;
@@ -91,7 +97,7 @@ CsvTable read_csv(const std::filesystem::path& file) {
       throw InputError({file, lines.number(), "", fmt::format("{} cells", cells.size()),
                         fmt::format("{}, as the first line names them", table.names.size())});
     for (std::size_t c = 0; c < cells.size(); ++c)
-      values.push_back(read_cell(table, lines.number(), c, cells[c]));
+      values.push_back(read_cell(table, lines.number(), c, cells[c], number_of));
     table.lines.push_back(lines.number());
   }
   if (table.names.empty())

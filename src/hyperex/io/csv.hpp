@@ -29,6 +29,11 @@ struct CsvTable {
 /// all is a table of none. Throws InputError naming line and column: no names, a name twice or
 /// empty, numbers in place of names, a row of another length, a cell that is no finite number.
 CsvTable read_csv(const std::filesystem::path& file);
+/// The same for a table that has texts too: `number_of` gives the number that a cell of the column
+/// `name` stands for where it is none itself, or nothing where it stands for none.
+using TextReader =
+    std::function<std::optional<double>(const std::string& name, std::string_view cell)>;
+CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of);
 
 /// Writes a row a line, each number in the fewest digits that give it back exactly; NaN as "nan".
 void write_csv(const std::filesystem::path& file, const std::vector<std::string>& names,

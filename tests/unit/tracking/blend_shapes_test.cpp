@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/expression/blend_shapes.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include "hyperex/tracking/expression/openface_table.hpp"
+#include "hyperex/tracking/expression/timecode.hpp"
+#include "hyperex/tracking/model/tables.hpp"
+#include "unit/io/io_testing.hpp"
+
+namespace hyperex::tracking {
+namespace {
+using BlendShapesFile = io::testing::FileTest;
+
+/// Refused in one line that begins with the file and holds all `parts`.
+template <class Read>
+void expect_refused(const std::filesystem::path& file, const std::vector<std::string>& parts,
+                    const Read& read) {
+  for (const auto& part : parts) io::testing::expect_refused(file, part, [&] { read(file); });
+}
+
+/// How a landmark has moved at `frame` since frame 0 (m).
+Vec3 moved(const motion::Motion& motion, const std::string& name, std::size_t frame) {
+  const int i = motion.index_of(name);
+  return (motion.positions[frame].row(i) - motion.positions[0].row(i)).transpose();
+}
+
+motion::Motion moved_by(const BlendShapes& shapes) {
+  std::vector<std::string> notes;
+  return motion_of(shapes, canonical_model(), notes);
+}
+
+TEST_F(BlendShapesFile, OpenTheJawAndSmileOnTheRightSide) {
+  const auto shapes = read_arkit(
+      write("a.csv", "time_s,jawOpen,mouthSmileRight\n0,0,0\n0.1,0.5,0\n0.2,1,0\n0.3,0,1\n"));
+  EXPECT_EQ(shapes.names, (std::vector<std::string>{"jawOpen", "mouthSmileRight"}));
+  const motion::Motion motion = moved_by(shapes);
+  EXPECT_EQ(motion.time_s, (std::vector<double>{0, 0.1, 0.2, 0.3}));
+  const Vec3 chin = moved(motion, "ibug68_8", 2);
+  EXPECT_LT(chin.y(), -0.015) << "the chin drops";
+  EXPECT_NEAR((moved(motion, "ibug68_8", 1) - 0.5 * chin).norm(), 0, 1e-12) << "in proportion";
+  EXPECT_LT(moved(motion, "ibug68_27", 2).norm(), 1e-9) << "the bridge of the nose stays";
+  // ibug68_48 is the subject's right corner of the mouth, which lies at negative x.
+  const Vec3 right = moved(motion, "ibug68_48", 3), left = moved(motion, "ibug68_54", 3);
+  EXPECT_LT(motion.positions[0](motion.index_of("ibug68_48"), 0), 0);
+  EXPECT_GT(right.y(), 0.003);
+  EXPECT_LT(right.x(), -0.002) << "outwards";
+  EXPECT_LT(left.norm(), 0.1 * right.norm());
+}
+
+TEST_F(BlendShapesFile, ReadsWhatLiveLinkFaceWrites) {
+  const auto shapes =
+      read_arkit(write("a.csv",
+                       "Timecode,BlendShapeCount,EyeBlinkRight,JawOpen,HeadYaw\n"
+                       "15:46:35:58.500,61,0.1,0.2,0.05\n15:46:36:00.000,61,-0.01,1.02,0.05\n"));
+  EXPECT_EQ(shapes.names, (std::vector<std::string>{"eyeBlinkRight", "jawOpen"}));
+  ASSERT_EQ(shapes.time_s.size(), 2u);
+  EXPECT_EQ(shapes.time_s[0], 0);
+  EXPECT_NEAR(shapes.time_s[1], 1.5 / 60, 1e-9);
+  EXPECT_EQ(shapes.weights(1, 0), 0);
+  EXPECT_EQ(shapes.weights(1, 1), 1);
+  ASSERT_EQ(shapes.notes.size(), 2u);
+  EXPECT_NE(shapes.notes[0].find("60 frames"), std::string::npos);
+  EXPECT_NE(shapes.notes[1].find("BlendShapeCount, HeadYaw"), std::string::npos);
+}
+
+TEST(Timecode, TellsItsRateByItsFrames) {
+  EXPECT_EQ(timecode_frames("01:00:02:07.5"), 1000.0 * 3602 + 7.5);
+  EXPECT_EQ(timecode_frames("01:00:02"), std::nullopt);
+  EXPECT_EQ(timecode_frames("01:60:02:00"), std::nullopt);
+  EXPECT_EQ(timecode_frames("noon"), std::nullopt);
+  EXPECT_EQ(frame_rate_of({1000 + 23, 2000}), 24);
+  EXPECT_EQ(frame_rate_of({1000 + 29, 2000}), 30);
+  EXPECT_EQ(frame_rate_of({1000 + 59, 2000}), 60);
+  EXPECT_DOUBLE_EQ(timecode_seconds(7000 + 15, 30), 7.5);
+}
+
+TEST_F(BlendShapesFile, OpenFaceIntensitiesBecomeWeights) {
+  const auto shapes = read_openface(write("o.csv",
+                                          "frame, timestamp, success, AU12_r, AU26_r, AU12_c\n"
+                                          "1, 0, 1, 0, 0, 0\n2, 0.04, 1, 5, 2.5, 1\n"
+                                          "3, 0.08, 0, 5, 5, 1\n"));
+  const auto weight = [&](const std::string& name, int frame) {
+    for (std::size_t c = 0; c < shapes.names.size(); ++c)
+      if (shapes.names[c] == name) return shapes.weights(frame, static_cast<Eigen::Index>(c));
+    ADD_FAILURE() << name;
+    return -1.0;
+  };
+  EXPECT_EQ(weight("mouthSmileLeft", 1), 1);
+  EXPECT_EQ(weight("mouthSmileRight", 1), 1);
+  EXPECT_EQ(weight("jawOpen", 1), 0.25) << "half an intensity, half a jaw";
+  EXPECT_TRUE(std::isnan(weight("jawOpen", 2))) << "no success";
+  const motion::Motion motion = moved_by(shapes);
+  EXPECT_TRUE(motion.positions[2].array().isNaN().all());
+  const Vec3 right = moved(motion, "ibug68_48", 1), left = moved(motion, "ibug68_54", 1);
+  EXPECT_NEAR(right.x(), -left.x(), 1e-6);
+  EXPECT_NEAR(right.y(), left.y(), 1e-6);
+}
+
+TEST(OpenFaceTable, NamesUnitsThatTheFaceHas) {
+  BlendShapes all;
+  all.time_s = {0, 1};
+  all.weights.resize(2, 0);
+  for (const auto& row : table_rows(openface_arkit_table(), "action_unit,blend_shape,share")) {
+    ASSERT_EQ(row.size(), 3u);
+    EXPECT_GT(table_number(row[2]), 0);
+    EXPECT_LE(table_number(row[2]), 1);
+    std::string name = row[1];
+    if (name.back() == '*') name.replace(name.size() - 1, 1, "Left");
+    all.names.push_back(name);
+  }
+  all.weights = Eigen::MatrixXd::Ones(2, static_cast<Eigen::Index>(all.names.size()));
+  std::vector<std::string> notes;
+  motion_of(all, canonical_model(), notes);
+  // The canonical face has no dimples; all else moves it.
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0], "the canonical face does not move with mouthDimpleLeft");
+}
+
+TEST_F(BlendShapesFile, RefusesWhatItCannotRead) {
+  expect_refused(write("a.csv", "jawOpen\n0\n1\n"), {"time"}, read_arkit);
+  expect_refused(write("b.csv", "time_s,jaw\n0,0\n1,1\n"), {"jawOpen"}, read_arkit);
+  expect_refused(write("c.csv", "time_s,jawOpen\n0,0\n1,55\n"), {":3: ", "jawOpen", "55", "0 to 1"},
+                 read_arkit);
+  expect_refused(write("d.csv", "time_s,jawOpen\n1,0\n1,0.5\n"), {":3: ", "later"}, read_arkit);
+  expect_refused(write("e.csv", "time_s,jawOpen\n1,0\n"), {"two rows"}, read_arkit);
+  expect_refused(write("f.csv", "Timecode,JawOpen\nnoon,0\n"), {":2: ", "Timecode", "noon"},
+                 read_arkit);
+  expect_refused(write("o.csv", "timestamp,gaze\n0,0\n1,1\n"), {"AU01_r"}, read_openface);
+  expect_refused(write("p.csv", "timestamp,AU26_r\n0,0\n1,7\n"), {":3: ", "AU26_r", "7", "0 to 5"},
+                 read_openface);
+  expect_refused(write("t.csv", "time_s,tongueOut\n0,0\n1,1\n"), {"canonical", "tongueOut"},
+                 [](const std::filesystem::path& file) { moved_by(read_arkit(file)); });
+}
+
+TEST(OpenFaceRecording, OfAPersonTalkingMovesTheMouth) {
+  const std::filesystem::path file =
+      std::filesystem::path(HYPEREX_SHARED_DIR) / "data/motion/openface_au_19_3.csv";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared data at " << file;
+  const auto shapes = read_openface(file);
+  EXPECT_EQ(shapes.time_s.size(), 301u);
+  const motion::Motion motion = moved_by(shapes);
+  double most = 0;
+  for (std::size_t k = 0; k < motion.time_s.size(); ++k)
+    most = std::max(most, moved(motion, "ibug68_57", k).norm());
+  EXPECT_GT(most, 0.002);
+  EXPECT_LT(most, 0.04);
+}
+
+}  // namespace
+}  // namespace hyperex::tracking
