@@ -166,6 +166,38 @@ TEST(Render, FramingHoldsEveryPoint) {
   }
 }
 
+TEST(Render, BacksAreHiddenWhereAsked) {
+  TriMesh mesh = ball(12);
+  RenderOptions hiding = square;
+  hiding.hide_backs = true;
+  EXPECT_FALSE(is_background(render({{.mesh = mesh}}, front, hiding), 100, 100));
+  mesh.triangles.col(1).swap(mesh.triangles.col(2));
+  EXPECT_FALSE(is_background(render({{.mesh = mesh}}, front, square), 100, 100));
+  EXPECT_TRUE(is_background(render({{.mesh = mesh}}, front, hiding), 100, 100));
+}
+
+TEST(Pick, IsWhatProjectUndoes) {
+  const TriMesh mesh = ball();
+  const Camera camera{
+      .target = {0.01, 0.02, 0}, .to_viewer = three_quarter_view(), .height_m = 0.4};
+  Eigen::MatrixX2d places(3, 2);
+  places << 90.25, 80.5, 120, 110, 3, 3;
+  const auto picked = pick({{.mesh = mesh}}, camera, 200, 200, places);
+  ASSERT_EQ(picked.size(), 3u);
+  EXPECT_FALSE(picked[2]);
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(picked[i]);
+    EXPECT_EQ(picked[i]->surface, 0);
+    const Projected p = project(camera, 200, 200, picked[i]->point);
+    EXPECT_NEAR(p.x, places(i, 0), 1e-3);
+    EXPECT_NEAR(p.y, places(i, 1), 1e-3);
+    EXPECT_NEAR(picked[i]->point.norm(), 0.1, 2e-4);  // on the ball, its near side
+    EXPECT_NEAR(picked[i]->facing, picked[i]->point.normalized().dot(camera.to_viewer.normalized()),
+                0.05);
+    EXPECT_NEAR(picked[i]->weights.sum(), 1, 1e-6);
+  }
+}
+
 TEST(Render, RefusesSizesThatDisagree) {
   const TriMesh mesh = ball(6);
   EXPECT_THROW(render({{.mesh = mesh, .scalar = Eigen::VectorXf::Zero(3)}}, front, square),

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `hyperex landmarks`, and scenes that name no landmarks.
+#include "hyperex/io/landmarks.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/good_inputs.hpp"
+#include "apps/program.hpp"
+
+namespace hyperex {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class LandmarksCommand : public ProgramTest {};
+
+double median_error_mm(const io::Landmarks& found, const io::Landmarks& truth) {
+  std::vector<double> errors;
+  for (const auto& [name, at] : truth) errors.push_back(1e3 * (found.at(name) - at).norm());
+  std::nth_element(errors.begin(), errors.begin() + std::ptrdiff_t(errors.size() / 2),
+                   errors.end());
+  return errors[errors.size() / 2];
+}
+
+TEST_F(LandmarksCommand, WritesLandmarksInTheScansUnitAndAPicture) {
+  write_mm(in("face.ply"), good_face());
+  const Outcome outcome = call("landmarks face.ply --out l.json --unit mm");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("landmarks from 14 pictures"),
+                                          HasSubstr("written to l.json; look at l.png")));
+  EXPECT_THAT(read_file(in("l.json")), HasSubstr("\"units\": \"mm\""));
+  EXPECT_LT(median_error_mm(io::read_landmarks(in("l.json")), good_landmarks()), 4);
+  EXPECT_GT(fs::file_size(in("l.png")), 10000u);
+}
+
+TEST_F(LandmarksCommand, RefusesInOneLineAndLeavesNothing) {
+  TriMesh sheet = good_face();
+  sheet.points.col(2) *= 0.02;  // a face under a press
+  write_mm(in("sheet.ply"), sheet);
+  for (const auto& [arguments, words] :
+       {std::pair{"landmarks sheet.ply --out l.json --unit mm", "no face was found"},
+        {"landmarks gone.ply --out l.json", "gone.ply"},
+        {"landmarks sheet.ply --out no/l.json", "there is no folder"},
+        {"landmarks sheet.ply --out l.json --picture l.json", "expected two files"}}) {
+    const Outcome outcome = call(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    const auto line = outcome.err.find("hyperex: ");
+    ASSERT_NE(line, std::string::npos) << outcome.err;
+    EXPECT_THAT(outcome.err.substr(line), HasSubstr(words));
+    EXPECT_EQ(outcome.err.find('\n', line), outcome.err.size() - 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(fs::exists(in("l.json"))) << arguments;
+    EXPECT_FALSE(fs::exists(in("l.png"))) << arguments;
+  }
+}
+
+TEST_F(LandmarksCommand, ASceneWithoutLandmarksHasThemFound) {
+  write_good_inputs(in(""));
+  replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
+  const Outcome outcome = call("check scene.toml");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("the scene names no landmarks"));
+}
+
+}  // namespace
+}  // namespace hyperex
