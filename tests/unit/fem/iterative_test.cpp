@@ -210,10 +210,10 @@ TEST(NodeOrder, IsAnOrderAndForecastsTheFactor) {
 TEST(PickLinearSolver, GoesByMemoryAndByWhatCholmodCanCount) {
   using enum LinearSolver;
   const double gib = 1ULL << 30U;
-  const FactorForecast small{4e6, 1e9}, large{1e9, 5e12}, huge{2e9, 1e13};
+  const FactorForecast small{4e6, 1e9, 1e5}, large{1e9, 5e12, 1e7}, huge{2e9, 1e13, 1e8};
   EXPECT_EQ(pick_linear_solver(automatic, small, 1 * gib), cholesky);
   EXPECT_EQ(pick_linear_solver(automatic, small, 0.01 * gib), iterative);
-  EXPECT_EQ(pick_linear_solver(automatic, large, 10 * gib), iterative);
+  EXPECT_EQ(pick_linear_solver(automatic, large, 9 * gib), iterative);
   EXPECT_EQ(pick_linear_solver(automatic, large, 64 * gib), cholesky);
   // More than 2^31 entries cannot be counted, however much memory there is and whoever asks.
   EXPECT_EQ(pick_linear_solver(automatic, huge, 1000 * gib), iterative);
@@ -221,9 +221,9 @@ TEST(PickLinearSolver, GoesByMemoryAndByWhatCholmodCanCount) {
   EXPECT_EQ(pick_linear_solver(cholesky, large, 1 * gib), cholesky);
   EXPECT_EQ(pick_linear_solver(iterative, small, 64 * gib), iterative);
   // Exactly at the share.
-  EXPECT_EQ(pick_linear_solver(automatic, small, 8 * kStoredShare * 4e6 / kFactorShare), cholesky);
-  EXPECT_EQ(pick_linear_solver(automatic, small, 8 * kStoredShare * 3.99e6 / kFactorShare),
-            iterative);
+  const double wanted = 8 * kStoredShare * 4e6 + kWorkspaceBytes * 1e5;
+  EXPECT_EQ(pick_linear_solver(automatic, small, 1.001 * wanted / kFactorShare), cholesky);
+  EXPECT_EQ(pick_linear_solver(automatic, small, 0.999 * wanted / kFactorShare), iterative);
 }
 
 TEST(PickLinearSolver, FindsTheMemoryOfThisMachine) {

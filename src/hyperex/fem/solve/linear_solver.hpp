@@ -22,6 +22,7 @@ constexpr std::string_view to_string(LinearSolver solver) {
 struct FactorForecast {
   double entries = 0;  ///< of L, without the zeros that supernodes add
   double flops = 0;
+  double matrix_entries = 0;  ///< of the lower triangle
 };
 
 /// CHOLMOD counts a factor's entries in 32 bits.
@@ -29,10 +30,12 @@ inline constexpr double kMostFactorEntries = 2147483647.0;
 /// Stored over needed entries of a supernodal factor of soft tissue: 1.21 to 1.15 measured from
 /// 5,000 to 250,000 nodes.
 inline constexpr double kStoredShare = 1.2;
-/// Share of the memory available that the factor may take. Where it fits, Cholesky is the quicker
-/// (at 100,000 nodes 16 right-hand sides alone took the other one several times as long as
-/// factorising), and so memory alone decides.
-inline constexpr double kFactorShare = 0.8;
+/// Bytes that CHOLMOD takes for an entry of the matrix while it factors: two permuted copies.
+inline constexpr double kWorkspaceBytes = 24;
+/// Share of the memory available that factor and workspace may take. Where they fit, Cholesky is
+/// the quicker (at 100,000 nodes 16 right-hand sides alone took the other one several times as long
+/// as factorising), and so memory alone decides.
+inline constexpr double kFactorShare = 0.95;
 
 /// Never `automatic`: what `wanted` comes to for a factor as forecast, `available_bytes` of memory
 /// being free. An explicit wish is granted, a factor beyond kMostFactorEntries excepted.

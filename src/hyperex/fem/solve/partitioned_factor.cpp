@@ -37,7 +37,7 @@ void PartitionedFactor::pick(const SparseMatrix& a, const SparseMatrix& lower, c
   std::vector<int> node_of(free().size());
   for (std::size_t i = 0; i < node_of.size(); ++i) node_of[i] = free()[i] / 3;
   NodeOrder order = order_by_nodes(lower, node_of);
-  forecast_ = {order.entries, order.flops};
+  forecast_ = {order.entries, order.flops, static_cast<double>(lower.nonZeros())};
   const bool can_choose = nodes.rows() > 0;
   assert(can_choose || wanted != LinearSolver::iterative);
   if (can_choose && pick_linear_solver(wanted, forecast_, available_memory_bytes() + spare_bytes) ==
