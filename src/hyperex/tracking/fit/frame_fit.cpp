@@ -95,6 +95,8 @@ FrameFit::FrameFit(const FaceModel& model, const capture::Intrinsics& camera,
       free_prior_(free_prior(model.mesh, options)) {
   on_inner_lip_.assign(on_outline_.size(), false);
   in_lip_ = on_inner_lip_;
+  slots_ = VertexSystem(model.mesh).slots(free_prior_);
+  factor_.analyzePattern(free_prior_);
   const std::set<int> inside = network_points("inside_lip");
   const auto& inner_lip = face::lip_contour();
   for (const auto& [vertex, network] : model.pairs) {
@@ -102,6 +104,10 @@ FrameFit::FrameFit(const FaceModel& model, const capture::Intrinsics& camera,
     on_inner_lip_[std::size_t(vertex)] =
         std::find(inner_lip.begin(), inner_lip.end(), network) != inner_lip.end();
   }
+  // Within the lips shine and shadow move about, and the colour is one.
+  for (const auto t : model.mesh.triangles.rowwise())
+    skin_triangle_.push_back(!in_lip_[std::size_t(t[0])] || !in_lip_[std::size_t(t[1])] ||
+                             !in_lip_[std::size_t(t[2])]);
   const Eigen::Index units = Eigen::Index(model.animation_units.size());
   unit_matrix_ = VertexSystem::RowMatrix::Zero(3 * model.vertex_count(), units);
   typical_.resize(units);
@@ -274,11 +280,14 @@ void FrameFit::move(FaceState& state, const Eigen::VectorXd& step) const {
   state.weights += step.tail(typical_.size());
 }
 
-void FrameFit::iterate(const VertexSystem& system, FaceState& state, const FaceState* before) {
+void FrameFit::iterate(const VertexSystem& system, FaceState& state, const FaceState* before,
+                       bool free_moves) {
   const VertexSystem::RowMatrix jacobian = parameter_jacobian(state);
   const VertexSystem::RowMatrix moved = system.times(jacobian);
   const Eigen::VectorXd step = parameter_step(system, moved, jacobian, state, before);
   if (!step.allFinite()) return;
+  move(state, step);
+  if (!free_moves) return;
   // Free displacements d, from those now to new ones: (H + S) d_new = H d - g - H J step + prior.
   const Eigen::Map<Eigen::VectorXd> free(state.free_m.data(), state.free_m.size());
   Eigen::VectorXd right = system.times(free) - system.gradient() - moved * step;
@@ -286,11 +295,8 @@ void FrameFit::iterate(const VertexSystem& system, FaceState& state, const FaceS
     right += Eigen::Map<const Eigen::VectorXd>(before->free_m.data(), before->free_m.size()) /
              square(options_.free_step_m);
   SparseMatrix matrix = free_prior_;
-  system.add_to(matrix);
-  if (!analysed_) factor_.analyzePattern(matrix);
-  analysed_ = true;
+  system.add_to(matrix, slots_);
   factor_.factorize(matrix);
-  move(state, step);
   if (factor_.info() != Eigen::Success) return;
   const Eigen::VectorXd solution = factor_.solve(right);
   if (solution.allFinite())
@@ -302,7 +308,7 @@ Skin FrameFit::skin_of(const Observation& seen, const FaceState& state) const {
   const auto of = [&](const FinePicture& picture, PhotometricOptions options, bool coarse) {
     if (coarse) options.least_gradient *= options_.coarse_gradient;
     return Template(picture, camera_, state.camera_from_head, points, model_.mesh.triangles,
-                    options);
+                    skin_triangle_, options);
   };
   const SkinPictures& now = seen.pictures;
   return {of(now.grey, options_.grey, false), of(now.chroma, options_.chroma, false),
@@ -327,13 +333,13 @@ FaceState FrameFit::fit(const Observation& seen, const FaceState& start, const F
       for (std::size_t i = 0; i < model_.pairs.size(); ++i)
         moved.network_px.row(model_.pairs[i].network).head<2>() +=
             before->network_offset_px.row(Eigen::Index(i));
-    iterate(measure(moved, state, nullptr), state, before);
+    iterate(measure(moved, state, nullptr), state, before, false);
   }
   for (int iteration = 1; iteration < options_.iterations; ++iteration) {
     const bool last = iteration + 1 == options_.iterations;
     iterate(measure(seen, state, skin, iteration <= options_.coarse_iterations,
                     last ? report : nullptr),
-            state, before);
+            state, before, true);
   }
   const Points points = vertices(state);
   state.network_offset_px.resize(Eigen::Index(model_.pairs.size()), 2);

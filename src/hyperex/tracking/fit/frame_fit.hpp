@@ -43,28 +43,28 @@ struct FaceState {
 
 /// How much each source counts. Standard deviations a priori; a larger one counts less.
 struct FitOptions {
-  int iterations = 4;
-  double network_px = 2.5;        ///< of a network point
-  double network_outline_px = 6;  ///< of one on the face's outline, which slides on the skin
+  int iterations = 3;              ///< by network and depth, with coarse skin, with fine skin ...
+  double network_px = 6;           ///< of a network point
+  double network_outline_px = 10;  ///< of one on the face's outline, which slides on the skin
   /// Of one within the lips' outer border: it sees the lips as they look, not where the skin goes.
-  double network_inner_lip_px = 8;
+  double network_inner_lip_px = 25;
   double network_robust_px = 4;  ///< Geman-McClure
   double depth_m = 0.001;        ///< of a vertex against the surface, along its normal
   double depth_robust_m = 0.004;
   PatchOptions patch;
   double photometric_weight = 1;
-  PhotometricOptions grey{.channel = Channel::grey};
+  PhotometricOptions grey{.channel = Channel::grey, .pixels_as_one = 30};
   PhotometricOptions chroma{
       .channel = Channel::chroma, .noise = 4, .robust = 25, .least_gradient = 4};
   double fine_sigma_px = 0.8, chroma_sigma_px = 1.2;
   double coarse_sigma_px = 2.5;  ///< of the smoother pictures that are compared first
   double coarse_gradient = 0.5;  ///< PhotometricOptions::least_gradient there, of that of the fine
   int coarse_iterations = 1;
-  double units = 1;             ///< times the unit's typical weight
-  double units_step = 0.5;      ///< times the typical weight, from one frame to the next
-  double free_m = 0.003;        ///< of a vertex off the units
-  double free_bend_m = 0.0005;  ///< of a vertex against the mean of its neighbours
-  double free_step_m = 0.002;   ///< from one frame to the next
+  double units = 0.5;          ///< times the unit's typical weight
+  double units_step = 0.5;     ///< times the typical weight, from one frame to the next
+  double free_m = 0.01;        ///< of a vertex off the units
+  double free_bend_m = 0.001;  ///< of a vertex against the mean of its neighbours
+  double free_step_m = 0.002;  ///< from one frame to the next
   double pose_step_rad = 0.05, pose_step_m = 0.02;
 };
 
@@ -128,18 +128,20 @@ class FrameFit {
                                  const FaceState* before) const;
   void move(FaceState& state, const Eigen::VectorXd& step) const;
   /// One step of Gauss and Newton from `state`, which is where `system` was measured.
-  void iterate(const VertexSystem& system, FaceState& state, const FaceState* before);
+  void iterate(const VertexSystem& system, FaceState& state, const FaceState* before,
+               bool free_moves);
 
   const FaceModel& model_;
   capture::Intrinsics camera_;
   Points neutral_m_;
   FitOptions options_;
+  std::vector<bool> skin_triangle_;      // false: within the lips
   VertexSystem::RowMatrix unit_matrix_;  // 3|V| x K
   Eigen::VectorXd typical_;
   std::vector<bool> on_outline_, in_lip_, on_inner_lip_;
   SparseMatrix free_prior_;  // upper triangle, with the pattern of the data
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper> factor_;
-  bool analysed_ = false;
+  std::vector<Eigen::Index> slots_;  // of the data in free_prior_
 };
 
 }  // namespace hyperex::tracking

@@ -94,7 +94,8 @@ FinePicture fine_picture(const cv::Mat& bgr, cv::Rect region, Channel channel, d
 
 Template::Template(const FinePicture& picture, const capture::Intrinsics& camera,
                    const Eigen::Isometry3d& camera_from_head, const Points& head_points,
-                   const Triangles& triangles, const PhotometricOptions& options)
+                   const Triangles& triangles, const std::vector<bool>& compared,
+                   const PhotometricOptions& options)
     : triangles_(triangles), options_(options) {
   if (picture.value.empty()) return;
   const Pixels px = project_all(camera, camera_from_head, head_points);
@@ -107,6 +108,7 @@ Template::Template(const FinePicture& picture, const capture::Intrinsics& camera
     return -normal.normalized().dot(corners.rowwise().mean().normalized());
   };
   for (int t = 0; t < triangles.rows(); ++t) {
+    if (!compared[std::size_t(t)]) continue;
     const Eigen::Vector2d origin(picture.origin.x, picture.origin.y);
     const Eigen::Vector2d a = px.row(triangles(t, 0)).transpose() - origin,
                           b = px.row(triangles(t, 1)).transpose() - origin,

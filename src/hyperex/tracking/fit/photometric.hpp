@@ -39,10 +39,12 @@ struct PhotometricOptions {
 class Template {
  public:
   Template() = default;
-  /// `head_points`: the mesh's vertices in that frame, head frame.
+  /// `head_points`: the mesh's vertices in that frame, head frame. `compared`: per triangle, false
+  /// where it is left out.
   Template(const FinePicture& picture, const capture::Intrinsics& camera,
            const Eigen::Isometry3d& camera_from_head, const Points& head_points,
-           const Triangles& triangles, const PhotometricOptions& options);
+           const Triangles& triangles, const std::vector<bool>& compared,
+           const PhotometricOptions& options);
 
   bool empty() const { return samples_.empty(); }
   std::size_t size() const { return samples_.size(); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/tracking/fit/vertex_system.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <map>
 
 namespace hyperex::tracking {
@@ -63,16 +65,33 @@ VertexSystem::RowMatrix VertexSystem::times(const RowMatrix& right) const {
   return product;
 }
 
-void VertexSystem::add_to(SparseMatrix& out) const {
-  for (std::size_t v = 0; v < diagonal_.size(); ++v)
+std::vector<Eigen::Index> VertexSystem::slots(const SparseMatrix& pattern) const {
+  std::vector<Eigen::Index> found;
+  const auto find = [&](Eigen::Index row, Eigen::Index column) {
+    const int* begin = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column];
+    const int* end = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column + 1];
+    const int* at = std::lower_bound(begin, end, int(row));
+    assert(at != end && *at == int(row));
+    found.push_back(at - pattern.innerIndexPtr());
+  };
+  for (Eigen::Index v = 0; v < vertex_count(); ++v)
     for (int r = 0; r < 3; ++r)
-      for (int c = r; c < 3; ++c)
-        out.coeffRef(3 * Eigen::Index(v) + r, 3 * Eigen::Index(v) + c) += diagonal_[v](r, c);
-  for (std::size_t e = 0; e < edges_.size(); ++e)
+      for (int c = r; c < 3; ++c) find(3 * v + r, 3 * v + c);
+  for (const auto& [a, b] : edges_)
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        out.coeffRef(3 * Eigen::Index(edges_[e].a) + r, 3 * Eigen::Index(edges_[e].b) + c) +=
-            edge_blocks_[e](r, c);
+      for (int c = 0; c < 3; ++c) find(3 * a + r, 3 * b + c);
+  return found;
+}
+
+void VertexSystem::add_to(SparseMatrix& out, const std::vector<Eigen::Index>& slots) const {
+  double* values = out.valuePtr();
+  const Eigen::Index* slot = slots.data();
+  for (const auto& block : diagonal_)
+    for (int r = 0; r < 3; ++r)
+      for (int c = r; c < 3; ++c) values[*slot++] += block(r, c);
+  for (const auto& block : edge_blocks_)
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) values[*slot++] += block(r, c);
 }
 
 }  // namespace hyperex::tracking

@@ -35,10 +35,11 @@ class VertexSystem {
   /// H of one vertex with itself.
   const Eigen::Matrix3d& diagonal(int vertex) const { return diagonal_[std::size_t(vertex)]; }
 
-  /// The upper triangle of H + `smoothness` (3 |V| x 3 |V| with at least the pattern of the mesh's
-  /// edges, as smoothness_pattern() has it) written into `out`, which is a copy of `smoothness`
-  /// after.
-  void add_to(SparseMatrix& out) const;
+  /// Where the upper triangle of H lies among the values of `pattern`, a compressed 3 |V| x 3 |V|
+  /// matrix that has an entry wherever H may: to be given to add_to().
+  std::vector<Eigen::Index> slots(const SparseMatrix& pattern) const;
+  /// Adds the upper triangle of H to the values of a matrix of that pattern.
+  void add_to(SparseMatrix& out, const std::vector<Eigen::Index>& slots) const;
 
  private:
   struct Edge {

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "commands.hpp"
+#include "hyperex/capture/open_source.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/io/trc.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/tracking/fit/score.hpp"
+#include "hyperex/tracking/fit/tracking_outputs.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+struct Options {
+  std::string recording, model = "canonical";
+  std::filesystem::path out, trc, score, camera;
+  bool no_depth = false, json = false, vertices = false;
+  double eye_distance_mm = 90;
+};
+
+/// "canonical", or "candide:FILE" read into `own`.
+const tracking::FaceModel& model_of(const std::string& text,
+                                    std::optional<tracking::FaceModel>& own) {
+  constexpr const char* kCandide = "candide:";
+  if (text == "canonical") return tracking::canonical_model();
+  if (!text.starts_with(kCandide))
+    throw InputError({{}, 0, "--model", text, "canonical or candide:FILE.wfm"});
+  own = tracking::candide_model(text.substr(std::string(kCandide).size()));
+  return *own;
+}
+
+/// a.csv and "pose" -> a.pose.csv
+std::filesystem::path beside(std::filesystem::path file, const std::string& kind) {
+  return file.replace_extension("." + kind + ".csv");
+}
+
+void write_outputs(const Options& options, const tracking::FaceModel& model,
+                   const tracking::Tracking& tracking) {
+  const motion::Motion motion = tracking::motion_of(model, tracking, options.vertices);
+  if (!options.out.empty()) {
+    motion::write_motion_csv(options.out, motion);
+    tracking::write_pose_csv(beside(options.out, "pose"), tracking);
+    tracking::write_units_csv(beside(options.out, "units"), model, tracking);
+    tracking::write_arkit_csv(beside(options.out, "arkit"), model, tracking);
+  }
+  if (!options.trc.empty()) {
+    io::TrcFile trc;
+    trc.names = motion.names;
+    trc.time_s = motion.time_s;
+    trc.positions = motion.positions;
+    if (motion.time_s.size() > 1)
+      trc.data_rate_hz =
+          double(motion.time_s.size() - 1) / (motion.time_s.back() - motion.time_s.front());
+    io::write_trc(options.trc, trc);
+  }
+}
+
+nlohmann::ordered_json number(std::optional<double> value) {
+  if (!value || !std::isfinite(*value)) return nullptr;
+  return *value;
+}
+
+void print_score(const tracking::Score& score, bool json) {
+  const auto pair = [](const tracking::Quantiles& q) {
+    nlohmann::ordered_json made;
+    made["median"] = number(q.median);
+    made["p95"] = number(q.p95);
+    return made;
+  };
+  if (json) {
+    nlohmann::ordered_json out;
+    out["frames"] = score.frames;
+    out["lost"] = score.lost;
+    out["rotation_deg"] = pair(score.rotation_deg);
+    out["translation_mm"] = pair(score.translation_mm);
+    out["deformation_mm"] = pair(score.deformation_mm);
+    out["jaw_correlation"] = number(score.jaw_correlation);
+    out["rest_jitter_mm"] = number(score.rest_jitter_mm);
+    std::cout << out.dump(2) << '\n';
+    return;
+  }
+  const auto line = [](const char* name, const tracking::Quantiles& q) {
+    std::cout << fmt::format("{:<16} {:8.3f} {:8.3f}\n", name, q.median, q.p95);
+  };
+  const auto text = [](std::optional<double> value) {
+    return value ? fmt::format("{:8.4f}", *value) : std::string("       -");
+  };
+  std::cout << fmt::format("{} frames, {} lost\n{:<16} {:>8} {:>8}\n", score.frames, score.lost, "",
+                           "median", "p95");
+  line("rotation, deg", score.rotation_deg);
+  line("translation, mm", score.translation_mm);
+  line("deformation, mm", score.deformation_mm);
+  std::cout << fmt::format("jaw correlation  {}\nrest jitter, mm  {}\n",
+                           text(score.jaw_correlation), text(score.rest_jitter_mm));
+}
+
+void say_what_was_tracked(const tracking::Tracking& tracking) {
+  std::size_t lost = 0, several = 0;
+  std::string first_fault;
+  for (const auto& frame : tracking.frames) {
+    if (frame.faces_in_view > 1) ++several;
+    if (frame.valid) continue;
+    if (!lost++) first_fault = fmt::format("frame {}: {}", frame.index, frame.fault);
+  }
+  const auto& times = tracking.times;
+  const double frames = std::max<double>(1, double(times.frames));
+  spdlog::info("{} frames, {} not valid{}{}", tracking.frames.size(), lost, lost ? "; first " : "",
+               first_fault);
+  if (several) spdlog::warn("several faces in {} frames: the largest was followed", several);
+  spdlog::info("ms a frame: network {:.1f}, pictures {:.1f}, fit {:.1f}; the person's shape {:.0f}",
+               1e3 * times.network_s / frames, 1e3 * times.picture_s / frames,
+               1e3 * times.fit_s / frames, 1e3 * times.neutral_s);
+}
+
+void run(const Options& options) {
+  if (options.out.empty() && options.trc.empty() && options.score.empty())
+    throw InputError("hyperex track: nothing to do: give --out, --trc or --score");
+  if (options.json && options.score.empty())
+    throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
+  std::optional<tracking::FaceModel> own;
+  const tracking::FaceModel& model = model_of(options.model, own);
+  std::optional<tracking::Truth> truth;
+  if (!options.score.empty()) truth = tracking::read_truth(options.score);
+  capture::SourceOptions source_options;
+  source_options.colour_only = options.no_depth;
+  source_options.camera_file = options.camera;
+  const std::string recording =
+      options.recording.empty() ? options.score.string() : options.recording;
+  const auto source = capture::open_source(recording, source_options);
+  tracking::TrackerOptions tracker;
+  tracker.neutral.eye_distance_m = options.eye_distance_mm * 1e-3;
+  tracker.use_depth = !options.no_depth;
+  const tracking::Tracking tracking = tracking::track(*source, model, tracker);
+  if (!options.json) {
+    for (const auto& note : source->notes()) spdlog::info("{}", note);
+    say_what_was_tracked(tracking);
+    if (!tracking.neutral->metric)
+      spdlog::warn(
+          "no depth: lengths rest on {} mm between the outer eye corners "
+          "(--eye-distance-mm)",
+          options.eye_distance_mm);
+  }
+  write_outputs(options, model, tracking);
+  if (truth) print_score(tracking::score(model, tracking.frames, *truth), options.json);
+}
+
+}  // namespace
+
+void add_track(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "track",
+      "Follow a face through a recording of colour and depth: its motion in millimetres in the "
+      "face's frame, head pose and action units apart. The face should be at rest at first.");
+  command->add_option(
+      "RECORDING", options->recording,
+      "A folder in TUM's layout, a video, or a device; with --score alone the truth's "
+      "own folder");
+  command->add_option(
+      "--out", options->out,
+      "Write the motion (CSV) here, and beside it .pose.csv, .units.csv, .arkit.csv");
+  command->add_option("--trc", options->trc, "Write the motion as TRC here");
+  command->add_option("--model", options->model, "canonical, or candide:FILE.wfm")
+      ->capture_default_str();
+  command->add_flag("--vertices", options->vertices, "The model's vertices too, as vertex_K");
+  command->add_flag("--no-depth", options->no_depth, "Leave the depth out");
+  command->add_option("--camera", options->camera, "camera.toml that goes before the recording's");
+  command
+      ->add_option("--eye-distance-mm", options->eye_distance_mm,
+                   "Outer eye corner to outer eye corner, for the scale where there is no depth")
+      ->check(CLI::Range(50.0, 150.0))
+      ->capture_default_str();
+  command->add_option("--score", options->score,
+                      "Compare with the truth in this folder (truth_pose.csv, "
+                      "truth_landmarks68_camera_m.csv, truth_weights.csv)");
+  command->add_flag("--json", options->json, "Print the score as JSON and nothing else");
+  command->footer(
+      "Example:\n  hyperex track recording --out out/motion.csv\n"
+      "  hyperex track --score recording --json");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hyperex::cli

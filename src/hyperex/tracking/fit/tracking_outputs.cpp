@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tracking/fit/tracking_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/io/csv.hpp"
+
+namespace hyperex::tracking {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// ARKit's name -> units that it is the mean of, with their factors.
+struct ArkitPart {
+  Eigen::Index unit;
+  double factor;
+};
+
+/// "eyeBlink*" stands for both sides.
+std::vector<std::string> both_sides(const std::string& name) {
+  const auto star = name.find('*');
+  if (star == std::string::npos) return {name};
+  std::string left = name, right = name;
+  left.replace(star, 1, "Left");
+  right.replace(star, 1, "Right");
+  return {left, right};
+}
+
+std::map<std::string, std::vector<ArkitPart>> arkit_parts(const FaceModel& model) {
+  std::map<std::string, std::vector<ArkitPart>> parts;
+  for (std::size_t k = 0; k < model.animation_units.size(); ++k) {
+    const DeformationUnit& unit = model.animation_units[k];
+    const auto add = [&](const std::string& names, double factor) {
+      if (names.empty()) return;
+      for (const auto& name : both_sides(names)) parts[name].push_back({Eigen::Index(k), factor});
+    };
+    add(unit.arkit, unit.arkit_scale);
+    add(unit.arkit_negative, -unit.arkit_scale);
+  }
+  return parts;
+}
+
+}  // namespace
+
+Tracking track(capture::FrameSource& source, const FaceModel& model,
+               const TrackerOptions& options) {
+  FaceTracker tracker(model, source.intrinsics(), options);
+  Tracking tracking;
+  Progress progress("tracking", long(source.frame_count().value_or(0)));
+  const auto keep = [&](std::vector<TrackedFrame> frames) {
+    for (auto& frame : frames) tracking.frames.push_back(std::move(frame));
+  };
+  long done = 0;
+  while (const auto frame = source.next()) {
+    keep(tracker.feed(*frame));
+    progress.update(++done);
+  }
+  keep(tracker.finish());
+  tracking.neutral = tracker.neutral();
+  tracking.times = tracker.times();
+  if (!tracking.neutral) throw InputError("tracking", "no face was found in any of the frames");
+  return tracking;
+}
+
+motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool with_vertices) {
+  motion::Motion motion;
+  for (const auto& [name, vertices] : model.landmarks) motion.names.push_back(name);
+  const Eigen::Index landmarks = Eigen::Index(motion.names.size());
+  if (with_vertices)
+    for (Eigen::Index v = 0; v < model.vertex_count(); ++v)
+      motion.names.push_back(fmt::format("vertex_{}", v));
+  for (const TrackedFrame& frame : tracking.frames) {
+    if (!motion.time_s.empty() && frame.time_s <= motion.time_s.back()) continue;
+    Points sample = Points::Constant(Eigen::Index(motion.names.size()), 3, kNan);
+    if (frame.valid) {
+      Eigen::Index row = 0;
+      for (const auto& [name, vertices] : model.landmarks)
+        sample.row(row++) = landmark_at(vertices, frame.vertices_m).transpose();
+      if (with_vertices) sample.bottomRows(sample.rows() - landmarks) = frame.vertices_m;
+    }
+    motion.time_s.push_back(frame.time_s);
+    motion.positions.push_back(std::move(sample));
+    motion.head_pose.push_back(frame.camera_from_head);
+  }
+  if (with_vertices) motion.triangles = model.mesh.triangles.array() + int(landmarks);
+  motion.unit_note = "m (tracked)";
+  return motion;
+}
+
+void write_pose_csv(const std::filesystem::path& file, const Tracking& tracking) {
+  std::vector<std::string> names = {"time_s", "valid"};
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) names.push_back(fmt::format("T{}{}", r, c));
+  for (const char* name :
+       {"network_rms_px", "depth_rms_mm", "depth_share", "skin_share", "network_score"})
+    names.push_back(name);
+  io::write_csv(file, names, long(tracking.frames.size()), [&](long k, std::vector<double>& row) {
+    const TrackedFrame& frame = tracking.frames[std::size_t(k)];
+    std::fill(row.begin(), row.end(), kNan);
+    row[0] = frame.time_s;
+    row[1] = frame.valid;
+    if (!frame.valid) return;
+    std::size_t at = 2;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 4; ++c) row[at++] = frame.camera_from_head.matrix()(r, c);
+    for (const double value :
+         {frame.report.network_rms_px, frame.report.depth_rms_m * 1e3, frame.report.depth_share,
+          frame.report.photometric_share, frame.network_score})
+      row[at++] = value;
+  });
+}
+
+void write_units_csv(const std::filesystem::path& file, const FaceModel& model,
+                     const Tracking& tracking) {
+  std::vector<std::string> names = {"time_s"};
+  for (const auto& unit : model.animation_units)
+    names.push_back(unit.facs.empty() ? unit.name : fmt::format("{} [{}]", unit.name, unit.facs));
+  io::write_csv(file, names, long(tracking.frames.size()), [&](long k, std::vector<double>& row) {
+    const TrackedFrame& frame = tracking.frames[std::size_t(k)];
+    std::fill(row.begin(), row.end(), kNan);
+    row[0] = frame.time_s;
+    if (frame.valid) std::copy(frame.weights.begin(), frame.weights.end(), row.begin() + 1);
+  });
+}
+
+void write_arkit_csv(const std::filesystem::path& file, const FaceModel& model,
+                     const Tracking& tracking) {
+  const auto parts = arkit_parts(model);
+  std::vector<std::string> names = {"time_s"};
+  for (const auto& [name, units] : parts) names.push_back(name);
+  io::write_csv(file, names, long(tracking.frames.size()), [&](long k, std::vector<double>& row) {
+    const TrackedFrame& frame = tracking.frames[std::size_t(k)];
+    std::fill(row.begin(), row.end(), kNan);
+    row[0] = frame.time_s;
+    if (!frame.valid) return;
+    std::size_t at = 1;
+    for (const auto& [name, units] : parts) {
+      double sum = 0;
+      for (const auto& [unit, factor] : units)
+        sum += std::clamp(factor * frame.weights[unit], 0.0, 1.0);
+      row[at++] = sum / double(units.size());
+    }
+  });
+}
+
+}  // namespace hyperex::tracking

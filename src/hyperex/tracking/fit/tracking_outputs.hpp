@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "hyperex/capture/source.hpp"
+#include "hyperex/motion/motion.hpp"
+#include "hyperex/tracking/fit/face_tracker.hpp"
+
+namespace hyperex::tracking {
+
+/// A whole recording, tracked.
+struct Tracking {
+  std::vector<TrackedFrame> frames;
+  std::optional<Neutral> neutral;
+  TrackerTimes times;
+};
+
+/// Tracks a source to its end, with a progress bar. Throws InputError where no frame shows a face.
+Tracking track(capture::FrameSource& source, const FaceModel& model,
+               const TrackerOptions& options = {});
+
+/// The model's landmarks, and on demand its vertices ("vertex_K"), over time in the head's frame
+/// (+x the subject's left, +y up, +z forward); rows of NaN where a frame is not valid. Frames whose
+/// time does not rise are left out.
+motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool with_vertices);
+
+/// Tables with a row a frame, whether valid or not; numbers are "nan" where it is not valid.
+///  pose:   time_s, valid, T00 ... T23 (camera_from_head, metres), network_rms_px, depth_rms_mm,
+///          depth_share, skin_share, network_score
+///  units:  time_s and a column a unit: "NAME [FACS]"
+///  arkit:  time_s and ARKit's names, 0 to 1: weights of the model's units by its table; a name
+///  that
+///          several units share is their mean
+void write_pose_csv(const std::filesystem::path& file, const Tracking& tracking);
+void write_units_csv(const std::filesystem::path& file, const FaceModel& model,
+                     const Tracking& tracking);
+void write_arkit_csv(const std::filesystem::path& file, const FaceModel& model,
+                     const Tracking& tracking);
+
+}  // namespace hyperex::tracking
