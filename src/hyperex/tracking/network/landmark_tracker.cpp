@@ -7,9 +7,7 @@
 #include <opencv2/dnn.hpp>
 #include <stdexcept>
 
-#include "hyperex/core/error.hpp"
-#include "hyperex/tracking/network/model_bytes.hpp"
-#include "hyperex/tracking/network/tflite_network.hpp"
+#include "hyperex/tracking/network/face_mesh_network.hpp"
 
 namespace hyperex::tracking {
 namespace {
@@ -46,35 +44,29 @@ FaceRegion region_of(const FacePoints& points) {
 }
 
 struct LandmarkTracker::Impl {
-  explicit Impl(const LandmarkOptions& o) : options(o), finder(o.finder) {
-    if (network.outputs.size() != 2)
-      throw InputError("face_landmark.tflite", "has not the two outputs points and score");
-  }
+  explicit Impl(const LandmarkOptions& o)
+      : options(o), finder(o.finder), network(o.lips_again, o.eyes_again) {}
 
   LandmarkOptions options;
   FaceFinder finder;
-  Network network = read_tflite(face_landmark_bytes(), "face_landmark.tflite");
+  FaceMeshNetwork network;
   cv::Mat scratch, patch, input;
-  std::vector<cv::Mat> outputs;
   bool following = false;
   FaceRegion next;  // where to look in the next picture, while following
   int faces_in_view = 0, since_look_around = 0;
 
   FaceLandmarks look_at(const cv::Mat& bgr, const FaceRegion& region) {
-    cut_out(bgr, region, network.width_px, false, scratch, patch);
+    const int size_px = network.size_px();
+    cut_out(bgr, region, size_px, false, scratch, patch);
     cv::dnn::blobFromImage(patch, input, 1 / 255.0, {}, {}, true);
-    network.net.setInput(input);
-    network.net.forward(outputs, network.outputs);
-    const bool points_first = outputs[0].total() > outputs[1].total();
-    const float* numbers = outputs[points_first ? 0 : 1].ptr<float>();
     FaceLandmarks found;
-    found.score = 1 / (1 + std::exp(-double(outputs[points_first ? 1 : 0].ptr<float>()[0])));
+    found.score = network.look(input, options.least_score, found.points_px);
     found.region = region;
     found.faces_in_view = std::max(1, faces_in_view);
     for (int i = 0; i < face_point_count; ++i) {
-      const cv::Point2d p = region.picture_from_square(numbers[3 * i] / network.width_px,
-                                                       numbers[3 * i + 1] / network.height_px);
-      found.points_px.row(i) << p.x, p.y, numbers[3 * i + 2] * region.side_px / network.width_px;
+      auto point = found.points_px.row(i);
+      const cv::Point2d p = region.picture_from_square(point.x() / size_px, point.y() / size_px);
+      point << p.x, p.y, point.z() * region.side_px / size_px;
     }
     return found;
   }

@@ -44,6 +44,21 @@ tflite::Operation TfliteConstants::operation(const tflite::Operator& op) const {
   return tflite::Operation(std::max(int(code->old_code()), int(code->code())));
 }
 
+std::string TfliteConstants::custom_name(const tflite::Operator& op) const {
+  if (operation(op) != tflite::Operation_CUSTOM) return "";
+  const auto* name = model_->operator_codes()->Get(op.opcode_index())->custom_code();
+  return name ? name->str() : "";
+}
+
+const tflite::Operator& TfliteConstants::maker(int tensor) const {
+  if (graph_->operators())
+    for (const auto* op : *graph_->operators())
+      if (op->outputs() && op->inputs() && op->inputs()->size() > 0)
+        for (const int output : *op->outputs())
+          if (output == tensor) return *op;
+  fail(fmt::format("has no operator that computes tensor {}", tensor));
+}
+
 const tflite::Tensor& TfliteConstants::tensor(int index) const {
   if (index < 0 || unsigned(index) >= graph_->tensors()->size())
     fail(fmt::format("names tensor {} of {}", index, graph_->tensors()->size()));

@@ -20,6 +20,10 @@ class TfliteConstants {
 
   const tflite::SubGraph& graph() const { return *graph_; }
   tflite::Operation operation(const tflite::Operator& op) const;
+  /// Of an operator of kind CUSTOM; else empty.
+  std::string custom_name(const tflite::Operator& op) const;
+  /// The operator that computes a tensor.
+  const tflite::Operator& maker(int tensor) const;
   /// Of a tensor: sizes, each at least 1, at most 2^26 numbers in all.
   std::vector<int> shape(int tensor) const;
   /// A constant tensor in single precision, its own or what a DEQUANTIZE makes of another.

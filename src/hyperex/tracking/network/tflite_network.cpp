@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/tracking/network/tflite_constants.hpp"
@@ -23,24 +24,25 @@ class Builder {
   Builder(const tflite::SubGraph& graph, const TfliteConstants& constants)
       : graph_(graph), constants_(constants) {}
 
-  Network build() {
-    Network network;
-    if (!graph_.inputs() || graph_.inputs()->size() != 1) fail("has not one input");
-    const int input = int(graph_.inputs()->Get(0));
+  Network build(const NetworkPart& part) {
+    if (part.input < 0 && (!graph_.inputs() || graph_.inputs()->size() != 1))
+      fail("has not one input");
+    const int input = part.input < 0 ? graph_.inputs()->Get(0) : part.input;
+    std::vector<int> outputs = part.outputs;
+    if (outputs.empty() && graph_.outputs())
+      outputs.assign(graph_.outputs()->begin(), graph_.outputs()->end());
+    if (outputs.empty()) fail("has no output");
     const auto shape = constants_.shape(input);
     if (shape.size() != 4 || shape[0] != 1) fail("has an input that is no single picture");
+    Network network;
     network.height_px = shape[1];
     network.width_px = shape[2];
     network.channels = shape[3];
     place_[input] = {0, 0};
     net_.setInputsNames({"input"});
-    if (graph_.operators())
-      for (const auto* op : *graph_.operators()) add(*op);
-    if (!graph_.outputs() || graph_.outputs()->size() == 0) fail("has no output");
-    for (const int output : *graph_.outputs()) {
-      const Place place = place_of(output);
-      network.outputs.push_back(net_.getLayer(place.layer)->name);
-    }
+    for (const auto* op : path(input, outputs)) add(*op);
+    for (const int output : outputs)
+      network.outputs.push_back(net_.getLayer(place_of(output).layer)->name);
     network.net = net_;
     network.net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
     return network;
@@ -50,6 +52,22 @@ class Builder {
   struct Place {
     int layer = -1, output = 0;
   };
+
+  /// The operators that lead from the input to the outputs, in the file's order.
+  std::vector<const tflite::Operator*> path(int input, const std::vector<int>& outputs) const {
+    std::set<int> needed(outputs.begin(), outputs.end());
+    std::vector<const tflite::Operator*> path;
+    for (unsigned k = graph_.operators() ? graph_.operators()->size() : 0; k-- > 0;) {
+      const auto* op = graph_.operators()->Get(k);
+      if (!op->outputs() || !op->inputs()) fail("has an operator that lacks a tensor");
+      const auto makes = [&](int tensor) { return tensor != input && needed.contains(tensor); };
+      if (!std::any_of(op->outputs()->begin(), op->outputs()->end(), makes)) continue;
+      needed.insert(op->inputs()->begin(), op->inputs()->end());
+      path.push_back(op);
+    }
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
 
   [[noreturn]] void fail(const std::string& what) const { constants_.fail(what); }
 
@@ -295,10 +313,11 @@ class Builder {
 
 }  // namespace
 
-Network read_tflite(std::span<const std::uint8_t> bytes, const std::string& source) {
+Network read_tflite(std::span<const std::uint8_t> bytes, const std::string& source,
+                    const NetworkPart& part) {
   const TfliteConstants constants(bytes, source);
   try {
-    return Builder(constants.graph(), constants).build();
+    return Builder(constants.graph(), constants).build(part);
   } catch (const cv::Exception& error) {
     constants.fail("has a layer that OpenCV refuses: " + error.err);
   }
