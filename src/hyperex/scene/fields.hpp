@@ -163,13 +163,13 @@ Field<Owner> path(std::string name, At at, std::string description) {
   return field;
 }
 
-/// A file that exists or the word "embedded", into a Source. Required.
+/// A file that exists or the word "embedded", into a Source.
 template <class Owner, class At>
-Field<Owner> source(std::string name, At at, std::string description) {
+Field<Owner> source(std::string name, At at, bool required, std::string description) {
   Field<Owner> field{{.name = std::move(name),
                       .kind = Kind::path,
                       .choices = {"embedded"},
-                      .required = true,
+                      .required = required,
                       .description = std::move(description)}};
   field.set = [info = KeyInfo(field), at](Owner& owner, const nlohmann::json& value,
                                           const std::filesystem::path& folder) {
@@ -183,7 +183,7 @@ Field<Owner> source(std::string name, At at, std::string description) {
     return complaints;
   };
   field.get = [at](const Owner& owner) -> nlohmann::json {
-    return at(owner).embedded ? "embedded" : at(owner).file.generic_string();
+    return at(owner).embedded ? std::string("embedded") : at(owner).file.generic_string();
   };
   return field;
 }

@@ -14,6 +14,7 @@
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/landmarks.hpp"
+#include "hyperex/tracking/expression/blend_shapes.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::scene {
@@ -76,7 +77,22 @@ io::Landmarks find_landmarks(Inputs& in) {
   return std::move(found.landmarks);
 }
 
+/// The points of a face model that recorded expressions move.
+motion::Motion read_expressions(const MotionOptions& options, Inputs& in) {
+  const tracking::BlendShapes shapes = options.arkit.empty()
+                                           ? tracking::read_openface(options.openface)
+                                           : tracking::read_arkit(options.arkit);
+  std::vector<std::string> notes = shapes.notes;
+  motion::Motion m =
+      options.candide.empty()
+          ? tracking::motion_of(shapes, tracking::canonical_model(), notes)
+          : tracking::motion_of(shapes, tracking::candide_model(options.candide.string()), notes);
+  for (const auto& note : notes) in.notes.push_back("motion: " + note);
+  return m;
+}
+
 motion::Motion read_motion(const Scene& scene, Inputs& in) {
+  if (scene.motion.source.file.empty()) return read_expressions(scene.motion, in);
   auto m = motion::read_motion(scene.motion.source.file, scene.motion.unit);
   if (!m.unit_note.empty()) in.notes.push_back("motion: " + m.unit_note);
   return m;

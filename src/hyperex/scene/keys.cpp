@@ -26,7 +26,7 @@ std::vector<std::pair<std::string, MaybeUnit>> units_or(const std::string& other
 std::vector<Key> input_keys() {
   return {
       text<Scene>("title", AT(title), 0, "Heads the report."),
-      source<Scene>("scan.file", AT(scan.source),
+      source<Scene>("scan.file", AT(scan.source), true,
                     "The scan: PLY, OBJ, STL, glTF or GLB; or the canonical face that the program "
                     "carries inside."),
       choice<Scene, MaybeUnit>("scan.unit", AT(scan.unit), units_or("guess"),
@@ -38,9 +38,19 @@ std::vector<Key> input_keys() {
       choice<Scene, MaybeUnit>("scan.landmarks_unit", AT(scan.landmarks_unit), units_or("file"),
                                "The landmarks' unit of length, where it is not the one that their "
                                "file states."),
-      source<Scene>("motion.file", AT(motion.source),
+      source<Scene>("motion.file", AT(motion.source), false,
                     "The recording of named points: CSV or TRC; or the mouth opening of 2.7 s that "
-                    "the program carries inside."),
+                    "the program carries inside. This, motion.openface or motion.arkit is "
+                    "required; one given by --set takes the place of another in the file."),
+      path<Scene>("motion.openface", AT(motion.openface),
+                  "Intensities of action units over time, a CSV of OpenFace 2: they move the face "
+                  "model, and its points are the recording."),
+      path<Scene>("motion.arkit", AT(motion.arkit),
+                  "Weights of ARKit's blend shapes over time, a CSV with a column time_s or as "
+                  "Live Link Face writes it: they move the face model likewise."),
+      path<Scene>("motion.candide", AT(motion.candide),
+                  "CANDIDE-3's .wfm file, to be the face model for motion.openface and "
+                  "motion.arkit. Empty: the canonical face."),
       choice<Scene, MaybeUnit>("motion.unit", AT(motion.unit), units_or("file"),
                                "The recording's unit of length, where it is not the one that the "
                                "file states."),

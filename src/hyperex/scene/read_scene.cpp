@@ -32,6 +32,7 @@ class Reader {
   /// False where nothing could be read at all.
   bool take_file();
   void take_override(const std::string& text);
+  void settle_motion();
   void fill();
   void check_together();
 
@@ -171,6 +172,27 @@ void Reader::take_override(const std::string& text) {
     take(name, value, origin);
 }
 
+/// One source of motion: an override takes the place of what the file gives.
+void Reader::settle_motion() {
+  static constexpr const char* sources[] = {"motion.file", "motion.openface", "motion.arkit"};
+  const auto overridden = [&](const char* key) {
+    const auto found = given_.find(key);
+    return found != given_.end() && found->second.origin.file == set_option;
+  };
+  const bool any_override = std::any_of(std::begin(sources), std::end(sources), overridden);
+  std::vector<const char*> given;
+  for (const char* key : sources) {
+    if (any_override && !overridden(key)) given_.erase(key);
+    if (given_.count(key)) given.push_back(key);
+  }
+  if (given.empty())
+    complain(in_file("motion"), sources[0], nullptr,
+             find_key(sources[0])->expected() +
+                 ", required; or motion.openface or motion.arkit in its place");
+  for (std::size_t i = 1; i < given.size(); ++i)
+    complain_given(given[i], fmt::format("one source of motion, and {} is given", given[0]));
+}
+
 void Reader::fill() {
   for (const Key& key : keys()) {
     const auto found = given_.find(key.name);
@@ -233,6 +255,7 @@ Reader read(const fs::path& file, const std::vector<std::string>& overrides) {
   Reader reader(file);
   if (reader.take_file()) {
     for (const auto& text : overrides) reader.take_override(text);
+    reader.settle_motion();
     reader.fill();
     reader.check_together();
   }

@@ -21,6 +21,7 @@ landmarks_unit = "m"
 [motion]
 file = "motion.csv"
 unit = "mm"
+candide = "points.json"
 rigid_points = ["r1", "r2", "r3"]
 max_gap_s = 0.31
 gain = 1.32
@@ -91,6 +92,10 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.scan.landmarks_unit, io::LengthUnit::metre);
   EXPECT_EQ(s.motion.source.file, folder / "motion.csv");
   EXPECT_EQ(s.motion.unit, io::LengthUnit::millimetre);
+  EXPECT_EQ(s.motion.candide, folder / "points.json");
+  const std::string other = folder.write("other.csv", "").string();
+  EXPECT_EQ(read_scene(s.file, {"motion.openface=" + other}).motion.openface, other);
+  EXPECT_EQ(read_scene(s.file, {"motion.arkit=" + other}).motion.arkit, other);
   EXPECT_THAT(s.motion.rigid_points, ElementsAre("r1", "r2", "r3"));
   EXPECT_EQ(s.motion.max_gap_s, 0.31);
   EXPECT_EQ(s.motion.gain, 1.32);
