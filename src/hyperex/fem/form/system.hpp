@@ -10,6 +10,14 @@ namespace hyperex::fem {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  // column-major, both triangles stored
 
+/// Eigen 3.4 copies sparse matrices where it is asked to move them: this moves. Leaves `from` empty
+/// and its memory with the result, or given back where that is not kept.
+inline SparseMatrix taken(SparseMatrix& from) {
+  SparseMatrix out;
+  out.swap(from);
+  return out;
+}
+
 /// K d + C d' + M d'' = f over 3 |nodes| unknowns, unknown 3 n + axis.
 /// Damping and mass share one pattern: nodes of a common tetrahedron. The stiffness has the same or
 /// a wider one that contains it. Rows rise in each column; blocks of two nodes have all nine
@@ -17,6 +25,21 @@ using SparseMatrix = Eigen::SparseMatrix<double>;  // column-major, both triangl
 struct System {
   SparseMatrix stiffness, damping, mass;
   Points nodes;  ///< |nodes| x 3, m: what an iterative solver knows of rigid motions
+
+  System() = default;
+  System(const System&) = default;
+  System& operator=(const System&) = default;
+  System(System&& from) noexcept { swap(from); }
+  System& operator=(System&& from) noexcept {
+    swap(from);
+    return *this;
+  }
+  void swap(System& other) noexcept {
+    stiffness.swap(other.stiffness);
+    damping.swap(other.damping);
+    mass.swap(other.mass);
+    nodes.swap(other.nodes);
+  }
 };
 
 /// An Assembler used once (form/assembler.hpp, where its errors stand).

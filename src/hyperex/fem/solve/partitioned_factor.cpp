@@ -27,7 +27,7 @@ void PartitionedFactor::make(const SparseMatrix& a, SparseMatrix* spare, const P
   const SparseMatrix lower = free_lower(a, partition_);
   constexpr double entry_bytes = sizeof(double) + sizeof(int);
   pick(a, lower, nodes, wanted, spare ? entry_bytes * static_cast<double>(a.nonZeros()) : 0);
-  if (spare && cholesky_) *spare = SparseMatrix();
+  if (spare && cholesky_) taken(*spare);
   analyse_s_ = watch.lap();
   factor(a, lower);
 }

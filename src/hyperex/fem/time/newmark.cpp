@@ -48,15 +48,15 @@ struct Newmark::Impl {
         inertia(s),
         factor(step_matrix(s, by), std::move(prescribed), "time integration", s.nodes, wanted),
         stiffness_oc(coupling(s.stiffness, factor.partition())),
-        stiffness(std::move(s.stiffness)),
-        mass(std::move(s.mass)) {
+        stiffness(taken(s.stiffness)),
+        mass(taken(s.mass)) {
     clear();
   }
 
   /// A of the free unknowns and the others; the damping goes, whose values are in `inertia`.
   static SparseMatrix step_matrix(System& s, const Factors& by) {
     SparseMatrix a = combined(s, by.c_d, by.m_d);
-    s.damping = SparseMatrix();
+    taken(s.damping);
     return a;
   }
 
@@ -138,8 +138,8 @@ void Newmark::refill(System system) {
   impl_->factor.refactor(combined(system, impl_->by.c_d, impl_->by.m_d));
   impl_->stiffness_oc = coupling(system.stiffness, impl_->factor.partition());
   impl_->inertia.refill(system);
-  impl_->stiffness = std::move(system.stiffness);
-  impl_->mass = std::move(system.mass);
+  impl_->stiffness.swap(system.stiffness);
+  impl_->mass.swap(system.mass);
   impl_->clear();
 }
 
