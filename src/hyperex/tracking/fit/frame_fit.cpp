@@ -339,7 +339,7 @@ FaceState FrameFit::fit(const Observation& seen, const FaceState& start, const F
     const bool last = iteration + 1 == options_.iterations;
     iterate(measure(seen, state, skin, iteration <= options_.coarse_iterations,
                     last ? report : nullptr),
-            state, before, true);
+            state, before, iteration + options_.free_iterations >= options_.iterations);
   }
   const Points points = vertices(state);
   state.network_offset_px.resize(Eigen::Index(model_.pairs.size()), 2);

@@ -43,13 +43,13 @@ struct FaceState {
 
 /// How much each source counts. Standard deviations a priori; a larger one counts less.
 struct FitOptions {
-  int iterations = 3;              ///< by network and depth, with coarse skin, with fine skin ...
-  double network_px = 6;           ///< of a network point
-  double network_outline_px = 10;  ///< of one on the face's outline, which slides on the skin
+  int iterations = 3;             ///< by network and depth, with coarse skin, with fine skin ...
+  double network_px = 3;          ///< of a network point
+  double network_outline_px = 6;  ///< of one on the face's outline, which slides on the skin
   /// Of one within the lips' outer border: it sees the lips as they look, not where the skin goes.
-  double network_inner_lip_px = 25;
-  double network_robust_px = 4;  ///< Geman-McClure
-  double depth_m = 0.001;        ///< of a vertex against the surface, along its normal
+  double network_inner_lip_px = 4;
+  double network_robust_px = 10;  ///< Geman-McClure
+  double depth_m = 0.001;         ///< of a vertex against the surface, along its normal
   double depth_robust_m = 0.004;
   PatchOptions patch;
   double photometric_weight = 1;
@@ -60,6 +60,7 @@ struct FitOptions {
   double coarse_sigma_px = 2.5;  ///< of the smoother pictures that are compared first
   double coarse_gradient = 0.5;  ///< PhotometricOptions::least_gradient there, of that of the fine
   int coarse_iterations = 1;
+  int free_iterations = 1;     ///< the last so many solve for the free displacements too
   double units = 0.5;          ///< times the unit's typical weight
   double units_step = 0.5;     ///< times the typical weight, from one frame to the next
   double free_m = 0.01;        ///< of a vertex off the units
