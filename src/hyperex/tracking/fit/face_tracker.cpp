@@ -18,7 +18,13 @@ struct Waiting {
   bool found_anew = false;
 };
 
+constexpr double kMostOff = 0.05;       // of model and network's points, of the face's size
+constexpr double kLeastInside = 0.85;   // of the network's points, within the picture
 constexpr double kRegionMargin = 0.15;  // around the points, of their extent
+
+double extent_px(const Points& px) {
+  return (px.colwise().maxCoeff() - px.colwise().minCoeff()).head<2>().maxCoeff();
+}
 
 /// Keeps the frames in which the face is as in the first: their network points, laid over the
 /// first's by a similarity, agree with them to within the network's own noise.
@@ -85,6 +91,13 @@ struct FaceTracker::Impl {
     return seen;
   }
 
+  double share_inside(const Points& px) const {
+    const auto x = px.col(0).array(), y = px.col(1).array();
+    return (x >= 0 && y >= 0 && x <= camera.width_px - 1 && y <= camera.height_px - 1)
+        .cast<double>()
+        .mean();
+  }
+
   void find_neutral() {
     std::vector<Observation> frames;
     for (const Waiting& one : waiting)
@@ -112,8 +125,20 @@ struct FaceTracker::Impl {
       start.camera_from_head = fit->first_pose(seen);
     else
       start = *before;
-    FaceState state =
-        fit->fit(seen, start, anew ? nullptr : &*before, skin ? &*skin : nullptr, &frame.report);
+    const Skin* compared = skin ? &*skin : nullptr;
+    FaceState state = fit->fit(seen, start, anew ? nullptr : &*before, compared, &frame.report);
+    const double most_px = kMostOff * extent_px(seen.network_px);
+    if (!anew && !(frame.report.network_rms_px <= most_px)) {
+      start = fit->at_rest();
+      start.camera_from_head = fit->first_pose(seen);
+      state = fit->fit(seen, start, nullptr, compared, &frame.report);
+    }
+    if (!(frame.report.network_rms_px <= most_px) || share_inside(seen.network_px) < kLeastInside) {
+      frame.fault = "the face is cut off or the model does not meet it";
+      before.reset();
+      times.fit_s += watch.lap();
+      return frame;
+    }
     frame.valid = true;
     frame.camera_from_head = state.camera_from_head;
     frame.weights = state.weights;
