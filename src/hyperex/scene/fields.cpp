@@ -124,14 +124,15 @@ fs::path resolve(const fs::path& folder, const std::string& path) {
   return (folder / path).lexically_normal();
 }
 
-std::vector<Complaint> check_file(const KeyInfo& info, const json& value, const fs::path& folder) {
+std::vector<Complaint> check_file(const KeyInfo& info, const json& value, const fs::path& folder,
+                                  bool folder_too) {
   if (!is_word(value)) return {{"", value, info.expected()}};
   const fs::path path = resolve(folder, value.get<std::string>());
   std::error_code error;
   if (!fs::exists(path, error))
     return {
         {"", value, fmt::format("an existing file (there is none at {})", show(path.string()))}};
-  if (fs::is_directory(path, error))
+  if (!folder_too && fs::is_directory(path, error))
     return {{"", value, fmt::format("a file ({} is a folder)", show(path.string()))}};
   return {};
 }

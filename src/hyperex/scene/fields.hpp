@@ -25,7 +25,7 @@ std::vector<Complaint> check_numbers(const KeyInfo& info, const nlohmann::json& 
 std::vector<Complaint> check_names(const KeyInfo& info, const nlohmann::json& value);
 std::vector<Complaint> check_text(const KeyInfo& info, const nlohmann::json& value);
 std::vector<Complaint> check_file(const KeyInfo& info, const nlohmann::json& value,
-                                  const std::filesystem::path& folder);
+                                  const std::filesystem::path& folder, bool folder_too = false);
 std::vector<Complaint> check_rows(const KeyInfo& info, const nlohmann::json& value);
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 
@@ -148,14 +148,14 @@ Field<Owner> choice(std::string name, At at, std::vector<std::pair<std::string, 
   return field;
 }
 
-/// A file that exists, into a std::filesystem::path.
+/// A file that exists, or on demand a folder, into a std::filesystem::path.
 template <class Owner, class At>
-Field<Owner> path(std::string name, At at, std::string description) {
+Field<Owner> path(std::string name, At at, std::string description, bool folder_too = false) {
   Field<Owner> field{
       {.name = std::move(name), .kind = Kind::path, .description = std::move(description)}};
-  field.set = [info = KeyInfo(field), at](Owner& owner, const nlohmann::json& value,
-                                          const std::filesystem::path& folder) {
-    auto complaints = check_file(info, value, folder);
+  field.set = [info = KeyInfo(field), at, folder_too](Owner& owner, const nlohmann::json& value,
+                                                      const std::filesystem::path& folder) {
+    auto complaints = check_file(info, value, folder, folder_too);
     if (complaints.empty()) at(owner) = resolve(folder, value.template get<std::string>());
     return complaints;
   };

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "hyperex/capture/open_source.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -15,6 +16,7 @@
 #include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/landmarks.hpp"
 #include "hyperex/tracking/expression/blend_shapes.hpp"
+#include "hyperex/tracking/fit/tracking_outputs.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::scene {
@@ -77,21 +79,48 @@ io::Landmarks find_landmarks(Inputs& in) {
   return std::move(found.landmarks);
 }
 
+const tracking::FaceModel& face_model(const MotionOptions& options,
+                                      std::optional<tracking::FaceModel>& own) {
+  if (options.candide.empty()) return tracking::canonical_model();
+  return own.emplace(tracking::candide_model(options.candide.string()));
+}
+
 /// The points of a face model that recorded expressions move.
 motion::Motion read_expressions(const MotionOptions& options, Inputs& in) {
   const tracking::BlendShapes shapes = options.arkit.empty()
                                            ? tracking::read_openface(options.openface)
                                            : tracking::read_arkit(options.arkit);
   std::vector<std::string> notes = shapes.notes;
-  motion::Motion m =
-      options.candide.empty()
-          ? tracking::motion_of(shapes, tracking::canonical_model(), notes)
-          : tracking::motion_of(shapes, tracking::candide_model(options.candide.string()), notes);
+  std::optional<tracking::FaceModel> own;
+  motion::Motion m = tracking::motion_of(shapes, face_model(options, own), notes);
   for (const auto& note : notes) in.notes.push_back("motion: " + note);
   return m;
 }
 
+/// The face that a camera has recorded; with the tracked mesh where skin is to follow it.
+motion::Motion track_recording(const Scene& scene, Inputs& in) {
+  std::optional<tracking::FaceModel> own;
+  const tracking::FaceModel& model = face_model(scene.motion, own);
+  const auto source = capture::open_source(scene.motion.recording.string());
+  const tracking::Tracking tracking = tracking::track(*source, model);
+  const auto lost = std::count_if(tracking.frames.begin(), tracking.frames.end(),
+                                  [](const auto& frame) { return !frame.valid; });
+  in.notes.push_back(fmt::format("motion: a face tracked in {} of {} frames",
+                                 tracking.frames.size() - lost, tracking.frames.size()));
+  if (!tracking.neutral->metric)
+    in.notes.push_back(
+        "motion: no depth in the recording; lengths rest on a usual distance between the eyes");
+  for (const auto& note : source->notes()) in.notes.push_back("motion: " + note);
+  const bool measured = scene.region.measured != Measured::none;
+  motion::Motion m = tracking::motion_of(model, tracking, measured);
+  m.source = scene.motion.recording.string();
+  if (const int first = m.index_of("vertex_0"); measured && first >= 0)
+    m.triangles = model.mesh.triangles.array() + first;
+  return m;
+}
+
 motion::Motion read_motion(const Scene& scene, Inputs& in) {
+  if (!scene.motion.recording.empty()) return track_recording(scene, in);
   if (scene.motion.source.file.empty()) return read_expressions(scene.motion, in);
   auto m = motion::read_motion(scene.motion.source.file, scene.motion.unit);
   if (!m.unit_note.empty()) in.notes.push_back("motion: " + m.unit_note);

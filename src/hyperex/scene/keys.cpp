@@ -40,8 +40,14 @@ std::vector<Key> input_keys() {
                                "file states."),
       source<Scene>("motion.file", AT(motion.source), false,
                     "The recording of named points: CSV or TRC; or the mouth opening of 2.7 s that "
-                    "the program carries inside. This, motion.openface or motion.arkit is "
-                    "required; one given by --set takes the place of another in the file."),
+                    "the program carries inside. This, motion.recording, motion.openface or "
+                    "motion.arkit is required; one given by --set takes the place of another in "
+                    "the file."),
+      path<Scene>(
+          "motion.recording", AT(motion.recording),
+          "The recording of a camera, colour and depth: a folder in TUM's layout, a video or .oni "
+          "file. The face in it is tracked, as by hyperex track.",
+          true),
       path<Scene>("motion.openface", AT(motion.openface),
                   "Intensities of action units over time, a CSV of OpenFace 2: they move the face "
                   "model, and its points are the recording."),
@@ -49,8 +55,8 @@ std::vector<Key> input_keys() {
                   "Weights of ARKit's blend shapes over time, a CSV with a column time_s or as "
                   "Live Link Face writes it: they move the face model likewise."),
       path<Scene>("motion.candide", AT(motion.candide),
-                  "CANDIDE-3's .wfm file, to be the face model for motion.openface and "
-                  "motion.arkit. Empty: the canonical face."),
+                  "CANDIDE-3's .wfm file, to be the face model for motion.recording, "
+                  "motion.openface and motion.arkit. Empty: the canonical face."),
       choice<Scene, MaybeUnit>("motion.unit", AT(motion.unit), units_or("file"),
                                "The recording's unit of length, where it is not the one that the "
                                "file states."),

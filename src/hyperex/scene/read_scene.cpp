@@ -174,7 +174,8 @@ void Reader::take_override(const std::string& text) {
 
 /// One source of motion: an override takes the place of what the file gives.
 void Reader::settle_motion() {
-  static constexpr const char* sources[] = {"motion.file", "motion.openface", "motion.arkit"};
+  static constexpr const char* sources[] = {"motion.file", "motion.recording", "motion.openface",
+                                            "motion.arkit"};
   const auto overridden = [&](const char* key) {
     const auto found = given_.find(key);
     return found != given_.end() && found->second.origin.file == set_option;
@@ -188,7 +189,7 @@ void Reader::settle_motion() {
   if (given.empty())
     complain(in_file("motion"), sources[0], nullptr,
              find_key(sources[0])->expected() +
-                 ", required; or motion.openface or motion.arkit in its place");
+                 ", required; or motion.recording, motion.openface or motion.arkit in its place");
   for (std::size_t i = 1; i < given.size(); ++i)
     complain_given(given[i], fmt::format("one source of motion, and {} is given", given[0]));
 }

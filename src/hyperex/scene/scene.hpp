@@ -32,11 +32,12 @@ struct ScanOptions {
 };
 
 struct MotionOptions {
-  // One of these four.
+  // One of these four is required.
   Source source;                          ///< named points; embedded: a mouth opening, 2.7 s
+  std::filesystem::path recording;        ///< of a camera: a folder or a file
   std::filesystem::path openface, arkit;  ///< expressions: action units, blend shapes
-  std::filesystem::path candide;  ///< CANDIDE-3's file, which those move; empty: canonical face
-  std::optional<io::LengthUnit> unit;     ///< none: as the file says ("file")
+  std::filesystem::path candide;       ///< CANDIDE-3's file, which they move; empty: canonical face
+  std::optional<io::LengthUnit> unit;  ///< none: as the file says ("file")
   std::vector<std::string> rigid_points;  ///< carry the head's pose; empty: chosen automatically
   double max_gap_s = 0.2;                 ///< longest gap that is interpolated, 0 to 10
   double gain = 1;                        ///< on all displacements, 0 to 5

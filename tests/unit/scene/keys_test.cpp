@@ -62,7 +62,8 @@ std::string toml(const json& value) {
 std::string scene_with(const std::string& key, const std::string& value) {
   std::string text = key + " = " + value + "\n";
   if (key != "scan.file") text += "scan.file = \"embedded\"\n";
-  if (key != "motion.file" && key != "motion.openface" && key != "motion.arkit")
+  if (key != "motion.file" && key != "motion.recording" && key != "motion.openface" &&
+      key != "motion.arkit")
     text += "motion.file = \"embedded\"\n";
   if (key == "solver.newmark_gamma") text += "solver.newmark_beta = 0.5\n";  // at least half of it
   if (key == "scan.file") text += "scan.landmarks = \"points.json\"\n";

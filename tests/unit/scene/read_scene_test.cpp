@@ -87,8 +87,8 @@ TEST(ReadScene, TakesOneSourceOfMotion) {
             "motion.file is given");
   EXPECT_EQ(only_problem(scan),
             "scene.toml: motion.file: expected the path of a file, or "
-            "\"embedded\", required; or motion.openface or motion.arkit in its "
-            "place");
+            "\"embedded\", required; or motion.recording, motion.openface or motion.arkit "
+            "in its place");
   const SceneFolder folder;
   const std::string csv = (folder / "motion.csv").string();
   const auto file = folder.write("scene.toml", scan + "[motion]\nopenface = \"motion.csv\"\n");

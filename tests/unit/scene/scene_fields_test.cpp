@@ -95,6 +95,8 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.motion.candide, folder / "points.json");
   const std::string other = folder.write("other.csv", "").string();
   EXPECT_EQ(read_scene(s.file, {"motion.openface=" + other}).motion.openface, other);
+  EXPECT_EQ(read_scene(s.file, {"motion.recording=" + (folder / "sub").string()}).motion.recording,
+            folder / "sub");
   EXPECT_EQ(read_scene(s.file, {"motion.arkit=" + other}).motion.arkit, other);
   EXPECT_THAT(s.motion.rigid_points, ElementsAre("r1", "r2", "r3"));
   EXPECT_EQ(s.motion.max_gap_s, 0.31);
