@@ -52,6 +52,11 @@ void write_outputs(const Options& options, const tracking::FaceModel& model,
     tracking::write_pose_csv(beside(options.out, "pose"), tracking);
     tracking::write_units_csv(beside(options.out, "units"), model, tracking);
     tracking::write_arkit_csv(beside(options.out, "arkit"), model, tracking);
+    if (!options.json)
+      std::cout << fmt::format(
+          "written: {} (points, mm), and beside it .pose.csv, .units.csv and "
+          ".arkit.csv\n",
+          options.out.string());
   }
   if (!options.trc.empty()) {
     io::TrcFile trc;
@@ -117,9 +122,10 @@ void say_what_was_tracked(const tracking::Tracking& tracking) {
   spdlog::info("{} frames, {} not valid{}{}", tracking.frames.size(), lost, lost ? "; first " : "",
                first_fault);
   if (several) spdlog::warn("several faces in {} frames: the largest was followed", several);
-  spdlog::info("ms a frame: network {:.1f}, pictures {:.1f}, fit {:.1f}; the person's shape {:.0f}",
-               1e3 * times.network_s / frames, 1e3 * times.picture_s / frames,
-               1e3 * times.fit_s / frames, 1e3 * times.neutral_s);
+  spdlog::info(
+      "ms a frame: network {:.1f}, pictures {:.1f}, fit {:.1f}; the person's shape {:.0f} ms once",
+      1e3 * times.network_s / frames, 1e3 * times.picture_s / frames, 1e3 * times.fit_s / frames,
+      1e3 * times.neutral_s);
 }
 
 void run(const Options& options) {

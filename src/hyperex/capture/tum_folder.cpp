@@ -48,6 +48,11 @@ class TumFolder : public FrameSource {
   void read_camera(const SourceOptions& options) {
     const fs::path file =
         options.camera_file.empty() ? folder_ / "camera.toml" : options.camera_file;
+    if (!fs::exists(file) && !fs::exists(folder_ / "rgb.txt") &&
+        !fs::exists(folder_ / "associations.txt"))
+      throw InputError(folder_,
+                       "is no recording: expected rgb/, depth/, rgb.txt, depth.txt and camera.toml "
+                       "(docs/tracking.md)");
     if (!fs::exists(file))
       throw InputError(file,
                        "missing: expected the camera's width, height, fx, fy, cx, cy (pixels) and "

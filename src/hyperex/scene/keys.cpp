@@ -32,9 +32,10 @@ std::vector<Key> input_keys() {
       choice<Scene, MaybeUnit>("scan.unit", AT(scan.unit), units_or("guess"),
                                "The scan's unit of length. A guess takes the one that makes the "
                                "face 10 to 30 cm wide, and says so."),
-      path<Scene>("scan.landmarks", AT(scan.landmarks),
-                  "Named points on the scan: JSON as in the README, or 3D Slicer's .mrk.json. "
-                  "Where none is given they are found by the landmark network."),
+      path<Scene>(
+          "scan.landmarks", AT(scan.landmarks),
+          "Named points on the scan: JSON as in docs/landmarks.md, or 3D Slicer's .mrk.json. "
+          "Where none is given they are found by the landmark network."),
       choice<Scene, MaybeUnit>("scan.landmarks_unit", AT(scan.landmarks_unit), units_or("file"),
                                "The landmarks' unit of length, where it is not the one that their "
                                "file states."),
