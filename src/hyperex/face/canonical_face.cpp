@@ -147,6 +147,16 @@ const CanonicalFace& canonical_face() {
   return face;
 }
 
+Triangles opened_triangles(const CanonicalFace& face) {
+  std::set<int> dropped(face.mouth.begin(), face.mouth.end());
+  dropped.insert(face.right_eye.begin(), face.right_eye.end());
+  dropped.insert(face.left_eye.begin(), face.left_eye.end());
+  Triangles kept(face.mesh.triangles.rows() - Eigen::Index(dropped.size()), 3);
+  for (Eigen::Index f = 0, row = 0; f < face.mesh.triangles.rows(); ++f)
+    if (!dropped.contains(int(f))) kept.row(row++) = face.mesh.triangles.row(f);
+  return kept;
+}
+
 std::string mirrored_landmark(const std::string& name) {
   static const std::string prefix = "ibug68_";
   if (name.size() > 2 && name.ends_with("_L")) return name.substr(0, name.size() - 1) + "R";

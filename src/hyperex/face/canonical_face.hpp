@@ -28,6 +28,9 @@ struct CanonicalFace {
 /// Parsed at the first call, the same object ever after.
 const CanonicalFace& canonical_face();
 
+/// mesh.triangles without those that close the openings.
+Triangles opened_triangles(const CanonicalFace& face);
+
 /// The inner contours of an opening, closed walks of vertices in order around it.
 const std::vector<int>& right_eye_contour();
 const std::vector<int>& left_eye_contour();

@@ -6,17 +6,11 @@
 #include <limits>
 #include <stdexcept>
 
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 
 namespace hyperex::metrics {
 namespace {
-
-double quantile(const std::vector<double>& sorted, double share) {
-  const double position = share * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<size_t>(position);
-  const size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (position - static_cast<double>(low)) * (sorted[high] - sorted[low]);
-}
 
 DistanceStatistics summary(std::vector<double> values_m) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -29,9 +23,9 @@ DistanceStatistics summary(std::vector<double> values_m) {
   }
   const double n = static_cast<double>(values_m.size());
   return {1e3 * sum / n,
-          1e3 * quantile(values_m, 0.5),
+          1e3 * quantile_of_sorted(values_m, 0.5),
           1e3 * std::sqrt(squares / n),
-          1e3 * quantile(values_m, 0.95),
+          1e3 * quantile_of_sorted(values_m, 0.95),
           1e3 * values_m.back(),
           static_cast<Eigen::Index>(values_m.size())};
 }

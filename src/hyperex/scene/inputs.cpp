@@ -111,11 +111,8 @@ motion::Motion track_recording(const Scene& scene, Inputs& in) {
     in.notes.push_back(
         "motion: no depth in the recording; lengths rest on a usual distance between the eyes");
   for (const auto& note : source->notes()) in.notes.push_back("motion: " + note);
-  const bool measured = scene.region.measured != Measured::none;
-  motion::Motion m = tracking::motion_of(model, tracking, measured);
+  motion::Motion m = tracking::motion_of(model, tracking, scene.region.measured != Measured::none);
   m.source = scene.motion.recording.string();
-  if (const int first = m.index_of("vertex_0"); measured && first >= 0)
-    m.triangles = model.mesh.triangles.array() + first;
   return m;
 }
 

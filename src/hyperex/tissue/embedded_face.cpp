@@ -4,7 +4,6 @@
 #include <CGAL/subdivision_method_3.h>
 
 #include <cassert>
-#include <set>
 
 #include "hyperex/tissue/canonical_face.hpp"
 
@@ -18,16 +17,6 @@ using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 constexpr unsigned kRounds = 2;
 // Each correction of the control mesh leaves about a third of the shrinking.
 constexpr int kCorrections = 2;
-
-Triangles opened_triangles(const CanonicalFace& face) {
-  std::set<int> dropped(face.mouth.begin(), face.mouth.end());
-  dropped.insert(face.right_eye.begin(), face.right_eye.end());
-  dropped.insert(face.left_eye.begin(), face.left_eye.end());
-  Triangles kept(face.mesh.triangles.rows() - Eigen::Index(dropped.size()), 3);
-  for (Eigen::Index f = 0, row = 0; f < face.mesh.triangles.rows(); ++f)
-    if (!dropped.contains(int(f))) kept.row(row++) = face.mesh.triangles.row(f);
-  return kept;
-}
 
 /// Vertices of the control mesh keep their indices; new ones follow.
 TriMesh subdivided(const Points& control, const Triangles& triangles) {
@@ -63,7 +52,7 @@ TriMesh subdivided(const Points& control, const Triangles& triangles) {
 
 EmbeddedFace embedded_face() {
   const CanonicalFace& face = canonical_face();
-  const Triangles triangles = opened_triangles(face);
+  const Triangles triangles = face::opened_triangles(face);
   const Eigen::Index vertices = face.mesh.points.rows();
   Points control = face.mesh.points;
   EmbeddedFace embedded;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "hyperex/tracking/expression/openface_table.hpp"
 #include "hyperex/tracking/expression/timecode.hpp"
 #include "hyperex/tracking/model/tables.hpp"
 #include "unit/io/io_testing.hpp"

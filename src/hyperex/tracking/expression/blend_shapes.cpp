@@ -12,7 +12,6 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/csv.hpp"
-#include "hyperex/tracking/expression/openface_table.hpp"
 #include "hyperex/tracking/expression/timecode.hpp"
 #include "hyperex/tracking/model/tables.hpp"
 
@@ -20,13 +19,6 @@ namespace hyperex::tracking {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// "mouthSmile*" -> Left and Right; other names as they are.
-std::vector<std::string> sides_of(const std::string& pattern) {
-  if (pattern.empty() || pattern.back() != '*') return {pattern};
-  const std::string stem = pattern.substr(0, pattern.size() - 1);
-  return {stem + "Left", stem + "Right"};
-}
 
 void check_time(const io::CsvTable& table, const std::vector<double>& time_s) {
   for (std::size_t k = 0; k < time_s.size(); ++k) {
@@ -41,7 +33,7 @@ void check_time(const io::CsvTable& table, const std::vector<double>& time_s) {
 }
 
 /// The names of ARKit's 52 blend shapes.
-const std::set<std::string>& arkit_names() {
+const std::set<std::string>& all_blend_shapes() {
   static const std::set<std::string> names = [] {
     std::set<std::string> all;
     for (const char* pattern :
@@ -52,7 +44,7 @@ const std::set<std::string>& arkit_names() {
           "mouthLeft",      "mouthLowerDown*", "mouthPress*",     "mouthPucker",     "mouthRight",
           "mouthRollLower", "mouthRollUpper",  "mouthShrugLower", "mouthShrugUpper", "mouthSmile*",
           "mouthStretch*",  "mouthUpperUp*",   "noseSneer*",      "tongueOut"})
-      for (const auto& name : sides_of(pattern)) all.insert(name);
+      for (const auto& name : arkit_names(pattern)) all.insert(name);
     return all;
   }();
   return names;
@@ -61,7 +53,6 @@ const std::set<std::string>& arkit_names() {
 }  // namespace
 
 BlendShapes read_arkit(const std::filesystem::path& file) {
-  double rate_hz = 0;
   const io::CsvTable table = io::read_csv(file, [](const std::string& name, std::string_view cell) {
     return name == "Timecode" ? timecode_frames(cell) : std::nullopt;
   });
@@ -80,7 +71,7 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
   } else {
     std::vector<double> codes(static_cast<std::size_t>(rows));
     for (Eigen::Index k = 0; k < rows; ++k) codes[k] = table.values(k, *timecode);
-    rate_hz = frame_rate_of(codes);
+    const double rate_hz = frame_rate_of(codes);
     for (Eigen::Index k = 0; k < rows; ++k) out.time_s[k] = timecode_seconds(codes[k], rate_hz);
     const double start = out.time_s.empty() ? 0 : out.time_s.front();
     for (double& t : out.time_s) t -= start;
@@ -93,7 +84,7 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
   for (std::size_t c = 0; c < table.names.size(); ++c) {
     std::string name = table.names[c];
     name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
-    if (arkit_names().contains(name)) {
+    if (all_blend_shapes().contains(name)) {
       out.names.push_back(name);
       columns.push_back(static_cast<int>(c));
     } else if (static_cast<int>(c) != time.value_or(-1) && name != "timecode") {
@@ -132,7 +123,7 @@ BlendShapes read_openface(const std::filesystem::path& file) {
     const auto column = table.find(row.at(0) + "_r");
     if (!column) continue;
     any = true;
-    for (const auto& name : sides_of(row.at(1))) {
+    for (const auto& name : arkit_names(row.at(1))) {
       auto at = std::find(out.names.begin(), out.names.end(), name) - out.names.begin();
       if (at == static_cast<std::ptrdiff_t>(out.names.size())) {
         out.names.push_back(name);
@@ -167,8 +158,7 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
   std::set<std::string> used;
   const auto mean_of = [&](const std::string& pattern) -> Eigen::VectorXd {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(shapes.weights.rows());
-    if (pattern.empty()) return sum;
-    const auto names = sides_of(pattern);
+    const auto names = arkit_names(pattern);
     for (const auto& name : names)
       for (std::size_t c = 0; c < shapes.names.size(); ++c)
         if (shapes.names[c] == name) {
@@ -202,13 +192,9 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
   for (const auto& [name, vertices] : model.landmarks) out.names.push_back(name);
   for (Eigen::Index k = 0; k < alpha.rows(); ++k) {
     Points at = Points::Constant(static_cast<Eigen::Index>(out.names.size()), 3, kNan);
-    if (alpha.row(k).allFinite()) {
-      const Points face =
-          deformed(model.mesh.points, model.animation_units, alpha.row(k).transpose());
-      Eigen::Index i = 0;
-      for (const auto& [name, vertices] : model.landmarks)
-        at.row(i++) = landmark_at(vertices, face).transpose();
-    }
+    if (alpha.row(k).allFinite())
+      at = landmarks_on(
+          model, deformed(model.mesh.points, model.animation_units, alpha.row(k).transpose()));
     out.positions.push_back(std::move(at));
   }
   return out;

@@ -27,7 +27,7 @@ struct BlendShapes {
 BlendShapes read_arkit(const std::filesystem::path& file);
 
 /// A CSV of OpenFace 2: `timestamp`, `success` and intensities `AU01_r` ... from 0 to 5, made
-/// blend-shape weights by expression/data/openface_arkit.csv. Frames of no success are rows of NaN.
+/// blend-shape weights by model/data/openface_arkit.csv. Frames of no success are rows of NaN.
 /// Throws InputError: no timestamp, no intensities, one outside 0 to 5.
 BlendShapes read_openface(const std::filesystem::path& file);
 

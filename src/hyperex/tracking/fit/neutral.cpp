@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/geometry/transform.hpp"
 
 namespace hyperex::tracking {
@@ -25,12 +26,6 @@ double outer_eye_distance(const FaceModel& model, const Points& points) {
   return (landmark_at(model.landmarks.at("exocanthion_L"), points) -
           landmark_at(model.landmarks.at("exocanthion_R"), points))
       .norm();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The person's size relative to the model, from depth: similarities onto the vertices as depth has

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/io/csv.hpp"
 
 namespace hyperex::tracking {
@@ -31,14 +32,11 @@ void check_times(const io::CsvTable& table, const std::vector<double>& time_s) {
                         fmt::format("the time of that row in truth_pose.csv, {}", time_s[k])});
 }
 
-/// The q-th quantile, between neighbours by linear interpolation; NaN of none.
-double quantile(std::vector<double> values, double q) {
+/// NaN of none.
+double quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
-  const double at = q * double(values.size() - 1);
-  const std::size_t below = std::size_t(at);
-  if (below + 1 >= values.size()) return values.back();
-  return values[below] + (at - double(below)) * (values[below + 1] - values[below]);
+  return quantile_of_sorted(values, share);
 }
 
 Quantiles quantiles(const std::vector<double>& values) {

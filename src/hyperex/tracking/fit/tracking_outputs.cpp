@@ -23,23 +23,12 @@ struct ArkitPart {
   double factor;
 };
 
-/// "eyeBlink*" stands for both sides.
-std::vector<std::string> both_sides(const std::string& name) {
-  const auto star = name.find('*');
-  if (star == std::string::npos) return {name};
-  std::string left = name, right = name;
-  left.replace(star, 1, "Left");
-  right.replace(star, 1, "Right");
-  return {left, right};
-}
-
 std::map<std::string, std::vector<ArkitPart>> arkit_parts(const FaceModel& model) {
   std::map<std::string, std::vector<ArkitPart>> parts;
   for (std::size_t k = 0; k < model.animation_units.size(); ++k) {
     const DeformationUnit& unit = model.animation_units[k];
     const auto add = [&](const std::string& names, double factor) {
-      if (names.empty()) return;
-      for (const auto& name : both_sides(names)) parts[name].push_back({Eigen::Index(k), factor});
+      for (const auto& name : arkit_names(names)) parts[name].push_back({Eigen::Index(k), factor});
     };
     add(unit.arkit, unit.arkit_scale);
     add(unit.arkit_negative, -unit.arkit_scale);
@@ -80,9 +69,7 @@ motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool 
     if (!motion.time_s.empty() && frame.time_s <= motion.time_s.back()) continue;
     Points sample = Points::Constant(Eigen::Index(motion.names.size()), 3, kNan);
     if (frame.valid) {
-      Eigen::Index row = 0;
-      for (const auto& [name, vertices] : model.landmarks)
-        sample.row(row++) = landmark_at(vertices, frame.vertices_m).transpose();
+      sample.topRows(landmarks) = landmarks_on(model, frame.vertices_m);
       if (with_vertices) sample.bottomRows(sample.rows() - landmarks) = frame.vertices_m;
     }
     motion.time_s.push_back(frame.time_s);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 
 #include "hyperex/face/canonical_face.hpp"
@@ -142,16 +141,6 @@ DeformationUnit spread(const UnitRows& rows, const Points& points, const SparseM
   return unit;
 }
 
-Triangles opened_triangles(const face::CanonicalFace& face) {
-  std::set<int> dropped(face.mouth.begin(), face.mouth.end());
-  dropped.insert(face.right_eye.begin(), face.right_eye.end());
-  dropped.insert(face.left_eye.begin(), face.left_eye.end());
-  Triangles kept(face.mesh.triangles.rows() - Eigen::Index(dropped.size()), 3);
-  for (Eigen::Index f = 0, row = 0; f < face.mesh.triangles.rows(); ++f)
-    if (!dropped.contains(int(f))) kept.row(row++) = face.mesh.triangles.row(f);
-  return kept;
-}
-
 std::vector<DeformationUnit> size_units(const Points& points) {
   std::vector<DeformationUnit> units;
   for (int axis = 0; axis < 3; ++axis) {
@@ -174,7 +163,7 @@ const FaceModel& canonical_model() {
     const face::CanonicalFace& face = face::canonical_face();
     FaceModel made;
     made.name = "canonical";
-    made.mesh = {face.mesh.points, opened_triangles(face)};
+    made.mesh = {face.mesh.points, face::opened_triangles(face)};
     made.landmarks = face.landmarks;
     for (const auto& row : table_rows(canonical_landmarks_table(), "name,vertices"))
       made.landmarks[row.at(0)] = table_indices(row.at(1), int(face.mesh.points.rows()));

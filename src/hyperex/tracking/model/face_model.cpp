@@ -31,4 +31,22 @@ Vec3 landmark_at(const std::vector<int>& vertices, const Points& points) {
   return sum / double(vertices.size());
 }
 
+Points landmarks_on(const FaceModel& model, const Points& points) {
+  Points on(Eigen::Index(model.landmarks.size()), 3);
+  Eigen::Index row = 0;
+  for (const auto& [name, vertices] : model.landmarks)
+    on.row(row++) = landmark_at(vertices, points).transpose();
+  return on;
+}
+
+std::vector<std::string> arkit_names(const std::string& pattern) {
+  if (pattern.empty()) return {};
+  const auto star = pattern.find('*');
+  if (star == std::string::npos) return {pattern};
+  std::string left = pattern, right = pattern;
+  left.replace(star, 1, "Left");
+  right.replace(star, 1, "Right");
+  return {left, right};
+}
+
 }  // namespace hyperex::tracking

@@ -52,6 +52,12 @@ Points deformed(const Points& base, const std::vector<DeformationUnit>& units,
 
 /// The mean of a landmark's vertices.
 Vec3 landmark_at(const std::vector<int>& vertices, const Points& points);
+/// All landmarks of a model on `points`, its vertices, in the order of model.landmarks.
+Points landmarks_on(const FaceModel& model, const Points& points);
+
+/// The blend shapes that a unit's `arkit` names: "mouthSmile*" both sides, Left and Right; a name
+/// without a star itself; nothing for "".
+std::vector<std::string> arkit_names(const std::string& pattern);
 
 /// The canonical face (face/canonical_face.hpp) with animation units of its own
 /// (model/data/canonical_units.csv) and three shape units: width, height and depth by 10 %. Each of

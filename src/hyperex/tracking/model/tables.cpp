@@ -17,14 +17,16 @@ __asm__(".pushsection .rodata\n"  //
                     HYPEREX_TABLE("candide_pairs", HYPEREX_MODEL_DATA "/candide_pairs.csv")
                         HYPEREX_TABLE("candide_landmarks",
                                       HYPEREX_MODEL_DATA "/candide_landmarks.csv")
-                            HYPEREX_TABLE("candide_units", HYPEREX_MODEL_DATA
-                                          "/candide_units.csv") ".byte 0\n.popsection\n");
+                            HYPEREX_TABLE("candide_units", HYPEREX_MODEL_DATA "/candide_units.csv")
+                                HYPEREX_TABLE("openface_arkit", HYPEREX_MODEL_DATA
+                                              "/openface_arkit.csv") ".byte 0\n.popsection\n");
 
 extern "C" const char hyperex_canonical_units_begin[], hyperex_canonical_units_end[],
     hyperex_tracked_landmarks_begin[], hyperex_tracked_landmarks_end[],
     hyperex_network_points_begin[], hyperex_network_points_end[], hyperex_candide_pairs_begin[],
     hyperex_candide_pairs_end[], hyperex_candide_landmarks_begin[], hyperex_candide_landmarks_end[],
-    hyperex_candide_units_begin[], hyperex_candide_units_end[];
+    hyperex_candide_units_begin[], hyperex_candide_units_end[], hyperex_openface_arkit_begin[],
+    hyperex_openface_arkit_end[];
 
 namespace hyperex::tracking {
 
@@ -51,6 +53,9 @@ std::string_view candide_landmarks_table() {
 }
 std::string_view candide_units_table() {
   return {hyperex_candide_units_begin, hyperex_candide_units_end};
+}
+std::string_view openface_arkit_table() {
+  return {hyperex_openface_arkit_begin, hyperex_openface_arkit_end};
 }
 
 std::vector<std::vector<std::string>> table_rows(std::string_view text, std::string_view header) {

@@ -13,6 +13,7 @@ std::string_view network_points_table();
 std::string_view candide_pairs_table();
 std::string_view candide_landmarks_table();
 std::string_view candide_units_table();
+std::string_view openface_arkit_table();
 
 /// The rows of such a table as cells, without comments, blank lines and the line `header`.
 /// They are ours: a fault in them is a fault of the build.

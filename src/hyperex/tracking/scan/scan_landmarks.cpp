@@ -10,6 +10,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/tracking/scan/find_front.hpp"
@@ -136,13 +137,6 @@ Vec3 agreed(const std::vector<Observation>& seen, int i, Vec3 point, const Vec3&
   return point;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
@@ -178,7 +172,7 @@ ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColou
   found.scan_from_canonical = fit_similarity(canonical.mesh.points, points);
   found.views = int(seen.size());
   for (const Observation& o : seen) found.score += o.score / double(seen.size());
-  found.spread_m = median(off);
+  found.spread_m = off.empty() ? 0 : median(off);
   return found;
 }
 
