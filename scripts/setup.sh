@@ -19,9 +19,8 @@ packages=(
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   libopencv-dnn-dev libflatbuffers-dev flatbuffers-compiler  # the landmark networks
   libcairo2-dev fonts-dejavu-core  # pictures with words on them
-  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev  # pictures of recordings
-  libturbojpeg0-dev        # tells torn pictures from sound ones
-  libopencv-videoio-dev    # video files and webcams
+  libopencv-core-dev libopencv-imgproc-dev libturbojpeg0-dev libpng-dev  # pictures of recordings
+  libopencv-videoio-dev libopencv-imgcodecs-dev  # video files and webcams; pictures of tests
   libfreenect-dev libopenni2-dev   # depth cameras
   libgtest-dev libgmock-dev
 )

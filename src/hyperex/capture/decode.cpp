@@ -2,46 +2,29 @@
 #include "hyperex/capture/decode.hpp"
 
 #include <turbojpeg.h>
-#include <zlib.h>
 
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
-#include <string_view>
-#include <vector>
+#include <opencv2/core.hpp>
 
 #include "hyperex/capture/camera_file.hpp"
+#include "hyperex/capture/png_picture.hpp"
 
+// Not by OpenCV's imgcodecs: it brings some 120 shared libraries into the program, and fills torn
+// JPEG data with grey and keeps quiet.
 namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
-using Bytes = std::vector<unsigned char>;
+using Bytes = std::span<const unsigned char>;
 
-bool begins_with(const Bytes& bytes, std::string_view magic) {
+/// A header torn in the right place asks for any amount of memory.
+constexpr double most_pixels = 1 << 28;
+
+bool begins_with(Bytes bytes, std::string_view magic) {
   return bytes.size() >= magic.size() &&
          std::equal(magic.begin(), magic.end(), bytes.begin(),
                     [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
-}
-
-/// PNG checks itself, chunk by chunk. Done here first, as libpng prints its complaints itself.
-bool is_torn_png(const Bytes& bytes) {
-  constexpr std::string_view magic = "\x89PNG\r\n\x1A\n";
-  if (!begins_with(bytes, "\x89PNG")) return false;
-  const auto number = [&](std::size_t at) {
-    return std::size_t{bytes[at]} << 24 | std::size_t{bytes[at + 1]} << 16 |
-           std::size_t{bytes[at + 2]} << 8 | std::size_t{bytes[at + 3]};
-  };
-  // A chunk: its length, its four letters, so many bytes, the check sum of letters and bytes.
-  for (std::size_t at = magic.size(); at + 12 <= bytes.size();) {
-    const std::size_t length = number(at);
-    if (length > bytes.size() - at - 12) return true;
-    const unsigned char* letters = bytes.data() + at + 4;
-    if (crc32(0, letters, static_cast<uInt>(length + 4)) != number(at + 8 + length)) return true;
-    if (std::equal(letters, letters + 4, "IEND")) return false;
-    at += 12 + length;
-  }
-  return true;
 }
 
 /// A byte or two too many before the end: what webcams write day in, day out, and no tear.
@@ -52,13 +35,14 @@ bool is_harmless(const std::string& warning) {
          count <= 4 && marker == 0xd9;
 }
 
-/// OpenCV keeps quiet about torn JPEG data and fills up with grey, libjpeg-turbo itself does not.
-Decoded decode_jpeg(const Bytes& bytes, const std::string& name) {
+Decoded decode_jpeg(Bytes bytes, const std::string& name) {
   const std::unique_ptr<void, int (*)(void*)> decoder(tjInitDecompress(), tjDestroy);
   int width = 0, height = 0, subsampling = 0, colours = 0;
   if (tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &width, &height, &subsampling,
                           &colours) != 0)
     return {{}, name + ": torn or no JPEG (" + tjGetErrorStr2(decoder.get()) + ")"};
+  if (double(width) * height > most_pixels)
+    return {{}, name + ": " + size_text(width, height) + " pixels are beyond reason"};
   cv::Mat picture(height, width, CV_8UC3);
   if (tjDecompress2(decoder.get(), bytes.data(), bytes.size(), picture.data, width,
                     static_cast<int>(picture.step), height, TJPF_BGR, 0) != 0 &&
@@ -67,24 +51,29 @@ Decoded decode_jpeg(const Bytes& bytes, const std::string& name) {
   return {picture, {}};
 }
 
-Decoded decode(const fs::path& file, int flags) {
+Decoded decode_png(Bytes bytes, PngAs as, const std::string& name) {
+  PngPicture png = read_png(bytes, as, most_pixels);
+  if (!png.fault.empty())
+    return {{}, name + ": torn picture (cut short or damaged: " + png.fault + ")"};
+  return {std::move(png.picture), {}};
+}
+
+/// The bytes of a file, or the fault.
+std::vector<unsigned char> read_bytes(const fs::path& file, std::string& fault) {
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   std::error_code ignored;
-  if (!stream || !fs::is_regular_file(file, ignored)) return {{}, file.string() + ": no such file"};
-  Bytes bytes(static_cast<std::size_t>(stream.tellg()));
+  if (!stream || !fs::is_regular_file(file, ignored)) {
+    fault = file.string() + ": no such file";
+    return {};
+  }
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(stream.tellg()));
   stream.seekg(0).read(reinterpret_cast<char*>(bytes.data()),
                        static_cast<std::streamsize>(bytes.size()));
-  if (!stream) return {{}, file.string() + ": cannot be read"};
-  if (bytes.empty()) return {{}, file.string() + ": empty file"};
-  if ((flags & cv::IMREAD_COLOR) != 0 && begins_with(bytes, "\xFF\xD8"))
-    return decode_jpeg(bytes, file.string());
-  if (is_torn_png(bytes)) return {{}, file.string() + ": torn picture (cut short or damaged)"};
-  try {
-    cv::Mat picture = cv::imdecode(bytes, flags);
-    if (!picture.empty()) return {picture, {}};
-  } catch (const cv::Exception&) {  // sizes beyond reason in a torn header
-  }
-  return {{}, file.string() + ": torn picture, or of no known format"};
+  if (!stream)
+    fault = file.string() + ": cannot be read";
+  else if (bytes.empty())
+    fault = file.string() + ": empty file";
+  return bytes;
 }
 
 bool has_size(const cv::Mat& picture, const Intrinsics& expected) {
@@ -98,18 +87,31 @@ std::string wrong_size(const fs::path& file, const cv::Mat& picture, const Intri
 
 }  // namespace
 
+Decoded decode_colour(Bytes bytes, const std::string& name) {
+  if (begins_with(bytes, "\xFF\xD8")) return decode_jpeg(bytes, name);
+  if (is_png(bytes)) return decode_png(bytes, PngAs::bgr, name);
+  return {{}, name + ": torn picture, or neither JPEG nor PNG"};
+}
+
 Decoded decode_colour(const fs::path& file, const Intrinsics& expected) {
-  Decoded decoded = decode(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  Decoded decoded;
+  const auto bytes = read_bytes(file, decoded.fault);
+  if (decoded.fault.empty()) decoded = decode_colour(bytes, file.string());
   if (decoded.fault.empty() && !has_size(decoded.picture, expected))
     return {{}, wrong_size(file, decoded.picture, expected)};
   return decoded;
 }
 
 Decoded decode_depth(const fs::path& file, const Intrinsics& expected, double depth_per_metre) {
-  Decoded decoded = decode(file, cv::IMREAD_UNCHANGED);
+  constexpr const char* kind = ": expected depth as a 16-bit picture of one channel";
+  Decoded decoded;
+  const auto bytes = read_bytes(file, decoded.fault);
   if (!decoded.fault.empty()) return decoded;
-  if (decoded.picture.type() != CV_16UC1)
-    return {{}, file.string() + ": expected depth as a 16-bit picture of one channel"};
+  if (begins_with(bytes, "\xFF\xD8")) return {{}, file.string() + kind};
+  if (!is_png(bytes)) return {{}, file.string() + ": torn picture, or no PNG"};
+  decoded = decode_png(bytes, PngAs::stored_grey, file.string());
+  if (!decoded.fault.empty()) return decoded;
+  if (decoded.picture.type() != CV_16UC1) return {{}, file.string() + kind};
   if (!has_size(decoded.picture, expected))
     return {{}, wrong_size(file, decoded.picture, expected)};
   if (cv::countNonZero(decoded.picture) == 0)

@@ -6,11 +6,11 @@
 #include <chrono>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "hyperex/capture/buffered.hpp"
 #include "hyperex/capture/camera_file.hpp"
 #include "hyperex/capture/faults.hpp"
+#include "hyperex/capture/video_library.hpp"
 #include "hyperex/core/error.hpp"
 
 namespace hyperex::capture {
@@ -57,17 +57,17 @@ class Capture : public FrameSource {
   std::vector<std::string> notes() const override { return notes_; }
 
  protected:
-  Capture(std::string name, cv::VideoCapture capture)
-      : name_(std::move(name)), capture_(std::move(capture)), faults_(name_) {}
+  Capture(std::string name, std::unique_ptr<VideoReader> reader)
+      : name_(std::move(name)), reader_(std::move(reader)), faults_(name_) {}
 
   void begin(const SourceOptions& options) {
-    if (!capture_.read(first_) || first_.empty()) throw InputError(name_ + ": gives no picture");
+    if (!reader_->read(first_) || first_.empty()) throw InputError(name_ + ": gives no picture");
     intrinsics_ = camera_of(name_, first_.cols, first_.rows, options, notes_);
   }
   /// Empty at the end.
   cv::Mat read() {
     cv::Mat picture = std::exchange(first_, cv::Mat());
-    if (picture.empty() && !capture_.read(picture)) return {};
+    if (picture.empty() && !reader_->read(picture)) return {};
     return as_bgr(picture);
   }
   Frame frame_of(cv::Mat picture, double time_s) {
@@ -86,7 +86,7 @@ class Capture : public FrameSource {
   }
 
   std::string name_;
-  cv::VideoCapture capture_;
+  std::unique_ptr<VideoReader> reader_;
   cv::Mat first_;
   Intrinsics intrinsics_;
   std::vector<std::string> notes_;
@@ -97,13 +97,13 @@ class VideoFile : public Capture {
  public:
   VideoFile(const fs::path& file, const SourceOptions& options)
       : Capture(file.string(), open(file)) {
-    const double rate = capture_.get(cv::CAP_PROP_FPS);
-    const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+    const double rate = reader_->frames_a_second();
+    const double count = reader_->frame_count();
     has_rate_ = std::isfinite(rate) && rate > 0.1 && rate < 10000;
     period_s_ = has_rate_ ? 1 / rate : 1.0 / 30;
     if (std::isfinite(count) && count >= 1 && count < 1e9) count_ = static_cast<std::size_t>(count);
     begin(options);
-    first_time_s_ = capture_.get(cv::CAP_PROP_POS_MSEC) / 1000;
+    first_time_s_ = reader_->position_s();
     if (!has_rate_) notes_.push_back(name_ + ": states no frame rate; taken as 30 a second");
   }
   bool live() const override { return false; }
@@ -125,10 +125,9 @@ class VideoFile : public Capture {
   }
 
  private:
-  static cv::VideoCapture open(const fs::path& file) {
+  static std::unique_ptr<VideoReader> open(const fs::path& file) {
     if (!fs::is_regular_file(file)) throw InputError(file, "no such file");
-    cv::VideoCapture capture(file.string(), cv::CAP_FFMPEG);
-    if (capture.isOpened()) return capture;
+    if (auto reader = video_library().open_file(file.string())) return reader;
     throw InputError(file, "no video that can be read");
   }
   double start() {
@@ -137,7 +136,7 @@ class VideoFile : public Capture {
   }
   /// The file's time goes on where it rises sensibly, else one period is added.
   double advance() {
-    const double file_time_s = capture_.get(cv::CAP_PROP_POS_MSEC) / 1000;
+    const double file_time_s = reader_->position_s();
     const double step_s = file_time_s - last_file_time_s_;
     last_file_time_s_ = file_time_s;
     return time_s_ += std::isfinite(step_s) && step_s > 0 ? step_s : period_s_;
@@ -170,20 +169,19 @@ class Webcam : public Capture {
   }
 
  private:
-  static cv::VideoCapture open(int number, const SourceOptions& options) {
+  static std::unique_ptr<VideoReader> open(int number, const SourceOptions& options) {
     const fs::path device = fmt::format("/dev/video{}", number);
     if (!fs::exists(device))
       throw InputError(fmt::format("webcam:{}: there is no {}", number, device.string()));
-    cv::VideoCapture capture(number, cv::CAP_V4L2);
-    if (!capture.isOpened())
+    auto reader = video_library().open_webcam(number);
+    if (!reader)
       throw InputError(fmt::format("webcam:{}: {} cannot be opened (in use, or not permitted?)",
                                    number, device.string()));
     if (!options.camera_file.empty()) {
       const Intrinsics wanted = read_camera_file(options.camera_file).intrinsics;
-      capture.set(cv::CAP_PROP_FRAME_WIDTH, wanted.width_px);
-      capture.set(cv::CAP_PROP_FRAME_HEIGHT, wanted.height_px);
+      reader->ask_for_size(wanted.width_px, wanted.height_px);
     }
-    return capture;
+    return reader;
   }
   std::chrono::steady_clock::time_point start_;
 };

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
+#include "hyperex/capture/decode.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 /// A vertex on a seam of the texture has several places there; the last one serves.
 render::VertexColours texture_at_vertices(const io::Scan& scan) {
-  const cv::Mat bgr = cv::imdecode(scan.texture->bytes, cv::IMREAD_COLOR);
+  const cv::Mat bgr = capture::decode_colour(scan.texture->bytes, "texture").picture;
   if (bgr.empty()) return {};
   render::VertexColours colours = render::VertexColours::Constant(scan.mesh.points.rows(), 3, 200);
   const auto pixel = [](float share, int count) {

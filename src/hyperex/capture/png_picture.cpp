@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/capture/png_picture.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace hyperex::capture {
+namespace {
+
+/// libpng leaves by longjmp where it fails: nothing with a destructor may be made between
+/// png_jmpbuf and there, so all of that stands here.
+struct Reading {
+  std::span<const unsigned char> left;
+  PngPicture result;
+  std::vector<png_bytep> rows;
+};
+
+void fail(png_structp png, png_const_charp words) {
+  static_cast<Reading*>(png_get_error_ptr(png))->result.fault = words;
+  png_longjmp(png, 1);
+}
+void keep_quiet(png_structp, png_const_charp) {}
+
+void give_bytes(png_structp png, png_bytep to, std::size_t count) {
+  auto& left = static_cast<Reading*>(png_get_io_ptr(png))->left;
+  if (count > left.size()) png_error(png, "ends too early");
+  std::memcpy(to, left.data(), count);
+  left = left.subspan(count);
+}
+
+void to_bgr(png_structp png, png_infop info) {
+  const int colours = png_get_color_type(png, info);
+  png_set_expand(png);  // palettes, few bits, a transparent colour
+  if (png_get_bit_depth(png, info) == 16) png_set_scale_16(png);
+  if ((colours & PNG_COLOR_MASK_COLOR) == 0) png_set_gray_to_rgb(png);
+  png_set_strip_alpha(png);
+  png_set_bgr(png);
+}
+
+void to_stored_grey(png_structp png, png_infop info) {
+  if (png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png, info) == 16) {
+    png_set_swap(png);  // stored with the high byte first
+    return;
+  }
+  to_bgr(png, info);
+}
+
+void read(png_structp png, png_infop info, PngAs as, double most_pixels, Reading& reading) {
+  png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+  png_set_read_fn(png, &reading, give_bytes);
+  png_read_info(png, info);
+  const auto width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+  if (double(width) * height > most_pixels) png_error(png, "size beyond reason");
+  as == PngAs::bgr ? to_bgr(png, info) : to_stored_grey(png, info);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  const int channels = png_get_channels(png, info);
+  const int depth = png_get_bit_depth(png, info) == 16 ? CV_16U : CV_8U;
+  reading.result.picture.create(int(height), int(width), CV_MAKETYPE(depth, channels));
+  reading.rows.resize(height);
+  for (png_uint_32 y = 0; y < height; ++y) reading.rows[y] = reading.result.picture.ptr(int(y));
+  png_read_image(png, reading.rows.data());
+  png_read_end(png, nullptr);
+}
+
+}  // namespace
+
+bool is_png(std::span<const unsigned char> bytes) {
+  return bytes.size() >= 4 && png_sig_cmp(bytes.data(), 0, 4) == 0;
+}
+
+PngPicture read_png(std::span<const unsigned char> bytes, PngAs as, double most_pixels) {
+  Reading reading{bytes, {}, {}};
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reading, fail, keep_quiet);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  if (info == nullptr)
+    reading.result.fault = "no memory";
+  else if (setjmp(png_jmpbuf(png)) == 0)
+    read(png, info, as, most_pixels, reading);
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (!reading.result.fault.empty()) reading.result.picture.release();
+  return std::move(reading.result);
+}
+
+}  // namespace hyperex::capture

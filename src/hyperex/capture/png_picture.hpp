@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <opencv2/core/mat.hpp>
+#include <span>
+#include <string>
+
+namespace hyperex::capture {
+
+enum class PngAs {
+  bgr,         ///< CV_8UC3, whatever is stored
+  stored_grey  ///< CV_16UC1 as stored; of any other kind as with `bgr`
+};
+
+struct PngPicture {
+  cv::Mat picture;    ///< empty where `fault` is not
+  std::string fault;  ///< libpng's words: cut short, a check sum that does not fit
+};
+
+bool is_png(std::span<const unsigned char> bytes);
+/// The whole file is read to its end and every check sum in it held to, so a torn one is a fault.
+/// So is one of more than `most_pixels`.
+PngPicture read_png(std::span<const unsigned char> bytes, PngAs as, double most_pixels);
+
+}  // namespace hyperex::capture

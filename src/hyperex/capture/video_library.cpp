@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/capture/video_library.hpp"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include "hyperex/core/error.hpp"
+
+namespace hyperex::capture {
+namespace {
+namespace fs = std::filesystem;
+
+const VideoLibrary* load() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path file = program.parent_path().parent_path() / "lib/hyperex/hx_video.so";
+  if (error || !fs::exists(file))
+    throw InputError(file, "missing: videos and webcams are read by this part of the program");
+  void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw InputError(file, std::string("cannot be loaded: ") + ::dlerror());
+  using Give = const VideoLibrary*();
+  auto* give = reinterpret_cast<Give*>(::dlsym(library, "hyperex_video"));
+  if (give == nullptr) throw InputError(file, "is not the part of this program that reads videos");
+  return give();
+}
+
+}  // namespace
+
+const VideoLibrary& video_library() {
+  static const VideoLibrary* const library = load();
+  return *library;
+}
+
+}  // namespace hyperex::capture

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// hx_video.so: all of the program that is linked to OpenCV's videoio.
+#include <opencv2/videoio.hpp>
+
+#include "hyperex/capture/video_library.hpp"
+
+namespace hyperex::capture {
+namespace {
+
+class Reader : public VideoReader {
+ public:
+  explicit Reader(cv::VideoCapture capture) : capture_(std::move(capture)) {}
+  bool read(cv::Mat& picture) override { return capture_.read(picture); }
+  double frames_a_second() const override { return capture_.get(cv::CAP_PROP_FPS); }
+  double frame_count() const override { return capture_.get(cv::CAP_PROP_FRAME_COUNT); }
+  double position_s() const override { return capture_.get(cv::CAP_PROP_POS_MSEC) / 1000; }
+  void ask_for_size(int width_px, int height_px) override {
+    capture_.set(cv::CAP_PROP_FRAME_WIDTH, width_px);
+    capture_.set(cv::CAP_PROP_FRAME_HEIGHT, height_px);
+  }
+
+ private:
+  cv::VideoCapture capture_;
+};
+
+class Library : public VideoLibrary {
+ public:
+  std::unique_ptr<VideoReader> open_file(const std::string& file) const override {
+    return opened(cv::VideoCapture(file, cv::CAP_FFMPEG));
+  }
+  std::unique_ptr<VideoReader> open_webcam(int number) const override {
+    return opened(cv::VideoCapture(number, cv::CAP_V4L2));
+  }
+
+ private:
+  static std::unique_ptr<VideoReader> opened(cv::VideoCapture capture) {
+    if (!capture.isOpened()) return nullptr;
+    return std::make_unique<Reader>(std::move(capture));
+  }
+};
+
+}  // namespace
+}  // namespace hyperex::capture
+
+extern "C" __attribute__((visibility("default"))) const hyperex::capture::VideoLibrary*
+hyperex_video() {
+  static const hyperex::capture::Library library;
+  return &library;
+}
