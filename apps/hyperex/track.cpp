@@ -16,7 +16,7 @@
 #include "hyperex/io/trc.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/tracking/fit/score.hpp"
-#include "hyperex/tracking/fit/tracking_outputs.hpp"
+#include "hyperex/tracking/output/tracking_outputs.hpp"
 
 namespace hyperex::cli {
 namespace {

@@ -16,7 +16,7 @@
 #include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/landmarks.hpp"
 #include "hyperex/tracking/expression/blend_shapes.hpp"
-#include "hyperex/tracking/fit/tracking_outputs.hpp"
+#include "hyperex/tracking/output/tracking_outputs.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::scene {

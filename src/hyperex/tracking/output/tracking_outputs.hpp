@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
-#include <vector>
 
-#include "hyperex/capture/source.hpp"
 #include "hyperex/motion/motion.hpp"
-#include "hyperex/tracking/fit/face_tracker.hpp"
+#include "hyperex/tracking/fit/track_source.hpp"
 
 namespace hyperex::tracking {
-
-/// A whole recording, tracked.
-struct Tracking {
-  std::vector<TrackedFrame> frames;
-  std::optional<Neutral> neutral;
-  TrackerTimes times;
-};
-
-/// Tracks a source to its end, with a progress bar. Throws InputError where no frame shows a face.
-Tracking track(capture::FrameSource& source, const FaceModel& model,
-               const TrackerOptions& options = {});
 
 /// The model's landmarks, and on demand its vertices ("vertex_K"), over time in the head's frame
 /// (+x the subject's left, +y up, +z forward); rows of NaN where a frame is not valid. Frames whose

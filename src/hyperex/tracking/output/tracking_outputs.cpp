@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/fit/tracking_outputs.hpp"
+#include "hyperex/tracking/output/tracking_outputs.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,6 @@
 #include <limits>
 #include <map>
 
-#include "hyperex/core/error.hpp"
-#include "hyperex/core/progress.hpp"
 #include "hyperex/io/csv.hpp"
 
 namespace hyperex::tracking {
@@ -37,26 +35,6 @@ std::map<std::string, std::vector<ArkitPart>> arkit_parts(const FaceModel& model
 }
 
 }  // namespace
-
-Tracking track(capture::FrameSource& source, const FaceModel& model,
-               const TrackerOptions& options) {
-  FaceTracker tracker(model, source.intrinsics(), options);
-  Tracking tracking;
-  Progress progress("tracking", long(source.frame_count().value_or(0)));
-  const auto keep = [&](std::vector<TrackedFrame> frames) {
-    for (auto& frame : frames) tracking.frames.push_back(std::move(frame));
-  };
-  long done = 0;
-  while (const auto frame = source.next()) {
-    keep(tracker.feed(*frame));
-    progress.update(++done);
-  }
-  keep(tracker.finish());
-  tracking.neutral = tracker.neutral();
-  tracking.times = tracker.times();
-  if (!tracking.neutral) throw InputError("tracking", "no face was found in any of the frames");
-  return tracking;
-}
 
 motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool with_vertices) {
   motion::Motion motion;

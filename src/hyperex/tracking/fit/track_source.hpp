@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "hyperex/capture/source.hpp"
+#include "hyperex/tracking/fit/face_tracker.hpp"
+
+namespace hyperex::tracking {
+
+/// A whole recording, tracked.
+struct Tracking {
+  std::vector<TrackedFrame> frames;
+  std::optional<Neutral> neutral;
+  TrackerTimes times;
+};
+
+/// Told of each frame once it is finished, in order, with its picture (BGR; empty where the source
+/// had none).
+using FrameVisitor = std::function<void(const TrackedFrame&, const cv::Mat& bgr)>;
+
+/// Tracks a source to its end, with a progress bar. With `visit` the pictures of frames that are
+/// held back (FaceTracker) are kept in memory until they are finished. Throws InputError where no
+/// frame shows a face.
+Tracking track(capture::FrameSource& source, const FaceModel& model,
+               const TrackerOptions& options = {}, const FrameVisitor& visit = {});
+
+}  // namespace hyperex::tracking
