@@ -37,19 +37,34 @@ int webcam_number(const std::string& spec) {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_source(const std::string& spec, const SourceOptions& options) {
+SourceKind source_kind(const std::string& spec) {
   std::error_code ignored;
-  if (fs::is_directory(spec, ignored)) return open_tum_folder(spec, options);
-  if (fs::exists(spec, ignored))
-    return is_oni(spec) ? open_oni(spec, options) : open_video(spec, options);
-  if (spec == "kinect") return latest(open_kinect(options));
-  if (spec == "openni") return latest(open_openni("", options));
-  if (spec.starts_with("openni:")) return latest(open_openni(spec.substr(7), options));
-  if (spec == "webcam" || spec.starts_with("webcam:"))
-    return latest(open_webcam(webcam_number(spec), options));
+  if (fs::is_directory(spec, ignored)) return SourceKind::folder;
+  if (fs::exists(spec, ignored)) return is_oni(spec) ? SourceKind::oni : SourceKind::video;
+  if (spec == "kinect") return SourceKind::kinect;
+  if (spec == "openni" || spec.starts_with("openni:")) return SourceKind::openni;
+  if (spec == "webcam" || spec.starts_with("webcam:")) return SourceKind::webcam;
   throw InputError(io::quotable(spec) +
                    ": no such folder or file; expected a recording (folder, video file, .oni) or a "
                    "camera (kinect, openni, webcam:N)");
+}
+
+std::unique_ptr<FrameSource> open_source(const std::string& spec, const SourceOptions& options) {
+  switch (source_kind(spec)) {
+    case SourceKind::folder:
+      return open_tum_folder(spec, options);
+    case SourceKind::oni:
+      return open_oni(spec, options);
+    case SourceKind::video:
+      return open_video(spec, options);
+    case SourceKind::kinect:
+      return latest(open_kinect(options));
+    case SourceKind::openni:
+      return latest(open_openni(spec == "openni" ? "" : spec.substr(7), options));
+    case SourceKind::webcam:
+      break;
+  }
+  return latest(open_webcam(webcam_number(spec), options));
 }
 
 }  // namespace hyperex::capture

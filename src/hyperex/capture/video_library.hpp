@@ -23,6 +23,13 @@ class VideoReader {
   virtual void ask_for_size(int width_px, int height_px) = 0;
 };
 
+/// cv::VideoWriter, opened. Its destructor closes the file.
+class VideoEncoder {
+ public:
+  virtual ~VideoEncoder() = default;
+  virtual void write(const cv::Mat& bgr) = 0;
+};
+
 /// What hx_video.so gives out, by the function `hyperex_video` (extern "C").
 class VideoLibrary {
  public:
@@ -31,6 +38,11 @@ class VideoLibrary {
   virtual std::unique_ptr<VideoReader> open_file(const std::string& file) const = 0;
   /// /dev/videoN. Nothing where it cannot be opened.
   virtual std::unique_ptr<VideoReader> open_webcam(int number) const = 0;
+  /// H.264 by FFmpeg, in the container of the file's name. Nothing where there is no such encoder
+  /// or the file cannot be written. Width and height are even.
+  virtual std::unique_ptr<VideoEncoder> create_file(const std::string& file, int width_px,
+                                                    int height_px,
+                                                    double frames_a_second) const = 0;
 };
 
 /// Loads hx_video.so from ../lib/hyperex, seen from the program's folder, in the build tree as

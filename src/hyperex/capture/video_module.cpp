@@ -23,6 +23,15 @@ class Reader : public VideoReader {
   cv::VideoCapture capture_;
 };
 
+class Encoder : public VideoEncoder {
+ public:
+  explicit Encoder(cv::VideoWriter writer) : writer_(std::move(writer)) {}
+  void write(const cv::Mat& bgr) override { writer_.write(bgr); }
+
+ private:
+  cv::VideoWriter writer_;
+};
+
 class Library : public VideoLibrary {
  public:
   std::unique_ptr<VideoReader> open_file(const std::string& file) const override {
@@ -30,6 +39,13 @@ class Library : public VideoLibrary {
   }
   std::unique_ptr<VideoReader> open_webcam(int number) const override {
     return opened(cv::VideoCapture(number, cv::CAP_V4L2));
+  }
+  std::unique_ptr<VideoEncoder> create_file(const std::string& file, int width_px, int height_px,
+                                            double frames_a_second) const override {
+    cv::VideoWriter writer(file, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
+                           frames_a_second, {width_px, height_px});
+    if (!writer.isOpened()) return nullptr;
+    return std::make_unique<Encoder>(std::move(writer));
   }
 
  private:

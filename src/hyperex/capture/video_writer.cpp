@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/capture/video_writer.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "hyperex/capture/video_library.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/interrupt.hpp"
+
+namespace hyperex::capture {
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Ends as the target does: the encoder takes the container from the name.
+fs::path temporary_beside(const fs::path& target) {
+  return target.parent_path() /
+         fmt::format(".{}.{}.tmp.mp4", target.filename().string(), static_cast<long>(::getpid()));
+}
+
+}  // namespace
+
+struct VideoWriter::Impl {
+  Impl(const fs::path& target, int width, int height)
+      : file(target), temporary(temporary_beside(target)), width_px(width), height_px(height) {}
+  ~Impl() {
+    encoder.reset();
+    std::error_code ignored;
+    fs::remove(temporary.path(), ignored);
+  }
+
+  fs::path file;
+  TemporaryPath temporary;
+  std::unique_ptr<VideoEncoder> encoder;
+  int width_px, height_px;
+  std::size_t pictures = 0;
+};
+
+void VideoWriter::check_name(const fs::path& file) {
+  if (file.extension() != ".mp4")
+    throw InputError(file, "expected the name of a video that ends in .mp4");
+}
+
+VideoWriter::VideoWriter(const fs::path& file, int width_px, int height_px,
+                         double frames_a_second) {
+  check_name(file);
+  if (width_px <= 0 || height_px <= 0 || width_px % 2 || height_px % 2)
+    throw std::invalid_argument("VideoWriter: width and height must be even");
+  if (!(frames_a_second > 0) || !std::isfinite(frames_a_second))
+    throw std::invalid_argument("VideoWriter: the rate must be above 0");
+  const VideoLibrary& library = video_library();
+  impl_ = std::make_unique<Impl>(file, width_px, height_px);
+  // The encoder does not tell a file that cannot be written from a codec that is not there.
+  errno = 0;
+  if (!std::ofstream(impl_->temporary.path(), std::ios::binary))
+    throw InputError(file, std::string("cannot be written (") + std::strerror(errno) + ")");
+  impl_->encoder =
+      library.create_file(impl_->temporary.path().string(), width_px, height_px, frames_a_second);
+  if (!impl_->encoder)
+    throw InputError(file, "no video: FFmpeg has no H.264 encoder (libx264) on this system");
+}
+
+VideoWriter::~VideoWriter() = default;
+
+void VideoWriter::add(const cv::Mat& bgr) {
+  if (bgr.type() != CV_8UC3 || bgr.cols != impl_->width_px || bgr.rows != impl_->height_px)
+    throw std::invalid_argument("VideoWriter: a picture of another size or kind");
+  impl_->encoder->write(bgr);
+  ++impl_->pictures;
+}
+
+void VideoWriter::finish() {
+  impl_->encoder.reset();
+  wait_if_interrupted();
+  // The encoder keeps quiet about a full disk.
+  const auto written = video_library().open_file(impl_->temporary.path().string());
+  if (!written || std::size_t(written->frame_count()) != impl_->pictures)
+    throw InputError(impl_->file, "cannot be written whole (the disk may be full)");
+  std::error_code error;
+  fs::rename(impl_->temporary.path(), impl_->file, error);
+  if (error) throw InputError(impl_->file, "cannot be written (" + error.message() + ")");
+}
+
+}  // namespace hyperex::capture
