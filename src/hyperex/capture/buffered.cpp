@@ -27,6 +27,7 @@ void Buffered::work() {
     std::exception_ptr error;
     try {
       frame = source_->next();
+      if (frame) frame->arrived = std::chrono::steady_clock::now();
     } catch (...) {
       error = std::current_exception();
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <chrono>
 #include <cstddef>
 #include <opencv2/core/mat.hpp>
 #include <string>
@@ -23,6 +24,8 @@ struct Frame {
                       ///< 0 = no reading; empty = colour only
   bool valid = true;  ///< false: do not measure on it, see `fault`; pictures may be empty
   std::string fault;  ///< one line: why not valid; empty where valid
+  /// Of a live source: when the program had it in hand (Buffered sets it), else the clock's epoch.
+  std::chrono::steady_clock::time_point arrived = {};
 };
 
 }  // namespace hyperex::capture

@@ -7,6 +7,7 @@
 #include "hyperex/capture/buffered.hpp"
 #include "hyperex/capture/kinect.hpp"
 #include "hyperex/capture/openni.hpp"
+#include "hyperex/capture/played.hpp"
 #include "hyperex/capture/tum_folder.hpp"
 #include "hyperex/capture/video.hpp"
 #include "hyperex/core/error.hpp"
@@ -35,22 +36,30 @@ int webcam_number(const std::string& spec) {
   return static_cast<int>(*number);
 }
 
-}  // namespace
-
-SourceKind source_kind(const std::string& spec) {
-  std::error_code ignored;
-  if (fs::is_directory(spec, ignored)) return SourceKind::folder;
-  if (fs::exists(spec, ignored)) return is_oni(spec) ? SourceKind::oni : SourceKind::video;
+/// Nothing where it is no word for a device.
+std::optional<SourceKind> device_kind(const std::string& spec) {
   if (spec == "kinect") return SourceKind::kinect;
   if (spec == "openni" || spec.starts_with("openni:")) return SourceKind::openni;
   if (spec == "webcam" || spec.starts_with("webcam:")) return SourceKind::webcam;
-  throw InputError(io::quotable(spec) +
-                   ": no such folder or file; expected a recording (folder, video file, .oni) or a "
-                   "camera (kinect, openni, webcam:N)");
+  if (spec.starts_with("play:")) return SourceKind::played;
+  return std::nullopt;
 }
 
-std::unique_ptr<FrameSource> open_source(const std::string& spec, const SourceOptions& options) {
-  switch (source_kind(spec)) {
+std::unique_ptr<FrameSource> open(SourceKind kind, const std::string& spec,
+                                  const SourceOptions& options);
+
+std::unique_ptr<FrameSource> open_played(const std::string& recording,
+                                         const SourceOptions& options) {
+  const SourceKind kind = source_kind(recording);
+  if (kind != SourceKind::folder && kind != SourceKind::oni && kind != SourceKind::video)
+    throw InputError("play:" + io::quotable(recording) +
+                     ": expected a recording (folder, video file, .oni)");
+  return play(open(kind, recording, options));
+}
+
+std::unique_ptr<FrameSource> open(SourceKind kind, const std::string& spec,
+                                  const SourceOptions& options) {
+  switch (kind) {
     case SourceKind::folder:
       return open_tum_folder(spec, options);
     case SourceKind::oni:
@@ -62,9 +71,34 @@ std::unique_ptr<FrameSource> open_source(const std::string& spec, const SourceOp
     case SourceKind::openni:
       return latest(open_openni(spec == "openni" ? "" : spec.substr(7), options));
     case SourceKind::webcam:
+      return latest(open_webcam(webcam_number(spec), options));
+    case SourceKind::played:
       break;
   }
-  return latest(open_webcam(webcam_number(spec), options));
+  return latest(open_played(spec.substr(5), options));
+}
+
+}  // namespace
+
+SourceKind source_kind(const std::string& spec) {
+  std::error_code ignored;
+  if (fs::is_directory(spec, ignored)) return SourceKind::folder;
+  if (fs::exists(spec, ignored)) return is_oni(spec) ? SourceKind::oni : SourceKind::video;
+  if (const auto kind = device_kind(spec)) return *kind;
+  throw InputError(io::quotable(spec) +
+                   ": no such folder or file; expected a recording (folder, video file, .oni) or a "
+                   "camera (kinect, openni, webcam:N)");
+}
+
+std::unique_ptr<FrameSource> open_source(const std::string& spec, const SourceOptions& options) {
+  return open(source_kind(spec), spec, options);
+}
+
+std::unique_ptr<FrameSource> open_device(const std::string& spec, const SourceOptions& options) {
+  if (const auto kind = device_kind(spec)) return open(*kind, spec, options);
+  throw InputError(io::quotable(spec) +
+                   ": no such device; expected kinect, openni, openni:URI, webcam:N or "
+                   "play:RECORDING");
 }
 
 }  // namespace hyperex::capture

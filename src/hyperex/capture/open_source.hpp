@@ -8,7 +8,7 @@
 
 namespace hyperex::capture {
 
-enum class SourceKind { folder, oni, video, kinect, openni, webcam };
+enum class SourceKind { folder, oni, video, kinect, openni, webcam, played };
 
 /// What a user's words for a source (open_source) stand for; nothing is opened. Throws InputError
 /// as open_source does.
