@@ -32,6 +32,20 @@ DeformationUnit unit_of(const CandideUnit& from, double metres_per_unit) {
   return unit;
 }
 
+/// The triangles, running counter-clockwise as seen from the front. candide3.wfm has them all the
+/// other way round, so that normals point into the head and no vertex seems to face the camera.
+Triangles outward(const TriMesh& mesh) {
+  double towards_front = 0;  // twice the area as seen from the front
+  for (const auto t : mesh.triangles.rowwise()) {
+    const Vec3 a = mesh.points.row(t[0]).transpose(), b = mesh.points.row(t[1]).transpose(),
+               c = mesh.points.row(t[2]).transpose();
+    towards_front += (b - a).cross(c - a).z();
+  }
+  Triangles triangles = mesh.triangles;
+  if (towards_front < 0) triangles.col(1).swap(triangles.col(2));
+  return triangles;
+}
+
 }  // namespace
 
 FaceModel candide_model(const std::string& wfm_file) {
@@ -50,7 +64,7 @@ FaceModel candide_model(const std::string& wfm_file) {
   const double scale = kEyeDistance_m / eyes;
   FaceModel model;
   model.name = "candide";
-  model.mesh = {scale * file.mesh.points, file.mesh.triangles};
+  model.mesh = {scale * file.mesh.points, outward(file.mesh)};
   for (const auto& unit : file.shape_units) {
     model.shape_units.push_back(unit_of(unit, scale));
     model.shape_units.back().typical = 0.5;
