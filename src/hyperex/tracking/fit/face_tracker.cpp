@@ -22,6 +22,23 @@ constexpr double kMostOff = 0.05;       // of model and network's points, of the
 constexpr double kLeastInside = 0.85;   // of the network's points, within the picture
 constexpr double kRegionMargin = 0.15;  // around the points, of their extent
 
+/// The options are made for the canonical face. A vertex of a coarser mesh stands for more of the
+/// face: its measurements weigh as those of the canonical vertices in its place would together, and
+/// it may lie farther from its neighbours' mean (which grows with the square of their distance).
+TrackerOptions for_mesh_of(const FaceModel& model, TrackerOptions options) {
+  constexpr double kVertices = 468;
+  const double network = std::sqrt(double(model.pairs.size()) / kVertices);
+  const double surface = double(model.vertex_count()) / kVertices;
+  for (FitOptions* fit : {&options.fit, &options.neutral.fit}) {
+    fit->network_px *= network;
+    fit->network_outline_px *= network;
+    fit->network_inner_lip_px *= network;
+    fit->depth_m *= std::sqrt(surface);
+  }
+  options.neutral.bend_m /= surface;
+  return options;
+}
+
 double extent_px(const Points& px) {
   return (px.colwise().maxCoeff() - px.colwise().minCoeff()).head<2>().maxCoeff();
 }
@@ -48,7 +65,7 @@ cv::Rect region_around(const Points& px) {
 
 struct FaceTracker::Impl {
   Impl(const FaceModel& m, const capture::Intrinsics& c, const TrackerOptions& o)
-      : model(m), camera(c), options(o), network(o.network) {}
+      : model(m), camera(c), options(for_mesh_of(m, o)), network(o.network) {}
 
   const FaceModel& model;
   capture::Intrinsics camera;

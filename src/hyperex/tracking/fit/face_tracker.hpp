@@ -14,6 +14,8 @@
 namespace hyperex::tracking {
 
 struct TrackerOptions {
+  /// What a measurement counts is stated for the canonical face's 468 vertices; of a model with
+  /// fewer each counts for more.
   FitOptions fit;
   NeutralOptions neutral;
   LandmarkOptions network;
