@@ -17,15 +17,17 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/tracking/fit/score.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
+#include "track_live.hpp"
 
 namespace hyperex::cli {
 namespace {
 
 struct Options {
-  std::string recording, model = "canonical";
+  std::string recording, device, model = "canonical";
   std::filesystem::path out, trc, score, camera;
   bool no_depth = false, json = false, vertices = false;
   double eye_distance_mm = 90;
+  std::optional<double> seconds;
 };
 
 /// "canonical", or "candide:FILE" read into `own`.
@@ -142,11 +144,16 @@ void run(const Options& options) {
   source_options.camera_file = options.camera;
   const std::string recording =
       options.recording.empty() ? options.score.string() : options.recording;
-  const auto source = capture::open_source(recording, source_options);
+  const auto source = options.device.empty() ? capture::open_source(recording, source_options)
+                                             : capture::open_device(options.device, source_options);
+  if (options.seconds && !source->live())
+    throw InputError("hyperex track: --seconds is for a camera; a recording has its end");
   tracking::TrackerOptions tracker;
   tracker.neutral.eye_distance_m = options.eye_distance_mm * 1e-3;
   tracker.use_depth = !options.no_depth;
-  const tracking::Tracking tracking = tracking::track(*source, model, tracker);
+  const tracking::Tracking tracking = source->live()
+                                          ? track_live(*source, model, tracker, options.seconds)
+                                          : tracking::track(*source, model, tracker);
   if (!options.json) {
     for (const auto& note : source->notes()) spdlog::info("{}", note);
     say_what_was_tracked(tracking);
@@ -172,6 +179,15 @@ void add_track(CLI::App& program) {
       "RECORDING", options->recording,
       "A folder in TUM's layout, a video, or a device; with --score alone the truth's "
       "own folder");
+  command
+      ->add_option(
+          "--device", options->device,
+          "Follow the face before a camera, live: kinect, openni, openni:URI, webcam:N, or "
+          "play:RECORDING, which plays one at its own pace. Ctrl-C ends it, and what was "
+          "tracked is written")
+      ->excludes("RECORDING");
+  command->add_option("--seconds", options->seconds, "With a camera: end after so many seconds")
+      ->check(CLI::PositiveNumber);
   command->add_option(
       "--out", options->out,
       "Write the motion (CSV) here, and beside it .pose.csv, .units.csv, .arkit.csv");
@@ -192,6 +208,7 @@ void add_track(CLI::App& program) {
   command->add_flag("--json", options->json, "Print the score as JSON and nothing else");
   command->footer(
       "Example:\n  hyperex track recording --out out/motion.csv\n"
+      "  hyperex track --device kinect --out out/motion.csv\n"
       "  hyperex track --score recording --json");
   command->callback([options] { run(*options); });
 }

@@ -29,7 +29,13 @@ std::vector<fs::path>& list() {
 int wake[2] = {-1, -1};  // a pipe: a handler may write to it, and hardly anything else
 std::atomic<bool> interrupted{false};
 
+enum class Request { not_awaited, awaited, made };
+std::atomic<Request> request{Request::not_awaited};
+static_assert(std::atomic<Request>::is_always_lock_free);  // a handler uses it
+
 extern "C" void on_signal(int signal) {
+  Request awaited = Request::awaited;
+  if (request.compare_exchange_strong(awaited, Request::made)) return;
   const int kept = errno;
   interrupted = true;
   const auto byte = static_cast<unsigned char>(signal);
@@ -92,6 +98,16 @@ void end_cleanly_when_interrupted() {
     action.sa_flags = SA_RESTART;
     ::sigaction(signal, &action, nullptr);
   }
+}
+
+StopOnRequest::StopOnRequest() {
+  request = Request::awaited;
+}
+StopOnRequest::~StopOnRequest() {
+  request = Request::not_awaited;
+}
+bool StopOnRequest::requested() const {
+  return request == Request::made;
 }
 
 void wait_if_interrupted() {

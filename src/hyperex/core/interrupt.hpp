@@ -30,6 +30,17 @@ std::unique_lock<std::mutex> hold_off_interruption();
 /// signal. Call once, from main().
 void end_cleanly_when_interrupted();
 
+/// While one lives, the first of these signals only asks for an end, and the program goes on to
+/// write what it has; the second ends it as above. One at a time.
+class StopOnRequest {
+ public:
+  StopOnRequest();
+  ~StopOnRequest();
+  StopOnRequest(const StopOnRequest&) = delete;
+  StopOnRequest& operator=(const StopOnRequest&) = delete;
+  bool requested() const;
+};
+
 /// Where an interruption is under way, does not return: what fails because its files are being
 /// removed is no error to tell.
 void wait_if_interrupted();

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -67,6 +68,30 @@ TEST_P(Interrupt, LeavesAnIgnoredSignalIgnored) {
     ::_exit(7);
   };
   EXPECT_EXIT(ignoring(), testing::ExitedWithCode(7), "");
+}
+
+TEST_P(Interrupt, AtTheUsersRequestTheProgramGoesOnOnce) {
+  const auto stopping = [] {
+    end_cleanly_when_interrupted();
+    {
+      const StopOnRequest request;
+      if (request.requested()) ::_exit(1);
+      std::raise(GetParam());
+      ::usleep(50000);
+      if (!request.requested()) ::_exit(2);
+      std::fputs("went on\n", stderr);
+      if (::getenv("HYPEREX_INTERRUPT_TWICE") != nullptr)
+        std::raise(GetParam());
+      else
+        wait_if_interrupted();  // returns
+    }
+    if (::getenv("HYPEREX_INTERRUPT_TWICE") != nullptr) wait_if_interrupted();
+    ::_exit(9);
+  };
+  EXPECT_EXIT(stopping(), testing::ExitedWithCode(9), "went on");
+  ::setenv("HYPEREX_INTERRUPT_TWICE", "1", 1);
+  EXPECT_EXIT(stopping(), testing::ExitedWithCode(128 + GetParam()), "went on");
+  ::unsetenv("HYPEREX_INTERRUPT_TWICE");
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, testing::Values(SIGINT, SIGTERM, SIGHUP));

@@ -182,7 +182,7 @@ std::vector<TrackedFrame> FaceTracker::feed(const capture::Frame& frame) {
   Waiting seen = impl_->look(frame);
   if (seen.seen) ++impl_->faces;
   impl_->waiting.push_back(std::move(seen));
-  if (!impl_->neutral) {
+  if (!impl_->neutral && impl_->faces > 0) {
     if (impl_->faces < impl_->options.neutral_frames) return {};
     impl_->find_neutral();
   }

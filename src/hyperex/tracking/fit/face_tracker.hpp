@@ -47,8 +47,8 @@ struct TrackerTimes {
 };
 
 /// Follows one face from frame to frame: the landmark network, then the model's fit. The first
-/// frames are held back until the person's shape is known from them; from then on a frame fed is a
-/// frame given. A frame without a face, or not valid itself, comes back as not valid, and the face
+/// frames with a face are held back until the person's shape is known from them; before and after
+/// that a frame fed is a frame given. A frame without a face, or not valid itself, comes back as not valid, and the face
 /// is found again after.
 class FaceTracker {
  public:
@@ -57,8 +57,8 @@ class FaceTracker {
               const TrackerOptions& options = {});
   ~FaceTracker();
 
-  /// Takes the next frame; gives those that are finished, in order: none while the shape is not
-  /// known, then all that were held back, then one.
+  /// Takes the next frame; gives those that are finished, in order: one before there is
+  /// a face, none while the shape is not known, then all that were held back, then one.
   std::vector<TrackedFrame> feed(const capture::Frame& frame);
   /// The source has ended: gives what is still held back.
   std::vector<TrackedFrame> finish();

@@ -64,13 +64,14 @@ void write_pose_csv(const std::filesystem::path& file, const Tracking& tracking)
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 4; ++c) names.push_back(fmt::format("T{}{}", r, c));
   for (const char* name :
-       {"network_rms_px", "depth_rms_mm", "depth_share", "skin_share", "network_score"})
+       {"network_rms_px", "depth_rms_mm", "depth_share", "skin_share", "network_score", "frame"})
     names.push_back(name);
   io::write_csv(file, names, long(tracking.frames.size()), [&](long k, std::vector<double>& row) {
     const TrackedFrame& frame = tracking.frames[std::size_t(k)];
     std::fill(row.begin(), row.end(), kNan);
     row[0] = frame.time_s;
     row[1] = frame.valid;
+    row.back() = double(frame.index);
     if (!frame.valid) return;
     std::size_t at = 2;
     for (int r = 0; r < 3; ++r)

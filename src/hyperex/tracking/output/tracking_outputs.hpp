@@ -14,7 +14,8 @@ motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool 
 
 /// Tables with a row a frame, whether valid or not; numbers are "nan" where it is not valid.
 ///  pose:   time_s, valid, T00 ... T23 (camera_from_head, metres), network_rms_px, depth_rms_mm,
-///          depth_share, skin_share, network_score
+///          depth_share, skin_share, network_score, frame (its number in the source, from 0; of a
+///          camera, those that were dropped are missing)
 ///  units:  time_s and a column a unit: "NAME [FACS]"
 ///  arkit:  time_s and ARKit's names, 0 to 1: weights of the model's units by its table; a name
 ///  that
