@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,21 +10,22 @@
 #include <string>
 
 #include "commands.hpp"
+#include "hyperex/capture/mirrored.hpp"
 #include "hyperex/capture/open_source.hpp"
 #include "hyperex/core/error.hpp"
-#include "hyperex/io/trc.hpp"
-#include "hyperex/motion/read_motion.hpp"
 #include "hyperex/tracking/fit/score.hpp"
-#include "hyperex/tracking/output/tracking_outputs.hpp"
 #include "track_live.hpp"
+#include "track_outputs.hpp"
 
 namespace hyperex::cli {
 namespace {
 
 struct Options {
   std::string recording, device, model = "canonical";
-  std::filesystem::path out, trc, score, camera;
-  bool no_depth = false, json = false, vertices = false;
+  TrackOutputs outputs;
+  std::filesystem::path score, camera;
+  std::optional<bool> mirrored;
+  bool no_depth = false, json = false;
   double eye_distance_mm = 90;
   std::optional<double> seconds;
 };
@@ -39,37 +39,6 @@ const tracking::FaceModel& model_of(const std::string& text,
     throw InputError({{}, 0, "--model", text, "canonical or candide:FILE.wfm"});
   own = tracking::candide_model(text.substr(std::string(kCandide).size()));
   return *own;
-}
-
-/// a.csv and "pose" -> a.pose.csv
-std::filesystem::path beside(std::filesystem::path file, const std::string& kind) {
-  return file.replace_extension("." + kind + ".csv");
-}
-
-void write_outputs(const Options& options, const tracking::FaceModel& model,
-                   const tracking::Tracking& tracking) {
-  const motion::Motion motion = tracking::motion_of(model, tracking, options.vertices);
-  if (!options.out.empty()) {
-    motion::write_motion_csv(options.out, motion);
-    tracking::write_pose_csv(beside(options.out, "pose"), tracking);
-    tracking::write_units_csv(beside(options.out, "units"), model, tracking);
-    tracking::write_arkit_csv(beside(options.out, "arkit"), model, tracking);
-    if (!options.json)
-      std::cout << fmt::format(
-          "written: {} (points, mm), and beside it .pose.csv, .units.csv and "
-          ".arkit.csv\n",
-          options.out.string());
-  }
-  if (!options.trc.empty()) {
-    io::TrcFile trc;
-    trc.names = motion.names;
-    trc.time_s = motion.time_s;
-    trc.positions = motion.positions;
-    if (motion.time_s.size() > 1)
-      trc.data_rate_hz =
-          double(motion.time_s.size() - 1) / (motion.time_s.back() - motion.time_s.front());
-    io::write_trc(options.trc, trc);
-  }
 }
 
 nlohmann::ordered_json number(std::optional<double> value) {
@@ -130,9 +99,34 @@ void say_what_was_tracked(const tracking::Tracking& tracking) {
       1e3 * times.neutral_s);
 }
 
+/// Whether the pictures are to be turned back. A colour picture alone does not tell, and a mirrored
+/// one would swap left and right in silence: of a webcam it must be said.
+bool asked_mirrored(const Options& options, std::string spec) {
+  if (options.mirrored) return *options.mirrored;
+  if (spec.starts_with("play:")) spec.erase(0, 5);
+  const auto kind = capture::source_kind(spec);
+  if (kind == capture::SourceKind::webcam)
+    throw InputError("hyperex track: " + spec +
+                     ": does its picture show the world as a mirror does? Say --mirrored yes or "
+                     "--mirrored no: left and right depend on it");
+  if (kind == capture::SourceKind::video && !options.json)
+    spdlog::warn(
+        "{}: taken as not mirrored, as a video does not tell; where it is mirrored, left and right "
+        "are swapped: say --mirrored yes",
+        spec);
+  return false;
+}
+
+tracking::FrameVisitor visitor_of(tracking::PreviewMovie* preview) {
+  if (preview == nullptr) return {};
+  return [preview](const tracking::TrackedFrame& frame, const cv::Mat& bgr) {
+    preview->add(frame, bgr);
+  };
+}
+
 void run(const Options& options) {
-  if (options.out.empty() && options.trc.empty() && options.score.empty())
-    throw InputError("hyperex track: nothing to do: give --out, --trc or --score");
+  if (!options.outputs.any() && options.score.empty())
+    throw InputError("hyperex track: nothing to do: give --out, --trc, --preview or --score");
   if (options.json && options.score.empty())
     throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
   std::optional<tracking::FaceModel> own;
@@ -144,16 +138,21 @@ void run(const Options& options) {
   source_options.camera_file = options.camera;
   const std::string recording =
       options.recording.empty() ? options.score.string() : options.recording;
-  const auto source = options.device.empty() ? capture::open_source(recording, source_options)
-                                             : capture::open_device(options.device, source_options);
+  const bool flip = asked_mirrored(options, options.device.empty() ? recording : options.device);
+  auto source = options.device.empty() ? capture::open_source(recording, source_options)
+                                       : capture::open_device(options.device, source_options);
+  if (flip) source = std::make_unique<capture::Mirrored>(std::move(source));
   if (options.seconds && !source->live())
     throw InputError("hyperex track: --seconds is for a camera; a recording has its end");
   tracking::TrackerOptions tracker;
   tracker.neutral.eye_distance_m = options.eye_distance_mm * 1e-3;
   tracker.use_depth = !options.no_depth;
-  const tracking::Tracking tracking = source->live()
-                                          ? track_live(*source, model, tracker, options.seconds)
-                                          : tracking::track(*source, model, tracker);
+  const auto preview = preview_of(options.outputs, model, source->intrinsics());
+  const tracking::FrameVisitor visit = visitor_of(preview.get());
+  const tracking::Tracking tracking =
+      source->live() ? track_live(*source, model, tracker, options.seconds, visit)
+                     : tracking::track(*source, model, tracker, visit);
+  if (preview) preview->finish();
   if (!options.json) {
     for (const auto& note : source->notes()) spdlog::info("{}", note);
     say_what_was_tracked(tracking);
@@ -163,7 +162,7 @@ void run(const Options& options) {
           "(--eye-distance-mm)",
           options.eye_distance_mm);
   }
-  write_outputs(options, model, tracking);
+  write_outputs(options.outputs, model, tracking, options.json);
   if (truth) print_score(tracking::score(model, tracking.frames, *truth), options.json);
 }
 
@@ -188,13 +187,15 @@ void add_track(CLI::App& program) {
       ->excludes("RECORDING");
   command->add_option("--seconds", options->seconds, "With a camera: end after so many seconds")
       ->check(CLI::PositiveNumber);
-  command->add_option(
-      "--out", options->out,
-      "Write the motion (CSV) here, and beside it .pose.csv, .units.csv, .arkit.csv");
-  command->add_option("--trc", options->trc, "Write the motion as TRC here");
+  add_output_options(*command, options->outputs);
   command->add_option("--model", options->model, "canonical, or candide:FILE.wfm")
       ->capture_default_str();
-  command->add_flag("--vertices", options->vertices, "The model's vertices too, as vertex_K");
+  command
+      ->add_option(
+          "--mirrored", options->mirrored,
+          "yes: the pictures show the world as a mirror does and are turned back; no: they "
+          "do not. A webcam must be said, a video is taken as not mirrored")
+      ->option_text("yes|no");
   command->add_flag("--no-depth", options->no_depth, "Leave the depth out");
   command->add_option("--camera", options->camera, "camera.toml that goes before the recording's");
   command

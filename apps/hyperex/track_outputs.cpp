@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "track_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "hyperex/io/trc.hpp"
+#include "hyperex/motion/read_motion.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+/// a.csv and "pose" -> a.pose.csv
+std::filesystem::path beside(std::filesystem::path file, const std::string& kind) {
+  return file.replace_extension("." + kind + ".csv");
+}
+
+void write_trc(const std::filesystem::path& file, const motion::Motion& motion) {
+  io::TrcFile trc;
+  trc.names = motion.names;
+  trc.time_s = motion.time_s;
+  trc.positions = motion.positions;
+  if (motion.time_s.size() > 1)
+    trc.data_rate_hz =
+        double(motion.time_s.size() - 1) / (motion.time_s.back() - motion.time_s.front());
+  io::write_trc(file, trc);
+}
+
+}  // namespace
+
+void add_output_options(CLI::App& command, TrackOutputs& outputs) {
+  command.add_option(
+      "--out", outputs.motion,
+      "Write the motion (CSV) here, and beside it .pose.csv (with validity, faults and residuals), "
+      ".units.csv, .arkit.csv");
+  command.add_option("--trc", outputs.trc, "Write the motion as TRC here");
+  command.add_option("--preview", outputs.preview,
+                     "Write a video (.mp4) of the recording with mesh, landmarks, pose and units "
+                     "drawn in");
+  command.add_flag("--vertices", outputs.vertices, "The model's vertices too, as vertex_K");
+}
+
+std::unique_ptr<tracking::PreviewMovie> preview_of(const TrackOutputs& outputs,
+                                                   const tracking::FaceModel& model,
+                                                   const capture::Intrinsics& camera) {
+  if (outputs.preview.empty()) return nullptr;
+  return std::make_unique<tracking::PreviewMovie>(outputs.preview, model, camera);
+}
+
+void write_outputs(const TrackOutputs& outputs, const tracking::FaceModel& model,
+                   const tracking::Tracking& tracking, bool quiet) {
+  const motion::Motion motion = tracking::motion_of(model, tracking, outputs.vertices);
+  if (!outputs.motion.empty()) {
+    motion::write_motion_csv(outputs.motion, motion);
+    tracking::write_pose_csv(beside(outputs.motion, "pose"), tracking);
+    tracking::write_units_csv(beside(outputs.motion, "units"), model, tracking);
+    tracking::write_arkit_csv(beside(outputs.motion, "arkit"), model, tracking);
+  }
+  if (!outputs.trc.empty()) write_trc(outputs.trc, motion);
+  if (quiet) return;
+  if (!outputs.motion.empty())
+    std::cout << fmt::format(
+        "written: {} (points, mm), and beside it .pose.csv, .units.csv and .arkit.csv\n",
+        outputs.motion.string());
+  for (const auto& file : {outputs.trc, outputs.preview})
+    if (!file.empty()) std::cout << fmt::format("written: {}\n", file.string());
+}
+
+}  // namespace hyperex::cli
