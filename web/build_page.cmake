@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -DWEB=... -DPAGE=.../report.html -P build_page.cmake: type-checks and builds the page.
+# cmake -DWEB=... -DPAGE=.../NAME.html -P build_page.cmake: type-checks and builds ${WEB}/NAME.html.
 cmake_minimum_required(VERSION 3.25)
 find_program(npm npm)
 if(NOT npm)
-  message(FATAL_ERROR "npm is missing: the replay page in web/ is built with it (apt-get install npm)")
+  message(FATAL_ERROR "npm is missing: the pages in web/ are built with it (apt-get install npm)")
 endif()
 if(NOT EXISTS ${WEB}/node_modules/vite)
   message(FATAL_ERROR "${WEB}/node_modules is missing: run `npm ci` in ${WEB} once")
 endif()
 get_filename_component(folder ${PAGE} DIRECTORY)
-execute_process(COMMAND ${npm} run --silent build -- --outDir ${folder} --emptyOutDir --logLevel warn
+get_filename_component(name ${PAGE} NAME)
+# --emptyOutDir false: the other page lies in the same folder.
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -E env HYPEREX_PAGE=${name}
+          ${npm} run --silent build -- --outDir ${folder} --emptyOutDir false --logLevel warn
   WORKING_DIRECTORY ${WEB} OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed OR NOT EXISTS ${PAGE})
-  message(FATAL_ERROR "building the replay page failed:\n${log}")
+  message(FATAL_ERROR "building the page ${name} failed:\n${log}")
 endif()
 # Vite gives the file a new time only when it writes it; the build must see one in any case.
 file(TOUCH ${PAGE})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One file: report.html with scripts and styles inside. The program that writes a report puts the
-// data where the page says HYPEREX_DATA.
+// One file: report.html, or the page that HYPEREX_PAGE names, with scripts and styles inside. The
+// program that writes it puts the data where the page says HYPEREX_DATA.
 import { defineConfig } from 'vite';
 import { viteSingleFile } from 'vite-plugin-singlefile';
 
@@ -10,6 +10,6 @@ export default defineConfig({
     target: 'es2022',
     reportCompressedSize: false,
     chunkSizeWarningLimit: 2000,
-    rollupOptions: { input: 'report.html' },
+    rollupOptions: { input: process.env.HYPEREX_PAGE ?? 'report.html' },
   },
 });

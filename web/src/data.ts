@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the data come from: the two script elements of the page. Nothing else knows of them.
-import type { Manifest, Stretch } from './manifest';
+// The replay's data as the other parts use them.
+import type { Manifest } from './manifest';
+import { readPageData } from './page_data';
 
 export type Vec3 = [number, number, number];
 
@@ -26,27 +27,9 @@ export interface Replay {
   symmetry: Manifest['symmetry'];
 }
 
-function bytesOf(base64: string): ArrayBuffer {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return bytes.buffer;
-}
-
-function textOf(id: string): string {
-  const text = document.getElementById(id)?.textContent;
-  if (!text) throw new Error(`This page holds no data (${id} is missing): it is only a template.`);
-  return text;
-}
-
 export function readReplay(): Replay {
-  const manifest = JSON.parse(textOf('hyperex-manifest')) as Manifest;
-  if (manifest.version !== 1) throw new Error(`Unknown version of the data: ${manifest.version}`);
-  const binary = bytesOf(textOf('hyperex-binary').trim());
-  const float32 = (s: Stretch) => new Float32Array(binary, s.offset, s.count);
-  const int32 = (s: Stretch) => new Int32Array(binary, s.offset, s.count);
-  const int16 = (s: Stretch) => new Int16Array(binary, s.offset, s.count);
-  const uint8 = (s: Stretch) => new Uint8Array(binary, s.offset, s.count);
+  const { manifest, block } = readPageData<Manifest>();
+  const { float32, int32, int16, uint8 } = block;
   const { skin, motion } = manifest;
   return {
     title: manifest.title,

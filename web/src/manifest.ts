@@ -2,12 +2,7 @@
 // What the program writes into the page (src/hyperex/report/html_report.cpp). Lengths are metres and
 // times seconds unless a name says otherwise; vectors are x, y, z after each other.
 
-/** A stretch of the binary block: `count` little-endian numbers from byte `offset` on. */
-export interface Stretch {
-  type: 'float32' | 'int32' | 'int16' | 'uint8';
-  offset: number;
-  count: number;
-}
+import type { Stretch } from './page_data';
 
 export interface Manifest {
   version: 1;

@@ -1,134 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The curves over time, each with a cursor at the time shown; pressing on one seeks.
-import uPlot from 'uplot';
-import 'uplot/dist/uPlot.min.css';
 import { landmarkTracksMm, type Replay } from './data';
 import { landmarkName } from './format';
-
-interface Curve {
-  label: string;
-  values: (number | null)[];
-  dashed?: boolean;
-}
-interface Chart {
-  title: string;
-  caption: string;
-  unit: string;
-  timeS: number[];
-  curves: Curve[];
-  digits: number;
-}
-
-const palettes = {
-  light: ['#0072b2', '#d55e00', '#009e73', '#b0569b', '#b58900', '#2f9bd0', '#7a5230', '#666666'],
-  dark: ['#56b4e9', '#ff9248', '#3ad6a4', '#e497c9', '#f0e442', '#9ecbff', '#d2a679', '#b0b0b0'],
-};
-
-/** One chart in its card. Made anew when its curves or the colours of the page change. */
-class Plot {
-  private plot: uPlot | null = null;
-  private readonly host = document.createElement('div');
-  private readonly now = document.createElement('div');
-  private timeS = NaN;
-
-  constructor(
-    readonly card: HTMLElement,
-    private chart: Chart,
-    private readonly seek: (timeS: number) => void,
-  ) {
-    const title = document.createElement('h2');
-    title.textContent = chart.title;
-    const caption = document.createElement('p');
-    caption.textContent = chart.caption;
-    this.host.className = 'plot';
-    this.now.className = 'now';
-    card.append(title, caption, this.host);
-    this.draw();
-    new ResizeObserver(() => this.resize()).observe(this.host);
-  }
-
-  setCurves(curves: Curve[]): void {
-    this.chart = { ...this.chart, curves };
-    this.draw();
-  }
-
-  draw(): void {
-    this.plot?.destroy();
-    const { chart } = this;
-    const data = [chart.timeS, ...chart.curves.map((c) => c.values)] as uPlot.AlignedData;
-    this.plot = new uPlot(this.options(), data, this.host);
-    this.plot.over.append(this.now);
-    this.listen(this.plot.over);
-    this.mark(this.timeS);
-  }
-
-  /** Puts the cursor and the figures in the legend at time t. */
-  mark(t: number): void {
-    this.timeS = t;
-    const { plot } = this;
-    if (!plot || Number.isNaN(t)) return;
-    this.now.style.transform = `translateX(${plot.valToPos(t, 'x')}px)`;
-    if (!plot.over.matches(':hover')) plot.setLegend({ idx: plot.valToIdx(t) }, false);
-  }
-
-  private resize(): void {
-    const width = this.host.clientWidth;
-    if (!this.plot || width === 0 || width === this.plot.width) return;
-    this.plot.setSize({ width, height: this.plot.height });
-    this.mark(this.timeS);
-  }
-
-  private listen(over: HTMLElement): void {
-    const go = (event: PointerEvent) => {
-      const at = event.clientX - over.getBoundingClientRect().left;
-      this.seek(this.plot!.posToVal(at, 'x'));
-    };
-    over.addEventListener('pointerdown', (event) => {
-      over.setPointerCapture(event.pointerId);
-      go(event);
-    });
-    over.addEventListener('pointermove', (event) => {
-      if (event.buttons & 1) go(event);
-    });
-    over.addEventListener('pointerleave', () => requestAnimationFrame(() => this.mark(this.timeS)));
-  }
-
-  private options(): uPlot.Options {
-    const { chart } = this;
-    const style = getComputedStyle(document.documentElement);
-    const ink = style.getPropertyValue('--ink-soft').trim();
-    const grid = style.getPropertyValue('--line').trim();
-    const palette = dark.matches ? palettes.dark : palettes.light;
-    const show = (v: number | null) =>
-      v === null || v === undefined ? '–' : v.toFixed(chart.digits).replace('-', '−') + chart.unit;
-    const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, size: 5 }, font };
-    return {
-      width: Math.max(this.host.clientWidth, 200),
-      height: 190,
-      cursor: { drag: { x: false, y: false }, y: false, points: { size: 6 }, sync: { key: 'time' } },
-      scales: { x: { time: false } },
-      legend: { live: true },
-      axes: [
-        { ...axis, size: 34, values: (_u, ticks) => ticks.map((t, i) => (i === ticks.length - 1 ? `${t} s` : `${t}`)) },
-        { ...axis, size: 46, values: (_u, ticks) => ticks.map((t) => String(Number(t.toPrecision(6))).replace('-', '−')) },
-      ],
-      series: [
-        { label: 't', value: (_u, v) => (v === null || v === undefined ? '–' : `${v.toFixed(3)} s`) },
-        ...chart.curves.map((curve, i) => ({
-          label: curve.label,
-          stroke: curve.dashed ? ink : palette[i % palette.length],
-          width: curve.dashed ? 1 : 2,
-          dash: curve.dashed ? [5, 4] : i >= palette.length ? [8, 3] : undefined,
-          points: { show: false },
-          value: (_u: uPlot, v: number | null) => show(v),
-        })),
-      ],
-    };
-  }
-}
-
-const dark = window.matchMedia('(prefers-color-scheme: dark)');
-const font = '11px system-ui, sans-serif';
+import { dark, signed, TimeChart, type Chart } from './time_chart';
 
 function symmetryCharts(replay: Replay): Chart[] {
   const curve = replay.symmetry;
@@ -139,7 +13,7 @@ function symmetryCharts(replay: Replay): Chart[] {
       title: 'Symmetry of motion, S(t)',
       caption:
         'S = ln |ξL − ξR|; smaller is more symmetric. ' +
-        `Dashed: the floor ln ${curve.floor.toExponential()} = ${floor.toFixed(2).replace('-', '−')}, below which sides are not told apart.`,
+        `Dashed: the floor ln ${curve.floor.toExponential()} = ${signed(floor.toFixed(2))}, below which sides are not told apart.`,
       unit: '', digits: 2, timeS: curve.time_s,
       curves: [
         { label: 'S', values: curve.s },
@@ -192,7 +66,7 @@ function trackChooser(names: string[], chosen: Set<number>, changed: () => void)
 }
 
 export class Plots {
-  private readonly plots: Plot[] = [];
+  private readonly plots: TimeChart[] = [];
 
   constructor(replay: Replay, into: HTMLElement, private readonly seek: (timeS: number) => void) {
     for (const chart of symmetryCharts(replay)) this.add(into, chart);
@@ -204,11 +78,11 @@ export class Plots {
     for (const plot of this.plots) plot.mark(timeS);
   }
 
-  private add(into: HTMLElement, chart: Chart): Plot {
+  private add(into: HTMLElement, chart: Chart): TimeChart {
     const card = document.createElement('article');
     card.className = 'plot-card';
     into.append(card);
-    const plot = new Plot(card, chart, this.seek);
+    const plot = new TimeChart(card, chart, this.seek);
     this.plots.push(plot);
     return plot;
   }

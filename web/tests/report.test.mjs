@@ -6,8 +6,7 @@ import assert from 'node:assert/strict';
 import { mkdir } from 'node:fs/promises';
 import { basename, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launch, openPage, tooWide } from './browser.mjs';
 import { fixture } from './fixtures.mjs';
 
 const reports = process.env.REPORT
@@ -18,39 +17,14 @@ const pictures = process.env.SCREENSHOTS;
 let browser;
 before(async () => {
   if (pictures) await mkdir(pictures, { recursive: true });
-  browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: [
-      '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
-      '--disable-background-networking', '--disable-component-update', '--no-first-run',
-    ],
-  });
+  browser = await launch();
 });
 after(() => browser?.close());
 
-/** A page on the report that remembers everything that should not happen. */
 async function open(report, options = {}) {
-  const context = await browser.newContext({
-    viewport: { width: 1360, height: 900 }, reducedMotion: 'reduce', ...options,
-  });
-  const page = await context.newPage();
-  page.setDefaultTimeout(30_000);
-  const complaints = [];
-  const address = pathToFileURL(report).href;
-  page.on('console', (message) => {
-    // Reading pixels back for a screenshot is slow, and software drivers say so.
-    if (message.text().includes('GPU stall due to ReadPixels')) return;
-    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
-  });
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  page.on('request', (request) => {
-    const url = request.url();
-    if (url !== address && !/^(data|blob):/.test(url)) complaints.push(`request to ${url}`);
-  });
-  await page.goto(address);
-  await page.waitForSelector('html[data-ready]', { timeout: 60_000 });
-  await page.waitForSelector('#face[data-frame]', { timeout: 60_000 });
-  return { page, complaints, close: () => context.close() };
+  const view = await openPage(browser, report, options);
+  await view.page.waitForSelector('#face[data-frame]', { timeout: 60_000 });
+  return view;
 }
 
 const drawnFrame = (page) => page.locator('#face').getAttribute('data-frame').then(Number);
@@ -179,8 +153,7 @@ for (const report of reports) {
       test(`fits the window (${name})`, async () => {
         const view = await open(report, options);
         await view.page.locator('#to-peak').click();
-        const wide = await view.page.evaluate(
-          () => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+        const wide = await tooWide(view.page);
         assert.ok(wide <= 0, `${wide} px too wide`);
         assert.ok((await drawnFrame(view.page)) >= 0);
         if (pictures) {

@@ -2,12 +2,10 @@
 #include "hyperex/report/html_report.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
-#include <string_view>
 
-#include "hyperex/core/files.hpp"
+#include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
 #include "hyperex/report/skin_view.hpp"
 
@@ -16,50 +14,15 @@ namespace {
 
 using Eigen::Index;
 using nlohmann::json;
-static_assert(std::endian::native == std::endian::little, "the page reads little-endian arrays");
 
-/// One block of bytes that the page decodes once; the manifest says what lies where.
-class BinaryBlock {
- public:
-  template <typename T>
-  json add(const char* type, const T* data, std::size_t count) {
-    bytes_.resize((bytes_.size() + 7) / 8 * 8);  // typed arrays need aligned offsets
-    const json at = {{"type", type}, {"offset", bytes_.size()}, {"count", count}};
-    const auto* first = reinterpret_cast<const std::uint8_t*>(data);
-    bytes_.insert(bytes_.end(), first, first + count * sizeof(T));
-    return at;
-  }
-  json add(const std::vector<float>& v) { return add("float32", v.data(), v.size()); }
-  json add(const std::vector<int>& v) { return add("int32", v.data(), v.size()); }
-  json add(const PointsF& v) { return add("float32", v.data(), v.size()); }
-  json add(const std::vector<std::uint8_t>& v) { return add("uint8", v.data(), v.size()); }
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-};
-
-void write_base64(std::ostream& out, const std::vector<std::uint8_t>& bytes) {
-  static constexpr char digits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = bytes.size() - i;
-    const unsigned group =
-        bytes[i] << 16 | (left > 1 ? bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
-    text += digits[group >> 18 & 63];
-    text += digits[group >> 12 & 63];
-    text += left > 1 ? digits[group >> 6 & 63] : '=';
-    text += left > 2 ? digits[group & 63] : '=';
-  }
-  out << text;
+json points_at(const PointsF& points, BinaryBlock& block) {
+  return block.add("float32", points.data(), points.size());
 }
 
 json skin_section(const ReportInput& input, BinaryBlock& block) {
   const auto& performance = input.performance;
   const SkinView view = skin_view(performance, input.scan);
-  json skin = {{"points", block.add(PointsF(performance.skin_rest.points.cast<float>()))},
+  json skin = {{"points", points_at(performance.skin_rest.points.cast<float>(), block)},
                {"triangles", block.add("int32", performance.skin_rest.triangles.data(),
                                        performance.skin_rest.triangles.size())}};
   if (view.uv.rows() > 0) {
@@ -140,19 +103,6 @@ json manifest_of(const ReportInput& input, BinaryBlock& block) {
   return manifest;
 }
 
-/// JSON that may stand inside a script element: "<" only occurs in strings, where its escape means
-/// the same and cannot end the element.
-std::string script_safe(const json& value) {
-  std::string text;
-  for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace)) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
-}
-
 void check(const ReportInput& input) {
   const auto& performance = input.performance;
   const auto frames = performance.frame_time_s.size();
@@ -168,18 +118,8 @@ void check(const ReportInput& input) {
 void write_html_report(const std::filesystem::path& file, const ReportInput& input) {
   check(input);
   BinaryBlock block;
-  const std::string manifest = script_safe(manifest_of(input, block));
-  const std::string_view page = page_template();
-  const auto at = page.find(data_mark);
-  if (at == std::string_view::npos)
-    throw std::logic_error("write_html_report: the page has no place for the data");
-  write_file_atomically(file, [&](std::ostream& out) {
-    out << page.substr(0, at) << "<script id=\"hyperex-manifest\" type=\"application/json\">"
-        << manifest << "</script>\n"
-        << "<script id=\"hyperex-binary\" type=\"application/octet-stream;base64\">";
-    write_base64(out, block.bytes());
-    out << "</script>\n" << page.substr(at + data_mark.size());
-  });
+  const json manifest = manifest_of(input, block);
+  write_page(file, page_template(Page::replay), manifest, block);
 }
 
 }  // namespace hyperex::report

@@ -2,24 +2,33 @@
 #include "hyperex/report/page_template.hpp"
 
 // A megabyte as a C++ array compiles for seconds; the assembler copies the file as it is.
-__asm__(
-    ".pushsection .rodata\n"
-    ".global hyperex_page_begin\n"
-    ".global hyperex_page_end\n"
-    "hyperex_page_begin:\n"
-    ".incbin \"" HYPEREX_PAGE_FILE
-    "\"\n"
-    "hyperex_page_end:\n"
-    ".byte 0\n"
-    ".popsection\n");
+#define HYPEREX_CARRY(NAME, FILE) \
+  __asm__(                        \
+      ".pushsection .rodata\n"    \
+      ".global hyperex_" NAME     \
+      "_begin\n"                  \
+      ".global hyperex_" NAME     \
+      "_end\n"                    \
+      "hyperex_" NAME             \
+      "_begin:\n"                 \
+      ".incbin \"" FILE           \
+      "\"\n"                      \
+      "hyperex_" NAME             \
+      "_end:\n"                   \
+      ".byte 0\n"                 \
+      ".popsection\n")
 
-extern "C" const char hyperex_page_begin[];
-extern "C" const char hyperex_page_end[];
+HYPEREX_CARRY("replay_page", HYPEREX_REPORT_PAGE_FILE);
+HYPEREX_CARRY("tracking_page", HYPEREX_TRACKING_PAGE_FILE);
+
+extern "C" const char hyperex_replay_page_begin[], hyperex_replay_page_end[];
+extern "C" const char hyperex_tracking_page_begin[], hyperex_tracking_page_end[];
 
 namespace hyperex::report {
 
-std::string_view page_template() {
-  return {hyperex_page_begin, hyperex_page_end};
+std::string_view page_template(Page page) {
+  if (page == Page::tracking) return {hyperex_tracking_page_begin, hyperex_tracking_page_end};
+  return {hyperex_replay_page_begin, hyperex_replay_page_end};
 }
 
 }  // namespace hyperex::report

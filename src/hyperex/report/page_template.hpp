@@ -4,8 +4,13 @@
 
 namespace hyperex::report {
 
-/// The replay page as Vite built it from web/, with scripts and styles inside and no data.
-std::string_view page_template();
+enum class Page {
+  replay,    ///< web/report.html
+  tracking,  ///< web/tracking.html
+};
+
+/// A page as Vite built it from web/, with scripts and styles inside and no data.
+std::string_view page_template(Page page);
 
 /// Where in it the data belong.
 inline constexpr std::string_view data_mark = "<!--HYPEREX_DATA-->";

@@ -4,48 +4,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <filesystem>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "unit/report/made_up_face.hpp"
+#include "unit/report/page_reader.hpp"
 
 namespace hyperex::report {
 namespace {
 
 using nlohmann::json;
+using testing::element;
+using testing::from_base64;
 using testing::made_up_face;
 using testing::MadeUpFace;
+using testing::stretch;
 using testing::Surface;
-
-std::string element(const std::string& page, const std::string& id) {
-  const auto tag = page.find("<script id=\"" + id + "\"");
-  const auto begin = page.find('>', tag) + 1;
-  return page.substr(begin, page.find("</script>", begin) - begin);
-}
-
-std::vector<std::uint8_t> from_base64(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
-  unsigned bits = 0, held = 0;
-  for (const char c : text) {
-    const auto value = digits.find(c);
-    if (value == std::string::npos) break;
-    bits = bits << 6 | static_cast<unsigned>(value);
-    if ((held += 6) >= 8) bytes.push_back(static_cast<std::uint8_t>(bits >> (held -= 8)));
-  }
-  return bytes;
-}
-
-template <typename T>
-std::vector<T> stretch(const std::vector<std::uint8_t>& bytes, const json& at) {
-  std::vector<T> out(at.at("count").get<std::size_t>());
-  EXPECT_LE(at.at("offset").get<std::size_t>() + out.size() * sizeof(T), bytes.size());
-  std::memcpy(out.data(), bytes.data() + at.at("offset").get<std::size_t>(),
-              out.size() * sizeof(T));
-  return out;
-}
 
 std::string written(const MadeUpFace& face, const DisplacementModes& modes, std::string title = "t",
                     json summary = json::object()) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// write_report_fixtures FOLDER: reports and models of the made-up face, for the tests in web/tests.
+// write_report_fixtures FOLDER: reports and models of the made-up face and pages of its tracking,
+// for the tests in web/tests.
 #include <filesystem>
 #include <iostream>
+#include <tuple>
 
 #include "hyperex/report/glb.hpp"
 #include "hyperex/report/html_report.hpp"
+#include "hyperex/report/tracking_page.hpp"
 #include "unit/report/made_up_face.hpp"
+#include "unit/report/made_up_tracking.hpp"
 
 int main(int argc, char** argv) {
   using namespace hyperex::report;
@@ -37,5 +41,13 @@ int main(int argc, char** argv) {
                        {"The lips of the scan were joined and were cut along the line shown."},
                        std::string("A made-up face, ") + name});
   }
+  for (const auto& [name, frames, with_depth] :
+       {std::tuple{"tracking", 2000, true}, std::tuple{"tracking_colour_only", 90, false}})
+    write_tracking_page(folder / (std::string(name) + ".html"),
+                        {hyperex::tracking::canonical_model(),
+                         testing::made_up_tracking(frames, with_depth),
+                         "recordings/made-up face/",
+                         92,
+                         {"A sentence of the source."}});
   return 0;
 }

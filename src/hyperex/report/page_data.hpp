@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+namespace hyperex::report {
+
+/// One block of little-endian numbers that a page decodes once; the manifest says what lies where.
+class BinaryBlock {
+ public:
+  /// Appends `count` numbers and tells where they lie: {"type", "offset" in bytes, "count"}. `type`
+  /// names T as JavaScript's typed arrays do: "float32", "int16" ...
+  template <typename T>
+  nlohmann::json add(const char* type, const T* data, std::size_t count) {
+    bytes_.resize((bytes_.size() + 7) / 8 * 8);  // typed arrays need aligned offsets
+    const nlohmann::json at = {{"type", type}, {"offset", bytes_.size()}, {"count", count}};
+    const auto* first = reinterpret_cast<const std::uint8_t*>(data);
+    bytes_.insert(bytes_.end(), first, first + count * sizeof(T));
+    return at;
+  }
+  nlohmann::json add(const std::vector<float>& v) { return add("float32", v.data(), v.size()); }
+  nlohmann::json add(const std::vector<int>& v) { return add("int32", v.data(), v.size()); }
+  nlohmann::json add(const std::vector<std::int16_t>& v) {
+    return add("int16", v.data(), v.size());
+  }
+  nlohmann::json add(const std::vector<std::uint8_t>& v) {
+    return add("uint8", v.data(), v.size());
+  }
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Writes `page` (page_template.hpp) with its data put in: a JSON manifest in the element
+/// hyperex-manifest and the block as base64 in hyperex-binary. Text of the manifest cannot end the
+/// element. Throws InputError where the file cannot be written.
+void write_page(const std::filesystem::path& file, std::string_view page,
+                const nlohmann::json& manifest, const BinaryBlock& block);
+
+}  // namespace hyperex::report

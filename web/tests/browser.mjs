@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Chromium, and a page opened from the disk in it that remembers everything that should not happen.
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+export const launch = () =>
+  chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: [
+      '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
+      '--disable-background-networking', '--disable-component-update', '--no-first-run',
+    ],
+  });
+
+/** Waits until the page says that it is ready. `complaints`: errors, warnings and requests. */
+export async function openPage(browser, file, options = {}) {
+  const context = await browser.newContext({
+    viewport: { width: 1360, height: 900 }, reducedMotion: 'reduce', ...options,
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(30_000);
+  const complaints = [];
+  const address = pathToFileURL(file).href;
+  page.on('console', (message) => {
+    // Reading pixels back, as the tests do, is slow, and software drivers and Chromium say so.
+    if (/GPU stall due to ReadPixels|readback operations using getImageData/.test(message.text())) return;
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('request', (request) => {
+    const url = request.url();
+    if (url !== address && !/^(data|blob):/.test(url)) complaints.push(`request to ${url}`);
+  });
+  await page.goto(address);
+  await page.waitForSelector('html[data-ready]', { timeout: 60_000 });
+  return { page, complaints, close: () => context.close() };
+}
+
+/** By how many pixels the page is wider than its window. */
+export const tooWide = (page) =>
+  page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
