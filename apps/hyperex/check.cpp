@@ -17,7 +17,9 @@ void add_check(CLI::App& program) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "check", "Read all that a scene names and report every problem; simulate nothing");
+      "check",
+      "Read what a scene names and report every problem; track, find and simulate nothing (it says "
+      "what it did not check)");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
   command->add_option("--set", options->overrides, "Override a key of the scene: KEY=VALUE")
       ->allow_extra_args(false);

@@ -26,16 +26,22 @@ struct Options {
   int layers = 2;
 };
 
-/// NAME_landmarks.json or NAME.mrk.json beside NAME.ply.
+/// NAME_landmarks.json or NAME.mrk.json beside NAME.ply; empty where there is neither.
 std::filesystem::path landmarks_beside(const std::filesystem::path& scan) {
   const auto stem = scan.stem().string();
   for (const std::string& name : {stem + "_landmarks.json", stem + ".mrk.json"})
     if (const auto file = scan.parent_path() / name; std::filesystem::exists(file)) return file;
-  throw InputError(
-      scan,
-      fmt::format("has no landmarks beside it ({0}_landmarks.json or {0}.mrk.json); give them "
-                  "with --landmarks",
-                  stem));
+  return {};
+}
+
+/// Read, or found where there are none.
+io::Landmarks landmarks_of(const io::Scan& scan, const std::filesystem::path& file) {
+  if (!file.empty()) return io::read_landmarks(file);
+  std::vector<std::string> notes;
+  auto found =
+      scene::find_landmarks(scan, "no landmarks beside the scan, and no --landmarks", notes);
+  for (const auto& note : notes) std::cerr << note << '\n';
+  return found;
 }
 
 void print(const tissue::TissueMesh& mesh, const std::filesystem::path& out) {
@@ -61,13 +67,13 @@ void run(const Options& options) {
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
   const auto file = options.landmarks.empty() ? landmarks_beside(options.scan) : options.landmarks;
-  const io::Landmarks given = io::read_landmarks(file);
   if (scan.unit_guessed)
     std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
+  const io::Landmarks given = landmarks_of(scan, file);
   if (const auto unknown = tissue::unknown_landmarks(given); !unknown.empty())
     std::cerr << tissue::unknown_landmarks_note(unknown) << '\n';
-  const auto landmarks =
-      tissue::complete_landmarks(given, scene::needed_landmarks(), scan.mesh, file.string());
+  const auto landmarks = tissue::complete_landmarks(given, scene::needed_landmarks(), scan.mesh,
+                                                    (file.empty() ? options.scan : file).string());
   tissue::TissueMeshOptions mesh_options;
   mesh_options.element_size_m = options.element_size_mm * 1e-3;
   mesh_options.layers = options.layers;
@@ -95,9 +101,10 @@ void add_mesh(CLI::App& program) {
       program.add_subcommand("mesh", "Make the soft-tissue volume under a scan, with its quality");
   command->add_option("SCAN", options->scan, "PLY, OBJ, STL, glTF or GLB")->required();
   command->add_option("--out", options->out, "Where to write it (.vtu)")->required();
-  command->add_option(
-      "--landmarks", options->landmarks,
-      "Landmarks on the scan (default: SCAN_landmarks.json or SCAN.mrk.json beside it)");
+  command->add_option("--landmarks", options->landmarks,
+                      "Landmarks on the scan (default: SCAN_landmarks.json or SCAN.mrk.json beside "
+                      "it, else they are "
+                      "found on the scan)");
   command->add_option("--unit", options->unit, "Unit of the scan")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command
@@ -116,8 +123,7 @@ void add_mesh(CLI::App& program) {
       ->add_option("--trim-border-mm", options->trim_border_mm, "Taken off the outer border (mm)")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 50.0));
-  command->footer(
-      "Example: hyperex mesh scan.ply --landmarks scan_landmarks.json --out tissue.vtu");
+  command->footer("Example: hyperex mesh scan.ply --out tissue.vtu");
   command->callback([options] { run(*options); });
 }
 

@@ -61,9 +61,38 @@ TEST_F(LandmarksCommand, RefusesInOneLineAndLeavesNothing) {
 TEST_F(LandmarksCommand, ASceneWithoutLandmarksHasThemFound) {
   write_good_inputs(in(""));
   replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
-  const Outcome outcome = call("check scene.toml");
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("not checked: whether they are found"));
+  const Outcome run = call("run scene.toml --out out");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(read_file(in("out/summary.json")),
+              HasSubstr("the scene names no landmarks: 92 were found on the scan"));
+}
+
+TEST_F(LandmarksCommand, AMeshWithoutLandmarksHasThemFound) {
+  write_good_inputs(in(""));
+  fs::remove(in("face_landmarks.json"));
+  const Outcome outcome =
+      call("mesh face.ply --unit mm --out out.vtu --element-size-mm 12 --layers 1");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("the scene names no landmarks"));
+  EXPECT_THAT(outcome.err, HasSubstr("no landmarks beside the scan"));
+  EXPECT_TRUE(fs::exists(in("out.vtu")));
+}
+
+TEST_F(LandmarksCommand, CheckLooksAtARecordingsFirstFace) {
+  const fs::path recording = fs::path(HYPEREX_SHARED_DIR) / "data/rgbd/subject_A_talk";
+  if (!fs::exists(recording)) GTEST_SKIP() << "no " << recording;
+  write_good_inputs(in(""));
+  replace_in(in("scene.toml"), "file = \"motion.csv\"", "recording = \"recording\"");
+  fs::create_directory_symlink(recording, in("recording"));
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("there is a face in frame 0 of the recording; not checked"));
+  EXPECT_THAT(checked.out, HasSubstr("aligned by"));
+  const Outcome wrong = call("check scene.toml --set 'drive.points=[\"nowhere\"]'");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("nowhere"));
 }
 
 }  // namespace

@@ -133,10 +133,13 @@ const std::vector<Fault> kScans{
      [](const In& in) { tear(in("face.ply"), 0.3); },
      {"face.ply", "torn"},
      "mesh face.ply --out out.vtu"},
-    {"MeshWithoutLandmarks",
-     [](const In& in) { fs::remove(in("face_landmarks.json")); },
-     {"face.ply", "no landmarks", "--landmarks"},
-     "mesh face.ply --out out.vtu"},
+    {"MeshWithoutLandmarksOrAFace",
+     [](const In& in) {
+       fs::remove(in("face_landmarks.json"));
+       write_face(in, [](TriMesh& m) { m.points.col(2) *= 0.02; });
+     },
+     {"face.ply", "no face was found"},
+     "mesh face.ply --unit mm --out out.vtu"},
     {"MeshIntoNoFolder",
      [](const In&) {},
      {"none/out.vtu", "cannot be written"},

@@ -68,17 +68,6 @@ void complete(const Scene& scene, const io::Landmarks& given, Inputs& in) {
                     in.placed.size(), in.landmarks.size(), given.size()));
 }
 
-io::Landmarks find_landmarks(Inputs& in) {
-  auto found = tracking::find_scan_landmarks(in.scan.mesh, tracking::picture_colours(in.scan),
-                                             in.scan.file.string());
-  in.notes.push_back(fmt::format(
-      "the scene names no landmarks: {} were found on the scan in {} pictures, which lie {:.1f} mm "
-      "(median) from where all agree; hyperex landmarks draws them, scan.landmarks names better "
-      "ones",
-      found.landmarks.size(), found.views, 1e3 * found.spread_m));
-  return std::move(found.landmarks);
-}
-
 const tracking::FaceModel& face_model(const MotionOptions& options,
                                       std::optional<tracking::FaceModel>& own) {
   if (options.candide.empty()) return tracking::canonical_model();
@@ -97,16 +86,40 @@ motion::Motion read_expressions(const MotionOptions& options, Inputs& in) {
   return m;
 }
 
+/// The first frame with a face, of which alone the person's shape is estimated: names and places
+/// of points as tracking the whole recording would give them, roughly.
+tracking::Tracking track_first_face(capture::FrameSource& source,
+                                    const tracking::FaceModel& model) {
+  tracking::TrackerOptions options;
+  options.neutral_frames = 1;
+  tracking::FaceTracker tracker(model, source.intrinsics(), options);
+  tracking::Tracking tracking;
+  while (tracking.frames.empty()) {
+    const auto frame = source.next();
+    if (!frame) throw InputError("tracking", "no face was found in any of the frames");
+    for (auto& one : tracker.feed(*frame))
+      if (one.valid) tracking.frames.push_back(std::move(one));
+  }
+  tracking.neutral = tracker.neutral();
+  return tracking;
+}
+
 /// The face that a camera has recorded; with the tracked mesh where skin is to follow it.
-motion::Motion track_recording(const Scene& scene, Inputs& in) {
+motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
   std::optional<tracking::FaceModel> own;
   const tracking::FaceModel& model = face_model(scene.motion, own);
   const auto source = capture::open_source(scene.motion.recording.string());
-  const tracking::Tracking tracking = tracking::track(*source, model);
+  const tracking::Tracking tracking =
+      look == Look::quick ? track_first_face(*source, model) : tracking::track(*source, model);
   const auto lost = std::count_if(tracking.frames.begin(), tracking.frames.end(),
                                   [](const auto& frame) { return !frame.valid; });
-  in.notes.push_back(fmt::format("motion: a face tracked in {} of {} frames",
-                                 tracking.frames.size() - lost, tracking.frames.size()));
+  in.notes.push_back(
+      look == Look::quick
+          ? fmt::format("motion: there is a face in frame {} of the recording; not checked: the "
+                        "frames after it, which a run tracks",
+                        tracking.frames.front().index)
+          : fmt::format("motion: a face tracked in {} of {} frames", tracking.frames.size() - lost,
+                        tracking.frames.size()));
   if (!tracking.neutral->metric)
     in.notes.push_back(
         "motion: no depth in the recording; lengths rest on a usual distance between the eyes");
@@ -116,8 +129,8 @@ motion::Motion track_recording(const Scene& scene, Inputs& in) {
   return m;
 }
 
-motion::Motion read_motion(const Scene& scene, Inputs& in) {
-  if (!scene.motion.recording.empty()) return track_recording(scene, in);
+motion::Motion read_motion(const Scene& scene, Look look, Inputs& in) {
+  if (!scene.motion.recording.empty()) return track_recording(scene, look, in);
   if (scene.motion.source.file.empty()) return read_expressions(scene.motion, in);
   auto m = motion::read_motion(scene.motion.source.file, scene.motion.unit);
   if (!m.unit_note.empty()) in.notes.push_back("motion: " + m.unit_note);
@@ -207,7 +220,18 @@ std::vector<std::string> needed_landmarks() {
   return names;
 }
 
-Inputs read_inputs(const Scene& scene) {
+io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
+                             std::vector<std::string>& notes) {
+  auto found =
+      tracking::find_scan_landmarks(scan.mesh, tracking::picture_colours(scan), scan.file.string());
+  notes.push_back(fmt::format(
+      "{}: {} were found on the scan in {} pictures, which lie {:.1f} mm (median) from where all "
+      "agree; hyperex landmarks draws them",
+      why, found.landmarks.size(), found.views, 1e3 * found.spread_m));
+  return std::move(found.landmarks);
+}
+
+Inputs read_inputs(const Scene& scene, Look look) {
   Inputs in;
   Problems problems;
   io::Landmarks given;
@@ -222,11 +246,11 @@ Inputs read_inputs(const Scene& scene) {
       given = io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);
     else if (scene.scan.source.embedded)
       given = tissue::embedded_face().landmarks;
-    else if (scan_read)
-      given = find_landmarks(in);
+    else if (scan_read && look == Look::whole)
+      given = find_landmarks(in.scan, "the scene names no landmarks", in.notes);
   });
   if (!scene.motion.source.embedded)
-    problems.attempt([&] { steadied = steady(scene, read_motion(scene, in), in); });
+    problems.attempt([&] { steadied = steady(scene, read_motion(scene, look, in), in); });
   if (scan_read && !given.empty()) problems.attempt([&] { complete(scene, given, in); });
   if (scene.motion.source.embedded && !in.landmarks.empty())
     problems.attempt([&] {
@@ -235,6 +259,14 @@ Inputs read_inputs(const Scene& scene) {
       steadied = steady(scene, opening, in);
     });
   problems.throw_if_any();
+  if (given.empty()) {
+    in.notes.push_back(
+        "the scene names no landmarks, so a run looks for them on the scan, as hyperex landmarks "
+        "does; not checked: whether they are found, how the recording fits them, and the names of "
+        "points and landmarks");
+    note_missing_support(scene, in);
+    return in;
+  }
   in.motion = reenact::align(steadied->motion, in.landmarks, scene.alignment.method);
   in.notes.push_back(fmt::format(
       "aligned by {} common points, scale {:.3f}, {:.1f} mm rms apart before the smooth "

@@ -24,7 +24,21 @@ struct Inputs {
 /// The landmarks that every run needs: all that the canonical face knows.
 std::vector<std::string> needed_landmarks();
 
+/// The landmarks of a scan that has none (tracking/scan), and a note that says so: `why`, and how
+/// well the pictures agree. Takes seconds. Throws InputError where no face is found.
+io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
+                             std::vector<std::string>& notes);
+
+/// How far what a scene names is looked at.
+enum class Look {
+  whole,
+  /// A camera's recording as far as its first frame with a face. Landmarks of a scan that has none
+  /// are not found, and what rests on them (the alignment, whether the elements are small enough)
+  /// is left out. Notes say so.
+  quick
+};
+
 /// Throws InputError, as far as possible with all problems at once.
-Inputs read_inputs(const Scene& scene);
+Inputs read_inputs(const Scene& scene, Look look = Look::whole);
 
 }  // namespace hyperex::scene

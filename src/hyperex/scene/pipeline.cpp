@@ -134,7 +134,7 @@ tissue::TissueMeshOptions mesh_options(const Scene& scene) {
 }
 
 std::vector<std::string> check_scene(const Scene& scene) {
-  return read_inputs(scene).notes;
+  return read_inputs(scene, Look::quick).notes;
 }
 
 namespace {

@@ -14,7 +14,8 @@ namespace hyperex::scene {
 /// complete or not at all. Returns the summary (summary.json). Throws InputError, NumericalError.
 nlohmann::ordered_json run_scene(const Scene& scene, const std::filesystem::path& directory);
 
-/// Reads everything and builds the mesh's inputs, simulates nothing; returns notes for the user.
+/// Reads everything, what takes long as far as Look::quick does, and simulates nothing; returns
+/// notes for the user, which say what was not checked.
 /// Throws InputError with every problem found.
 std::vector<std::string> check_scene(const Scene& scene);
 

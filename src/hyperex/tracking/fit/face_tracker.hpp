@@ -48,8 +48,8 @@ struct TrackerTimes {
 
 /// Follows one face from frame to frame: the landmark network, then the model's fit. The first
 /// frames with a face are held back until the person's shape is known from them; before and after
-/// that a frame fed is a frame given. A frame without a face, or not valid itself, comes back as not valid, and the face
-/// is found again after.
+/// that a frame fed is a frame given. A frame without a face, or not valid itself, comes back as
+/// not valid, and the face is found again after.
 class FaceTracker {
  public:
   /// `model` must outlive the tracker.
