@@ -13,6 +13,7 @@
 #include "hyperex/capture/mirrored.hpp"
 #include "hyperex/capture/open_source.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/report/tracking_page.hpp"
 #include "hyperex/tracking/fit/score.hpp"
 #include "track_live.hpp"
 #include "track_outputs.hpp"
@@ -23,7 +24,7 @@ namespace {
 struct Options {
   std::string recording, device, model = "canonical";
   TrackOutputs outputs;
-  std::filesystem::path score, camera;
+  std::filesystem::path score, camera, plots;
   std::optional<bool> mirrored;
   bool no_depth = false, json = false;
   double eye_distance_mm = 90;
@@ -125,8 +126,9 @@ tracking::FrameVisitor visitor_of(tracking::PreviewMovie* preview) {
 }
 
 void run(const Options& options) {
-  if (!options.outputs.any() && options.score.empty())
-    throw InputError("hyperex track: nothing to do: give --out, --trc, --preview or --score");
+  if (!options.outputs.any() && options.plots.empty() && options.score.empty())
+    throw InputError(
+        "hyperex track: nothing to do: give --out, --trc, --preview, --plots or --score");
   if (options.json && options.score.empty())
     throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
   std::optional<tracking::FaceModel> own;
@@ -163,6 +165,10 @@ void run(const Options& options) {
           options.eye_distance_mm);
   }
   write_outputs(options.outputs, model, tracking, options.json);
+  if (!options.plots.empty())
+    report::write_tracking_page(
+        options.plots, {model, tracking, options.device.empty() ? recording : options.device,
+                        options.eye_distance_mm, source->notes()});
   if (truth) print_score(tracking::score(model, tracking.frames, *truth), options.json);
 }
 
@@ -188,6 +194,8 @@ void add_track(CLI::App& program) {
   command->add_option("--seconds", options->seconds, "With a camera: end after so many seconds")
       ->check(CLI::PositiveNumber);
   add_output_options(*command, options->outputs);
+  command->add_option("--plots", options->plots,
+                      "Write a page of plots here (.html): pose, units, distances, residuals");
   command->add_option("--model", options->model, "canonical, or candide:FILE.wfm")
       ->capture_default_str();
   command
