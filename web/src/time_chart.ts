@@ -186,7 +186,7 @@ export class TimeChart {
       axes: [
         { ...axis, size: named ? 26 : 34, label: named ? 'time (s)' : undefined, values: (_u, ticks) => seconds(ticks) },
         {
-          ...axis, size: 46, label: chart.yLabel,
+          ...axis, size: 46, label: chart.yLabel, space: this.heightPx < 170 ? 18 : 30,
           values: (_u, ticks) => ticks.map((t) => signed(String(Number(t.toPrecision(6))))),
         },
       ],

@@ -123,18 +123,19 @@ for (const file of files) {
       assert.equal(await shownFrame(page), first);
       assert.ok((await page.locator('#frame-label').textContent()).includes(fault));
       assert.equal(await legend(page, 'Turn', 'yaw'), null);
-      const shade = (x) => card(page, 'Turn').locator('canvas').evaluate((c, [at, over]) => {
-        const box = c.getBoundingClientRect();
-        const s = c.width / box.width;
-        return [...c.getContext('2d').getImageData(Math.round((over.x - box.x + at * over.width) * s), Math.round((over.y - box.y + 3) * s), 1, 1).data];
-      }, [x, over]);
-      const over = await card(page, 'Turn').locator('.u-over').evaluate((e) => {
-        const { x, y, width } = e.getBoundingClientRect();
-        return { x, y, width };
-      });
-      const middle = (data.faults[0].first + data.faults[0].last) / 2;
-      const at = data.time_s[Math.round(middle)] / data.time_s.at(-1);
-      assert.notDeepEqual(await shade(at), await shade(0.999), 'shaded there, not at the end');
+      // Share of the row just under the plot's top that is not blank, between two times.
+      const filled = (from, to) => card(page, 'Turn').evaluate((host, [a, b]) => {
+        const canvas = host.querySelector('canvas');
+        const [box, over] = [canvas, host.querySelector('.u-over')].map((e) => e.getBoundingClientRect());
+        const scale = canvas.width / box.width;
+        const x = Math.ceil((over.x - box.x + a * over.width) * scale);
+        const width = Math.max(Math.floor((over.x - box.x + b * over.width) * scale) - x, 1);
+        const row = canvas.getContext('2d').getImageData(x, Math.round((over.y - box.y + 3) * scale), width, 1).data;
+        return row.filter((v, i) => i % 4 === 3 && v > 0).length / width;
+      }, [from / data.time_s.at(-1), to / data.time_s.at(-1)]);
+      const { last } = data.faults[0];
+      assert.ok(await filled(data.time_s[first], data.time_s[last]) > 0.9, 'shaded there');
+      assert.ok(await filled(0, data.time_s[first - 1]) < 0.5, 'not before');
     });
 
     test('units come and go', async () => {

@@ -121,8 +121,10 @@ void add_residuals(Collector& collect) {
   });
   collect.add("residual", "depth seen", "%",
               [](const auto& f) { return 100 * f.report.depth_share; });
-  collect.add("residual", "skin matched", "%",
-              [](const auto& f) { return 100 * f.report.photometric_share; });
+  collect.add("residual", "skin matched", "%", [](const TrackedFrame& frame) {
+    const double share = frame.report.photometric_share;
+    return share > 0 ? 100 * share : kNan;
+  });
 }
 
 void check(const FaceModel& model, const Tracking& tracking) {

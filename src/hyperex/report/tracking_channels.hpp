@@ -45,7 +45,7 @@ struct TrackingCurves {
 ///             pairs of points of the lids)
 ///   unit      weights of the model's animation units
 ///   residual  "network" (px), "depth" (mm; none where no vertex had depth), "depth seen", "skin
-///             matched" (shares in %)
+///             matched" (shares in %; none where nothing is compared, as in the first frame)
 /// Throws std::invalid_argument where the tracking has no neutral face, or is not of this model.
 TrackingCurves tracking_curves(const tracking::FaceModel& model,
                                const tracking::Tracking& tracking);

@@ -65,7 +65,7 @@ tracking::Tracking made_up_tracking(int frames, bool with_depth) {
       frame.report.depth_rms_m = 0.0012 + 0.0003 * std::cos(3 * t);
       frame.report.depth_share = 0.9 + 0.05 * std::sin(t);
     }
-    frame.report.photometric_share = 0.8;
+    frame.report.photometric_share = k == 0 ? 0 : 0.8;
     tracking.frames.push_back(frame);
   }
   return tracking;

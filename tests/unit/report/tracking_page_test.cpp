@@ -166,6 +166,7 @@ TEST(TrackingPage, SaysWhatLengthsRestOn) {
   EXPECT_EQ(scaled.manifest.at("metric"), false);
   EXPECT_EQ(scaled.manifest.at("eye_distance_mm"), 92);
   EXPECT_TRUE(std::isnan(scaled.at("residual", "depth", 5)));
+  EXPECT_TRUE(std::isnan(scaled.at("residual", "skin matched", 0)));
   EXPECT_FALSE(std::isnan(scaled.at("residual", "network", 5)));
 }
 

@@ -49,7 +49,7 @@ class Maker {
     const top = Math.max(...used.map((c) => c.most));
     const range: [number, number] | undefined = made.fromZero ? [0, top > 0 ? 1.05 * top : 1] : made.range;
     return [{
-      title, yLabel, digits, curves, range, unit: ` ${made.unit}`, timeS: this.tracking.timeS,
+      title, yLabel, digits, curves, range, unit: made.unit === '°' ? '°' : ` ${made.unit}`, timeS: this.tracking.timeS,
       caption: [made.caption, ...told].join(' '),
     }];
   }

@@ -68,7 +68,7 @@ export function commonRange(pairs: UnitPair[]): [number, number] {
 export function unitChart(pair: UnitPair, timeS: number[], range: [number, number]): Chart {
   const hues = { L: 0, R: 1 };
   return {
-    title: pairTitle(pair), caption: '', unit: '', digits: 3, timeS, range, heightPx: 140,
+    title: pairTitle(pair), caption: '', unit: '', digits: 3, timeS, range, heightPx: 156,
     yLabel: 'weight (1 = full)',
     curves: pair.channels.map((channel) => {
       const which = side(channel.name) as 'L' | 'R' | null;
