@@ -165,10 +165,12 @@ void run(const Options& options) {
           options.eye_distance_mm);
   }
   write_outputs(options.outputs, model, tracking, options.json);
-  if (!options.plots.empty())
+  if (!options.plots.empty()) {
     report::write_tracking_page(
         options.plots, {model, tracking, options.device.empty() ? recording : options.device,
                         options.eye_distance_mm, source->notes()});
+    if (!options.json) std::cout << fmt::format("written: {} (plots)\n", options.plots.string());
+  }
   if (truth) print_score(tracking::score(model, tracking.frames, *truth), options.json);
 }
 
