@@ -122,6 +122,25 @@ Intrinsics guess_intrinsics(int width_px, int height_px, double field_of_view_de
   return {f_px, f_px, (width_px - 1) / 2.0, (height_px - 1) / 2.0, width_px, height_px};
 }
 
+Intrinsics intrinsics_of(const std::string& source, int width, int height,
+                         const SourceOptions& options, std::vector<std::string>& notes) {
+  if (options.camera_file.empty()) {
+    notes.push_back(
+        fmt::format("{}: the camera is not known; its field of view is taken to be {:g} degrees",
+                    source, options.field_of_view_deg));
+    return guess_intrinsics(width, height, options.field_of_view_deg);
+  }
+  const Camera camera = read_camera_file(options.camera_file);
+  notes.insert(notes.end(), camera.notes.begin(), camera.notes.end());
+  const Intrinsics& k = camera.intrinsics;
+  if (k.width_px != width || k.height_px != height)
+    throw InputError(
+        options.camera_file,
+        fmt::format("describes pictures of {}, but those of {} are {}",
+                    size_text(k.width_px, k.height_px), source, size_text(width, height)));
+  return k;
+}
+
 std::string size_text(int width_px, int height_px) {
   return fmt::format("{} x {}", width_px, height_px);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hyperex/capture/frame.hpp"
+#include "hyperex/capture/options.hpp"
 
 namespace hyperex::capture {
 
@@ -27,6 +28,12 @@ Camera read_camera_file(const std::filesystem::path& file);
 ///   f = long side / (2 tan(field of view / 2)),  cx = (width - 1) / 2,  cy = (height - 1) / 2.
 /// Throws InputError outside 10 to 170 degrees.
 Intrinsics guess_intrinsics(int width_px, int height_px, double field_of_view_deg);
+
+/// The camera of pictures of that size: that of SourceOptions::camera_file, else a guessed one and
+/// a sentence on that among the `notes`. `source` is for messages. Throws InputError where the
+/// camera file cannot be used or describes pictures of another size.
+Intrinsics intrinsics_of(const std::string& source, int width_px, int height_px,
+                         const SourceOptions& options, std::vector<std::string>& notes);
 
 /// "640 x 480"
 std::string size_text(int width_px, int height_px);

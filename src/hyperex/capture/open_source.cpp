@@ -8,6 +8,7 @@
 #include "hyperex/capture/kinect.hpp"
 #include "hyperex/capture/openni.hpp"
 #include "hyperex/capture/played.hpp"
+#include "hyperex/capture/still.hpp"
 #include "hyperex/capture/tum_folder.hpp"
 #include "hyperex/capture/video.hpp"
 #include "hyperex/core/error.hpp"
@@ -64,6 +65,8 @@ std::unique_ptr<FrameSource> open(SourceKind kind, const std::string& spec,
       return open_tum_folder(spec, options);
     case SourceKind::oni:
       return open_oni(spec, options);
+    case SourceKind::still:
+      return open_still(spec, options);
     case SourceKind::video:
       return open_video(spec, options);
     case SourceKind::kinect:
@@ -83,11 +86,15 @@ std::unique_ptr<FrameSource> open(SourceKind kind, const std::string& spec,
 SourceKind source_kind(const std::string& spec) {
   std::error_code ignored;
   if (fs::is_directory(spec, ignored)) return SourceKind::folder;
-  if (fs::exists(spec, ignored)) return is_oni(spec) ? SourceKind::oni : SourceKind::video;
+  if (fs::exists(spec, ignored))
+    return is_oni(spec)       ? SourceKind::oni
+           : is_picture(spec) ? SourceKind::still
+                              : SourceKind::video;
   if (const auto kind = device_kind(spec)) return *kind;
-  throw InputError(io::quotable(spec) +
-                   ": no such folder or file; expected a recording (folder, video file, .oni) or a "
-                   "camera (kinect, openni, webcam:N)");
+  throw InputError(
+      io::quotable(spec) +
+      ": no such folder or file; expected a recording (folder, video file, .oni, photograph) or a "
+      "camera (kinect, openni, webcam:N)");
 }
 
 std::unique_ptr<FrameSource> open_source(const std::string& spec, const SourceOptions& options) {

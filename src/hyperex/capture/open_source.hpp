@@ -8,7 +8,7 @@
 
 namespace hyperex::capture {
 
-enum class SourceKind { folder, oni, video, kinect, openni, webcam, played };
+enum class SourceKind { folder, oni, still, video, kinect, openni, webcam, played };
 
 /// What a user's words for a source (open_source) stand for; nothing is opened. Throws InputError
 /// as open_source does.
@@ -17,6 +17,7 @@ SourceKind source_kind(const std::string& spec);
 /// A source by what a user writes:
 ///   a folder             a recording in TUM's layout (tum_folder.hpp)
 ///   a file *.oni         a recording by OpenNI2 (openni.hpp)
+///   *.jpg, *.jpeg, *.png a photograph: one frame (still.hpp)
 ///   any other file       a video (video.hpp)
 ///   kinect               the first Kinect (kinect.hpp)
 ///   openni, openni:URI   a camera through OpenNI2 (openni.hpp)

@@ -17,26 +17,6 @@ namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 
-/// The camera file's intrinsics, or guessed ones with a note.
-Intrinsics camera_of(const std::string& source, int width, int height, const SourceOptions& options,
-                     std::vector<std::string>& notes) {
-  if (options.camera_file.empty()) {
-    notes.push_back(
-        fmt::format("{}: the camera is not known; its field of view is taken to be {:g} degrees",
-                    source, options.field_of_view_deg));
-    return guess_intrinsics(width, height, options.field_of_view_deg);
-  }
-  const Camera camera = read_camera_file(options.camera_file);
-  notes.insert(notes.end(), camera.notes.begin(), camera.notes.end());
-  const Intrinsics& k = camera.intrinsics;
-  if (k.width_px != width || k.height_px != height)
-    throw InputError(
-        options.camera_file,
-        fmt::format("describes pictures of {}, but those of {} are {}",
-                    size_text(k.width_px, k.height_px), source, size_text(width, height)));
-  return k;
-}
-
 /// A copy of its own: the capture may write into its buffer again.
 cv::Mat as_bgr(const cv::Mat& picture) {
   cv::Mat bgr;
@@ -62,7 +42,7 @@ class Capture : public FrameSource {
 
   void begin(const SourceOptions& options) {
     if (!reader_->read(first_) || first_.empty()) throw InputError(name_ + ": gives no picture");
-    intrinsics_ = camera_of(name_, first_.cols, first_.rows, options, notes_);
+    intrinsics_ = intrinsics_of(name_, first_.cols, first_.rows, options, notes_);
   }
   /// Empty at the end.
   cv::Mat read() {
