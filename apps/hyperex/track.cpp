@@ -128,7 +128,7 @@ tracking::FrameVisitor visitor_of(tracking::PreviewMovie* preview) {
 void run(const Options& options) {
   if (!options.outputs.any() && options.plots.empty() && options.score.empty())
     throw InputError(
-        "hyperex track: nothing to do: give --out, --trc, --preview, --plots or --score");
+        "hyperex track: nothing to do: give --out, --trc, --preview, --glb, --plots or --score");
   if (options.json && options.score.empty())
     throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
   std::optional<tracking::FaceModel> own;
@@ -164,7 +164,7 @@ void run(const Options& options) {
           "(--eye-distance-mm)",
           options.eye_distance_mm);
   }
-  write_outputs(options.outputs, model, tracking, options.json);
+  write_outputs(options.outputs, model, tracking, source->intrinsics(), options.json);
   if (!options.plots.empty()) {
     report::write_tracking_page(
         options.plots, {model, tracking, options.device.empty() ? recording : options.device,

@@ -7,6 +7,7 @@
 
 #include "hyperex/io/trc.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "hyperex/report/tracked_glb.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -38,6 +39,9 @@ void add_output_options(CLI::App& command, TrackOutputs& outputs) {
   command.add_option("--preview", outputs.preview,
                      "Write a video (.mp4) of the recording with mesh, landmarks, pose and units "
                      "drawn in");
+  command.add_option(
+      "--glb", outputs.glb,
+      "Write the moving face here (.glb), the head's pose in the animation of its node");
   command.add_flag("--vertices", outputs.vertices, "The model's vertices too, as vertex_K");
 }
 
@@ -49,7 +53,8 @@ std::unique_ptr<tracking::PreviewMovie> preview_of(const TrackOutputs& outputs,
 }
 
 void write_outputs(const TrackOutputs& outputs, const tracking::FaceModel& model,
-                   const tracking::Tracking& tracking, bool quiet) {
+                   const tracking::Tracking& tracking, const capture::Intrinsics& camera,
+                   bool quiet) {
   const motion::Motion motion = tracking::motion_of(model, tracking, outputs.vertices);
   if (!outputs.motion.empty()) {
     motion::write_motion_csv(outputs.motion, motion);
@@ -58,12 +63,13 @@ void write_outputs(const TrackOutputs& outputs, const tracking::FaceModel& model
     tracking::write_arkit_csv(beside(outputs.motion, "arkit"), model, tracking);
   }
   if (!outputs.trc.empty()) write_trc(outputs.trc, motion);
+  if (!outputs.glb.empty()) report::write_tracked_glb(outputs.glb, model, tracking, camera);
   if (quiet) return;
   if (!outputs.motion.empty())
     std::cout << fmt::format(
         "written: {} (points, mm), and beside it .pose.csv, .units.csv and .arkit.csv\n",
         outputs.motion.string());
-  for (const auto& file : {outputs.trc, outputs.preview})
+  for (const auto& file : {outputs.trc, outputs.preview, outputs.glb})
     if (!file.empty()) std::cout << fmt::format("written: {}\n", file.string());
 }
 

@@ -13,10 +13,10 @@ namespace hyperex::cli {
 /// The files that `hyperex track` writes, each where it is named.
 struct TrackOutputs {
   std::filesystem::path motion;  ///< CSV, with tables beside it
-  std::filesystem::path trc, preview;
+  std::filesystem::path trc, preview, glb;
   bool vertices = false;  ///< in the motion too
 
-  bool any() const { return !motion.empty() || !trc.empty() || !preview.empty(); }
+  bool any() const { return !motion.empty() || !trc.empty() || !preview.empty() || !glb.empty(); }
 };
 
 void add_output_options(CLI::App& command, TrackOutputs& outputs);
@@ -29,6 +29,7 @@ std::unique_ptr<tracking::PreviewMovie> preview_of(const TrackOutputs& outputs,
 
 /// All but the preview; says what was written unless `quiet`.
 void write_outputs(const TrackOutputs& outputs, const tracking::FaceModel& model,
-                   const tracking::Tracking& tracking, bool quiet);
+                   const tracking::Tracking& tracking, const capture::Intrinsics& camera,
+                   bool quiet);
 
 }  // namespace hyperex::cli

@@ -33,6 +33,37 @@ void for_blocks(const std::vector<PointsF>& frames, Visit visit) {
   }
 }
 
+/// Eigenvectors of a Gram matrix (its lower half), most important first; directions below its
+/// rounding carry nothing and are left out.
+Eigen::MatrixXd leading_eigenvectors(const Eigen::MatrixXd& gram, Eigen::VectorXd& values) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  values = eigen.eigenvalues().reverse();
+  const Index rank = (values.array() > 1e-15 * values[0]).count() * (values[0] > 0);
+  values.conservativeResize(rank);
+  return eigen.eigenvectors().rowwise().reverse().leftCols(rank);
+}
+
+/// Of the 3|V| x N matrix X of the frames, orthonormal, N x rank, through the smaller one of X^T X
+/// and X X^T.
+Eigen::MatrixXd right_singular_vectors(const std::vector<PointsF>& frames) {
+  const auto n = static_cast<Index>(frames.size());
+  const Index coordinates = 3 * frames.front().rows();
+  Eigen::VectorXd values;
+  if (n <= coordinates) {
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
+    for_blocks(frames, [&](Index, Index, const Block& block) {
+      gram.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
+    });
+    return leading_eigenvectors(gram, values);
+  }
+  Block all;
+  gather(frames, 0, frames.front().rows(), all);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(coordinates, coordinates);
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(all);
+  const Eigen::MatrixXd left = leading_eigenvectors(gram, values);
+  return (all.transpose() * left) * values.cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
 double largest_row_error(const Block& residual) {
   const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> vertices(residual.data(), 3,
                                                                             residual.size() / 3);
@@ -103,17 +134,8 @@ DisplacementModes displacement_modes(const std::vector<PointsF>& frames, double 
   if (n == 0 || frames.front().rows() == 0) return out;
   for ([[maybe_unused]] const auto& frame : frames) assert(frame.rows() == frames.front().rows());
 
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
-  for_blocks(frames, [&](Index, Index, const Block& block) {
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
-  });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);  // reads the lower half
-  const Eigen::MatrixXd basis = eigen.eigenvectors().rowwise().reverse();
-  const Eigen::VectorXd values = eigen.eigenvalues().reverse();
-  // Directions below rounding of the Gram matrix carry nothing.
-  const Index rank = (values.array() > 1e-15 * values[0]).count() * (values[0] > 0);
-
-  const Index k = modes_needed(frames, basis, rank, tolerance_m);
+  const Eigen::MatrixXd basis = right_singular_vectors(frames);
+  const Index k = modes_needed(frames, basis, basis.cols(), tolerance_m);
   Eigen::VectorXd scale(k);
   for (Index j = 0; j < k; ++j) {
     Index at = 0;

@@ -3,12 +3,11 @@
 
 #include <tiny_gltf.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/report/gltf_parts.hpp"
 #include "hyperex/report/skin_view.hpp"
 
 namespace hyperex::report {
@@ -16,81 +15,9 @@ namespace {
 
 using Eigen::Index;
 
-/// Appends arrays to the one buffer of a glTF model, each with its own view and accessor.
-class GltfArrays {
- public:
-  explicit GltfArrays(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
-
-  int view(const void* data, std::size_t bytes, int target = 0) {
-    auto& buffer = model_.buffers[0].data;
-    buffer.resize((buffer.size() + 3) / 4 * 4);
-    tinygltf::BufferView out;
-    out.buffer = 0;
-    out.byteOffset = buffer.size();
-    out.byteLength = bytes;
-    out.target = target;
-    const auto* first = static_cast<const unsigned char*>(data);
-    buffer.insert(buffer.end(), first, first + bytes);
-    model_.bufferViews.push_back(out);
-    return static_cast<int>(model_.bufferViews.size()) - 1;
-  }
-
-  int accessor(int view, int component, int type, std::size_t count, bool normalised = false) {
-    tinygltf::Accessor out;
-    out.bufferView = view;
-    out.componentType = component;
-    out.type = type;
-    out.count = count;
-    out.normalized = normalised;
-    model_.accessors.push_back(out);
-    return static_cast<int>(model_.accessors.size()) - 1;
-  }
-
-  int vectors(const PointsF& rows, bool with_range) {
-    const int at =
-        accessor(view(rows.data(), rows.size() * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER),
-                 TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, rows.rows());
-    if (with_range) {
-      for (int k = 0; k < 3; ++k) {
-        model_.accessors[at].minValues.push_back(rows.col(k).minCoeff());
-        model_.accessors[at].maxValues.push_back(rows.col(k).maxCoeff());
-      }
-    }
-    return at;
-  }
-
-  int scalars(const std::vector<float>& values, bool with_range) {
-    const int at = accessor(view(values.data(), values.size() * sizeof(float)),
-                            TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, values.size());
-    if (with_range) {
-      const auto [least, most] = std::minmax_element(values.begin(), values.end());
-      model_.accessors[at].minValues = {*least};
-      model_.accessors[at].maxValues = {*most};
-    }
-    return at;
-  }
-
- private:
-  tinygltf::Model& model_;
-};
-
 PointsF spread(const PointsF& skin, const std::vector<int>& skin_vertex) {
   PointsF out(static_cast<Index>(skin_vertex.size()), 3);
   for (std::size_t i = 0; i < skin_vertex.size(); ++i) out.row(i) = skin.row(skin_vertex[i]);
-  return out;
-}
-
-/// D_k, |V| x 3 each, that minimise over all frames f the sum of squares of
-/// sum_k w_fk D_k - (normals(f) - normals at rest): D = W^+ dN.
-std::vector<PointsF> normal_modes(const PointsF& rest, const PointsF& rest_normals,
-                                  const Triangles& triangles, const DisplacementModes& modes) {
-  const Eigen::MatrixXf inverse =
-      modes.weights.cast<double>().completeOrthogonalDecomposition().pseudoInverse().cast<float>();
-  std::vector<PointsF> out(modes.modes.size(), PointsF::Zero(rest.rows(), 3));
-  for (Index f = 0; f < modes.weights.rows(); ++f) {
-    const PointsF change = vertex_normals(rest + modes.displacement(f), triangles) - rest_normals;
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] += inverse(k, f) * change;
-  }
   return out;
 }
 
@@ -130,52 +57,14 @@ int add_texture(tinygltf::Model& model, GltfArrays& arrays, const io::Image& pic
   return 0;
 }
 
-tinygltf::Material skin_material(bool coloured, int texture) {
-  tinygltf::Material material;
-  material.name = "skin";
-  material.doubleSided = true;
-  auto& pbr = material.pbrMetallicRoughness;
-  pbr.metallicFactor = 0;
-  pbr.roughnessFactor = 0.6;
-  if (!coloured) pbr.baseColorFactor = {0.72, 0.45, 0.34, 1};  // linear; a light skin tone
-  pbr.baseColorTexture.index = texture;
-  return material;
-}
-
 void add_targets(tinygltf::Mesh& mesh, GltfArrays& arrays, const SkinView& view,
                  const PointsF& rest, const PointsF& rest_normals, const Triangles& skin_triangles,
                  const DisplacementModes& modes) {
-  const auto normals = normal_modes(rest, rest_normals, skin_triangles, modes);
-  tinygltf::Value::Array names;
-  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
-    mesh.primitives[0].targets.push_back(
-        {{"POSITION", arrays.vectors(spread(modes.modes[k], view.skin_vertex), true)},
-         {"NORMAL", arrays.vectors(spread(normals[k], view.skin_vertex), false)}});
-    mesh.weights.push_back(modes.weights(0, k));
-    names.emplace_back("mode_" + std::to_string(k));
-  }
-  mesh.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(names)}});
-}
-
-tinygltf::Animation weights_animation(GltfArrays& arrays, const std::vector<double>& time_s,
-                                      const Eigen::MatrixXf& weights) {
-  std::vector<float> times, values;
-  for (const double t : time_s) times.push_back(static_cast<float>(t - time_s.front()));
-  for (Index f = 0; f < weights.rows(); ++f)
-    for (Index k = 0; k < weights.cols(); ++k) values.push_back(weights(f, k));
-  tinygltf::AnimationSampler sampler;
-  sampler.input = arrays.scalars(times, true);
-  sampler.output = arrays.scalars(values, false);
-  sampler.interpolation = "LINEAR";
-  tinygltf::AnimationChannel channel;
-  channel.sampler = 0;
-  channel.target_node = 0;
-  channel.target_path = "weights";
-  tinygltf::Animation animation;
-  animation.name = "performance";
-  animation.samplers.push_back(sampler);
-  animation.channels.push_back(channel);
-  return animation;
+  std::vector<PointsF> positions, normals;
+  for (const PointsF& mode : modes.modes) positions.push_back(spread(mode, view.skin_vertex));
+  for (const PointsF& mode : normal_modes(rest, rest_normals, skin_triangles, modes))
+    normals.push_back(spread(mode, view.skin_vertex));
+  add_morph_targets(mesh, arrays, positions, normals, modes.weights.row(0).transpose());
 }
 
 void check(const reenact::Performance& performance, const DisplacementModes& modes) {
@@ -199,10 +88,7 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
   skin.mode = TINYGLTF_MODE_TRIANGLES;
   skin.attributes["POSITION"] = arrays.vectors(spread(rest, view.skin_vertex), true);
   skin.attributes["NORMAL"] = arrays.vectors(spread(rest_normals, view.skin_vertex), false);
-  const int indices = arrays.view(view.triangles.data(), view.triangles.size() * sizeof(int),
-                                  TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-  skin.indices = arrays.accessor(indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                 TINYGLTF_TYPE_SCALAR, view.triangles.size());
+  skin.indices = arrays.triangles(view.triangles);
   int texture = -1, colours = -1;
   if (view.uv.rows() > 0) {
     const int uv =
@@ -221,7 +107,12 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
   mesh.primitives.push_back(skin);
   if (!modes.modes.empty()) {
     add_targets(mesh, arrays, view, rest, rest_normals, performance.skin_rest.triangles, modes);
-    model.animations.push_back(weights_animation(arrays, performance.frame_time_s, modes.weights));
+    tinygltf::Animation animation;
+    animation.name = "performance";
+    const double start_s = performance.frame_time_s.front();
+    const int times = arrays.times(performance.frame_time_s, start_s);
+    animate(animation, 0, "weights", times, arrays.rows_as_scalars(modes.weights));
+    model.animations.push_back(animation);
   }
   model.meshes.push_back(mesh);
   tinygltf::Node node;

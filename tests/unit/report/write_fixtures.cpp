@@ -7,6 +7,7 @@
 
 #include "hyperex/report/glb.hpp"
 #include "hyperex/report/html_report.hpp"
+#include "hyperex/report/tracked_glb.hpp"
 #include "hyperex/report/tracking_page.hpp"
 #include "unit/report/made_up_face.hpp"
 #include "unit/report/made_up_tracking.hpp"
@@ -49,5 +50,7 @@ int main(int argc, char** argv) {
                          "recordings/made-up face/",
                          92,
                          {"A sentence of the source."}});
+  write_tracked_glb(folder / "tracked.glb", hyperex::tracking::canonical_model(),
+                    testing::made_up_tracking(90), {500, 500, 320, 240, 640, 480});
   return 0;
 }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+
+#include "hyperex/capture/frame.hpp"
+#include "hyperex/tracking/fit/track_source.hpp"
+
+namespace hyperex::report {
+
+/// Writes the tracked face as binary glTF 2.0, metres. The scene (+x right, +y up, the recording's
+/// camera at its origin, looking along -z) holds
+///   recording_camera   a camera with the recording's field of view, to look through
+///   camera_frame       the camera's own frame: x right, y down, z forward
+///     head             camera_from_head, animated; its mesh is the person's face at rest (+x the
+///                      subject's left, +y up, +z forward) with the modes of its motion as morph
+///                      targets (displacement_modes.hpp, to `tolerance_m`), their weights animated
+/// Times are counted from the recording's first frame, and keys are at the valid ones. Where frames
+/// are not valid the head's scale is 0: nothing is shown then. Valid frames whose time does not
+/// rise are left out. Throws InputError where the file cannot be written, std::invalid_argument
+/// where the tracking has no neutral face or it is another model's.
+void write_tracked_glb(const std::filesystem::path& file, const tracking::FaceModel& model,
+                       const tracking::Tracking& tracking, const capture::Intrinsics& camera,
+                       double tolerance_m = 3e-4);
+
+}  // namespace hyperex::report
