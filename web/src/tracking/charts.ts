@@ -22,6 +22,15 @@ function extremeText(tracking: Tracking, which: 'least' | 'most', channels: Chan
   return `${which[0].toUpperCase()}${which.slice(1)}: ${told.join(', ')}.`;
 }
 
+function rangeOf(channels: Channel[], span: number, fromZero: boolean): [number, number] {
+  const most = Math.max(...channels.map((c) => c.most));
+  if (fromZero) return [0, Math.max(1.05 * most, span)];
+  const least = Math.min(...channels.map((c) => c.least));
+  const half = Math.max(0.55 * (most - least), span / 2);
+  const middle = (least + most) / 2;
+  return [middle - half, middle + half];
+}
+
 class Maker {
   constructor(private readonly tracking: Tracking) {}
 
@@ -32,7 +41,9 @@ class Maker {
   /** Nothing where the tracking has none of the curves. `styles` and `labels` are those of `names`. */
   chart(group: Group, names: string[], made: {
     title: string; caption: string; yLabel: string; unit: string; digits: number;
-    styles: Partial<Curve>[]; labels: string[]; told?: ('least' | 'most')[]; fromZero?: boolean; range?: [number, number];
+    styles: Partial<Curve>[]; labels: string[]; told?: ('least' | 'most')[];
+    /** At least so much is shown, so that noise does not look like motion. */
+    span: number; fromZero?: boolean; range?: [number, number];
   }): Chart[] {
     const curves: Curve[] = [];
     const used: Channel[] = [];
@@ -46,8 +57,7 @@ class Maker {
     const labels = curves.map((c) => c.label);
     const told = (made.told ?? []).map((which) => extremeText(this.tracking, which, used, labels, made.unit));
     const { title, yLabel, digits } = made;
-    const top = Math.max(...used.map((c) => c.most));
-    const range: [number, number] | undefined = made.fromZero ? [0, top > 0 ? 1.05 * top : 1] : made.range;
+    const range = made.range ?? rangeOf(used, made.span, made.fromZero ?? false);
     return [{
       title, yLabel, digits, curves, range, unit: made.unit === '°' ? '°' : ` ${made.unit}`, timeS: this.tracking.timeS,
       caption: [made.caption, ...told].join(' '),
@@ -62,11 +72,11 @@ function headSection(tracking: Tracking, make: Maker): Section {
     caption: tracking.reference < 0 ? '' : `Relative to the first valid frame (frame ${tracking.index[tracking.reference]}).`,
     charts: [
       ...make.chart('turn', ['yaw', 'pitch', 'roll'], {
-        title: 'Turn', yLabel: 'turn (°)', unit: '°', digits: 2, styles, labels: ['yaw', 'pitch', 'roll'],
+        title: 'Turn', yLabel: 'turn (°)', unit: '°', digits: 2, span: 4, styles, labels: ['yaw', 'pitch', 'roll'],
         caption: 'Yaw: positive to the person’s own left; pitch: up; roll: towards the left shoulder.',
       }),
       ...make.chart('shift', ['left', 'up', 'forward'], {
-        title: 'Shift', yLabel: 'shift (mm)', unit: 'mm', digits: 2, styles, labels: ['left', 'up', 'forward'],
+        title: 'Shift', yLabel: 'shift (mm)', unit: 'mm', digits: 2, span: 6, styles, labels: ['left', 'up', 'forward'],
         caption: 'Of the model’s origin, inside the head, along that frame’s axes of the head.',
       }),
     ],
@@ -74,7 +84,7 @@ function headSection(tracking: Tracking, make: Maker): Section {
 }
 
 function distanceSection(make: Maker): Section {
-  const mm = { unit: 'mm', digits: 2 };
+  const mm = { unit: 'mm', digits: 2, span: 6 };
   const most: ('least' | 'most')[] = ['most'];
   const sides = { styles: [left, right], labels: ['left', 'right'] };
   const one = { styles: [{ hue: 2 }] };
@@ -109,15 +119,15 @@ function residualSection(tracking: Tracking, make: Maker): Section {
     caption: 'Root mean square of what is left between the fitted model and what was seen. Shaded: frames that are not valid.',
     charts: [
       ...make.chart('residual', ['network'], {
-        title: 'Landmark network', yLabel: 'residual (px)', unit: 'px', digits: 2, fromZero: true,
+        title: 'Landmark network', yLabel: 'residual (px)', unit: 'px', digits: 2, span: 1, fromZero: true,
         styles: [{ hue: 3 }], labels: ['residual'], caption: 'The model’s vertices against the network’s points in the picture.',
       }),
       ...make.chart('residual', ['depth'], {
-        title: 'Depth', yLabel: 'residual (mm)', unit: 'mm', digits: 2, fromZero: true,
+        title: 'Depth', yLabel: 'residual (mm)', unit: 'mm', digits: 2, span: 1, fromZero: true,
         styles: [{ hue: 3 }], labels: ['residual'], caption: 'The model’s vertices against the measured surface, along its normals.',
       }),
       ...make.chart('residual', depth ? ['skin matched', 'depth seen'] : ['skin matched'], {
-        title: 'What was seen', yLabel: 'share (%)', unit: '%', digits: 1, range: [0, 102],
+        title: 'What was seen', yLabel: 'share (%)', unit: '%', digits: 1, span: 100, range: [0, 102],
         styles: [{ hue: 6, broken: true }, { hue: 5 }], labels: ['skin', 'depth'],
         caption:
           'Skin: pixels that look as in the first frames.' +

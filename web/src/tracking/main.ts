@@ -7,7 +7,7 @@ import { dark, setPrinting, TimeChart, type Chart } from '../time_chart';
 import { headAndDistances, residuals, type Section } from './charts';
 import { Cursor, listenToKeys } from './cursor';
 import { faultAt, faultSpans, readTracking, type Tracking } from './data';
-import { commonRange, firstPairs, unitChart, unitChooser, unitPairs } from './units';
+import { commonRange, firstCaption, firstPairs, unitChart, unitChooser, unitPairs } from './units';
 
 const at = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 
@@ -138,7 +138,7 @@ function addUnits(tracking: Tracking, charts: Charts): void {
   const range = commonRange(pairs);
   const { head, grid } = charts.section({
     title: 'Action units',
-    caption: 'Those that move, strongest first, all on one scale. Left and right are the person’s own.',
+    caption: `${firstCaption(pairs)}, all on one scale. Left and right are the person’s own.`,
     charts: [],
   });
   const shown = new Map<(typeof pairs)[number], TimeChart>();

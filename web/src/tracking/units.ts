@@ -52,6 +52,9 @@ export function firstPairs(pairs: UnitPair[]): Set<UnitPair> {
   return new Set((moving.length > 0 ? moving : pairs.slice(0, 3)).slice(0, shownAtFirst));
 }
 
+export const firstCaption = (pairs: UnitPair[]): string =>
+  pairs[0].travel >= moves ? 'Those that move, strongest first' : `None moves by ${moves} or more; the strongest`;
+
 export const pairTitle = ({ name, facs }: UnitPair): string =>
   [name[0].toUpperCase() + name.slice(1), facs && `${facs.replaceAll('+', ' + ')} ${facsName(facs)}`]
     .filter(Boolean).join(' · ');
