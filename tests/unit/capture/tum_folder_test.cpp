@@ -269,7 +269,9 @@ TEST(RecordedSubject, IsReadFasterThanItWasTaken) {
   for (const Frame& frame : frames) EXPECT_TRUE(frame.valid) << frame.fault;
   EXPECT_NEAR(frames.back().time_s, 1.3, 1e-6);
   std::printf("%.1f ms a frame\n", 1000 * seconds / 40);
+#ifndef __SANITIZE_ADDRESS__
   EXPECT_LT(seconds, 1.3);
+#endif
 }
 
 }  // namespace
