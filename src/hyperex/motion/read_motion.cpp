@@ -246,6 +246,9 @@ Motion read_motion(const fs::path& file, std::optional<LengthUnit> unit) {
   const std::string extension = lower(file.extension().string());
   if (extension == ".csv") return from_csv(file, unit);
   if (extension == ".trc") return from_trc(file, unit);
+  if (extension == ".c3d")
+    throw InputError(
+        file, "C3D is not read: export the markers as TRC (Mokka and OpenSim's C3D tools do)");
   throw InputError(file, "a motion is read from .csv or .trc, not from '" + extension + "'");
 }
 

@@ -8,7 +8,7 @@
 
 namespace hyperex::motion {
 
-/// Reads named points over time, by extension:
+/// Reads named points over time, by extension (C3D is refused with advice):
 ///  .trc  markers of a motion laboratory, the unit as the file says;
 ///  .csv  a column of time (time_s, time or timestamp; seconds) and three columns a point, either
 ///        NAME_x, NAME_y, NAME_z, each with an optional unit (NAME_x_mm, _cm, _m), or x0, y0, z0,

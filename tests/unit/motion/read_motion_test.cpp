@@ -112,6 +112,7 @@ TEST_F(ReadMotion, FaultsAreNamedInOneLine) {
   expect_refused([&] { read_motion(write("f.csv", "time_s,smile\n0,1\n")); }, {"smile"});
   expect_refused([&] { read_motion(write("f.bvh", "HIERARCHY")); }, {".bvh"});
   expect_refused([&] { read_motion(path("none.csv")); }, {"none.csv"});
+  expect_refused([&] { read_motion(path("Walk.C3D")); }, {"Walk.C3D", "export", "TRC"});
 }
 
 TEST_F(ReadMotion, ReadsTrc) {
