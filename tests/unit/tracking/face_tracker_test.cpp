@@ -8,40 +8,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "face_depth.hpp"
-#include "face_pictures.hpp"
+#include "support/face_recording.hpp"
 
 namespace hyperex::tracking {
 namespace {
 
-constexpr int kSize_px = 360;
-constexpr double kHeight_m = 0.3, kDistance_m = 8;
-constexpr double kPxPerM = kSize_px / kHeight_m;
-const capture::Intrinsics kCamera{kPxPerM * kDistance_m,
-                                  kPxPerM* kDistance_m,
-                                  (kSize_px - 1) / 2.0,
-                                  (kSize_px - 1) / 2.0,
-                                  kSize_px,
-                                  kSize_px};
-
-/// The head turned to its left by `yaw_rad`; the camera stays in front of it.
-capture::Frame frame_at(std::size_t index, double yaw_rad) {
-  capture::Frame frame;
-  frame.index = index;
-  frame.time_s = double(index) / 30;
-  // Turning the viewer to the head's right shows the head turned to its left.
-  frame.colour = face_picture(kSize_px, kHeight_m, -yaw_rad).bgr;
-  const auto& mesh = face_to_draw().mesh;
-  Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
-  camera_from_head.linear() = (Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()) *
-                               Eigen::AngleAxisd(yaw_rad, Vec3::UnitY()))
-                                  .toRotationMatrix();
-  // face_picture() looks at (0, -0.01, 0).
-  camera_from_head.translation() =
-      Vec3(0, 0, kDistance_m) - camera_from_head.linear() * Vec3(0, -0.01, 0);
-  frame.depth_m = depth_of({in_camera(camera_from_head, mesh.points), mesh.triangles}, kCamera);
-  return frame;
-}
+using test::face_frame;
 
 double turn_between_deg(const TrackedFrame& a, const TrackedFrame& b) {
   const Eigen::AngleAxisd turn(a.camera_from_head.linear().transpose() *
@@ -56,14 +28,14 @@ TrackerOptions options_for(int neutral_frames) {
 }
 
 TEST(FaceTracker, HoldsTheFirstFramesBackThenGivesFrameByFrame) {
-  FaceTracker tracker(canonical_model(), kCamera, options_for(3));
-  capture::Frame broken = frame_at(0, 0);
+  FaceTracker tracker(canonical_model(), test::kFaceCamera, options_for(3));
+  capture::Frame broken = face_frame(0, 0);
   broken.valid = false;
   broken.fault = "torn";
   std::vector<TrackedFrame> given = tracker.feed(broken);
   EXPECT_FALSE(tracker.neutral());
   for (std::size_t k = 1; k < 4; ++k)
-    for (auto& frame : tracker.feed(frame_at(k, 0))) {
+    for (auto& frame : tracker.feed(face_frame(k, 0))) {
       EXPECT_EQ(k, 3u);  // not before the third face
       given.push_back(std::move(frame));
     }
@@ -75,29 +47,29 @@ TEST(FaceTracker, HoldsTheFirstFramesBackThenGivesFrameByFrame) {
   ASSERT_TRUE(tracker.neutral());
   EXPECT_TRUE(tracker.neutral()->metric);
   EXPECT_NEAR(tracker.neutral()->scale, 1, 0.06);  // the embedded face is the canonical one
-  EXPECT_NEAR(given[3].camera_from_head.translation().z(), kDistance_m, 0.05);
-  EXPECT_EQ(tracker.feed(frame_at(4, 0.02)).size(), 1u);
+  EXPECT_NEAR(given[3].camera_from_head.translation().z(), test::kFaceDistance_m, 0.05);
+  EXPECT_EQ(tracker.feed(face_frame(4, 0.02)).size(), 1u);
   EXPECT_TRUE(tracker.finish().empty());
 }
 
 TEST(FaceTracker, ShortRecordingsAreGivenAtTheEnd) {
-  FaceTracker tracker(canonical_model(), kCamera, options_for(30));
-  EXPECT_TRUE(tracker.feed(frame_at(0, 0)).empty());
-  EXPECT_TRUE(tracker.feed(frame_at(1, 0)).empty());
+  FaceTracker tracker(canonical_model(), test::kFaceCamera, options_for(30));
+  EXPECT_TRUE(tracker.feed(face_frame(0, 0)).empty());
+  EXPECT_TRUE(tracker.feed(face_frame(1, 0)).empty());
   const auto given = tracker.finish();
   ASSERT_EQ(given.size(), 2u);
   EXPECT_TRUE(given[0].valid && given[1].valid);
 }
 
 TEST(FaceTracker, FollowsATurnThroughBlackAndBrokenFrames) {
-  FaceTracker tracker(canonical_model(), kCamera, options_for(2));
+  FaceTracker tracker(canonical_model(), test::kFaceCamera, options_for(2));
   std::vector<TrackedFrame> given;
   const auto feed = [&](const capture::Frame& frame) {
     for (auto& one : tracker.feed(frame)) given.push_back(std::move(one));
   };
   const auto yaw = [](std::size_t k) { return k < 2 ? 0.0 : 0.02 * double(k - 1); };
   for (std::size_t k = 0; k < 14; ++k) {
-    capture::Frame frame = frame_at(k, yaw(k));
+    capture::Frame frame = face_frame(k, yaw(k));
     if (k == 5) frame.valid = false;
     if (k == 8 || k == 9) frame.colour.setTo(0);
     feed(frame);
@@ -116,14 +88,15 @@ TEST(FaceTracker, FollowsATurnThroughBlackAndBrokenFrames) {
 }
 
 TEST(FaceTracker, AFaceThatComesBackElsewhereIsFoundAgain) {
-  FaceTracker tracker(canonical_model(), kCamera, options_for(2));
+  FaceTracker tracker(canonical_model(), test::kFaceCamera, options_for(2));
   std::vector<TrackedFrame> given;
   const auto feed = [&](capture::Frame frame, int right_px) {
     cv::Mat colour(frame.colour.size(), CV_8UC3, cv::Scalar::all(115)),
         depth = cv::Mat::zeros(frame.depth_m.size(), CV_32F);
-    const int width = kSize_px - right_px;
+    const int width = test::kFaceSize_px - right_px;
     if (width > 0) {
-      const cv::Rect from(0, 0, width, kSize_px), to(right_px, 0, width, kSize_px);
+      const cv::Rect from(0, 0, width, test::kFaceSize_px),
+          to(right_px, 0, width, test::kFaceSize_px);
       frame.colour(from).copyTo(colour(to));
       frame.depth_m(from).copyTo(depth(to));
     }
@@ -131,15 +104,15 @@ TEST(FaceTracker, AFaceThatComesBackElsewhereIsFoundAgain) {
     frame.depth_m = depth;
     for (auto& one : tracker.feed(frame)) given.push_back(std::move(one));
   };
-  const int at_px[] = {0, 0, 0, 150, kSize_px, kSize_px, 40, 40, 40};
-  for (std::size_t k = 0; k < std::size(at_px); ++k) feed(frame_at(k, 0), at_px[k]);
+  const int at_px[] = {0, 0, 0, 150, test::kFaceSize_px, test::kFaceSize_px, 40, 40, 40};
+  for (std::size_t k = 0; k < std::size(at_px); ++k) feed(face_frame(k, 0), at_px[k]);
   ASSERT_EQ(given.size(), std::size(at_px));
   for (const std::size_t k : {3u, 4u, 5u}) EXPECT_FALSE(given[k].valid) << k;  // cut off, gone
   for (const std::size_t k : {0u, 1u, 2u, 6u, 7u, 8u})
     EXPECT_TRUE(given[k].valid) << k << ": " << given[k].fault;
   const Vec3 shift =
       given[8].camera_from_head.translation() - given[0].camera_from_head.translation();
-  EXPECT_NEAR(shift.x(), 40 / kPxPerM, 2e-3);
+  EXPECT_NEAR(shift.x(), 40 / test::kFacePxPerM, 2e-3);
   EXPECT_NEAR(shift.y(), 0, 2e-3);
 }
 
@@ -147,9 +120,9 @@ TEST(FaceTracker, WithoutDepthTheSizeIsWhatTheEyesAreSaidToBeApart) {
   TrackerOptions options = options_for(2);
   options.use_depth = false;
   options.neutral.eye_distance_m = 0.08;
-  FaceTracker tracker(canonical_model(), kCamera, options);
-  tracker.feed(frame_at(0, 0));
-  const auto given = tracker.feed(frame_at(1, 0));
+  FaceTracker tracker(canonical_model(), test::kFaceCamera, options);
+  tracker.feed(face_frame(0, 0));
+  const auto given = tracker.feed(face_frame(1, 0));
   ASSERT_EQ(given.size(), 2u);
   ASSERT_TRUE(given[1].valid) << given[1].fault;
   EXPECT_FALSE(tracker.neutral()->metric);
