@@ -218,8 +218,12 @@ void add_track(CLI::App& program) {
                       "truth_landmarks68_camera_m.csv, truth_weights.csv)");
   command->add_flag("--json", options->json, "Print the score as JSON and nothing else");
   command->footer(
-      "Example:\n  hyperex track recording --out out/motion.csv\n"
+      "Examples:\n"
+      "  hyperex track recording --out out/motion.csv --preview out/preview.mp4\n"
+      "  hyperex track recording --glb out/face.glb --trc out/motion.trc --plots out/plots.html\n"
+      "  hyperex track selfie.mp4 --mirrored yes --eye-distance-mm 92 --out out/motion.csv\n"
       "  hyperex track --device kinect --out out/motion.csv\n"
+      "  hyperex track --device webcam:0 --mirrored no --seconds 20 --preview out/preview.mp4\n"
       "  hyperex track --score recording --json");
   command->callback([options] { run(*options); });
 }

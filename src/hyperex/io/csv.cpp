@@ -60,6 +60,23 @@ double read_cell(const CsvTable& table, int line, std::size_t column, std::strin
   return std::isnan(*number) ? nan : *number;
 }
 
+/// `fill` gives what stands behind a row's numbers.
+void write_table(const std::filesystem::path& file, const std::vector<std::string>& names,
+                 std::size_t numbers, long rows,
+                 const std::function<std::string(long, std::vector<double>&)>& fill) {
+  for (const auto& name : names)
+    if (name.empty() || name.find_first_of(",\"\r\n") != std::string::npos)
+      throw std::invalid_argument("write_csv: a name is empty or holds a comma or quote: " + name);
+  write_file_atomically(file, [&](std::ostream& stream) {
+    stream << fmt::format("{}\n", fmt::join(names, ","));
+    std::vector<double> values(numbers);
+    for (long row = 0; row < rows; ++row) {
+      const std::string behind = fill(row, values);
+      stream << fmt::format("{}{}\n", fmt::join(values, ","), behind);
+    }
+  });
+}
+
 }  // namespace
 
 std::optional<int> CsvTable::find(const std::string& name) const {
@@ -110,16 +127,25 @@ CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of
 
 void write_csv(const std::filesystem::path& file, const std::vector<std::string>& names, long rows,
                const std::function<void(long, std::vector<double>&)>& fill) {
-  for (const auto& name : names)
-    if (name.empty() || name.find_first_of(",\"\r\n") != std::string::npos)
-      throw std::invalid_argument("write_csv: a name is empty or holds a comma or quote: " + name);
-  write_file_atomically(file, [&](std::ostream& stream) {
-    stream << fmt::format("{}\n", fmt::join(names, ","));
-    std::vector<double> values(names.size());
-    for (long row = 0; row < rows; ++row) {
-      fill(row, values);
-      stream << fmt::format("{}\n", fmt::join(values, ","));
+  write_table(file, names, names.size(), rows, [&](long row, std::vector<double>& values) {
+    fill(row, values);
+    return std::string();
+  });
+}
+
+void write_csv_with_text(const std::filesystem::path& file, const std::vector<std::string>& names,
+                         const std::string& text_name, long rows,
+                         const std::function<std::string(long, std::vector<double>&)>& fill) {
+  std::vector<std::string> all = names;
+  all.push_back(text_name);
+  write_table(file, all, names.size(), rows, [&](long row, std::vector<double>& values) {
+    std::string text = fill(row, values);
+    for (char& c : text) {
+      if (c == ',') c = ';';
+      if (c == '"') c = '\'';
+      if (c == '\n' || c == '\r') c = ' ';
     }
+    return "," + text;
   });
 }
 

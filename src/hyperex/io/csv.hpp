@@ -44,4 +44,10 @@ void write_csv(const std::filesystem::path& file, const std::vector<std::string>
 void write_csv(const std::filesystem::path& file, const std::vector<std::string>& names, long rows,
                const std::function<void(long, std::vector<double>&)>& fill);
 
+/// The same with a column `text_name` of texts at the end: `fill` gives a row's. Commas, quotes and
+/// line breaks in them become semicolons, apostrophes and blanks, so that every reader gets along.
+void write_csv_with_text(const std::filesystem::path& file, const std::vector<std::string>& names,
+                         const std::string& text_name, long rows,
+                         const std::function<std::string(long, std::vector<double>&)>& fill);
+
 }  // namespace hyperex::io

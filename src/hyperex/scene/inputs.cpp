@@ -123,6 +123,10 @@ motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
   if (!tracking.neutral->metric)
     in.notes.push_back(
         "motion: no depth in the recording; lengths rest on a usual distance between the eyes");
+  if (capture::source_kind(scene.motion.recording.string()) == capture::SourceKind::video)
+    in.notes.push_back(
+        "motion: the video is taken as not mirrored; where it is, left and right are swapped: give "
+        "the CSV that hyperex track --mirrored yes makes of it");
   for (const auto& note : source->notes()) in.notes.push_back("motion: " + note);
   motion::Motion m = tracking::motion_of(model, tracking, scene.region.measured != Measured::none);
   m.source = scene.motion.recording.string();

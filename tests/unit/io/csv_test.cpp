@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hyperex/core/files.hpp"
 #include "unit/io/io_testing.hpp"
 
 namespace hyperex::io {
@@ -27,6 +28,21 @@ TEST_F(Csv, RoundTripIsExact) {
     values = {double(row), double(row * row)};
   });
   EXPECT_EQ(read_csv(path("u.csv")).values(3, 1), 9);
+}
+
+TEST_F(Csv, TextsStandLastAndBreakNoReader) {
+  write_csv_with_text(path("t.csv"), {"a", "b"}, "why", 2,
+                      [](long row, std::vector<double>& values) -> std::string {
+                        values = {double(row), nan};
+                        return row == 0 ? "" : "torn, \"here\"\nand there";
+                      });
+  EXPECT_EQ(read_file(path("t.csv")), "a,b,why\n0,nan,\n1,nan,torn; 'here' and there\n");
+  const CsvTable table = read_csv(
+      path("t.csv"), [](const std::string&, std::string_view text) -> std::optional<double> {
+        return double(text.size());
+      });
+  EXPECT_EQ(table.values(1, table.column("why")), 22);
+  EXPECT_TRUE(std::isnan(table.values(0, table.column("why"))));
 }
 
 TEST_F(Csv, PutsUpWithWhatProgramsWrite) {

@@ -63,36 +63,43 @@ void write_pose_csv(const std::filesystem::path& file, const Tracking& tracking)
   std::vector<std::string> names = {"time_s", "valid"};
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 4; ++c) names.push_back(fmt::format("T{}{}", r, c));
-  for (const char* name :
-       {"network_rms_px", "depth_rms_mm", "depth_share", "skin_share", "network_score", "frame"})
+  for (const char* name : {"network_rms_px", "depth_rms_mm", "depth_share", "skin_share",
+                           "network_score", "faces_in_view", "metric", "frame"})
     names.push_back(name);
-  io::write_csv(file, names, long(tracking.frames.size()), [&](long k, std::vector<double>& row) {
+  const bool metric = tracking.neutral && tracking.neutral->metric;
+  const auto fill = [&](long k, std::vector<double>& row) {
     const TrackedFrame& frame = tracking.frames[std::size_t(k)];
     std::fill(row.begin(), row.end(), kNan);
     row[0] = frame.time_s;
     row[1] = frame.valid;
+    row[row.size() - 3] = frame.faces_in_view;
+    row[row.size() - 2] = metric;
     row.back() = double(frame.index);
-    if (!frame.valid) return;
+    if (!frame.valid) return frame.fault;
     std::size_t at = 2;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 4; ++c) row[at++] = frame.camera_from_head.matrix()(r, c);
+    const bool has_depth = frame.report.depth_share > 0;
     for (const double value :
-         {frame.report.network_rms_px, frame.report.depth_rms_m * 1e3, frame.report.depth_share,
-          frame.report.photometric_share, frame.network_score})
+         {frame.report.network_rms_px, has_depth ? frame.report.depth_rms_m * 1e3 : kNan,
+          frame.report.depth_share, frame.report.photometric_share, frame.network_score})
       row[at++] = value;
-  });
+    return frame.fault;
+  };
+  io::write_csv_with_text(file, names, "fault", long(tracking.frames.size()), fill);
 }
 
 void write_units_csv(const std::filesystem::path& file, const FaceModel& model,
                      const Tracking& tracking) {
-  std::vector<std::string> names = {"time_s"};
+  std::vector<std::string> names = {"time_s", "valid"};
   for (const auto& unit : model.animation_units)
     names.push_back(unit.facs.empty() ? unit.name : fmt::format("{} [{}]", unit.name, unit.facs));
   io::write_csv(file, names, long(tracking.frames.size()), [&](long k, std::vector<double>& row) {
     const TrackedFrame& frame = tracking.frames[std::size_t(k)];
     std::fill(row.begin(), row.end(), kNan);
     row[0] = frame.time_s;
-    if (frame.valid) std::copy(frame.weights.begin(), frame.weights.end(), row.begin() + 1);
+    row[1] = frame.valid;
+    if (frame.valid) std::copy(frame.weights.begin(), frame.weights.end(), row.begin() + 2);
   });
 }
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/io/csv.hpp"
+#include "hyperex/tracking/output/tracking_outputs.hpp"
+
+namespace hyperex::tracking {
+namespace {
+
+/// Frame 1 of three is not valid; the last has no depth.
+Tracking three_frames() {
+  const FaceModel& model = canonical_model();
+  Tracking tracking;
+  tracking.neutral = Neutral{model.mesh.points, 1, {}, true};
+  for (int k = 0; k < 3; ++k) {
+    TrackedFrame frame;
+    frame.index = std::size_t(2 * k);
+    frame.time_s = 0.1 * k;
+    frame.faces_in_view = k;
+    frame.valid = k != 1;
+    frame.fault = k == 1 ? "rgb/1.jpg: torn, \"half\"" : "";
+    if (frame.valid) {
+      frame.camera_from_head.translation() = Vec3(0.01, 0.02, 0.6);
+      frame.weights = Eigen::VectorXd::Constant(Eigen::Index(model.animation_units.size()), 0.25);
+      frame.vertices_m = model.mesh.points;
+      frame.report = {.network_rms_px = 1.5,
+                      .depth_rms_m = k == 0 ? 0.002 : 0,
+                      .depth_share = k == 0 ? 0.9 : 0,
+                      .photometric_share = 0.7};
+    }
+    tracking.frames.push_back(frame);
+  }
+  return tracking;
+}
+
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::path(::testing::TempDir()) / name;
+}
+
+io::CsvTable read_with_faults(const std::filesystem::path& file) {
+  return io::read_csv(file, [](const std::string& name, std::string_view) -> std::optional<double> {
+    if (name == "fault") return 1;
+    return std::nullopt;
+  });
+}
+
+TEST(TrackingOutputs, PoseSaysWhatIsValidWhyNotAndHowWellItWasMet) {
+  const auto file = scratch("m.pose.csv");
+  write_pose_csv(file, three_frames());
+  const io::CsvTable table = read_with_faults(file);
+  ASSERT_EQ(table.values.rows(), 3);
+  const auto cell = [&](int row, const char* name) {
+    return table.values(row, table.column(name));
+  };
+  EXPECT_EQ(cell(0, "valid"), 1);
+  EXPECT_EQ(cell(1, "valid"), 0);
+  EXPECT_EQ(cell(0, "T23"), 0.6);
+  EXPECT_EQ(cell(0, "T00"), 1);
+  EXPECT_EQ(cell(0, "network_rms_px"), 1.5);
+  EXPECT_DOUBLE_EQ(cell(0, "depth_rms_mm"), 2);
+  EXPECT_TRUE(std::isnan(cell(2, "depth_rms_mm"))) << "no depth is not a perfect fit";
+  EXPECT_EQ(cell(2, "depth_share"), 0);
+  for (const char* name : {"T00", "network_rms_px", "depth_rms_mm", "network_score"})
+    EXPECT_TRUE(std::isnan(cell(1, name))) << name;
+  EXPECT_EQ(cell(1, "time_s"), 0.1);
+  EXPECT_EQ(cell(1, "frame"), 2);
+  EXPECT_EQ(cell(1, "faces_in_view"), 1);
+  EXPECT_EQ(cell(1, "metric"), 1);
+  EXPECT_EQ(cell(1, "fault"), 1);
+  EXPECT_TRUE(std::isnan(cell(0, "fault")));
+  EXPECT_THAT(read_file(file), testing::HasSubstr("rgb/1.jpg: torn; 'half'\n"));
+}
+
+TEST(TrackingOutputs, PoseSaysWhereLengthsRestOnAStatedDistance) {
+  Tracking tracking = three_frames();
+  tracking.neutral->metric = false;
+  const auto file = scratch("n.pose.csv");
+  write_pose_csv(file, tracking);
+  const io::CsvTable table = read_with_faults(file);
+  for (int row = 0; row < 3; ++row) EXPECT_EQ(table.values(row, table.column("metric")), 0);
+}
+
+TEST(TrackingOutputs, UnitsHaveTheirFacsNamesAndValidity) {
+  const auto file = scratch("m.units.csv");
+  write_units_csv(file, canonical_model(), three_frames());
+  const io::CsvTable table = io::read_csv(file);
+  EXPECT_EQ(table.values(0, table.column("jawOpen [AU26+AU27]")), 0.25);
+  EXPECT_EQ(table.values(0, table.column("mouthSmile_L [AU12]")), 0.25);
+  EXPECT_TRUE(std::isnan(table.values(1, table.column("mouthSmile_L [AU12]"))));
+  EXPECT_EQ(table.values(0, table.column("valid")), 1);
+  EXPECT_EQ(table.values(1, table.column("valid")), 0);
+}
+
+}  // namespace
+}  // namespace hyperex::tracking
