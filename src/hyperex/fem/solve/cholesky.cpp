@@ -2,7 +2,6 @@
 #include "hyperex/fem/solve/cholesky.hpp"
 
 #include <cholmod.h>
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,19 +9,11 @@
 #include <vector>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/one_thread.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
 
 namespace hyperex::fem {
 namespace {
-
-/// The blocks of a factor are small: a second BLAS thread gains nothing on a free machine, and on a
-/// busy one its spinning makes a step ten times slower (measured: 114 against 14 ms). OpenBLAS is
-/// found at run time, as any BLAS may stand behind CHOLMOD.
-void keep_blas_to_one_thread() {
-  using SetThreads = void (*)(int);
-  if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
-    reinterpret_cast<SetThreads>(set)(1);
-}
 
 /// A pivot this small against its own diagonal entry is rounding: the direction has no stiffness.
 /// (A free body leaves about 1e-15; a bar a hundred elements long still has 1e-8.)

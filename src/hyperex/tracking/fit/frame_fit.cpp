@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "hyperex/core/one_thread.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/tracking/model/mesh_border.hpp"
@@ -14,7 +15,7 @@ namespace hyperex::tracking {
 
 namespace {
 
-constexpr double kLeastCosine = 0.35;  // between a vertex's normal and the line of sight
+constexpr double kLeastCosine = 0.2;  // between a vertex's normal and the line of sight
 
 double square(double x) {
   return x * x;
@@ -91,11 +92,13 @@ FrameFit::FrameFit(const FaceModel& model, const capture::Intrinsics& camera,
       camera_(camera),
       neutral_m_(neutral_m),
       options_(options),
+      nothing_measured_(model.mesh),
       on_outline_(outline(model.mesh)),
       free_prior_(free_prior(model.mesh, options)) {
   on_inner_lip_.assign(on_outline_.size(), false);
   in_lip_ = on_inner_lip_;
-  slots_ = VertexSystem(model.mesh).slots(free_prior_);
+  slots_ = nothing_measured_.slots(free_prior_);
+  keep_blas_to_one_thread();
   factor_.analyzePattern(free_prior_);
   const std::set<int> inside = network_points("inside_lip");
   const auto& inner_lip = face::lip_contour();
@@ -118,6 +121,11 @@ FrameFit::FrameFit(const FaceModel& model, const capture::Intrinsics& camera,
       unit_matrix_.block<3, 1>(3 * unit.vertices[i], k) =
           unit_scale * unit.displacement_m.row(Eigen::Index(i)).transpose();
   }
+  off_units_m_.resize(model.vertex_count());
+  const VertexSystem::RowMatrix typical_moves = unit_matrix_ * typical_.asDiagonal();
+  for (Eigen::Index v = 0; v < off_units_m_.size(); ++v)
+    off_units_m_[v] = options.off_units_share * typical_moves.middleRows<3>(3 * v).norm() +
+                      (in_lip_[std::size_t(v)] ? options.off_units_lip_m : 0);
 }
 
 FaceState FrameFit::at_rest() const {
@@ -218,7 +226,7 @@ void FrameFit::add_depth(VertexSystem& system, const Observation& seen, const Fa
 
 VertexSystem FrameFit::measure(const Observation& seen, const FaceState& state, const Skin* skin,
                                bool coarse, FitReport* report) const {
-  VertexSystem system(model_.mesh);
+  VertexSystem system = nothing_measured_;
   const Points points = vertices(state);
   add_network(system, seen, state, points, report);
   add_depth(system, seen, state, points, report);
@@ -283,19 +291,21 @@ void FrameFit::move(FaceState& state, const Eigen::VectorXd& step) const {
 void FrameFit::iterate(const VertexSystem& system, FaceState& state, const FaceState* before,
                        bool free_moves) {
   const VertexSystem::RowMatrix jacobian = parameter_jacobian(state);
-  const VertexSystem::RowMatrix moved = system.times(jacobian);
-  const Eigen::VectorXd step = parameter_step(system, moved, jacobian, state, before);
+  const VertexSystem limited = system.limited(off_units_m_);
+  const Eigen::VectorXd step =
+      parameter_step(limited, limited.times(jacobian), jacobian, state, before);
   if (!step.allFinite()) return;
   move(state, step);
   if (!free_moves) return;
-  // Free displacements d, from those now to new ones: (H + S) d_new = H d - g - H J step + prior.
+  // Free displacements d, from those now to new ones: (H + S) d_new = H (d - J step) - g + prior.
   const Eigen::Map<Eigen::VectorXd> free(state.free_m.data(), state.free_m.size());
-  Eigen::VectorXd right = system.times(free) - system.gradient() - moved * step;
+  Eigen::VectorXd right = system.times(free - jacobian * step) - system.gradient();
   if (before)
     right += Eigen::Map<const Eigen::VectorXd>(before->free_m.data(), before->free_m.size()) /
              square(options_.free_step_m);
   SparseMatrix matrix = free_prior_;
   system.add_to(matrix, slots_);
+  const OneOpenMpThread alone;
   factor_.factorize(matrix);
   if (factor_.info() != Eigen::Success) return;
   const Eigen::VectorXd solution = factor_.solve(right);

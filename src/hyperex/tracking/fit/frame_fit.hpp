@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <Eigen/CholmodSupport>
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -49,9 +49,9 @@ struct FitOptions {
   /// Of one within the lips' outer border: it sees the lips as they look, not where the skin goes.
   double network_inner_lip_px = 4;
   double network_robust_px = 10;  ///< Geman-McClure
-  double depth_m = 0.001;         ///< of a vertex against the surface, along its normal
+  double depth_m = 0.0005;        ///< of a vertex against the surface, along its normal
   double depth_robust_m = 0.004;
-  PatchOptions patch;
+  PatchOptions patch{.radius_px = 2};
   double photometric_weight = 1;
   PhotometricOptions grey{.channel = Channel::grey, .pixels_as_one = 30};
   PhotometricOptions chroma{
@@ -60,12 +60,16 @@ struct FitOptions {
   double coarse_sigma_px = 2.5;  ///< of the smoother pictures that are compared first
   double coarse_gradient = 0.5;  ///< PhotometricOptions::least_gradient there, of that of the fine
   int coarse_iterations = 1;
-  int free_iterations = 1;     ///< the last so many solve for the free displacements too
-  double units = 0.5;          ///< times the unit's typical weight
-  double units_step = 0.5;     ///< times the typical weight, from one frame to the next
-  double free_m = 0.01;        ///< of a vertex off the units
-  double free_bend_m = 0.001;  ///< of a vertex against the mean of its neighbours
-  double free_step_m = 0.002;  ///< from one frame to the next
+  int free_iterations = 1;  ///< the last so many solve for the free displacements too
+  /// How far a vertex may be off any weights of the units, of its typical displacement by them, and
+  /// what is added to that within the lips: many pixels that agree on it tell no more of pose and
+  /// units than this.
+  double off_units_share = 0.7, off_units_lip_m = 0.003;
+  double units = 0.5;           ///< times the unit's typical weight
+  double units_step = 0.5;      ///< times the typical weight, from one frame to the next
+  double free_m = 0.015;        ///< of a vertex off the units
+  double free_bend_m = 0.0007;  ///< of a vertex against the mean of its neighbours
+  double free_step_m = 0.003;   ///< from one frame to the next
   double pose_step_rad = 0.05, pose_step_m = 0.02;
 };
 
@@ -136,12 +140,14 @@ class FrameFit {
   capture::Intrinsics camera_;
   Points neutral_m_;
   FitOptions options_;
+  VertexSystem nothing_measured_;
   std::vector<bool> skin_triangle_;      // false: within the lips
   VertexSystem::RowMatrix unit_matrix_;  // 3|V| x K
   Eigen::VectorXd typical_;
+  Eigen::VectorXd off_units_m_;  // of a vertex
   std::vector<bool> on_outline_, in_lip_, on_inner_lip_;
   SparseMatrix free_prior_;  // upper triangle, with the pattern of the data
-  Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper> factor_;
+  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor_;
   std::vector<Eigen::Index> slots_;  // of the data in free_prior_
 };
 

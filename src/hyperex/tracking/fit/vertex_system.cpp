@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <map>
 
 namespace hyperex::tracking {
@@ -63,6 +64,20 @@ VertexSystem::RowMatrix VertexSystem::times(const RowMatrix& right) const {
         edge_blocks_[e].transpose() * right.middleRows<3>(3 * a);
   }
   return product;
+}
+
+VertexSystem VertexSystem::limited(const Eigen::VectorXd& sigma_m) const {
+  VertexSystem out = *this;
+  Eigen::VectorXd share(vertex_count());
+  for (Eigen::Index v = 0; v < vertex_count(); ++v)
+    share[v] = 1 / std::sqrt(1 + sigma_m[v] * sigma_m[v] * diagonal_[std::size_t(v)].trace() / 2);
+  for (Eigen::Index v = 0; v < vertex_count(); ++v) {
+    out.diagonal_[std::size_t(v)] *= share[v] * share[v];
+    out.gradient_.segment<3>(3 * v) *= share[v] * share[v];
+  }
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    out.edge_blocks_[e] *= share[edges_[e].a] * share[edges_[e].b];
+  return out;
 }
 
 std::vector<Eigen::Index> VertexSystem::slots(const SparseMatrix& pattern) const {
