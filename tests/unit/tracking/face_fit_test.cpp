@@ -97,6 +97,7 @@ TEST(FrameFit, FindsPoseAndJawFromExactPoints) {
   FitOptions options;
   options.iterations = 10;
   options.network_px = options.network_outline_px = options.network_inner_lip_px = 0.1;
+  options.off_units_share = options.off_units_lip_m = 0;  // the points are the model's own
   FrameFit fit(model, kCamera, model.mesh.points, 1, options);
   FaceState truth = fit.at_rest();
   truth.camera_from_head = pose(8, {0.02, 0.01, 0.6});

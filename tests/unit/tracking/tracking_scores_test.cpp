@@ -56,14 +56,14 @@ TEST_F(TrackingScores, MouthOpening) {
   const TrialResult result = trial("mouth_open", tracking::canonical_model());
   EXPECT_EQ(result.score.frames, 81u);
   EXPECT_TRUE(result.score.jaw_correlation);
-  expect_within(result, {.deformation_median_mm = 0.65, .deformation_p95_mm = 3.4});
+  expect_within(result, {.deformation_median_mm = 0.5, .deformation_p95_mm = 1.9});
 }
 
 TEST_F(TrackingScores, Talk) {
   const TrialResult result = trial("talk", tracking::canonical_model());
   EXPECT_EQ(result.score.frames, 120u);
   EXPECT_TRUE(result.score.jaw_correlation);
-  expect_within(result, {.deformation_median_mm = 1.3, .deformation_p95_mm = 4.6});
+  expect_within(result, {.deformation_median_mm = 1.1, .deformation_p95_mm = 3.0});
 }
 
 TEST_F(TrackingScores, NothingMoves) {
@@ -78,7 +78,7 @@ TEST_F(TrackingScores, ColourOnly) {
                 {.deformation_median_mm = 1.8,
                  .deformation_p95_mm = 7,
                  .rotation_median_deg = 1.5,
-                 .translation_median_mm = 6});
+                 .translation_median_mm = 7});
 }
 
 TEST_F(TrackingScores, DepthWithHoles) {
@@ -104,7 +104,7 @@ TEST_F(TrackingScores, AFaceThatLeavesIsFoundAgainAtOnce) {
 TEST_F(TrackingScores, DarkAndNoisy) {
   expect_within(
       trial("mouth_open", tracking::canonical_model(), {.brightness = 0.5, .noise_levels = 8}),
-      {.deformation_median_mm = 0.8, .deformation_p95_mm = 4.3});
+      {.deformation_median_mm = 0.75, .deformation_p95_mm = 2.4});
 }
 
 TEST_F(TrackingScores, Candide) {
