@@ -97,7 +97,7 @@ TEST(TrackLive, EndsWhenItIsToldTo) {
   const auto start = Clock::now();
   const LiveTracking live = track_live(source, canonical_model(), quick(), options);
   EXPECT_LT(Clock::now() - start, 10s);
-  EXPECT_LE(live.tracking.frames.back().time_s, 0.62);
+  EXPECT_LT(live.tracking.frames.back().time_s, 1.2) << "0.6 s, and what a busy machine adds";
 
   capture::LatestFrame again = camera(100000);
   LiveOptions until_asked;
