@@ -4,6 +4,7 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -17,7 +18,7 @@ Image::Image(int width_px, int height_px, const Colour& fill)
   const std::uint8_t bytes[3] = {static_cast<std::uint8_t>(std::lround(255 * fill.r)),
                                  static_cast<std::uint8_t>(std::lround(255 * fill.g)),
                                  static_cast<std::uint8_t>(std::lround(255 * fill.b))};
-  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = bytes[i % 3];
+  for (std::size_t i = 0; i < rgb.size(); i += 3) std::copy_n(bytes, 3, rgb.data() + i);
 }
 
 struct Canvas::Impl {
