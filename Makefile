@@ -39,7 +39,7 @@ bench: ## measure everything, beside CalculiX, and write docs/performance.md (QU
 	scripts/setup.sh --bench
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS) --target \
-	  assembly_bench solver_bench reduced_bench growth_bench
+	  assembly_bench solver_bench reduced_bench growth_bench tracking_bench
 	bench/run.sh build/release $(if $(QUICK),--quick)
 
 setup: ## install what building takes (asks for sudo where you are not root)

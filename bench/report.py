@@ -283,6 +283,34 @@ to full speed within the first steps.
     return text + "\n![Errors against the size of the basis](images/performance_reduced.png)\n"
 
 
+def tracking_section(results):
+    text = """
+## Tracking
+`hyperex track` on recordings of 640 x 480 pixels, by stage, milliseconds a frame; on one core, the
+quickest of three passes. "From memory": the pictures are decoded before; "with decoding": read from
+JPEG and PNG as the pass goes; "and a scan": all vertices of a scan follow the tracked triangles too, as
+a measured region does. "Cores busy" is processor time over time. The person's shape is learnt once.
+
+"""
+    if not (results / "tracking.json").exists():
+        return text + "Not measured: no recordings lay beside the checkout.\n"
+    rows, speeds = [], []
+    for r in json.loads((results / "tracking.json").read_text())["recordings"]:
+        name = r["name"] or "recording"
+        d = r["decoded"]
+        rows.append([name, d["frames"], *[f"{1e3 * s:.2f}" for s in
+                     (r["decode_s"], d["network_s"], d["pictures_s"], d["fit_s"],
+                      r["with_scan"]["follow_s"])], f"{1e3 * d['neutral_once_s']:.0f}"])
+        for label, key, wanted in (("from memory", "decoded", 60), ("with decoding", "with_decoding", 30),
+                                   (f"and a scan of {r['scan_vertices']} vertices", "with_scan", 30)):
+            p = r[key]
+            speeds.append([name, label, f"**{p['frames_per_s']:.0f}**", f"{p['cores_busy']:.2f}", wanted,
+                           "met" if p["frames_per_s"] >= wanted else "missed"])
+    text += table(["recording", "frames", "decoding", "network", "pictures", "fit", "scan follows",
+                   "shape, once"], rows)
+    return text + "\n" + table(["recording", "", "frames a second", "cores busy", "wanted", ""], speeds)
+
+
 def growth_rows(results):
     return [json.loads(f.read_text()) for f in sorted(results.glob("growth_*.json"))]
 
@@ -403,7 +431,7 @@ def main():
     assembly, growth = assembly_times(results), growth_rows(results)
     page = sentence_on_machine(solver, "--quick" in sys.argv) + summary(solver, reduced, assembly)
     page += assembly_section(assembly) + factor_section(solver) + step_section(solver)
-    page += reduced_section(reduced) + growth_section(growth)
+    page += reduced_section(reduced) + tracking_section(results) + growth_section(growth)
     (docs / "performance.md").write_text(page)
     plot_step(solver, images / "performance_step.png")
     plot_reduced(reduced, images / "performance_reduced.png")

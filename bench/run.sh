@@ -21,6 +21,15 @@ say "the full model, number types, CalculiX"
 say "the reduced model"
 "$build/bin/reduced_bench" "$results/reduced.json" $quick
 
+# Recordings are not part of the project: without them the page says that this was not measured.
+data=${HYPEREX_DATA:-../shared/data}
+if [[ -d "$data/rgbd" ]]; then
+  say "tracking"
+  "$build/bin/tracking_bench" "$results/tracking.json" "$data"/rgbd/*/ \
+    --scan "$data/ict/subject_A_neutral_scan.ply" --landmarks "$data/ict/subject_A_landmarks.json" \
+    2> "$results/tracking.log"
+fi
+
 # Size of elements at the mouth and layers for about 6, 25, 100 and 250 thousand nodes.
 sizes=("0.0029 2" "0.00171 3" "0.00102 5" "0.00079 8")
 [[ -z "$quick" ]] || sizes=("${sizes[@]:0:2}")

@@ -149,6 +149,7 @@ void run(const Options& options) {
   tracking::TrackerOptions tracker;
   tracker.neutral.eye_distance_m = options.eye_distance_mm * 1e-3;
   tracker.use_depth = !options.no_depth;
+  tracker.network.mirrored_too = !source->live();  // a camera does not wait
   const auto preview = preview_of(options.outputs, model, source->intrinsics());
   const tracking::FrameVisitor visit = visitor_of(preview.get());
   const tracking::Tracking tracking =

@@ -157,6 +157,24 @@ Triangles opened_triangles(const CanonicalFace& face) {
   return kept;
 }
 
+const std::vector<int>& mirrored_vertices() {
+  static const std::vector<int> mirror = [] {
+    constexpr double kSameVertex_m = 1e-3;
+    const Points& points = canonical_face().mesh.points;
+    std::vector<int> made(std::size_t(points.rows()));
+    for (Eigen::Index v = 0; v < points.rows(); ++v) {
+      const Eigen::RowVector3d image(-points(v, 0), points(v, 1), points(v, 2));
+      Eigen::Index nearest = 0;
+      const double squared = (points.rowwise() - image).rowwise().squaredNorm().minCoeff(&nearest);
+      if (squared > kSameVertex_m * kSameVertex_m)
+        throw std::logic_error("the canonical face inside this program is not symmetric");
+      made[std::size_t(v)] = int(nearest);
+    }
+    return made;
+  }();
+  return mirror;
+}
+
 std::string mirrored_landmark(const std::string& name) {
   static const std::string prefix = "ibug68_";
   if (name.size() > 2 && name.ends_with("_L")) return name.substr(0, name.size() - 1) + "R";

@@ -36,6 +36,9 @@ const std::vector<int>& right_eye_contour();
 const std::vector<int>& left_eye_contour();
 const std::vector<int>& lip_contour();
 
+/// Per vertex the one opposite the midplane; those on it are their own.
+const std::vector<int>& mirrored_vertices();
+
 /// The same landmark on the other side: "cheilion_L" -> "cheilion_R", "ibug68_48" -> "ibug68_54"; a
 /// midline or unknown name is its own mirror.
 std::string mirrored_landmark(const std::string& name);

@@ -18,7 +18,7 @@ struct TrackerOptions {
   /// fewer each counts for more.
   FitOptions fit;
   NeutralOptions neutral;
-  LandmarkOptions network;
+  LandmarkOptions network{.mirrored_too = true};
   /// >= 1; the person's shape is estimated on the first so many frames with a face, of those in
   /// which it is at rest: as in the first.
   int neutral_frames = 30;

@@ -69,7 +69,7 @@ struct FitOptions {
   double units_step = 0.5;      ///< times the typical weight, from one frame to the next
   double free_m = 0.015;        ///< of a vertex off the units
   double free_bend_m = 0.0007;  ///< of a vertex against the mean of its neighbours
-  double free_step_m = 0.003;   ///< from one frame to the next
+  double free_step_m = 0.004;   ///< from one frame to the next
   double pose_step_rad = 0.05, pose_step_m = 0.02;
 };
 

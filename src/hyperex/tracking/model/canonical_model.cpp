@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
-#include <stdexcept>
 
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/tracking/model/face_model.hpp"
@@ -15,7 +14,6 @@ namespace hyperex::tracking {
 namespace {
 
 constexpr double kTurn_rad = 20 * std::numbers::pi / 180;
-constexpr double kSameVertex_m = 1e-3;
 constexpr double kShapeStep = 0.1;  // of width, height and depth at weight 1
 
 /// A unit as the table has it.
@@ -62,20 +60,6 @@ UnitTable read_table(int vertices) {
     }
   }
   return table;
-}
-
-/// Per vertex the one opposite the midplane.
-std::vector<int> mirrored_vertices(const Points& points) {
-  std::vector<int> mirror(std::size_t(points.rows()));
-  for (Eigen::Index v = 0; v < points.rows(); ++v) {
-    const Eigen::RowVector3d image(-points(v, 0), points(v, 1), points(v, 2));
-    Eigen::Index nearest = 0;
-    const double squared = (points.rowwise() - image).rowwise().squaredNorm().minCoeff(&nearest);
-    if (squared > kSameVertex_m * kSameVertex_m)
-      throw std::logic_error("the canonical face inside this program is not symmetric");
-    mirror[std::size_t(v)] = int(nearest);
-  }
-  return mirror;
 }
 
 std::string with_side(std::string text, const char* side) {
@@ -172,7 +156,7 @@ const FaceModel& canonical_model() {
     made.shape_units = size_units(points);
     const SparseMatrix laplacian = mesh_laplacian(made.mesh);
     const SparseMatrix smoothness = laplacian.transpose() * laplacian;
-    const std::vector<int> mirror = mirrored_vertices(points);
+    const std::vector<int>& mirror = face::mirrored_vertices();
     const UnitTable table = read_table(int(points.rows()));
     for (const auto& rows : table.units)
       for (const auto& whole : both_sides(rows, mirror))

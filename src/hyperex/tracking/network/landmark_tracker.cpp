@@ -7,6 +7,7 @@
 #include <opencv2/dnn.hpp>
 #include <stdexcept>
 
+#include "hyperex/face/canonical_face.hpp"
 #include "hyperex/tracking/network/face_mesh_network.hpp"
 
 namespace hyperex::tracking {
@@ -50,10 +51,24 @@ struct LandmarkTracker::Impl {
   LandmarkOptions options;
   FaceFinder finder;
   FaceMeshNetwork network;
-  cv::Mat scratch, patch, input;
+  cv::Mat scratch, patch, mirrored, input;
   bool following = false;
   FaceRegion next;  // where to look in the next picture, while following
   int faces_in_view = 0, since_look_around = 0;
+
+  /// `points`: of `patch`, in its pixels.
+  void take_mean_with_mirrored(FacePoints& points, int size_px) {
+    cv::flip(patch, mirrored, 1);
+    cv::dnn::blobFromImage(mirrored, input, 1 / 255.0, {}, {}, true);
+    FacePoints other;
+    network.look(input, 0, other);
+    const std::vector<int>& opposite = face::mirrored_vertices();
+    for (int i = 0; i < face_point_count; ++i) {
+      const auto there = other.row(opposite[std::size_t(i)]);
+      points.row(i) += Eigen::RowVector3d(size_px - there.x(), there.y(), there.z());
+    }
+    points /= 2;
+  }
 
   FaceLandmarks look_at(const cv::Mat& bgr, const FaceRegion& region) {
     const int size_px = network.size_px();
@@ -61,6 +76,8 @@ struct LandmarkTracker::Impl {
     cv::dnn::blobFromImage(patch, input, 1 / 255.0, {}, {}, true);
     FaceLandmarks found;
     found.score = network.look(input, options.least_score, found.points_px);
+    if (options.mirrored_too && found.score >= options.least_score)
+      take_mean_with_mirrored(found.points_px, size_px);
     found.region = region;
     found.faces_in_view = std::max(1, faces_in_view);
     for (int i = 0; i < face_point_count; ++i) {

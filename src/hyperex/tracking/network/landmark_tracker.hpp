@@ -28,6 +28,10 @@ struct LandmarkOptions {
   /// eyes and brows made those worse on the face it was measured on, by a third at the 95th
   /// percentile.
   bool lips_again = true, eyes_again = false;
+  /// Looks at the square's mirror image too and takes the mean, in which what the network errs from
+  /// left to right goes out: twice the time, 7 % off the error of the lips' and chin's motion (mean
+  /// of seven recordings).
+  bool mirrored_too = false;
   double least_score = 0.5;  ///< below it the face counts as lost, 0 to 1
   /// A face found anew: its square is taken from the points again until it settles, at most so
   /// often.
