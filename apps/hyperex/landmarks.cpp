@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
@@ -22,20 +23,10 @@ struct Options {
   std::string unit;
 };
 
-void check_folder(const std::filesystem::path& file) {
-  const auto folder = std::filesystem::absolute(file).parent_path();
-  if (!std::filesystem::is_directory(folder))
-    throw InputError(file, "cannot be written: there is no folder " + folder.string());
-}
-
-std::string text(const Vec3& v) {
-  return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
-}
-
 void run(const Options& options) {
   std::filesystem::path picture = options.picture;
   if (picture.empty()) picture = std::filesystem::path(options.out).replace_extension(".png");
-  for (const auto& file : {options.out, picture}) check_folder(file);
+  for (const auto& file : {options.out, picture}) check_folder_of(file);
   if (picture == options.out)
     throw InputError(options.out, "is to hold the landmarks and the picture: expected two files");
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);

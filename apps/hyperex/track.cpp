@@ -13,6 +13,7 @@
 #include "hyperex/capture/mirrored.hpp"
 #include "hyperex/capture/open_source.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/report/tracking_page.hpp"
 #include "hyperex/tracking/fit/score.hpp"
 #include "track_live.hpp"
@@ -131,6 +132,9 @@ void run(const Options& options) {
         "hyperex track: nothing to do: give --out, --trc, --preview, --glb, --plots or --score");
   if (options.json && options.score.empty())
     throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
+  for (const auto& file : {options.outputs.motion, options.outputs.trc, options.outputs.preview,
+                           options.outputs.glb, options.plots})
+    check_folder_of(file);
   std::optional<tracking::FaceModel> own;
   const tracking::FaceModel& model = model_of(options.model, own);
   std::optional<tracking::Truth> truth;

@@ -25,6 +25,13 @@ fs::path without_slash(const fs::path& folder) {
 }
 }  // namespace
 
+void check_folder_of(const fs::path& path) {
+  const fs::path folder = path.parent_path();
+  std::error_code error;
+  if (!folder.empty() && !fs::is_directory(folder, error))
+    throw InputError(path, "cannot be written: there is no folder " + folder.string());
+}
+
 void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   const TemporaryPath listed(temporary_beside(path));
   const fs::path& temporary = listed.path();

@@ -16,6 +16,10 @@ namespace hyperex {
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
 
+/// Throws InputError where `path` could not be written for want of its folder: to be asked before
+/// the work that it is to hold.
+void check_folder_of(const std::filesystem::path& path);
+
 /// A folder of outputs filled under a temporary name; commit() gives it its own, replacing a
 /// folder of that name only when that is empty or an earlier output (holds `marker`).
 /// Without commit() the destructor removes everything, and so does an interruption.

@@ -21,7 +21,7 @@ struct TrackerOptions {
   LandmarkOptions network{.mirrored_too = true};
   /// >= 1; the person's shape is estimated on the first so many frames with a face, of those in
   /// which it is at rest: as in the first.
-  int neutral_frames = 30;
+  int neutral_frames = 15;
   double at_rest_px = 0.5;  ///< root mean square over the network's points
   bool use_depth = true;
 };

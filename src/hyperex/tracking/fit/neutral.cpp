@@ -147,7 +147,8 @@ Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& came
   neutral.shape = Eigen::VectorXd::Zero(Eigen::Index(model.shape_units.size()));
   neutral.points_m = neutral.scale * model.mesh.points;
   FitOptions rigid = options.fit;
-  rigid.units = 1e-4;  // at rest: nothing but the head's pose
+  rigid.units = 1e-4;         // at rest: nothing but the head's pose
+  rigid.free_iterations = 0;  // of no use here
   for (int round = 0; round < options.rounds; ++round) {
     FrameFit fit(model, camera, neutral.points_m, neutral.scale, rigid);
     VertexMean mean{Points::Zero(model.vertex_count(), 3),
