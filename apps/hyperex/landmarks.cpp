@@ -23,6 +23,10 @@ struct Options {
   std::string unit;
 };
 
+std::string text(const Vec3& v) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
+}
+
 void run(const Options& options) {
   std::filesystem::path picture = options.picture;
   if (picture.empty()) picture = std::filesystem::path(options.out).replace_extension(".png");
