@@ -4,9 +4,7 @@
 report.py RESULTS DOCS [--quick]: DOCS/performance.md, DOCS/images/performance_*.png. Every number of
 the page comes from the files in RESULTS, and so does every word that judges one.
 """
-import datetime
 import json
-import subprocess
 import sys
 from pathlib import Path
 
@@ -48,21 +46,18 @@ def verdict(value, wanted):
     return "met" if value <= wanted else f"missed: {value / wanted:.2g} times"
 
 
-def git(*arguments):
-    done = subprocess.run(["git", *arguments], capture_output=True, text=True, check=False)
-    return done.stdout.strip()
+def stamp(results, part):
+    """"on DATE at commit COMMIT", as bench/run.sh wrote it."""
+    return (results / f"{part}.txt").read_text().strip()
 
 
-def sentence_on_machine(solver, quick):
+def sentence_on_machine(results, solver, quick):
     m = solver["machine"]
     caches = ", ".join(f"L{c['level']} {size(c['bytes'])}" for c in m["caches"])
-    commit = git("rev-parse", "--short", "HEAD") or "unknown"
-    if git("status", "--porcelain", "--", "src", "bench"):
-        commit += " and changes not committed"
     case = solver["case"]
     text = f"""# Performance
 
-Written by `make bench` on {datetime.date.today()} at commit {commit}: every number below comes from
+Written by `make bench` {stamp(results, 'all')}: every number below comes from
 that run, none is typed. {"**A quick look: few repeats, no large meshes.** " if quick else ""}Medians unless said otherwise.
 
 {m["processor"]}, {m["cores"]} cores, {caches}, {size(m["memory_bytes"])} of memory; load average
@@ -294,6 +289,8 @@ a measured region does. "Cores busy" is processor time over time. The person's s
 """
     if not (results / "tracking.json").exists():
         return text + "Not measured: no recordings lay beside the checkout.\n"
+    if stamp(results, "tracking") != stamp(results, "all"):
+        text += f"Measured {stamp(results, 'tracking')}.\n\n"
     rows, speeds = [], []
     for r in json.loads((results / "tracking.json").read_text())["recordings"]:
         name = r["name"] or "recording"
@@ -429,7 +426,7 @@ def main():
     solver = json.loads((results / "solver.json").read_text())
     reduced = json.loads((results / "reduced.json").read_text())
     assembly, growth = assembly_times(results), growth_rows(results)
-    page = sentence_on_machine(solver, "--quick" in sys.argv) + summary(solver, reduced, assembly)
+    page = sentence_on_machine(results, solver, "--quick" in sys.argv) + summary(solver, reduced, assembly)
     page += assembly_section(assembly) + factor_section(solver) + step_section(solver)
     page += reduced_section(reduced) + tracking_section(results) + growth_section(growth)
     (docs / "performance.md").write_text(page)

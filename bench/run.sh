@@ -1,17 +1,43 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Measures and writes docs/performance.md with its figures: bench/run.sh BUILD [--quick]
+# Measures and writes docs/performance.md with its figures: bench/run.sh BUILD [--quick|--tracking]
 # One program after the other, so that none disturbs another. --quick leaves out the large meshes
-# and the fine tolerances, and writes its page into BUILD/bench instead.
+# and the fine tolerances, and writes its page into BUILD/bench instead. --tracking measures tracking
+# alone again and keeps what an earlier run found of the rest.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=$1
 quick=${2:-}
 results=$build/bench/results
-rm -rf "$results"
+[[ "$quick" == --tracking ]] || rm -rf "$results"
 mkdir -p "$results"
 SECONDS=0
 say() { printf 'bench: %4d s  %s\n' "$SECONDS" "$*"; }
+# When and of what a part was measured.
+stamp() {
+  local commit
+  commit=$(git rev-parse --short HEAD 2> /dev/null || echo unknown)
+  [[ -z "$(git status --porcelain -- src bench 2> /dev/null)" ]] || commit+=" and changes not committed"
+  echo "on $(date +%F) at commit $commit" > "$results/$1.txt"
+}
+measure_tracking() {
+  # Recordings are not part of the project: without them the page says that this was not measured.
+  local data=${HYPEREX_DATA:-../shared/data}
+  [[ -d "$data/rgbd" ]] || return 0
+  say "tracking"
+  stamp tracking
+  "$build/bin/tracking_bench" "$results/tracking.json" "$data"/rgbd/*/ \
+    --scan "$data/ict/subject_A_neutral_scan.ply" --landmarks "$data/ict/subject_A_landmarks.json" \
+    2> "$results/tracking.log"
+}
+
+if [[ "$quick" == --tracking ]]; then
+  measure_tracking
+  /usr/bin/python3 bench/report.py "$results" docs
+  say "written: docs/performance.md"
+  exit
+fi
+stamp all
 
 say "assembly"
 "$build/bin/assembly_bench" --benchmark_out="$results/assembly.json" --benchmark_out_format=json \
@@ -21,14 +47,7 @@ say "the full model, number types, CalculiX"
 say "the reduced model"
 "$build/bin/reduced_bench" "$results/reduced.json" $quick
 
-# Recordings are not part of the project: without them the page says that this was not measured.
-data=${HYPEREX_DATA:-../shared/data}
-if [[ -d "$data/rgbd" ]]; then
-  say "tracking"
-  "$build/bin/tracking_bench" "$results/tracking.json" "$data"/rgbd/*/ \
-    --scan "$data/ict/subject_A_neutral_scan.ply" --landmarks "$data/ict/subject_A_landmarks.json" \
-    2> "$results/tracking.log"
-fi
+measure_tracking
 
 # Size of elements at the mouth and layers for about 6, 25, 100 and 250 thousand nodes.
 sizes=("0.0029 2" "0.00171 3" "0.00102 5" "0.00079 8")
