@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/tracking/fit/frame_fit.hpp"
+#include "hyperex/tracking/fit/neutral.hpp"
 #include "hyperex/tracking/fit/score.hpp"
 
 namespace hyperex::tracking {
@@ -110,6 +112,38 @@ TEST(FrameFit, FindsPoseAndJawFromExactPoints) {
   const Eigen::Isometry3d off = truth.camera_from_head.inverse() * found.camera_from_head;
   EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 0.005);
   EXPECT_LT((fit.vertices(found) - fit.vertices(truth)).rowwise().norm().maxCoeff(), 0.002);
+}
+
+TEST(FrameFit, AVertexThatNothingMeasuresComesToRest) {
+  FaceModel model = canonical_model();
+  const Eigen::Index lone = model.mesh.points.rows();  // of no triangle, as some of CANDIDE-3's are
+  model.mesh.points.conservativeResize(lone + 1, 3);
+  model.mesh.points.row(lone) << 0, 0.02, 0.05;
+  FrameFit fit(model, kCamera, model.mesh.points, 1, {});
+  FaceState state = fit.at_rest();
+  state.camera_from_head = pose(8, {0.02, 0.01, 0.6});
+  const Observation seen = seen_from(fit.vertices(state).topRows(lone), state.camera_from_head);
+  state.free_m.row(lone) << 0.001, 0, 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    const FaceState before = state;
+    state = fit.fit(seen, before, &before, nullptr);
+    EXPECT_LE(state.free_m.row(lone).norm(), before.free_m.row(lone).norm() + 1e-12);
+  }
+  EXPECT_LT(state.free_m.row(lone).norm(), 0.0009);
+}
+
+TEST(Neutral, ASizeThatNoFaceHasIsRefused) {
+  const FaceModel& model = canonical_model();
+  Neutral neutral;
+  neutral.points_m = model.mesh.points;
+  neutral.metric = true;
+  EXPECT_NO_THROW(check_size(model, neutral));
+  neutral.points_m *= 5;
+  EXPECT_THROW(check_size(model, neutral), InputError);
+  neutral.points_m /= 50;
+  EXPECT_THROW(check_size(model, neutral), InputError);
+  neutral.metric = false;  // stated then, not measured
+  EXPECT_NO_THROW(check_size(model, neutral));
 }
 
 TEST(SurfacePatch, MeetsATiltedPlaneAndLeavesOutWhatIsFar) {

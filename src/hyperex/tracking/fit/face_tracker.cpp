@@ -126,6 +126,7 @@ struct FaceTracker::Impl {
     keep_resting(frames, options.at_rest_px);
     Stopwatch watch;
     neutral = estimate_neutral(model, camera, frames, options.neutral);
+    check_size(model, *neutral);
     fit = std::make_unique<FrameFit>(model, camera, neutral->points_m, neutral->scale, options.fit);
     times.neutral_s += watch.lap();
   }

@@ -80,7 +80,9 @@ SparseMatrix free_prior(const TriMesh& mesh, const FitOptions& options) {
     if (bend.coeff(v, v) == 0)
       for (int r = 0; r < 3; ++r)
         for (int c = r; c < 3; ++c)
-          entries.emplace_back(3 * v + r, 3 * v + c, r == c ? 1 / square(options.free_m) : 0.0);
+          entries.emplace_back(
+              3 * v + r, 3 * v + c,
+              r == c ? 1 / square(options.free_m) + 1 / square(options.free_step_m) : 0.0);
   SparseMatrix prior(3 * mesh.points.rows(), 3 * mesh.points.rows());
   prior.setFromTriplets(entries.begin(), entries.end());
   return prior;

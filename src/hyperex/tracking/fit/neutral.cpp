@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/tracking/fit/neutral.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cassert>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/geometry/transform.hpp"
 
@@ -170,6 +173,16 @@ Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& came
       neutral.points_m *= options.eye_distance_m / outer_eye_distance(model, neutral.points_m);
   }
   return neutral;
+}
+
+void check_size(const FaceModel& model, const Neutral& neutral) {
+  const double eyes_m = outer_eye_distance(model, neutral.points_m);
+  constexpr double kLeast_m = 0.05, kMost_m = 0.15;
+  if (neutral.metric && !(eyes_m >= kLeast_m && eyes_m <= kMost_m))
+    throw InputError(fmt::format(
+        "tracking: by the depth the outer corners of the eyes are {:.0f} mm apart; expected 50 to "
+        "150 mm: is the depth's unit (depth_scale in camera.toml) right, and the camera's fx, fy?",
+        1e3 * eyes_m));
 }
 
 }  // namespace hyperex::tracking
