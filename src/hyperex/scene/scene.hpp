@@ -128,6 +128,8 @@ struct Origin {
   int line = 0;                ///< 1-based; 0 where a line means nothing
 };
 
+struct Variant;
+
 struct Scene {
   std::string title;
   ScanOptions scan;
@@ -141,10 +143,22 @@ struct Scene {
   SolverOptions solver;
   TimeOptions time;
   OutputOptions output;
+  std::vector<Variant> variants;  ///< [[variant]], in the file's order
 
   std::filesystem::path file;             ///< the scene file
   std::map<std::string, Origin> origins;  ///< of each key that was given, e.g. "time.step_s"
 };
+
+/// The same face and motion with other tissue, support or drive: what a run compares with the
+/// scene itself.
+struct Variant {
+  std::string name;        ///< letters, digits, spaces and -_. ; also names its folder
+  nlohmann::json changes;  ///< "tissue.young_kpa": 400, as given
+  Scene scene;             ///< with the changes; its own variants are empty
+};
+
+/// Sections whose keys a variant may change: what a run does again for each of them.
+const std::vector<std::string>& variant_sections();
 
 /// Reads a scene file (TOML, docs/scene.md), then `overrides` ("KEY=VALUE", the last wins, VALUE in
 /// TOML or a bare string). Paths in the file are relative to it, those of overrides to the current

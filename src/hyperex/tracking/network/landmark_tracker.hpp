@@ -23,7 +23,7 @@ struct FaceLandmarks {
 };
 
 struct LandmarkOptions {
-  FaceFinderOptions finder;
+  FaceFinderOptions finder = {};
   /// A second look at the lips takes 0.6 ms and a third off the error of their motion. One at the
   /// eyes and brows made those worse on the face it was measured on, by a third at the 95th
   /// percentile.
