@@ -151,7 +151,7 @@ TEST_F(Program, WritesSymmetryAsCsv) {
   const Outcome found =
       call("symmetry '" + motion.string() + "' --out s.csv --picture s.png --floor 1e-4");
   ASSERT_EQ(found.status, 0) << found.err;
-  EXPECT_THAT(read_file(in("s.csv")), StartsWith("time_s,xi_L,xi_R,S_ln,floor\n0,0,0,-9.21"));
+  EXPECT_THAT(read_file(in("s.csv")), StartsWith("time_s,xi_L,xi_R,S_ln,floor,S_floor,"));
   EXPECT_TRUE(fs::exists(in("s.png")));
   EXPECT_THAT(found.err, HasSubstr("exocanthion_L: ibug68_45"));
 }
