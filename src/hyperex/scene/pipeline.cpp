@@ -94,6 +94,7 @@ Json summary_of(const Results& r) {
   s["inverted_tets"] = report.inverted_tets;
   s["rigid_points_rms_mm"] = r.inputs.rigid_rms_mm;
   s["mesh_quality"] = quality_json(r.mesh);
+  s["symmetry"] = metrics::summary_of(r.symmetry);
   return s;
 }
 
@@ -169,16 +170,17 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
-  Results results{
-      scene,
-      inputs,
-      mesh,
-      simulation,
-      metrics::symmetry_of(simulation.performance.landmarks, scene.output.symmetry_floor),
-      all_notes(inputs, mesh, simulation.report),
-      {}};
+  Results results{scene,
+                  inputs,
+                  mesh,
+                  simulation,
+                  symmetry_measures(scene, inputs, mesh, simulation.performance),
+                  all_notes(inputs, mesh, simulation.report),
+                  {}};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
+  if (const auto& note = results.symmetry.map->plane.note; !note.empty())
+    results.notes.push_back(note);
   for (std::size_t i = inputs.notes.size() + mesh.notes.size(); i < results.notes.size(); ++i)
     spdlog::warn("{}", results.notes[i]);
   Json summary = summary_of(results);

@@ -12,6 +12,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/reenact/alignment.hpp"
 #include "hyperex/reenact/simulation.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
@@ -41,6 +42,8 @@ struct MotionOptions {
   std::vector<std::string> rigid_points;  ///< carry the head's pose; empty: chosen automatically
   double max_gap_s = 0.2;                 ///< longest gap that is interpolated, 0 to 10
   double gain = 1;                        ///< on all displacements, 0 to 5
+  std::vector<motion::PointGain> point_gains;  ///< besides, on single points, each 0 to 5
+  double time_scale = 1;                       ///< 2: twice as slow; 0.05 to 20
 };
 
 using reenact::AlignmentMethod;
@@ -118,7 +121,8 @@ struct TimeOptions {
 struct OutputOptions {
   double peak_time_s = -1;  ///< below 0: where the driven points moved most in the mean; to 600
   bool vtu = true, glb = true, report = true;
-  double symmetry_floor = 1e-6;                                 ///< > 0, to 1
+  double symmetry_floor = 1e-6;  ///< > 0, to 1
+  double jitter_m = -1e-3;  ///< of the recorded points; below 0: from tracking, else none; to 20 mm
   std::vector<double> contact_times_s = {0, 0.7, 1.3, 2, 2.7};  ///< 1 to 12, rising, 0 to 600
 };
 
