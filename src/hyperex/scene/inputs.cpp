@@ -327,4 +327,11 @@ Inputs read_inputs(const Scene& scene, Look look) {
   return in;
 }
 
+Inputs inputs_of_variant(const Scene& variant, const Inputs& inputs) {
+  Inputs in = inputs;
+  in.driven = variant.drive.all_points ? in.motion.motion.names : variant.drive.points;
+  check_names(variant, in);
+  return in;
+}
+
 }  // namespace hyperex::scene

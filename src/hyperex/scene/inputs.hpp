@@ -42,4 +42,8 @@ enum class Look {
 /// Throws InputError, as far as possible with all problems at once.
 Inputs read_inputs(const Scene& scene, Look look = Look::whole);
 
+/// A scene's inputs with a variant's driven points. Throws InputError for names of the variant that
+/// do not exist.
+Inputs inputs_of_variant(const Scene& variant, const Inputs& inputs);
+
 }  // namespace hyperex::scene

@@ -8,6 +8,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/variants.hpp"
 
 namespace hyperex::scene {
 using Json = nlohmann::ordered_json;
@@ -170,6 +171,9 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
+  const std::vector<VariantRun> variants = run_variants(scene, inputs, mesh);
+  if (!variants.empty()) seconds["variants"] = stage.lap();
+
   Results results{scene,
                   inputs,
                   mesh,
@@ -185,6 +189,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
     spdlog::warn("{}", results.notes[i]);
   Json summary = summary_of(results);
   write_outputs(results, directory);
+  if (!variants.empty()) summary["variants"] = write_variants(results, variants, mesh, directory);
   seconds["export"] = stage.lap();
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;

@@ -292,7 +292,8 @@ void Reader::settle_variant(const json& block, const std::string& at) {
   const bool plain_name =
       name.is_string() && !name.get<std::string>().empty() &&
       std::all_of(name.get_ref<const std::string&>().begin(),
-                  name.get_ref<const std::string&>().end(), [](unsigned char c) {
+                  name.get_ref<const std::string&>().end(),
+                  [](unsigned char c) {
                     return std::isalnum(c) || c == ' ' || c == '-' || c == '_' || c == '.';
                   }) &&
       name.get_ref<const std::string&>().front() != '.';
