@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/metrics/symmetry.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,49 +10,174 @@
 
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/stabilise.hpp"
+#include "hyperex/scene/asymmetry_picture.hpp"
+#include "symmetry_frames.hpp"
 #include "symmetry_picture.hpp"
 
 namespace hyperex::cli {
 namespace {
+namespace fs = std::filesystem;
 
 struct Options {
-  std::filesystem::path motion, out, picture;
-  double floor = 1e-6, accuracy_mm = 0;
-  std::string unit;
+  fs::path motion, out, excursions, picture, map, map_ply, landmarks;
+  double floor = 1e-6, rate_hz = 30;
+  std::string unit, jitter_mm = "0";
+  bool keep_head = false;
 };
 
-std::string cell(double value) {
-  return std::isnan(value) ? fmt::format("{:>10}", "-") : fmt::format("{:10.5f}", value);
+std::string cell(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:10.{}f}", value, digits)
+                              : fmt::format("{:>10}", "-");
 }
 
-void print_table(const metrics::SymmetryCurve& curve) {
-  std::cout << fmt::format("{:>10} {:>10} {:>10} {:>10}\n", "time (s)", "xi_L", "xi_R", "S (ln)");
+void print_curve(const metrics::SymmetryCurve& curve) {
+  std::cout << fmt::format("{:>10} {:>10} {:>10} {:>10} {:>10}\n", "time (s)", "xi_L", "xi_R",
+                           "S (ln)", "S_floor");
   for (size_t i = 0; i < curve.time_s.size(); ++i)
-    std::cout << fmt::format("{:10.4f} {} {} {}\n", curve.time_s[i], cell(curve.xi_left[i]),
-                             cell(curve.xi_right[i]), cell(curve.s[i]));
+    std::cout << fmt::format("{:10.4f} {} {} {} {}{}\n", curve.time_s[i], cell(curve.xi_left[i], 5),
+                             cell(curve.xi_right[i], 5), cell(curve.s[i], 5),
+                             cell(curve.noise.empty() ? NAN : std::log(curve.noise[i]), 3),
+                             i > 0 && curve.undecided(i) ? "  undecided" : "");
   std::cout << fmt::format("floor: |xi_L - xi_R| = {:.3g}, S = {:.3f}\n", curve.floor,
                            std::log(curve.floor));
+}
+
+void print_excursions(const metrics::Excursions& excursions) {
+  std::cout << fmt::format(
+      "\n{:<26}{:>32} {:>10}{:>32}\n{:<26} {:>10} {:>10} {:>10} {:>10} {:>10} "
+      "{:>10} {:>10}\n",
+      "", "excursion (mm)  ", "", "peak speed (mm/s)  ", "point", "L", "R", "R/L", "L", "R", "R/L",
+      "likeness");
+  for (const metrics::PairExcursion& p : excursions.pairs)
+    std::cout << fmt::format("{:<26} {} {} {} {} {} {} {}{}\n", p.name,
+                             cell(p.left_side.excursion_mm, 2), cell(p.right_side.excursion_mm, 2),
+                             cell(p.excursion_ratio, 3), cell(p.left_side.peak_speed_mm_s, 1),
+                             cell(p.right_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),
+                             cell(p.speed_correlation, 3), p.undecided ? "  undecided" : "");
+}
+
+void print_summary(const metrics::SymmetryMeasures& all) {
+  const metrics::SymmetryCurve& curve = all.curve;
+  size_t undecided = 0;
+  for (size_t i = 1; i < curve.time_s.size(); ++i) undecided += curve.undecided(i);
+  std::cout << fmt::format("\nstretch: {}", metrics::verdict_of(curve));
+  if (curve.jitter_m > 0)
+    std::cout << fmt::format("; jitter {:.2f} mm leaves {} of {} samples undecided",
+                             1e3 * curve.jitter_m, undecided, curve.time_s.size() - 1);
+  std::cout << '\n';
+  if (all.map && !all.map->frames.empty()) {
+    const auto& worst = all.map->frames[static_cast<size_t>(all.map->worst_frame)];
+    std::cout << fmt::format(
+        "asymmetry of the surface at {:.3f} s: face rms {:.2f} mm, 95 % below {:.2f} mm; mouth rms "
+        "{:.2f} mm, 95 % below {:.2f} mm (at rest, taken out: rms {:.2f} mm)\n",
+        curve.time_s[static_cast<size_t>(all.map->worst_frame)], worst.face_rms_mm,
+        worst.face_p95_mm, worst.mouth_rms_mm, worst.mouth_p95_mm, all.map->rest_rms_mm);
+  }
+  std::cout << "This is no medical device: the figures describe a motion and diagnose nothing.\n";
+}
+
+double jitter_of(const Options& options, const motion::Motion& steady) {
+  if (options.jitter_mm == "auto") {
+    const double jitter_m = metrics::jitter_at_rest(steady);
+    if (!std::isfinite(jitter_m))
+      motion::refuse(steady,
+                     "too few samples to tell the jitter at rest; expected a stretch of "
+                     "five measured samples, or a number for --jitter-mm");
+    return jitter_m;
+  }
+  const auto value = io::parse_number(options.jitter_mm);
+  if (!value || !(*value >= 0) || !(*value <= 20))
+    throw InputError(InputProblem{"symmetry", 0, "--jitter-mm", options.jitter_mm,
+                                  "a number from 0 to 20 (mm) or \"auto\""});
+  return 1e-3 * *value;
+}
+
+motion::Motion without_head(const motion::Motion& motion, bool keep_head) {
+  if (keep_head) return motion;
+  try {
+    return motion::stabilise(motion).motion;
+  } catch (const InputError& error) {
+    std::cerr << "head pose is not taken out, and excursions contain it: " << error.what() << '\n';
+    return motion;
+  }
+}
+
+void write_map(const Options& options, const SurfaceFrames& frames,
+               const std::vector<PointsF>& displacement, const metrics::Asymmetry& map) {
+  const auto worst = static_cast<size_t>(map.worst_frame);
+  const TriMesh moved{frames.rest.points + displacement[worst].cast<double>(),
+                      frames.rest.triangles};
+  const Eigen::VectorXf map_mm = metrics::asymmetry_mm(map.plane, map.pairs, displacement[worst]);
+  const std::string note = fmt::format(
+      "the face less its reflection, less the same at rest, at {:.2f} s; face rms {:.2f} mm, mouth "
+      "rms {:.2f} mm",
+      frames.tracks.time_s[worst], map.frames[worst].face_rms_mm, map.frames[worst].mouth_rms_mm);
+  if (!options.map.empty())
+    render::write_png(options.map, scene::draw_asymmetry(
+                                       moved, map_mm, map, frames.landmarks,
+                                       "Asymmetry of " + options.motion.filename().string(), note));
+  if (!options.map_ply.empty())
+    io::write_ply(options.map_ply, moved, frames.unit, {{"asymmetry_mm", map_mm}});
+}
+
+/// What is written and printed, with a surface or without.
+void tell(const Options& options, const metrics::SymmetryMeasures& all) {
+  for (const std::string& stand_in : all.curve.stand_ins)
+    std::cerr << "stand-in for " << stand_in << '\n';
+  if (!options.picture.empty())
+    render::write_png(options.picture,
+                      draw(all, "Symmetry of " + options.motion.filename().string()));
+  if (!options.excursions.empty())
+    metrics::write_excursions_csv(options.excursions, all.excursions);
+  if (options.out.empty())
+    print_curve(all.curve);
+  else
+    metrics::write_symmetry_csv(options.out, all);
+  print_excursions(all.excursions);
+  print_summary(all);
+}
+
+void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
+  SurfaceFrames frames =
+      read_surface_frames(options.motion, options.landmarks, unit, options.rate_hz);
+  if (!options.keep_head) steady(frames);
+  std::vector<PointsF> displacement;
+  for (const Points& at : frames.positions)
+    displacement.push_back((at - frames.rest.points).cast<float>());
+  const double jitter_m = jitter_of(options, frames.tracks);
+  metrics::SymmetryMeasures all;
+  all.curve = metrics::symmetry_of(frames.tracks, options.floor, jitter_m);
+  all.excursions = metrics::excursions_of(frames.tracks, jitter_m);
+  all.map = metrics::asymmetry_of(frames.rest, displacement, frames.landmarks);
+  if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
+  write_map(options, frames, displacement, *all.map);
+  tell(options, all);
 }
 
 void run(const Options& options) {
   std::optional<io::LengthUnit> unit;
   if (!options.unit.empty()) unit = io::length_unit(options.unit);
-  const motion::Motion motion = motion::read_motion(options.motion, unit);
-  const double floor = options.accuracy_mm > 0
-                           ? metrics::floor_from_accuracy(motion, options.accuracy_mm * 1e-3)
-                           : options.floor;
-  const metrics::SymmetryCurve curve = metrics::symmetry_of(motion, floor);
-  for (const std::string& stand_in : curve.stand_ins)
-    std::cerr << "stand-in for " << stand_in << '\n';
-  if (!options.picture.empty())
-    render::write_png(options.picture,
-                      draw(curve, "Symmetry of " + options.motion.filename().string()));
-  if (options.out.empty())
-    print_table(curve);
-  else
-    metrics::write_symmetry_csv(options.out, curve);
+  fs::path file = options.motion;
+  if (fs::is_directory(file)) {
+    if (!fs::exists(file / "motion.csv")) return run_surfaces(options, unit);
+    file /= "motion.csv";
+  }
+  if (!options.map.empty() || !options.map_ply.empty())
+    throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
+                                  "a folder of surfaces; points alone have no map"});
+  const motion::Motion motion = motion::read_motion(file, unit);
+  metrics::SymmetryMeasures all;
+  all.curve = metrics::symmetry_of(motion, options.floor);  // tells first which points are missing
+  const motion::Motion steady = without_head(motion, options.keep_head);
+  const double jitter_m = jitter_of(options, steady);
+  if (jitter_m > 0) all.curve = metrics::symmetry_of(motion, options.floor, jitter_m);
+  all.excursions = metrics::excursions_of(steady, jitter_m);
+  tell(options, all);
 }
 
 }  // namespace
@@ -64,22 +187,43 @@ void add_symmetry(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "symmetry",
       "Symmetry of a motion: the relative change of the distances from each mouth corner to its "
-      "side's eye, lid, nose wing and lip (xi_L, xi_R), and S = ln |xi_L - xi_R|.");
-  command->add_option("MOTION", options->motion, "Named points over time, CSV or TRC")->required();
-  command->add_option("--out", options->out, "Write CSV (time_s, xi_L, xi_R, S_ln, floor) here");
-  command->add_option("--picture", options->picture, "Write a plot (PNG) here");
-  auto* floor = command
-                    ->add_option("--floor", options->floor,
-                                 "Least |xi_L - xi_R| told apart; S stops at its logarithm")
-                    ->capture_default_str();
+      "side's eye, lid, nose wing and lip (xi_L, xi_R), S = ln |xi_L - xi_R| with its noise floor, "
+      "how far and how fast the points of both sides move, and of surfaces a map of their "
+      "asymmetry (docs/symmetry.md). No medical device.");
   command
-      ->add_option("--accuracy-mm", options->accuracy_mm,
-                   "Set the floor by the accuracy of the points (standard deviation, mm)")
+      ->add_option("MOTION", options->motion,
+                   "Named points over time, CSV or TRC; a run's folder; or a folder of PLY or OBJ "
+                   "files, one a frame, the first at rest")
+      ->required();
+  command->add_option("--out", options->out, "Write the curves (CSV) here");
+  command->add_option("--excursions", options->excursions,
+                      "Write a row a pair of points (CSV) here");
+  command->add_option("--picture", options->picture, "Write a plot (PNG) here");
+  command->add_option("--map", options->map,
+                      "Of surfaces: draw the frame of largest asymmetry (PNG) here");
+  command->add_option("--map-ply", options->map_ply,
+                      "Of surfaces: write it with the attribute asymmetry_mm (PLY) here");
+  command->add_option("--landmarks", options->landmarks,
+                      "Of surfaces: landmarks of the first (JSON)");
+  command->add_option("--rate-hz", options->rate_hz, "Of surfaces: frames a second")
       ->check(CLI::PositiveNumber)
-      ->excludes(floor);
+      ->capture_default_str();
+  command
+      ->add_option("--floor", options->floor,
+                   "Least |xi_L - xi_R| told apart; S stops at its logarithm")
+      ->capture_default_str();
+  command
+      ->add_option("--jitter-mm", options->jitter_mm,
+                   "Jitter of the points (standard deviation a coordinate, mm), which sets the "
+                   "noise floor; auto: that of the quietest half second; 0: exact")
+      ->capture_default_str();
+  command->add_flag("--keep-head", options->keep_head,
+                    "Do not take the head's pose out before excursions are measured");
   command->add_option("--unit", options->unit, "Unit of the motion, where it should not be guessed")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
-  command->footer("Example:\n  hyperex symmetry out/a/motion.csv --out symmetry.csv");
+  command->footer(
+      "Example:\n  hyperex symmetry out/a/motion.csv --jitter-mm 0.3 --out symmetry.csv --picture "
+      "symmetry.png");
   command->callback([options] { run(*options); });
 }
 

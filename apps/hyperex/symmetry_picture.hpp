@@ -2,12 +2,13 @@
 #pragma once
 #include <string>
 
-#include "hyperex/metrics/symmetry.hpp"
+#include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/render/image.hpp"
 
 namespace hyperex::cli {
 
-/// xi of both sides and S over time, one above the other.
-render::Image draw(const metrics::SymmetryCurve& curve, const std::string& title);
+/// xi of both sides and S with its noise floor over time, and bars of the excursions of both sides:
+/// of at most ten pairs of points, those that move farthest.
+render::Image draw(const metrics::SymmetryMeasures& measures, const std::string& title);
 
 }  // namespace hyperex::cli

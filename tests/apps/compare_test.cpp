@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
+#include "hyperex/io/csv.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 
@@ -125,15 +127,31 @@ TEST_F(Program, RefusesInOneLine) {
   std::ofstream(in("s.stl"))
       << "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 200 0 0\n"
          "vertex 0 200 0\nendloop\nendfacet\nendsolid s\n";
+  write_good_inputs(in("."));
+  fs::create_directory(in("empty"));
+  fs::create_directory(in("face"));
+  for (const char* copy : {"face/0.ply", "face/1.ply"}) fs::copy_file(in("face.ply"), in(copy));
   std::ofstream(in("m.csv")) << "time_s,here_x,here_y,here_z\n0,0,0,0\n1,0,0,0\n";
-  for (const char* arguments :
-       {"", "compare a.ply", "compare a.ply nothing.ply", "compare a.ply a.ply --unit inch",
-        "compare a.ply longer.ply --corresponding --unit mm",
-        "compare a.ply a.ply --corresponding --rest longer.ply --unit mm",
-        "compare a.ply a.ply --baseline --unit mm", "compare a.ply a.ply --landmarks no.json",
-        "compare a.ply a.ply --unit mm --picture no/folder/p.png", "symmetry nothing.csv",
-        "compare a.ply metres.ply --unit mm", "compare a.ply s.stl --corresponding",
-        "compare s.stl a.ply --corresponding --rest a.ply --unit mm", "symmetry m.csv --unit m"}) {
+  for (const char* arguments : {"",
+                                "compare a.ply",
+                                "compare a.ply nothing.ply",
+                                "compare a.ply a.ply --unit inch",
+                                "compare a.ply longer.ply --corresponding --unit mm",
+                                "compare a.ply a.ply --corresponding --rest longer.ply --unit mm",
+                                "compare a.ply a.ply --baseline --unit mm",
+                                "compare a.ply a.ply --landmarks no.json",
+                                "compare a.ply a.ply --unit mm --picture no/folder/p.png",
+                                "symmetry nothing.csv",
+                                "compare a.ply metres.ply --unit mm",
+                                "compare a.ply s.stl --corresponding",
+                                "compare s.stl a.ply --corresponding --rest a.ply --unit mm",
+                                "symmetry m.csv --unit m",
+                                "symmetry motion.csv --jitter-mm much",
+                                "symmetry motion.csv --jitter-mm -1",
+                                "symmetry motion.csv --map m.png",
+                                "symmetry empty",
+                                "symmetry face",
+                                "symmetry face --landmarks no.json"}) {
     const Outcome found = call(arguments);
     EXPECT_EQ(found.status, 2) << arguments;
     EXPECT_THAT(found.out, "") << arguments;
@@ -144,6 +162,41 @@ TEST_F(Program, RefusesInOneLine) {
   }
 }
 
+// A face of which the left corner of the mouth and what is about it move by 5 mm, with a turn of
+// the head, as surfaces and as the points of a run.
+TEST_F(Program, DrawsTheSymmetryOfSurfaces) {
+  const TriMesh face = good_face();
+  const io::Landmarks landmarks = good_landmarks();
+  fs::create_directory(in("face"));
+  const Vec3 corner = landmarks.at("ibug68_54");
+  for (int k = 0; k < 5; ++k) {
+    TriMesh moved = face;
+    for (Eigen::Index v = 0; v < moved.points.rows(); ++v) {
+      const double far = (face.points.row(v).transpose() - corner).norm() / 0.02;
+      moved.points(v, 1) += 0.005 * (k / 4.0) * std::exp(-far * far);
+    }
+    const Eigen::AngleAxisd turn(0.03 * k, Vec3::UnitY());
+    moved.points = (moved.points * turn.toRotationMatrix().transpose()).eval();
+    io::write_ply(in("face/" + std::to_string(k) + ".ply"), moved, io::LengthUnit::millimetre);
+  }
+  io::write_landmarks(in("l.json"), landmarks, io::LengthUnit::millimetre);
+  const Outcome found = call(
+      "symmetry face --landmarks l.json --out s.csv --excursions e.csv --picture s.png --map m.png "
+      "--map-ply m.ply --jitter-mm 0.01");
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.out, HasSubstr("no medical device"));
+  EXPECT_THAT(read_file(in("m.ply")), HasSubstr("property float asymmetry_mm"));
+  for (const char* file : {"s.png", "m.png"}) EXPECT_GT(fs::file_size(in(file)), 10000u);
+  const io::CsvTable curves = io::read_csv(in("s.csv"));
+  ASSERT_EQ(curves.values.rows(), 5);
+  const auto at_end = [&](const char* name) { return curves.values(4, curves.column(name)); };
+  EXPECT_NEAR(at_end("commissure_L_mm"), 5, 0.2);
+  EXPECT_LT(at_end("commissure_R_mm"), 0.2);
+  EXPECT_GT(at_end("S_ln"), at_end("S_floor"));
+  EXPECT_GT(at_end("asymmetry_mouth_rms_mm"), 1);
+  EXPECT_LT(at_end("asymmetry_mouth_p95_mm"), 5.2);
+}
+
 TEST_F(Program, WritesSymmetryAsCsv) {
   const fs::path motion =
       fs::path(HYPEREX_SHARED_DIR) / "data/rgbd/subject_A_talk/truth_landmarks68_camera_m.csv";
@@ -151,7 +204,7 @@ TEST_F(Program, WritesSymmetryAsCsv) {
   const Outcome found =
       call("symmetry '" + motion.string() + "' --out s.csv --picture s.png --floor 1e-4");
   ASSERT_EQ(found.status, 0) << found.err;
-  EXPECT_THAT(read_file(in("s.csv")), StartsWith("time_s,xi_L,xi_R,S_ln,floor\n0,0,0,-9.21"));
+  EXPECT_THAT(read_file(in("s.csv")), StartsWith("time_s,xi_L,xi_R,S_ln,floor,S_floor,"));
   EXPECT_TRUE(fs::exists(in("s.png")));
   EXPECT_THAT(found.err, HasSubstr("exocanthion_L: ibug68_45"));
 }

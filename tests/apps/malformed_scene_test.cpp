@@ -36,6 +36,18 @@ const std::vector<Fault> kScenes{
     key("SettingWithoutValue", "tissue.young_kpa", {"tissue.young_kpa", "KEY=VALUE"}),
     key("MissingScan", "scan.file=nobody.ply", {"scan.file", "nobody.ply", "exist"}),
     key("NoSuchLandmark", "drive.still_points=[\"antenna\"]", {"drive.still_points", "antenna"}),
+    key("TimeStandsStill", "motion.time_scale=0", {"motion.time_scale", "0.05", "20"}),
+    {"GainOnNoPoint",
+     [](const In& in) {
+       line_in_scene(in, "[[motion.point_gain]]\npoint = \"antenna\"\ngain = 2");
+     },
+     {"scene.toml:17", "motion.point_gain[0].point", "antenna", "recording"}},
+    {"GainTwice",
+     [](const In& in) {
+       for (int i = 0; i < 2; ++i)
+         line_in_scene(in, "[[motion.point_gain]]\npoint = \"ibug68_48\"\ngain = 2");
+     },
+     {"scene.toml:20", "motion.point_gain[1].point", "ibug68_48", "once"}},
     {"KeyWithALine",
      [](const In& in) { line_in_scene(in, "colour = 1"); },
      {"scene.toml:16", "output.colour"}},

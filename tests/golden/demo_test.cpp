@@ -63,7 +63,8 @@ TEST(Demo, GivesTheSameTwice) {
 }
 
 TEST(Demo, LeavesAllItsFiles) {
-  for (const char* file : {"performance.glb", "frames.pvd", "frames/frame_0080.vtu", "report.html"})
+  for (const char* file : {"performance.glb", "frames.pvd", "frames/frame_0080.vtu", "report.html",
+                           "asymmetry.png", "excursions.csv"})
     EXPECT_GT(fs::file_size(kRuns / "demo" / file), 1000u) << file;
 }
 

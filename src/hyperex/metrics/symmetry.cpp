@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/core/files.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -105,7 +105,12 @@ std::array<std::array<Vec3, 4>, 2> rest_rays(const motion::Motion& motion, const
 
 }  // namespace
 
-SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor) {
+bool SymmetryCurve::undecided(size_t sample) const {
+  const double apart = std::abs(xi_left[sample] - xi_right[sample]);
+  return std::isnan(apart) || (!noise.empty() && !(apart >= noise[sample]));
+}
+
+SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor, double jitter_m) {
   if (!(floor > 0) || !std::isfinite(floor))
     throw InputError(
         InputProblem{"symmetry", 0, "floor", fmt::format("{}", floor), "a number above 0"});
@@ -127,36 +132,66 @@ SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor) {
     curve.s.push_back(std::isnan(apart) ? apart : std::log(std::max(apart, floor)));
   }
   curve.s.front() = std::log(floor);
+  curve.jitter_m = jitter_m;
+  if (jitter_m != 0) curve.noise = symmetry_noise(landmarks, jitter_m);
   return curve;
 }
 
-double floor_from_accuracy(const motion::Motion& landmarks, double accuracy_m) {
-  if (!(accuracy_m > 0) || !std::isfinite(accuracy_m))
-    throw InputError(InputProblem{"symmetry", 0, "accuracy", fmt::format("{}", accuracy_m),
-                                  "a number above 0 (m)"});
-  const auto rest = rest_rays(landmarks, find_points(landmarks));
-  double variance = 0;
-  for (const auto& side : rest) {
-    Vec3 of_cheilion = Vec3::Zero();
-    for (const Vec3& ray : side) {
-      of_cheilion += ray / ray.squaredNorm();
-      variance += 1 / ray.squaredNorm();
+std::vector<double> symmetry_noise(const motion::Motion& landmarks, double jitter_m) {
+  constexpr double two_sided_95 = 1.959964;
+  if (!(jitter_m > 0) || !std::isfinite(jitter_m))
+    throw InputError(
+        InputProblem{"symmetry", 0, "jitter", fmt::format("{}", jitter_m), "a number above 0 (m)"});
+  const Points10 points = find_points(landmarks);
+  const auto rest = rest_rays(landmarks, points);
+  std::vector<double> noise;
+  for (const Points& sample : landmarks.positions) {
+    double variance = 0;
+    for (int side = 0; side < 2; ++side) {
+      const auto now = rays(sample, points.of[side]);
+      Vec3 of_cheilion = Vec3::Zero(), of_cheilion_at_rest = Vec3::Zero();
+      for (int k = 0; k < 4; ++k) {
+        const double r = now[k].norm(), r0 = rest[side][k].norm();
+        const double averaged = static_cast<double>(points.of[side][k + 1].size());
+        of_cheilion += now[k] / (r * r0);
+        of_cheilion_at_rest += r * rest[side][k] / (r0 * r0 * r0);
+        variance += (1 / (r0 * r0) + r * r / std::pow(r0, 4)) / averaged;
+      }
+      variance += of_cheilion.squaredNorm() + of_cheilion_at_rest.squaredNorm();
     }
-    variance += of_cheilion.squaredNorm();
+    noise.push_back(two_sided_95 * jitter_m * std::sqrt(variance));
   }
-  return accuracy_m * std::sqrt(2 * variance);
+  return noise;
 }
 
-void write_symmetry_csv(const std::filesystem::path& file, const SymmetryCurve& curve) {
-  write_file_atomically(file, [&](std::ostream& stream) {
-    stream << "time_s,xi_L,xi_R,S_ln,floor\n";
-    const auto field = [](double value) {
-      return std::isnan(value) ? std::string() : fmt::format("{:.9g}", value);
-    };
-    for (size_t i = 0; i < curve.time_s.size(); ++i)
-      fmt::print(stream, "{},{},{},{},{:.9g}\n", field(curve.time_s[i]), field(curve.xi_left[i]),
-                 field(curve.xi_right[i]), field(curve.s[i]), curve.floor);
-  });
+double jitter_at_rest(const motion::Motion& landmarks, double window_s) {
+  const Points10 points = find_points(landmarks);
+  std::set<int> columns;
+  for (const auto& side : points.of)
+    for (const Columns& some : side) columns.insert(some.begin(), some.end());
+  const auto& time = landmarks.time_s;
+  double least = std::numeric_limits<double>::quiet_NaN();
+  for (size_t first = 0; first < time.size(); ++first) {
+    size_t end = first;
+    while (end < time.size() && (end - first < 5 || time[end] - time[first] <= window_s)) ++end;
+    if (end - first < 5 || (first > 0 && time.back() - time[first] < window_s)) break;
+    const auto count = static_cast<double>(end - first);
+    double squares = 0;
+    for (const int column : columns) {
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero(), of_squares = sum;
+      // About the first sample, for the digits' sake.
+      const Eigen::RowVector3d about = landmarks.positions[first].row(column);
+      for (size_t k = first; k < end; ++k) {
+        const Eigen::RowVector3d d = landmarks.positions[k].row(column) - about;
+        sum += d;
+        of_squares += d.cwiseAbs2();
+      }
+      squares += (of_squares - sum.cwiseAbs2() / count).sum() / (count - 1);
+    }
+    const double jitter = std::sqrt(squares / (3 * static_cast<double>(columns.size())));
+    if (!(jitter >= least)) least = std::isnan(jitter) ? least : jitter;
+  }
+  return least;
 }
 
 }  // namespace hyperex::metrics

@@ -19,22 +19,40 @@ struct SymmetryCurve {
   double floor = 1e-6;    ///< least |xi_L - xi_R| told apart (dimensionless)
   /// Points that stood in for absent ones: "exocanthion_L: ibug68_45"; empty where none did.
   std::vector<std::string> stand_ins;
+  double jitter_m = 0;  ///< of the points, standard deviation a coordinate; 0: exact
+  /// Of each sample what |xi_L - xi_R| of a symmetric motion stays under in 95 % of samples, by
+  /// jitter alone (symmetry_noise), dimensionless; empty where jitter_m is 0. S_floor is its
+  /// logarithm.
+  std::vector<double> noise;
+
+  /// |xi_L - xi_R| is under the noise of that sample: which side moves more is then undecided.
+  /// Also true where not measured; never for an exact motion.
+  bool undecided(size_t sample) const;
 };
 
 /// `landmarks` must hold cheilion, exocanthion, palpebrale_inferius, alare and
 /// crista_philtri_inferior with _L and _R. iBUG-68 stand-ins are used where the anatomical name is
 /// absent (48/54, 36/45, mean of 40,41 / 46,47, 31/35, 50/52 for R / L), under the names ibug68_K,
 /// K, or pK. InputError naming the missing ones otherwise, where a point was not measured at the
-/// first sample, or where floor is not above 0. Later samples without a measurement are NaN.
-SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor = 1e-6);
+/// first sample, where floor is not above 0 or jitter_m below 0. Later samples without a
+/// measurement are NaN.
+SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor = 1e-6,
+                          double jitter_m = 0);
 
-/// The floor that points known to `accuracy_m` (standard deviation a coordinate, independent) set:
-/// that of xi_L - xi_R for a face that does not move, to first order
-///   accuracy * sqrt(2 sum_sides (|sum_k e_k / r_k|^2 + sum_k 1 / r_k^2)),
-/// e_k the unit vector of distance k at the first sample; 2 as t and t0 are both measured.
-double floor_from_accuracy(const motion::Motion& landmarks, double accuracy_m);
+/// Points known to `jitter_m` (standard deviation a coordinate, independent of each other and in
+/// time) make xi_L - xi_R uncertain; to first order its variance at time t is
+///   jitter^2 sum_sides (|sum_k e_k(t) / r_k0|^2 + sum_k 1 / (n_k r_k0^2)
+///                       + |sum_k r_k(t) e_k0 / r_k0^2|^2 + sum_k r_k(t)^2 / (n_k r_k0^4)),
+/// e_k the unit vector of distance k, 0 the first sample, n_k how many points the mean that stands
+/// for the far end is of. The first two terms come from t, the others from t0. Gives 1.96 standard
+/// deviations a sample; NaN where not measured. Errors as symmetry_of.
+std::vector<double> symmetry_noise(const motion::Motion& landmarks, double jitter_m);
 
-/// CSV with the columns time_s, xi_L, xi_R, S_ln, floor; empty fields where not measured.
-void write_symmetry_csv(const std::filesystem::path& file, const SymmetryCurve& curve);
+/// Jitter of measured points at rest: within a window of `window_s` (but at least five samples) the
+/// standard deviation of a coordinate about its own mean in the window, root mean square over the
+/// points that S(t) takes and the three axes; of all windows the quietest, as a recording seldom
+/// says when the face rests. Tremor and slow drift count as jitter. Head pose must be out. NaN
+/// where no window is measured. Errors as symmetry_of.
+double jitter_at_rest(const motion::Motion& landmarks, double window_s = 0.5);
 
 }  // namespace hyperex::metrics

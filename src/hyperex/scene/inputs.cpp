@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
 #include "hyperex/capture/open_source.hpp"
+#include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
@@ -157,6 +160,43 @@ motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Inp
   return steady;
 }
 
+/// A wrong name is told by where it stands in the scene.
+void check_point_gains(const Scene& scene, const motion::Motion& m) {
+  std::vector<InputProblem> problems;
+  const auto& gains = scene.motion.point_gains;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const std::string key = fmt::format("motion.point_gain[{}].point", i);
+    if (m.index_of(gains[i].point) < 0)
+      problems.push_back(problem_at(scene, key, "the name of a point in the recording"));
+    for (std::size_t j = 0; j < i; ++j)
+      if (gains[j].point == gains[i].point) {
+        problems.push_back(problem_at(scene, key, "each point once"));
+        break;
+      }
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+/// Gains, the jitter that they leave, and the scale of time.
+void exaggerate(const Scene& scene, Look look, motion::Motion& m, Inputs& in) {
+  check_point_gains(scene, m);
+  m = motion::with_point_gains(m, scene.motion.point_gains);
+  if (scene.output.jitter_m >= 0) {
+    in.jitter_m = scene.output.jitter_m;
+  } else if (!scene.motion.recording.empty() && look == Look::whole) {
+    const double jitter_m = metrics::jitter_at_rest(m);
+    if (std::isfinite(jitter_m)) in.jitter_m = jitter_m;
+    in.notes.push_back(
+        std::isfinite(jitter_m)
+            ? fmt::format(
+                  "jitter of the tracked points at rest: {:.2f} mm, the noise floor of S(t)",
+                  1e3 * jitter_m)
+            : "the recording is too short to tell its jitter: S(t) has no noise floor");
+  }
+  in.jitter_m *= scene.motion.gain;
+  m = motion::time_scaled(m, scene.motion.time_scale);
+}
+
 void check_names(const Scene& scene, const Inputs& in) {
   const auto check = [&](const std::vector<std::string>& names, const char* key, bool in_motion) {
     std::vector<InputProblem> problems;
@@ -262,6 +302,7 @@ Inputs read_inputs(const Scene& scene, Look look) {
       opening.source = "embedded motion";
       steadied = steady(scene, opening, in);
     });
+  if (steadied) problems.attempt([&] { exaggerate(scene, look, steadied->motion, in); });
   problems.throw_if_any();
   if (given.empty()) {
     in.notes.push_back(
@@ -272,6 +313,7 @@ Inputs read_inputs(const Scene& scene, Look look) {
     return in;
   }
   in.motion = reenact::align(steadied->motion, in.landmarks, scene.alignment.method);
+  in.jitter_m *= in.motion.scan_from_motion.scale;
   in.notes.push_back(fmt::format(
       "aligned by {} common points, scale {:.3f}, {:.1f} mm rms apart before the smooth "
       "correction",
@@ -282,6 +324,13 @@ Inputs read_inputs(const Scene& scene, Look look) {
   problems.attempt([&] { check_names(scene, in); });
   problems.attempt([&] { check_element_size(scene, in); });
   problems.throw_if_any();
+  return in;
+}
+
+Inputs inputs_of_variant(const Scene& variant, const Inputs& inputs) {
+  Inputs in = inputs;
+  in.driven = variant.drive.all_points ? in.motion.motion.names : variant.drive.points;
+  check_names(variant, in);
   return in;
 }
 

@@ -69,6 +69,16 @@ std::vector<Key> input_keys() {
                     "refused."),
       number<Scene>("motion.gain", none, AT(motion.gain), {0, 5},
                     "Multiplies all displacements; 1 as recorded."),
+      rows<Scene, motion::PointGain>(
+          "motion.point_gain", AT(motion.point_gains),
+          {text<motion::PointGain>("point", AT(point), 1, "A point of the recording."),
+           number<motion::PointGain>("gain", none, AT(gain), {0, 5},
+                                     "Multiplies its displacement.")},
+          "A gain on one point, besides motion.gain. Other points keep their motion; the skin "
+          "between takes its share as it does of every driven point's, and so does the jaw."),
+      number<Scene>("motion.time_scale", none, AT(motion.time_scale), {0.05, 20},
+                    "Stretches the recording in time: 2 plays it twice as slowly. Gaps and "
+                    "jitter are judged as recorded."),
       choice<Scene, AlignmentMethod>(
           "alignment.method", AT(alignment.method),
           {{"nonrigid", AlignmentMethod::nonrigid},
@@ -218,6 +228,10 @@ std::vector<Key> run_keys() {
       number<Scene>("output.symmetry_floor", none, AT(output.symmetry_floor), {0, 1, true},
                     "The least difference of xi that S(t) tells apart; perfect symmetry would be "
                     "minus infinity."),
+      number<Scene>("output.jitter_mm", millimetres, AT(output.jitter_m), {-1, 20},
+                    "Jitter of the recorded points, a standard deviation a coordinate, which "
+                    "sets the noise floor of S(t) (docs/symmetry.md). Below 0: that of the "
+                    "tracked points at rest for motion.recording, else none."),
       numbers<Scene>("output.contact_times_s", seconds, AT(output.contact_times_s), {0, 600}, 1, 12,
                      "Times of the pictures in contact_sheet.png."),
   };

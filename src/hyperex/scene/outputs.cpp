@@ -17,6 +17,7 @@
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
 #include "hyperex/report/html_report.hpp"
+#include "hyperex/scene/asymmetry_picture.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
@@ -31,8 +32,20 @@ Points moved(const Performance& p, const PointsF& displacement) {
 void write_peak(const Results& r, const std::filesystem::path& directory) {
   const Performance& p = r.simulation.performance;
   const PointsF& d = p.skin_displacement_m[p.peak_frame];
-  io::write_ply(directory / "skin_peak.ply", {moved(p, d), p.skin_rest.triangles},
-                r.inputs.scan.unit, {{"displacement_mm", 1e3F * d.rowwise().norm()}});
+  const TriMesh skin{moved(p, d), p.skin_rest.triangles};
+  const metrics::Asymmetry& asymmetry = *r.symmetry.map;
+  const Eigen::VectorXf map_mm = metrics::asymmetry_mm(asymmetry.plane, asymmetry.pairs, d);
+  io::write_ply(directory / "skin_peak.ply", skin, r.inputs.scan.unit,
+                {{"displacement_mm", 1e3F * d.rowwise().norm()}, {"asymmetry_mm", map_mm}});
+  const metrics::AsymmetrySummary& frame = asymmetry.frames[static_cast<std::size_t>(p.peak_frame)];
+  const std::string note = fmt::format(
+      "the face less its reflection, less the same at rest, at {:.2f} s; face rms {:.2f} mm, mouth "
+      "rms {:.2f} mm",
+      p.frame_time_s[static_cast<std::size_t>(p.peak_frame)], frame.face_rms_mm,
+      frame.mouth_rms_mm);
+  render::write_png(
+      directory / "asymmetry.png",
+      draw_asymmetry(skin, map_mm, asymmetry, r.inputs.landmarks, "Asymmetry of the motion", note));
 }
 
 /// Strain as ParaView's tensor: xx yy zz xy yz xz, its own shear half the engineering one.
@@ -149,6 +162,20 @@ std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double en
   return shown;
 }
 
+metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
+                                            const tissue::TissueMesh& mesh,
+                                            const reenact::Performance& p) {
+  constexpr double lip_margin_m = 0.002;  // nearer to both lips, a vertex is of neither
+  std::vector<int> side;
+  for (const double m : mesh.skin_upper_margin)
+    side.push_back(m > lip_margin_m ? 1 : m < -lip_margin_m ? -1 : 0);
+  metrics::SymmetryMeasures all;
+  all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, inputs.jitter_m);
+  all.excursions = metrics::excursions_of(p.landmarks, inputs.jitter_m);
+  all.map = metrics::asymmetry_of(p.skin_rest, p.skin_displacement_m, inputs.landmarks, side);
+  return all;
+}
+
 void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   const Performance& p = r.simulation.performance;
   const tissue::FaceFrame frame = tissue::face_frame(r.inputs.landmarks);
@@ -197,6 +224,7 @@ void write_outputs(const Results& r, const std::filesystem::path& directory) {
   write_peak(r, directory);
   motion::write_motion_csv(directory / "motion.csv", p.landmarks);
   metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
+  metrics::write_excursions_csv(directory / "excursions.csv", r.symmetry.excursions);
   if (r.scene.output.vtu) write_frames(r, directory);
   if (r.scene.output.glb)
     report::write_glb(directory / "performance.glb", p, r.inputs.scan, r.modes);
@@ -210,7 +238,7 @@ void write_report(const Results& r, const nlohmann::ordered_json& summary,
   report::ReportInput input{.performance = p,
                             .scan = r.inputs.scan,
                             .modes = r.modes,
-                            .symmetry = &r.symmetry,
+                            .symmetry = &r.symmetry.curve,
                             .summary = nlohmann::json(summary),
                             .notes = r.notes,
                             .title = r.scene.title};

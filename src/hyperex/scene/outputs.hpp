@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "hyperex/metrics/symmetry.hpp"
+#include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/reenact/simulation.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/scene/inputs.hpp"
@@ -16,7 +16,7 @@ struct Results {
   const Inputs& inputs;
   const tissue::TissueMesh& mesh;
   const reenact::SimulationResult& simulation;
-  metrics::SymmetryCurve symmetry;
+  metrics::SymmetryMeasures symmetry;
   std::vector<std::string> notes;
   report::DisplacementModes modes;  ///< of the skin; empty where neither glTF nor page is wanted
 };
@@ -34,6 +34,11 @@ double run_end_s(const Scene& scene, const Inputs& inputs);
 /// Of the rising times of the wanted pictures those that a run of `end_s` shows: what is wanted
 /// later shows the end, which stands there once.
 std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double end_s);
+
+/// S(t), excursions and the asymmetry map of a simulated face, to the jitter of its input.
+metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
+                                            const tissue::TissueMesh& mesh,
+                                            const reenact::Performance& performance);
 
 /// Rest and the still shapes from the front and three-quarter, coloured by displacement.
 void write_contact_sheet(const Results& results, const std::filesystem::path& file);

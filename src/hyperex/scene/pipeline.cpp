@@ -8,6 +8,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/variants.hpp"
 
 namespace hyperex::scene {
 using Json = nlohmann::ordered_json;
@@ -94,6 +95,7 @@ Json summary_of(const Results& r) {
   s["inverted_tets"] = report.inverted_tets;
   s["rigid_points_rms_mm"] = r.inputs.rigid_rms_mm;
   s["mesh_quality"] = quality_json(r.mesh);
+  s["symmetry"] = metrics::summary_of(r.symmetry);
   return s;
 }
 
@@ -169,20 +171,25 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
-  Results results{
-      scene,
-      inputs,
-      mesh,
-      simulation,
-      metrics::symmetry_of(simulation.performance.landmarks, scene.output.symmetry_floor),
-      all_notes(inputs, mesh, simulation.report),
-      {}};
+  const std::vector<VariantRun> variants = run_variants(scene, inputs, mesh);
+  if (!variants.empty()) seconds["variants"] = stage.lap();
+
+  Results results{scene,
+                  inputs,
+                  mesh,
+                  simulation,
+                  symmetry_measures(scene, inputs, mesh, simulation.performance),
+                  all_notes(inputs, mesh, simulation.report),
+                  {}};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
+  if (const auto& note = results.symmetry.map->plane.note; !note.empty())
+    results.notes.push_back(note);
   for (std::size_t i = inputs.notes.size() + mesh.notes.size(); i < results.notes.size(); ++i)
     spdlog::warn("{}", results.notes[i]);
   Json summary = summary_of(results);
   write_outputs(results, directory);
+  if (!variants.empty()) summary["variants"] = write_variants(results, variants, mesh, directory);
   seconds["export"] = stage.lap();
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/scene/keys.hpp"
@@ -35,12 +36,15 @@ class Reader {
   void settle_motion();
   void fill();
   void check_together();
+  /// Reads the scene once more for each variant, its changes in the place of what was given.
+  void settle_variants();
 
   Scene scene;
   std::vector<InputProblem> problems;
 
  private:
   void take_section(const std::string& name, const json& value);
+  void settle_variant(const json& block, const std::string& at);
   void take(const std::string& key, const json& value, const Origin& origin);
   void complain(const Origin& origin, const std::string& key, const json& value,
                 const std::string& expected);
@@ -49,6 +53,7 @@ class Reader {
 
   std::map<std::string, int> lines_;
   std::map<std::string, Given> given_;
+  json variants_;  // [[variant]] as the file has it
 };
 
 void Reader::complain(const Origin& origin, const std::string& key, const json& value,
@@ -132,7 +137,9 @@ bool Reader::take_file() {
   }
   lines_ = std::move(values.lines);
   for (const auto& [name, value] : values.root.items()) {
-    if (is_section(name))
+    if (name == "variant")
+      variants_ = value;
+    else if (is_section(name))
       take_section(name, value);
     else if (value.is_object())
       complain(in_file(name), name, nullptr, unknown_section(name));
@@ -250,6 +257,93 @@ void Reader::check_together() {
     complain_given("time.end_s", "0, or at least one time.step_s");
 }
 
+/// "tissue.young_kpa": 400 from {"tissue": {"young_kpa": 400}}, and what lies deeper as it is.
+std::map<std::string, json> changes_of(const json& block) {
+  std::map<std::string, json> changes;
+  for (const auto& [section, value] : block.items()) {
+    if (section == "name") continue;
+    if (!value.is_object()) {
+      changes[section] = value;
+      continue;
+    }
+    for (const auto& [key, item] : value.items()) changes[section + "." + key] = item;
+  }
+  return changes;
+}
+
+bool may_vary(const std::string& key) {
+  const auto& sections = variant_sections();
+  return key == "motion.gain" ||
+         std::find(sections.begin(), sections.end(), section_of(key)) != sections.end();
+}
+
+std::string what_may_vary() {
+  std::string list;
+  for (const auto& section : variant_sections()) list += "[" + section + "], ";
+  return list + "or motion.gain";
+}
+
+void Reader::settle_variant(const json& block, const std::string& at) {
+  if (!block.is_object()) {
+    complain(in_file(at), at, block, "a table, [[variant]]");
+    return;
+  }
+  const json name = block.value("name", json());
+  const bool plain_name =
+      name.is_string() && !name.get<std::string>().empty() &&
+      std::all_of(name.get_ref<const std::string&>().begin(),
+                  name.get_ref<const std::string&>().end(),
+                  [](unsigned char c) {
+                    return std::isalnum(c) || c == ' ' || c == '-' || c == '_' || c == '.';
+                  }) &&
+      name.get_ref<const std::string&>().front() != '.';
+  if (!plain_name) {
+    complain(in_file(name.is_null() ? at : at + ".name"), at + ".name", name,
+             "a name of letters, digits, spaces, '-', '_' and '.', not the latter first");
+    return;
+  }
+  for (const Variant& other : scene.variants)
+    if (other.name == name)
+      complain(in_file(at + ".name"), at + ".name", name, "a name that no other variant has");
+  Reader varied = *this;
+  varied.problems.clear();
+  varied.scene.variants.clear();
+  Variant variant;
+  variant.name = name;
+  variant.changes = json::object();
+  for (const auto& [key, value] : changes_of(block)) {
+    const std::string place = at + "." + key;
+    if (find_key(key) != nullptr && !may_vary(key)) {
+      complain(in_file(place), place, value, "a key of what may vary: " + what_may_vary());
+      continue;
+    }
+    varied.take(key, value, in_file(place));
+    varied.lines_[key] = in_file(place).line;
+    variant.changes[key] = value;
+  }
+  if (variant.changes.empty())
+    complain(in_file(at), at, nullptr,
+             "at least one key that it changes, as in tissue.young_kpa = 400");
+  varied.fill();
+  varied.check_together();
+  for (InputProblem& problem : varied.problems) {
+    problem.key = at + "." + problem.key;
+    problems.push_back(std::move(problem));
+  }
+  variant.scene = std::move(varied.scene);
+  scene.variants.push_back(std::move(variant));
+}
+
+void Reader::settle_variants() {
+  if (variants_.is_null() || !problems.empty()) return;  // else each would tell them again
+  if (!variants_.is_array()) {
+    complain(in_file("variant"), "variant", nullptr, "tables, [[variant]]");
+    return;
+  }
+  for (std::size_t i = 0; i < variants_.size(); ++i)
+    settle_variant(variants_[i], fmt::format("variant[{}]", i));
+}
+
 /// The scene as far as it could be read, and everything that is wrong with it: the file's problems
 /// by line, then those of the overrides.
 Reader read(const fs::path& file, const std::vector<std::string>& overrides) {
@@ -259,6 +353,7 @@ Reader read(const fs::path& file, const std::vector<std::string>& overrides) {
     reader.settle_motion();
     reader.fill();
     reader.check_together();
+    reader.settle_variants();
   }
   std::stable_sort(reader.problems.begin(), reader.problems.end(),
                    [](const InputProblem& a, const InputProblem& b) {
@@ -269,6 +364,11 @@ Reader read(const fs::path& file, const std::vector<std::string>& overrides) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& variant_sections() {
+  static const std::vector<std::string> sections = {"tissue", "support", "drive", "region"};
+  return sections;
+}
 
 Scene read_scene(const fs::path& file, const std::vector<std::string>& overrides) {
   Reader reader = read(file, overrides);

@@ -12,6 +12,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/reenact/alignment.hpp"
 #include "hyperex/reenact/simulation.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
@@ -41,6 +42,8 @@ struct MotionOptions {
   std::vector<std::string> rigid_points;  ///< carry the head's pose; empty: chosen automatically
   double max_gap_s = 0.2;                 ///< longest gap that is interpolated, 0 to 10
   double gain = 1;                        ///< on all displacements, 0 to 5
+  std::vector<motion::PointGain> point_gains;  ///< besides, on single points, each 0 to 5
+  double time_scale = 1;                       ///< 2: twice as slow; 0.05 to 20
 };
 
 using reenact::AlignmentMethod;
@@ -118,7 +121,8 @@ struct TimeOptions {
 struct OutputOptions {
   double peak_time_s = -1;  ///< below 0: where the driven points moved most in the mean; to 600
   bool vtu = true, glb = true, report = true;
-  double symmetry_floor = 1e-6;                                 ///< > 0, to 1
+  double symmetry_floor = 1e-6;  ///< > 0, to 1
+  double jitter_m = -1e-3;  ///< of the recorded points; below 0: from tracking, else none; to 20 mm
   std::vector<double> contact_times_s = {0, 0.7, 1.3, 2, 2.7};  ///< 1 to 12, rising, 0 to 600
 };
 
@@ -127,6 +131,8 @@ struct Origin {
   std::filesystem::path file;  ///< the scene file, or "--set"
   int line = 0;                ///< 1-based; 0 where a line means nothing
 };
+
+struct Variant;
 
 struct Scene {
   std::string title;
@@ -141,10 +147,22 @@ struct Scene {
   SolverOptions solver;
   TimeOptions time;
   OutputOptions output;
+  std::vector<Variant> variants;  ///< [[variant]], in the file's order
 
   std::filesystem::path file;             ///< the scene file
   std::map<std::string, Origin> origins;  ///< of each key that was given, e.g. "time.step_s"
 };
+
+/// The same face and motion with other tissue, support or drive: what a run compares with the
+/// scene itself.
+struct Variant {
+  std::string name;        ///< letters, digits, spaces and -_. ; also names its folder
+  nlohmann::json changes;  ///< "tissue.young_kpa": 400, as given
+  Scene scene;             ///< with the changes; its own variants are empty
+};
+
+/// Sections whose keys a variant may change: what a run does again for each of them.
+const std::vector<std::string>& variant_sections();
 
 /// Reads a scene file (TOML, docs/scene.md), then `overrides` ("KEY=VALUE", the last wins, VALUE in
 /// TOML or a bare string). Paths in the file are relative to it, those of overrides to the current

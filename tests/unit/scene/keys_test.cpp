@@ -42,7 +42,13 @@ json other_value(const Key& key) {
     case Kind::rows:
       break;
   }
-  return {{{"landmark", "chin"}, {"thickness_mm", 12.5}}};
+  nlohmann::json row;
+  for (const KeyInfo& column : key.columns)
+    if (column.kind == Kind::number)
+      row[column.name] = (column.range.low + column.range.high) / 2;
+    else
+      row[column.name] = "chin";
+  return nlohmann::json::array({row});
 }
 
 std::string toml(const json& value) {

@@ -25,6 +25,10 @@ candide = "points.json"
 rigid_points = ["r1", "r2", "r3"]
 max_gap_s = 0.31
 gain = 1.32
+time_scale = 2.5
+[[motion.point_gain]]
+point = "p1"
+gain = 1.7
 [alignment]
 method = "similarity"
 [region]
@@ -82,6 +86,7 @@ vtu = false
 glb = true
 report = false
 symmetry_floor = 4.7e-5
+jitter_mm = 0.3
 contact_times_s = [0.48, 0.49]
 )"));
   EXPECT_EQ(s.title, "All of it");
@@ -101,6 +106,10 @@ contact_times_s = [0.48, 0.49]
   EXPECT_THAT(s.motion.rigid_points, ElementsAre("r1", "r2", "r3"));
   EXPECT_EQ(s.motion.max_gap_s, 0.31);
   EXPECT_EQ(s.motion.gain, 1.32);
+  EXPECT_EQ(s.motion.time_scale, 2.5);
+  ASSERT_EQ(s.motion.point_gains.size(), 1u);
+  EXPECT_EQ(s.motion.point_gains[0].point, "p1");
+  EXPECT_EQ(s.motion.point_gains[0].gain, 1.7);
   EXPECT_EQ(s.alignment.method, AlignmentMethod::similarity);
   EXPECT_EQ(s.region.measured, Measured::points);
   EXPECT_THAT(s.region.measured_points, ElementsAre("m1"));
@@ -149,6 +158,7 @@ contact_times_s = [0.48, 0.49]
   EXPECT_TRUE(s.output.glb);
   EXPECT_FALSE(s.output.report);
   EXPECT_EQ(s.output.symmetry_floor, 4.7e-5);
+  EXPECT_EQ(s.output.jitter_m, 0.0003);
   EXPECT_THAT(s.output.contact_times_s, ElementsAre(0.48, 0.49));
 }
 

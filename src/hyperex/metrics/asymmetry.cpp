@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/asymmetry.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/metrics/regions.hpp"
+#include "hyperex/metrics/surface_distance.hpp"
+
+namespace hyperex::metrics {
+namespace {
+
+/// The surface without the triangles that hold a vertex of side `barred`.
+struct Part {
+  std::vector<int> triangle;  // rows of the whole
+  std::unique_ptr<SurfaceTree> tree;
+
+  Part(const TriMesh& rest, const std::vector<int>& side, int barred) {
+    for (int f = 0; f < rest.triangles.rows(); ++f) {
+      bool keep = true;
+      for (int k = 0; k < 3 && barred != 0; ++k)
+        keep &= side[static_cast<size_t>(rest.triangles(f, k))] != barred;
+      if (keep) triangle.push_back(f);
+    }
+    TriMesh mesh{rest.points, Triangles(static_cast<Eigen::Index>(triangle.size()), 3)};
+    for (size_t i = 0; i < triangle.size(); ++i)
+      mesh.triangles.row(static_cast<Eigen::Index>(i)) = rest.triangles.row(triangle[i]);
+    if (!triangle.empty()) tree = std::make_unique<SurfaceTree>(mesh);
+  }
+};
+
+std::vector<int> with_counterpart(const Region* region, const Counterparts& pairs) {
+  std::vector<int> kept;
+  if (region)
+    for (const int v : region->vertices)
+      if (pairs.found[static_cast<size_t>(v)]) kept.push_back(v);
+  return kept;
+}
+
+}  // namespace
+
+Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
+                          const std::vector<int>& side, double reach_m) {
+  // A foot this near is the reflected vertex itself, border or not.
+  constexpr double upon_m = 1e-6;
+  std::vector<char> on_border(static_cast<size_t>(rest.points.rows()), 0);
+  for (const auto& loop : boundary_loops(rest.triangles))
+    for (const int v : loop) on_border[static_cast<size_t>(v)] = 1;
+  const Part whole(rest, side, 0);
+  std::unique_ptr<Part> without_upper, without_lower;
+  if (!side.empty()) {
+    without_upper = std::make_unique<Part>(rest, side, 1);
+    without_lower = std::make_unique<Part>(rest, side, -1);
+  }
+  const auto count = static_cast<size_t>(rest.points.rows());
+  Counterparts pairs{std::vector<std::array<int, 3>>(count), std::vector<Vec3>(count),
+                     Eigen::VectorXd(rest.points.rows()), std::vector<char>(count, 0)};
+  tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+    const Part* part = &whole;
+    if (!side.empty() && side[i] > 0 && without_lower->tree) part = without_lower.get();
+    if (!side.empty() && side[i] < 0 && without_upper->tree) part = without_upper.get();
+    const auto row = static_cast<Eigen::Index>(i);
+    const ClosestPoint foot = part->tree->query(plane.reflect(rest.points.row(row)));
+    const int f = part->triangle[static_cast<size_t>(foot.triangle)];
+    bool border = foot.weights.minCoeff() <= 1e-9;
+    for (int k = 0; k < 3; ++k) {
+      pairs.vertices[i][static_cast<size_t>(k)] = rest.triangles(f, k);
+      if (foot.weights[k] > 1e-9)
+        border &= on_border[static_cast<size_t>(rest.triangles(f, k))] != 0;
+    }
+    pairs.weights[i] = foot.weights;
+    pairs.distance_m[row] = std::sqrt(foot.squared_distance);
+    pairs.found[i] = pairs.distance_m[row] <= (border ? upon_m : reach_m);
+  });
+  return pairs;
+}
+
+Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& pairs,
+                             const PointsF& displacement) {
+  Eigen::VectorXf out(displacement.rows());
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const auto at = static_cast<size_t>(i);
+    if (!pairs.found[at]) {
+      out[i] = std::numeric_limits<float>::quiet_NaN();
+      continue;
+    }
+    Vec3 other = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      other += pairs.weights[at][k] *
+               displacement.row(pairs.vertices[at][static_cast<size_t>(k)]).cast<double>();
+    const Vec3 own = displacement.row(i).cast<double>();
+    out[i] = static_cast<float>(1e3 * (own - plane.reflect_vector(other)).norm());
+  }
+  return out;
+}
+
+Asymmetry asymmetry_of(const TriMesh& rest, const std::vector<PointsF>& frames,
+                       const io::Landmarks& landmarks, const std::vector<int>& side) {
+  Asymmetry out;
+  out.plane = midsagittal_plane(rest, landmarks);
+  out.pairs = counterparts(rest, out.plane, side);
+  const Regions regions = regions_of(rest.points, landmarks);
+  out.face = with_counterpart(regions.find("face"), out.pairs);
+  out.mouth = with_counterpart(regions.find("lips"), out.pairs);
+  if (const Region* face = regions.find("face"))
+    out.paired_share =
+        static_cast<double>(out.face.size()) / static_cast<double>(face->vertices.size());
+  const DistanceStatistics at_rest = statistics_of(out.pairs.distance_m, out.face);
+  out.rest_rms_mm = at_rest.rms_mm;
+  out.rest_p95_mm = at_rest.p95_mm;
+  out.frames.resize(frames.size());
+  tbb::parallel_for(size_t{0}, frames.size(), [&](size_t f) {
+    const Eigen::VectorXd map_m =
+        1e-3 * asymmetry_mm(out.plane, out.pairs, frames[f]).cast<double>();
+    const DistanceStatistics face = statistics_of(map_m, out.face);
+    const DistanceStatistics mouth = statistics_of(map_m, out.mouth);
+    out.frames[f] = {face.rms_mm, face.p95_mm, mouth.rms_mm, mouth.p95_mm};
+  });
+  for (size_t f = 0; f < frames.size(); ++f)
+    if (out.frames[f].face_rms_mm > out.frames[static_cast<size_t>(out.worst_frame)].face_rms_mm)
+      out.worst_frame = static_cast<int>(f);
+  return out;
+}
+
+}  // namespace hyperex::metrics

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hyperex/motion/motion.hpp"
+
+namespace hyperex::metrics {
+
+/// Distance of a point (mean of `columns`) from its place in the first sample, mm a sample; NaN
+/// where not measured.
+std::vector<double> distance_from_rest_mm(const motion::Motion& motion,
+                                          const std::vector<int>& columns);
+/// Its speed, mm/s: |x(k+1) - x(k-1)| / (t(k+1) - t(k-1)), one-sided at both ends; NaN where a
+/// sample that it takes is not measured, and for a motion of one sample.
+std::vector<double> speed_mm_s(const motion::Motion& motion, const std::vector<int>& columns);
+
+struct SideExcursion {
+  double excursion_mm = 0;     ///< largest distance from the place in the first sample
+  double path_mm = 0;          ///< length of the whole way, from sample to sample
+  double peak_speed_mm_s = 0;  ///< largest speed
+};
+
+/// A point and its counterpart on the other side. Ratios are right over left (which side is
+/// affected is not known); NaN where the left is below a micrometre, or a micrometre a second.
+struct PairExcursion {
+  std::string name;           ///< "cheilion", "ibug68_48/54" (right/left)
+  int left = -1, right = -1;  ///< columns of the motion
+  SideExcursion left_side, right_side;
+  double excursion_ratio = 0, path_ratio = 0, speed_ratio = 0;
+  double speed_correlation = 0;  ///< Pearson's, of both speeds over time; NaN where one is constant
+  /// The excursions differ by less than jitter alone makes them in 95 % of motions: 1.96 * 2 jitter
+  /// (two places a side, to first order along the way). Never where jitter is 0.
+  bool undecided = false;
+};
+
+/// What clinics measure of a smile: how far the corners of the mouth travel.
+struct Commissure {
+  int left = -1, right = -1;  ///< columns: cheilion, or ibug68_54 and 48; -1 where there is none
+  std::vector<double> left_mm, right_mm;                     ///< distance from rest, a sample
+  std::vector<double> left_mm_s, right_mm_s;                 ///< speed
+  double left_from_midlip_mm = 0, right_from_midlip_mm = 0;  ///< see below
+};
+
+struct Excursions {
+  std::vector<PairExcursion> pairs;  ///< in the order of the motion's names
+  /// Empty curves without its points. from_midlip: the change of greatest size, with its sign, of
+  /// the distance from the middle of the lower lip (labiale_inferius, or ibug68_57) to the corner.
+  Commissure commissure;
+  double jitter_m = 0;
+};
+
+/// Of every pair of points that a motion (head pose taken out) names: NAME_L and NAME_R, and the
+/// mirrored iBUG-68 points as ibug68_K, K or pK; those not measured in the first sample are left
+/// out. L and R are the subject's own sides.
+Excursions excursions_of(const motion::Motion& motion, double jitter_m = 0);
+
+}  // namespace hyperex::metrics

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "hyperex/metrics/asymmetry.hpp"
+#include "hyperex/metrics/excursion.hpp"
+#include "hyperex/metrics/symmetry.hpp"
+
+namespace hyperex::metrics {
+
+/// All of one motion; docs/symmetry.md defines every number.
+struct SymmetryMeasures {
+  SymmetryCurve curve;
+  Excursions excursions;
+  std::optional<Asymmetry> map;  ///< where there is a surface
+};
+
+/// CSV, a row a sample: time_s, xi_L, xi_R, S_ln, floor, S_floor, commissure_L_mm, commissure_R_mm,
+/// commissure_speed_L_mm_s, commissure_speed_R_mm_s, and with a map asymmetry_face_rms_mm,
+/// asymmetry_face_p95_mm, asymmetry_mouth_rms_mm, asymmetry_mouth_p95_mm. Empty where not measured
+/// or not defined; S_floor is empty for an exact motion. Samples of curve and map must be the same.
+void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasures& measures);
+
+/// CSV, a row a pair of points: point; of L, R and as ratio_R_L: excursion_mm, path_mm,
+/// peak_speed_mm_s; speed_correlation; decided (1 or 0).
+void write_excursions_csv(const std::filesystem::path& file, const Excursions& excursions);
+
+/// For summary.json: jitter, how much of S(t) is undecided, commissure, excursions, map. Numbers
+/// that are not defined are null.
+nlohmann::ordered_json summary_of(const SymmetryMeasures& measures);
+
+/// Where the sides differ most and by how much, that they do not, or that it is undecided. Not
+/// which side moves more: a stretch does not tell (README), excursions do.
+std::string verdict_of(const SymmetryCurve& curve);
+
+/// The sample of largest |xi_L - xi_R|; 0 where nothing is measured.
+size_t largest_difference(const SymmetryCurve& curve);
+
+}  // namespace hyperex::metrics

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/asymmetry_picture.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "hyperex/metrics/regions.hpp"
+#include "hyperex/render/contact_sheet.hpp"
+#include "hyperex/render/render.hpp"
+
+namespace hyperex::scene {
+
+render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm,
+                             const metrics::Asymmetry& asymmetry, const io::Landmarks& landmarks,
+                             const std::string& title, const std::string& note) {
+  constexpr double least_top_mm = 0.1;  // a symmetric face is all of one colour, not of its noise
+  double top = least_top_mm;
+  Points framed(static_cast<Eigen::Index>(asymmetry.face.size()), 3);
+  for (Eigen::Index i = 0; i < framed.rows(); ++i) {
+    const int v = asymmetry.face[static_cast<std::size_t>(i)];
+    framed.row(i) = moved.points.row(v);
+    top = std::max(top, static_cast<double>(map_mm[v]));
+  }
+  if (framed.rows() == 0) framed = moved.points;
+  const Eigen::Matrix3d scan_from_face =
+      metrics::face_axes(landmarks).value_or(Eigen::Matrix3d::Identity()).transpose();
+  const render::Surface surface{.mesh = moved, .scalar = map_mm, .range = {0, top}};
+  const render::RenderOptions size{.width_px = 380, .height_px = 480};
+  const double aspect = static_cast<double>(size.width_px) / size.height_px;
+  Vec3 from_right = render::three_quarter_view();
+  from_right.x() *= -1;
+  render::ContactSheet sheet{.title = title, .note = note, .columns = 3};
+  for (const auto& [view, caption] :
+       {std::pair{from_right, "right side"}, std::pair{render::front_view(), "front"},
+        std::pair{render::three_quarter_view(), "left side"}}) {
+    const render::Camera camera =
+        render::framing(framed, scan_from_face * view, aspect, scan_from_face.col(1));
+    sheet.pictures.push_back({render::render({surface}, camera, size), caption});
+  }
+  float most = 0;
+  for (Eigen::Index i = 0; i < map_mm.size(); ++i)
+    if (map_mm[i] > most) most = map_mm[i];
+  sheet.bar =
+      render::ColourBar{{0, top}, "asymmetry (mm)", static_cast<double>(most) > top * 1.001};
+  return render::contact_sheet(sheet);
+}
+
+}  // namespace hyperex::scene

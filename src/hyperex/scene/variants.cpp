@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/variants.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/render/camera.hpp"
+#include "hyperex/render/canvas.hpp"
+#include "hyperex/render/contact_sheet.hpp"
+#include "hyperex/render/render.hpp"
+#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/tissue/lips.hpp"
+
+namespace hyperex::scene {
+namespace {
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr double kNearMouth_m = 0.025;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+std::string field(double value) {
+  return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
+}
+
+/// Positions of a landmark over time; empty where there is none of that name.
+Points track_of(const motion::Motion& m, const std::string& name) {
+  const int row = m.index_of(name);
+  if (row < 0) return {};
+  Points track(Eigen::Index(m.positions.size()), 3);
+  for (std::size_t k = 0; k < m.positions.size(); ++k)
+    track.row(Eigen::Index(k)) = m.positions[k].row(row);
+  return track;
+}
+
+double farthest(const Points& track) {
+  return track.rows() ? (track.rowwise() - track.row(0)).rowwise().norm().maxCoeff() : 0;
+}
+
+double integral(const std::vector<double>& time_s, const std::vector<double>& a,
+                const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t k = 1; k < time_s.size(); ++k) {
+    const double area =
+        0.5 * (time_s[k] - time_s[k - 1]) * (std::abs(a[k] - b[k]) + std::abs(a[k - 1] - b[k - 1]));
+    if (std::isfinite(area)) sum += area;
+  }
+  return sum;
+}
+
+/// The recorded motion of a driven point at the times of the run's frames.
+Points driven_track(const Results& r, const std::string& name) {
+  const int row = r.inputs.motion.motion.index_of(name);
+  if (row < 0) return {};
+  const motion::MotionCurve curve(r.inputs.motion.motion);
+  const auto& time_s = r.simulation.performance.frame_time_s;
+  const double start_s = r.inputs.motion.motion.time_s.front();
+  Points track(Eigen::Index(time_s.size()), 3);
+  for (std::size_t k = 0; k < time_s.size(); ++k)
+    track.row(Eigen::Index(k)) = curve.at(start_s + time_s[k]).row(row);
+  return track;
+}
+
+void draw(const Results& base, const std::vector<VariantComparison>& compared,
+          const std::vector<VariantRun>& runs, const fs::path& file) {
+  const tissue::FaceFrame frame = tissue::face_frame(base.inputs.landmarks);
+  const reenact::Performance& p = base.simulation.performance;
+  const auto skin_at_peak = [&](const reenact::Performance& of) {
+    const PointsF& d = of.skin_displacement_m[std::size_t(p.peak_frame)];
+    Points points = p.skin_rest.points + d.cast<double>();
+    for (Eigen::Index v = 0; v < points.rows(); ++v)
+      points.row(v) = frame.local(points.row(v)).transpose();
+    return TriMesh{std::move(points), p.skin_rest.triangles};
+  };
+  double top = 0;
+  for (const auto& one : compared) top = std::max(top, 1e3 * one.difference.greatest_m.maxCoeff());
+  top = std::max(top, 0.1);  // equal faces are of one colour, not of their noise
+  const render::RenderOptions size{.width_px = 300, .height_px = 380};
+  const double aspect = double(size.width_px) / size.height_px;
+  const TriMesh own = skin_at_peak(p);
+  Points framed(Eigen::Index(base.inputs.landmarks.size()), 3);
+  Eigen::Index row = 0;
+  for (const auto& [name, at] : base.inputs.landmarks)
+    framed.row(row++) = frame.local(at).transpose();
+  render::ContactSheet sheet;
+  sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
+  sheet.note =
+      fmt::format("the face at {:.2f} s; colour: greatest distance over time from the scene itself",
+                  p.frame_time_s[std::size_t(p.peak_frame)]);
+  sheet.columns = int(runs.size()) + 1;
+  sheet.bar = render::ColourBar{{0, top}, "distance (mm)"};
+  for (const Vec3& view : {render::front_view(), render::three_quarter_view()}) {
+    render::Camera camera = render::framing(framed, view, aspect);
+    camera.height_m *= 1.15;
+    sheet.pictures.push_back({render::render({{.mesh = own}}, camera, size), "the scene itself"});
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const TriMesh skin = skin_at_peak(runs[i].simulation.performance);
+      const render::Surface surface{
+          .mesh = skin,
+          .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
+          .range = {0, top}};
+      sheet.pictures.push_back({render::render({surface}, camera, size), compared[i].name});
+    }
+  }
+  render::write_png(file, render::contact_sheet(sheet));
+}
+
+void write_table(const fs::path& file, const VariantComparison& base,
+                 const std::vector<VariantComparison>& compared, const ResponsePair& pair) {
+  write_file_atomically(file, [&](std::ostream& out) {
+    out << "variant,greatest_displacement_mm,greatest_distance_mm,rms_distance_at_peak_mm,"
+           "mean_change_at_peak_mm,share_within_25_mm_of_mouth,driven_point,response_point,"
+           "lag_ms,lag_correlation,hysteresis,symmetry_integral_s\n";
+    const auto row = [&](const VariantComparison& c) {
+      const auto& d = c.difference;
+      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{}\n", c.name,
+                 field(c.greatest_displacement_mm), field(1e3 * d.greatest_m.maxCoeff()),
+                 field(1e3 * std::sqrt(d.at_peak_m.array().square().mean())),
+                 field(1e3 * d.change_at_peak_m.mean()), field(c.share_near_mouth), pair.driven,
+                 pair.response, field(1e3 * c.lag.lag_s), field(c.lag.correlation),
+                 field(c.hysteresis), field(c.symmetry_integral_s));
+    };
+    row(base);
+    for (const auto& one : compared) row(one);
+  });
+}
+
+Json json_of(const VariantComparison& c) {
+  const auto& d = c.difference;
+  Json json;
+  json["name"] = c.name;
+  json["greatest_displacement_mm"] = c.greatest_displacement_mm;
+  json["greatest_distance_mm"] = number(1e3 * d.greatest_m.maxCoeff());
+  json["rms_distance_at_peak_mm"] = number(1e3 * std::sqrt(d.at_peak_m.array().square().mean()));
+  json["mean_change_at_peak_mm"] = number(1e3 * d.change_at_peak_m.mean());
+  json["share_within_25_mm_of_mouth"] = number(c.share_near_mouth);
+  json["lag_ms"] = number(1e3 * c.lag.lag_s);
+  json["hysteresis"] = number(c.hysteresis);
+  json["symmetry_integral_s"] = number(c.symmetry_integral_s);
+  return json;
+}
+
+}  // namespace
+
+std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
+                                     const tissue::TissueMesh& mesh) {
+  std::vector<VariantRun> runs;
+  for (const Variant& variant : scene.variants) {
+    VariantRun run;
+    run.scene = variant.scene;
+    run.scene.title = variant.name;
+    run.scene.output.vtu = run.scene.output.glb = run.scene.output.report = false;
+    run.inputs = inputs_of_variant(variant.scene, inputs);
+    runs.push_back(std::move(run));
+  }
+  if (runs.empty()) return runs;
+  Progress progress("simulating variants", 0);
+  tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
+    VariantRun& run = runs[i];
+    try {
+      run.simulation = reenact::simulate(mesh, run.inputs.landmarks, run.inputs.motion,
+                                         simulation_options(run.scene, run.inputs));
+    } catch (const NumericalError& error) {
+      throw NumericalError(fmt::format("variant {}: {}", run.scene.title, error.what()));
+    }
+  });
+  return runs;
+}
+
+ResponsePair response_pair(const Results& base) {
+  const reenact::Performance& p = base.simulation.performance;
+  ResponsePair pair;
+  double most = 0;
+  for (const std::string& name : p.driven_names)
+    if (const double moved = farthest(driven_track(base, name)); moved > most) {
+      most = moved;
+      pair.driven = name;
+    }
+  most = 0;
+  const double clear_m = 2 * base.scene.drive.patch_radius_m;
+  for (const std::string& name : p.landmarks.names) {
+    const Points track = track_of(p.landmarks, name);
+    bool off = true;
+    for (const auto at : p.driven_points_rest.rowwise())
+      off = off && (at - track.row(0)).norm() > clear_m;
+    if (const double moved = farthest(track); off && moved > most) {
+      most = moved;
+      pair.response = name;
+    }
+  }
+  return pair;
+}
+
+VariantComparison compare_variant(const std::string& name, const Results& base, const Results& run,
+                                  const ResponsePair& pair) {
+  const reenact::Performance &own = base.simulation.performance, &p = run.simulation.performance;
+  VariantComparison c;
+  c.name = name;
+  for (const PointsF& d : p.skin_displacement_m)
+    c.greatest_displacement_mm =
+        std::max(c.greatest_displacement_mm, 1e3 * double(d.rowwise().norm().maxCoeff()));
+  c.difference =
+      metrics::variant_difference(own.skin_displacement_m, p.skin_displacement_m, own.peak_frame);
+  const auto& landmarks = base.inputs.landmarks;
+  const Vec3 mouth = (landmarks.at(tissue::ibug(48)) + landmarks.at(tissue::ibug(54))) / 2;
+  c.share_near_mouth = metrics::share_within(c.difference.greatest_m, own.skin_rest.points, mouth,
+                                             kNearMouth_m, metrics::vertex_areas(own.skin_rest));
+  c.lag.lag_s = c.lag.correlation = c.hysteresis = std::nan("");
+  if (!pair.driven.empty() && !pair.response.empty()) {
+    const auto input = metrics::along_farthest(driven_track(base, pair.driven));
+    const auto response = metrics::along_farthest(track_of(p.landmarks, pair.response));
+    c.lag = metrics::lag_of(p.frame_time_s, input, response);
+    c.hysteresis = metrics::hysteresis_of(input, response);
+  }
+  const metrics::SymmetryCurve& s = run.symmetry.curve;
+  c.symmetry_integral_s = integral(s.time_s, s.xi_left, s.xi_right);
+  return c;
+}
+
+Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
+                    const tissue::TissueMesh& mesh, const fs::path& directory) {
+  const ResponsePair pair = response_pair(base);
+  std::vector<VariantComparison> compared;
+  Progress progress("writing variants", long(runs.size()));
+  for (const VariantRun& run : runs) {
+    const Results results{
+        run.scene,
+        run.inputs,
+        mesh,
+        run.simulation,
+        symmetry_measures(run.scene, run.inputs, mesh, run.simulation.performance),
+        {},
+        {}};
+    compared.push_back(compare_variant(run.scene.title, base, results, pair));
+    const fs::path folder = directory / "variants" / run.scene.title;
+    fs::create_directories(folder);
+    write_outputs(results, folder);
+    progress.update(long(compared.size()));
+  }
+  const VariantComparison own = compare_variant("base", base, base, pair);
+  write_table(directory / "variants.csv", own, compared, pair);
+  draw(base, compared, runs, directory / "variants.png");
+  Json json;
+  json["driven_point"] = pair.driven;
+  json["response_point"] = pair.response;
+  json["table"] = Json::array({json_of(own)});
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    Json one = json_of(compared[i]);
+    one["changes"] = base.scene.variants[i].changes;
+    one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
+    json["table"].push_back(one);
+  }
+  return json;
+}
+
+}  // namespace hyperex::scene

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "hyperex/metrics/lag.hpp"
+#include "hyperex/metrics/variant_difference.hpp"
+#include "hyperex/scene/outputs.hpp"
+
+namespace hyperex::scene {
+
+/// One variant's run on the mesh and motion of the scene itself.
+struct VariantRun {
+  Scene scene;    ///< the variant's, without ParaView's frames and glTF
+  Inputs inputs;  ///< the scene's, with the variant's driven points
+  reenact::SimulationResult simulation;
+};
+
+/// Simulates all of scene.variants at once. Mesh, landmarks, motion and its alignment are the
+/// scene's own. Throws InputError naming the variant for a point that does not exist, and
+/// NumericalError where a variant cannot be solved.
+std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
+                                     const tissue::TissueMesh& mesh);
+
+/// A run against the scene's own.
+struct VariantComparison {
+  std::string name;
+  double greatest_displacement_mm = 0;
+  metrics::VariantDifference difference;  ///< to the scene itself; of the skin's vertices
+  /// Share of the summed squared distances (greatest over time, weighted with area) within 25 mm of
+  /// the middle of the mouth; NaN where all are 0.
+  double share_near_mouth = 0;
+  metrics::Lag lag;                ///< of the response point behind the driven point
+  double hysteresis = 0;           ///< of the same pair
+  double symmetry_integral_s = 0;  ///< of |xi_L - xi_R| over time
+};
+
+/// What lags and hysteresis are told of: the driven point that moves farthest in the scene itself,
+/// and the landmark that moves farthest of those off all driven patches.
+struct ResponsePair {
+  std::string driven, response;  ///< empty where there is none
+};
+ResponsePair response_pair(const Results& base);
+
+/// `run` may be the base itself: all differences are 0 then.
+VariantComparison compare_variant(const std::string& name, const Results& base, const Results& run,
+                                  const ResponsePair& pair);
+
+/// Writes variants.csv, variants.png (where and how far each differs) and a folder a variant under
+/// variants/, and returns what summary.json says of them.
+nlohmann::ordered_json write_variants(const Results& base, const std::vector<VariantRun>& runs,
+                                      const tissue::TissueMesh& mesh,
+                                      const std::filesystem::path& directory);
+
+}  // namespace hyperex::scene

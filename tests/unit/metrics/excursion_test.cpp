@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/excursion.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace hyperex::metrics {
+namespace {
+
+constexpr int samples = 61;
+constexpr double end_s = 2, left_m = 0.006;
+
+/// There and back once: 0 to 1 to 0.
+double swing(double t) {
+  return 0.5 * (1 - std::cos(2 * M_PI * t / end_s));
+}
+
+/// Mouth corners of which the left moves 6 mm and the right `share` of it, mirrored; the lip rests.
+motion::Motion smile(double share) {
+  motion::Motion motion;
+  motion.names = {"cheilion_L", "cheilion_R", "labiale_inferius"};
+  const Vec3 way = left_m * Vec3(2, 3, -6) / 7;
+  for (int k = 0; k < samples; ++k) {
+    const double t = end_s * k / (samples - 1);
+    Points at(3, 3);
+    at << 0.025, 0.01, 0.002, -0.025, 0.01, 0.002, 0, 0, 0.01;
+    at.row(0) += swing(t) * way.transpose();
+    at.row(1) += share * swing(t) * Eigen::RowVector3d(-way.x(), way.y(), way.z());
+    motion.time_s.push_back(t);
+    motion.positions.push_back(at);
+  }
+  return motion;
+}
+
+TEST(Excursion, OfAMirroredMotionHasRatioOne) {
+  const Excursions all = excursions_of(smile(1));
+  ASSERT_EQ(all.pairs.size(), 1u);
+  const PairExcursion& p = all.pairs[0];
+  EXPECT_EQ(p.name, "cheilion");
+  EXPECT_DOUBLE_EQ(p.excursion_ratio, 1);
+  EXPECT_DOUBLE_EQ(p.path_ratio, 1);
+  EXPECT_DOUBLE_EQ(p.speed_ratio, 1);
+  EXPECT_NEAR(p.speed_correlation, 1, 1e-12);
+  EXPECT_FALSE(p.undecided);
+}
+
+TEST(Excursion, OfAOneSidedSmileIsKnown) {
+  const motion::Motion motion = smile(0.25);
+  const PairExcursion p = excursions_of(motion).pairs[0];
+  EXPECT_NEAR(p.left_side.excursion_mm, 6, 1e-9);
+  EXPECT_NEAR(p.right_side.excursion_mm, 1.5, 1e-9);
+  EXPECT_NEAR(p.excursion_ratio, 0.25, 1e-9);
+  EXPECT_NEAR(p.left_side.path_mm, 12, 1e-9);
+  EXPECT_NEAR(p.path_ratio, 0.25, 1e-9);
+  // The central difference of a sine is lower by sin(w h) / (w h).
+  const double w = 2 * M_PI / end_s, wh = w * end_s / (samples - 1);
+  EXPECT_NEAR(p.left_side.peak_speed_mm_s, 6 * w / 2 * std::sin(wh) / wh, 1e-6);
+  EXPECT_NEAR(p.speed_ratio, 0.25, 1e-9);
+  EXPECT_NEAR(p.speed_correlation, 1, 1e-9);
+  const Commissure mouth = excursions_of(motion).commissure;
+  EXPECT_NEAR(mouth.left_mm[samples / 2], 6, 1e-9);
+  EXPECT_NEAR(mouth.right_mm[samples / 2], 1.5, 1e-9);
+  const auto from_lip = [&](int k) {
+    return 1e3 * (motion.positions[k].row(0) - motion.positions[k].row(2)).norm();
+  };
+  EXPECT_NEAR(mouth.left_from_midlip_mm, from_lip(samples / 2) - from_lip(0), 1e-9);
+  EXPECT_GT(mouth.left_from_midlip_mm, 3 * mouth.right_from_midlip_mm);
+}
+
+TEST(Excursion, OfAParalysedSideHasRatioZeroAndNoCorrelation) {
+  const PairExcursion p = excursions_of(smile(0)).pairs[0];
+  EXPECT_NEAR(p.excursion_ratio, 0, 1e-12);
+  EXPECT_TRUE(std::isnan(p.speed_correlation));
+}
+
+TEST(Excursion, ALateSideIsSeenInTheCorrelationOfSpeeds) {
+  motion::Motion motion = smile(1);
+  const motion::Motion straight = motion;
+  for (int k = 0; k < samples; ++k)
+    motion.positions[k].row(1) = straight.positions[std::max(0, k - 8)].row(1);
+  const PairExcursion p = excursions_of(motion).pairs[0];
+  EXPECT_NEAR(p.excursion_ratio, 1, 1e-9);
+  EXPECT_LT(p.speed_correlation, 0.5);
+}
+
+// 1.96 standard deviations of the difference of two excursions, each of two places.
+TEST(Excursion, JitterLeavesSmallDifferencesUndecided) {
+  const motion::Motion motion = smile(0.9);  // differ by 0.6 mm
+  EXPECT_FALSE(excursions_of(motion, 0.99 * 0.6e-3 / 3.92).pairs[0].undecided);
+  EXPECT_TRUE(excursions_of(motion, 1.01 * 0.6e-3 / 3.92).pairs[0].undecided);
+}
+
+TEST(Excursion, KnowsIbugPairsAndLeavesOutWhatStartsUnmeasured) {
+  motion::Motion motion = smile(0.5);
+  for (const char* form : {"ibug68_", "p", ""}) {
+    motion.names = {std::string(form) + "54", std::string(form) + "48", "ibug68_57"};
+    const Excursions all = excursions_of(motion);
+    ASSERT_EQ(all.pairs.size(), 1u) << form;
+    EXPECT_EQ(all.pairs[0].name, "ibug68_48/54");
+    EXPECT_NEAR(all.pairs[0].excursion_ratio, 0.5, 1e-9);
+    EXPECT_EQ(all.commissure.left, 0);
+  }
+  motion.positions[5].row(0).setConstant(std::numeric_limits<double>::quiet_NaN());
+  const Excursions gap = excursions_of(motion);
+  EXPECT_NEAR(gap.pairs[0].left_side.excursion_mm, 6, 1e-9);
+  EXPECT_TRUE(std::isnan(gap.commissure.left_mm[5]));
+  EXPECT_TRUE(std::isnan(gap.commissure.left_mm_s[5]));
+  motion.positions[0].row(0).setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(excursions_of(motion).pairs.empty());
+}
+
+}  // namespace
+}  // namespace hyperex::metrics
