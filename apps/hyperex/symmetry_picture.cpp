@@ -103,6 +103,13 @@ std::vector<metrics::PairExcursion> farthest(const metrics::Excursions& excursio
   std::vector<metrics::PairExcursion> pairs = excursions.pairs;
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto& a, const auto& b) { return reach(a) > reach(b); });
+  // A landmark under two names, cheilion and ibug68_48/54, is drawn once.
+  const auto same = [](const metrics::PairExcursion& a, const metrics::PairExcursion& b) {
+    constexpr double alike_mm = 1e-6;
+    return std::abs(a.left_side.excursion_mm - b.left_side.excursion_mm) < alike_mm &&
+           std::abs(a.right_side.excursion_mm - b.right_side.excursion_mm) < alike_mm;
+  };
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
   if (pairs.size() > most) pairs.resize(most);
   return pairs;
 }

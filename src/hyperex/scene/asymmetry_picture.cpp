@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/render/contact_sheet.hpp"
@@ -14,12 +15,21 @@ render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm
                              const metrics::Asymmetry& asymmetry, const io::Landmarks& landmarks,
                              const std::string& title, const std::string& note) {
   constexpr double least_top_mm = 0.1;  // a symmetric face is all of one colour, not of its noise
-  double top = least_top_mm;
+  // A few vertices at a torn or cut place must not set the scale.
+  constexpr double shown_share = 0.99;
+  std::vector<float> values;
   Points framed(static_cast<Eigen::Index>(asymmetry.face.size()), 3);
   for (Eigen::Index i = 0; i < framed.rows(); ++i) {
     const int v = asymmetry.face[static_cast<std::size_t>(i)];
     framed.row(i) = moved.points.row(v);
-    top = std::max(top, static_cast<double>(map_mm[v]));
+    values.push_back(map_mm[v]);
+  }
+  double top = least_top_mm;
+  if (!values.empty()) {
+    const auto at =
+        values.begin() + static_cast<long>(shown_share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    top = std::max(top, static_cast<double>(*at));
   }
   if (framed.rows() == 0) framed = moved.points;
   const Eigen::Matrix3d scan_from_face =

@@ -78,7 +78,7 @@ std::vector<Key> input_keys() {
           "between takes its share as it does of every driven point's, and so does the jaw."),
       number<Scene>("motion.time_scale", none, AT(motion.time_scale), {0.05, 20},
                     "Stretches the recording in time: 2 plays it twice as slowly. Gaps and "
-                    "jitter are judged as recorded."),
+                    "jitter are judged as recorded; times of time and output are not stretched."),
       choice<Scene, AlignmentMethod>(
           "alignment.method", AT(alignment.method),
           {{"nonrigid", AlignmentMethod::nonrigid},

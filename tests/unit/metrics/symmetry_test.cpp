@@ -144,6 +144,8 @@ TEST(Symmetry, NoiseFloorHoldsNinetyFiveOfAHundredNoisyMotions) {
                 "ibug68_35", "ibug68_31", "ibug68_52", "ibug68_50", "ibug68_47", "ibug68_41"};
   for (Points& sample : lids.positions) {
     sample.conservativeResize(12, 3);
+    // Near the corner of the mouth, where their share in the noise is large.
+    sample.block<2, 1>(4, 1).setConstant(0.015);
     sample.bottomRows(2) = sample.middleRows(4, 2);
   }
   for (const motion::Motion& exact : {still, opened, lids}) {
