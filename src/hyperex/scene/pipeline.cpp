@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/scene/outputs.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::scene {
 using Json = nlohmann::ordered_json;
@@ -17,8 +21,12 @@ reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& 
   o.solver = {scene.tissue.element,   scene.solver.method,       scene.solver.linear,
               scene.solver.tolerance, scene.solver.newmark_beta, scene.solver.newmark_gamma,
               scene.solver.verify};
-  o.tissue = {scene.tissue.young_pa, scene.tissue.poisson, scene.tissue.viscosity_pa_s,
-              scene.tissue.density_kg_m3, scene.tissue.viscous_form};
+  const tissue::TissueParameters uniform = uniform_parameters(tissue_field_options(scene));
+  o.tissue.young_pa = uniform[tissue::young];
+  o.tissue.poisson = uniform[tissue::poisson];
+  o.tissue.viscosity_pa_s = uniform[tissue::viscosity];
+  o.tissue.density_kg_m3 = uniform[tissue::density];
+  o.tissue.viscous_form = scene.tissue.viscous_form;
   o.support.border_held = scene.support.border_held;
   o.support.skull = scene.support.skull;
   o.support.mandible = scene.support.mandible;
@@ -116,6 +124,26 @@ std::vector<std::string> all_notes(const Inputs& inputs, const tissue::TissueMes
 
 }  // namespace
 
+tissue::TissueFieldOptions tissue_field_options(const Scene& scene) {
+  const TissueOptions& t = scene.tissue;
+  tissue::TissueFieldOptions o;
+  o.preset = t.preset;
+  o.interpolation = t.interpolation;
+  o.mirror = t.mirror;
+  o.points = t.points;
+  o.per_vertex = t.per_vertex;
+  o.regions = t.regions;
+  const auto given = [&](tissue::Parameter parameter, double value) {
+    const std::string key = std::string("tissue.") + tissue::parameter_info(parameter).key;
+    if (t.preset.empty() || scene.origins.contains(key)) o.uniform[parameter] = value;
+  };
+  given(tissue::young, t.young_pa);
+  given(tissue::viscosity, t.viscosity_pa_s);
+  given(tissue::poisson, t.poisson);
+  given(tissue::density, t.density_kg_m3);
+  return o;
+}
+
 tissue::TissueMeshOptions mesh_options(const Scene& scene) {
   tissue::TissueMeshOptions o;
   o.element_size_m = scene.mesh.element_size_m;
@@ -138,6 +166,33 @@ std::vector<std::string> check_scene(const Scene& scene) {
 }
 
 namespace {
+/// Least and greatest value of each parameter over the elements.
+Json tissue_json(const tissue::TissueField& field) {
+  Json out = Json::object();
+  for (int p = 0; p < tissue::parameter_count; ++p) {
+    const auto [low, high] = std::minmax_element(field.element[p].begin(), field.element[p].end());
+    const tissue::ParameterInfo& info = tissue::parameter_info(p);
+    out[info.key] = {*low / info.si, *high / info.si};
+  }
+  return out;
+}
+
+/// Nothing where the tissue is the same everywhere.
+std::optional<tissue::TissueField> tissue_field(const Scene& scene, const Inputs& inputs,
+                                                const tissue::TissueMesh& mesh) {
+  const tissue::TissueFieldOptions options = tissue_field_options(scene);
+  if (!is_graded(options)) return std::nullopt;
+  Progress progress("spreading the tissue's parameters over the face", 0);
+  std::optional<tissue::RegisteredFace> face;
+  if (needs_registration(options))
+    face = tissue::register_canonical_face(inputs.landmarks, inputs.scan.mesh);
+  try {
+    return tissue::TissueFieldMaker(mesh, inputs.landmarks, face ? &*face : nullptr).make(options);
+  } catch (const tissue::FieldError& error) {
+    throw InputError(problem_at(scene, "tissue." + error.problem.key, error.problem.expected));
+  }
+}
+
 Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Stopwatch total, stage;
   Json seconds;
@@ -160,8 +215,12 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
                mesh.volume.tets.rows(), mesh.skin.points.rows());
 
-  const auto simulation =
-      reenact::simulate(mesh, inputs.landmarks, inputs.motion, simulation_options(scene, inputs));
+  reenact::SimulationOptions options = simulation_options(scene, inputs);
+  const std::optional<tissue::TissueField> field = tissue_field(scene, inputs, mesh);
+  if (field) options.tissue.element = field->element;
+  seconds["tissue"] = stage.lap();
+
+  const auto simulation = reenact::simulate(mesh, inputs.landmarks, inputs.motion, options);
   stage.lap();
   seconds["assemble"] = simulation.report.assemble_s;
   seconds["analyse"] = simulation.report.analyse_s;
@@ -176,12 +235,14 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
       simulation,
       metrics::symmetry_of(simulation.performance.landmarks, scene.output.symmetry_floor),
       all_notes(inputs, mesh, simulation.report),
-      {}};
+      {},
+      field ? &*field : nullptr};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
   for (std::size_t i = inputs.notes.size() + mesh.notes.size(); i < results.notes.size(); ++i)
     spdlog::warn("{}", results.notes[i]);
   Json summary = summary_of(results);
+  if (field) summary["tissue"] = tissue_json(*field);
   write_outputs(results, directory);
   seconds["export"] = stage.lap();
   seconds["total"] = total.lap();
