@@ -103,10 +103,10 @@ TEST(HarmonicField, DoesNotDependOnTheDensityOfTheMesh) {
                         second = (fine_u - finest_u.head(fine_u.size())).cwiseAbs() / range;
   RecordProperty("coarse_max", std::to_string(first.maxCoeff()));
   RecordProperty("fine_max", std::to_string(second.maxCoeff()));
-  EXPECT_LT(first.maxCoeff(), 0.08);
-  EXPECT_LT(first.mean(), 0.01);
-  EXPECT_LT(second.maxCoeff(), 0.6 * first.maxCoeff());
-  EXPECT_LT(second.mean(), 0.6 * first.mean());
+  EXPECT_LT(first.maxCoeff(), 0.015);
+  EXPECT_LT(first.mean(), 0.003);
+  EXPECT_LT(second.maxCoeff(), 0.75 * first.maxCoeff());
+  EXPECT_LT(second.mean(), 0.75 * first.mean());
 }
 
 TEST(HarmonicField, IsLinearAlongAStripFarFromItsPoints) {

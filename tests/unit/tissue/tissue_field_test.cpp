@@ -26,18 +26,18 @@ class Field : public testing::Test {
     options.element_size_m = 0.006;
     mesh_ = new TissueMesh(build_tissue_mesh(embedded.mesh, *landmarks_, options, "embedded"));
     face_ = new RegisteredFace(register_canonical_face(*landmarks_, embedded.mesh));
+    tree_ = new SideTree(mesh_->skin, mesh_->skin_upper_margin, Vec3::Zero(), 0);
     maker_ = new TissueFieldMaker(*mesh_, *landmarks_, face_);
   }
   static void TearDownTestSuite() {
     delete maker_;
+    delete tree_;
     delete face_;
     delete mesh_;
     delete landmarks_;
   }
   static double at(const Eigen::VectorXd& skin, const Vec3& place) {
-    return SideTree(mesh_->skin, mesh_->skin_upper_margin, Vec3::Zero(), 0)
-        .query(place, 0)
-        .value(skin);
+    return tree_->query(place, 0).value(skin);
   }
   static double at(const TissueField& field, const std::string& landmark, int p = young) {
     return at(field.skin[p], landmarks_->at(landmark));
@@ -59,6 +59,7 @@ class Field : public testing::Test {
   static inline io::Landmarks* landmarks_;
   static inline TissueMesh* mesh_;
   static inline RegisteredFace* face_;
+  static inline SideTree* tree_;
   static inline TissueFieldMaker* maker_;
 };
 
