@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   hyperex::cli::add_compare(program);
   hyperex::cli::add_symmetry(program);
   hyperex::cli::add_track(program);
+  hyperex::cli::add_presets(program);
   hyperex::cli::add_scene_reference(program);
   try {
     program.parse(argc, argv);

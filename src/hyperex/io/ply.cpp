@@ -164,6 +164,13 @@ class BodyReader {
     raw_.points.resize(element.count, 3);
     if (coloured) raw_.vertex_colour.resize(element.count, 4);
     if (textured) vertex_uv_.reserve(2 * element.count);
+    std::vector<int> scalar(role.size(), -1);  // property -> its place among the scalars
+    for (std::size_t p = 0; p < role.size(); ++p) {
+      const auto& property = element.properties[p];
+      if (property.is_list || role[p] >= 0) continue;
+      scalar[p] = static_cast<int>(raw_.vertex_scalars.size());
+      raw_.vertex_scalars.push_back({property.name, Eigen::VectorXf(element.count)});
+    }
     for (row_ = 0; row_ < element.count; ++row_) {
       std::array<double, roles> value{};
       guarded(element, [&] {
@@ -178,6 +185,8 @@ class BodyReader {
             value[role[p]] = channel(number, property.type);
           else if (role[p] >= 0)
             value[role[p]] = number;
+          else
+            raw_.vertex_scalars[scalar[p]].values[row_] = static_cast<float>(number);
         }
       });
       raw_.points.row(row_) << value[x], value[y], value[z];
@@ -298,6 +307,10 @@ RawMesh read_ply(const std::filesystem::path& file) {
   if (!header.texture_file.empty() && !raw.corner_uv.empty())
     raw.texture = load_texture(file, header.texture_file);
   return raw;
+}
+
+std::vector<VertexScalar> read_ply_scalars(const std::filesystem::path& file) {
+  return read_ply(file).vertex_scalars;
 }
 
 void write_ply(const std::filesystem::path& file, const TriMesh& mesh, LengthUnit unit,

@@ -18,6 +18,7 @@ struct RawMesh {
   std::vector<float> corner_uv;        ///< 2 a corner, v as in glTF; empty where there are none
   VertexColours vertex_colour;
   std::optional<Image> texture;
+  std::vector<VertexScalar> vertex_scalars;  ///< PLY: properties of vertices that mean nothing here
 
   /// The corners added since the last call are one face.
   void end_face() { face_end.push_back(static_cast<std::int64_t>(corner.size())); }

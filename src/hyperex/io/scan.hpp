@@ -62,6 +62,9 @@ struct VertexScalar {
   std::string name;
   Eigen::VectorXf values;
 };
+/// The vertex properties of a PLY that are neither places, colours nor texture, in the file's
+/// order. Throws InputError as read_scan does of a torn file.
+std::vector<VertexScalar> read_ply_scalars(const std::filesystem::path& file);
 void write_ply(const std::filesystem::path& file, const TriMesh& mesh, LengthUnit unit,
                const std::vector<VertexScalar>& scalars = {}, const VertexColours& colours = {});
 

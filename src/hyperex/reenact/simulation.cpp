@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -174,12 +175,7 @@ class Run {
     Boundary boundary(mesh_, landmarks_, motion_, region_, options_);
     Stopwatch watch;
     const auto tets = static_cast<std::size_t>(mesh_.volume.tets.rows());
-    fem::Material material;
-    material.young_pa.assign(tets, options_.tissue.young_pa);
-    material.poisson.assign(tets, options_.tissue.poisson);
-    material.viscosity_pa_s.assign(tets, options_.tissue.viscosity_pa_s);
-    material.density_kg_m3.assign(tets, options_.tissue.density_kg_m3);
-    material.viscous_form = options_.tissue.viscous_form;
+    const fem::Material material = options_.tissue.material(tets);
     fem::System system =
         fem::assemble(mesh_.volume.nodes, mesh_.volume.tets, material, options_.solver.element);
     boundary.add_springs(system.stiffness);
@@ -231,8 +227,12 @@ class Run {
     Performance& p = result_.performance;
     p.nodes = mesh_.volume.nodes;
     p.tets = mesh_.volume.tets;
-    p.tet_young_pa.assign(tets, static_cast<float>(options_.tissue.young_pa));
-    p.tet_viscosity_pa_s.assign(tets, static_cast<float>(options_.tissue.viscosity_pa_s));
+    const auto floats = [](const std::vector<double>& values) {
+      return std::vector<float>(values.begin(), values.end());
+    };
+    p.tet_young_pa = floats(material.young_pa);
+    p.tet_poisson = floats(material.poisson);
+    p.tet_viscosity_pa_s = floats(material.viscosity_pa_s);
     const std::vector<int> held = boundary.held_nodes();
     p.held_points_rest.resize(held.size(), 3);
     for (std::size_t i = 0; i < held.size(); ++i)
@@ -326,6 +326,25 @@ class Run {
 };
 
 }  // namespace
+
+fem::Material TissueValues::material(std::size_t tets) const {
+  fem::Material out;
+  const auto fill = [&](std::vector<double>& values, tissue::Parameter parameter, double uniform) {
+    assert(element[parameter].empty() || element[parameter].size() == tets);
+    if (element[parameter].empty())
+      values.assign(tets, uniform);
+    else
+      values = element[parameter];
+    assert(std::all_of(values.begin(), values.end(),
+                       [&](double value) { return tissue::is_allowed(parameter, value); }));
+  };
+  fill(out.young_pa, tissue::young, young_pa);
+  fill(out.poisson, tissue::poisson, poisson);
+  fill(out.viscosity_pa_s, tissue::viscosity, viscosity_pa_s);
+  fill(out.density_kg_m3, tissue::density, density_kg_m3);
+  out.viscous_form = viscous_form;
+  return out;
+}
 
 SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                           const AlignedMotion& motion, const SimulationOptions& options) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/reenact/skin_measured.hpp"
 #include "hyperex/reenact/support.hpp"
+#include "hyperex/tissue/field/options.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::reenact {
@@ -45,10 +47,14 @@ struct TimeOptions {
   std::vector<double> still_times_s;  ///< extra shapes wanted, for pictures
 };
 
-/// One value everywhere for now; the solver takes one an element.
+/// One value everywhere, or where `element` is not empty (tissue/field) one a tetrahedron.
 struct TissueValues {
   double young_pa = 192.4e3, poisson = 0.495, viscosity_pa_s = 476.8, density_kg_m3 = 1100;
   fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
+  std::array<std::vector<double>, tissue::parameter_count> element{};  ///< of all or of none
+
+  /// Of `tets` tetrahedra. Values are allowed ones (tissue::is_allowed): asserted.
+  fem::Material material(std::size_t tets) const;
 };
 
 enum class SolverMethod {

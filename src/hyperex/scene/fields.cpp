@@ -71,6 +71,8 @@ std::string KeyInfo::expected() const {
       return (least > 0 ? fmt::format("a list of no names, or {} or more different ones", least)
                         : "a list of different names") +
              (choices.empty() ? "" : ", or " + words(choices));
+    case Kind::places:
+      return "a list of places [x, y, z]" + (unit.empty() ? "" : " (" + unit + ")");
     case Kind::rows:
       break;
   }
@@ -135,6 +137,19 @@ std::vector<Complaint> check_file(const KeyInfo& info, const json& value, const 
   if (!folder_too && fs::is_directory(path, error))
     return {{"", value, fmt::format("a file ({} is a folder)", show(path.string()))}};
   return {};
+}
+
+std::vector<Complaint> check_places(const KeyInfo& info, const json& value) {
+  if (!value.is_array() || value.size() > info.most) return {{"", value, info.expected()}};
+  const auto is_number = [](const json& item) {
+    return item.is_number() && std::isfinite(item.get<double>());
+  };
+  std::vector<Complaint> complaints;
+  for (std::size_t i = 0; i < value.size(); ++i)
+    if (!value[i].is_array() || value[i].size() != 3 ||
+        !std::all_of(value[i].begin(), value[i].end(), is_number))
+      complaints.push_back({"[" + std::to_string(i) + "]", value[i], "three numbers [x, y, z]"});
+  return complaints;
 }
 
 std::vector<Complaint> check_rows(const KeyInfo& info, const json& value) {

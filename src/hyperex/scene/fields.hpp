@@ -26,6 +26,7 @@ std::vector<Complaint> check_names(const KeyInfo& info, const nlohmann::json& va
 std::vector<Complaint> check_text(const KeyInfo& info, const nlohmann::json& value);
 std::vector<Complaint> check_file(const KeyInfo& info, const nlohmann::json& value,
                                   const std::filesystem::path& folder, bool folder_too = false);
+std::vector<Complaint> check_places(const KeyInfo& info, const nlohmann::json& value);
 std::vector<Complaint> check_rows(const KeyInfo& info, const nlohmann::json& value);
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 
@@ -44,6 +45,64 @@ Field<Owner> number(std::string name, Unit unit, At at, Range range, std::string
   };
   field.get = [unit, at](const Owner& owner) -> nlohmann::json { return unit.from_si(at(owner)); };
   return field;
+}
+
+/// A number that may be left out, into a std::optional<double>: for columns of rows.
+template <class Owner, class At>
+Field<Owner> maybe_number(std::string name, Unit unit, At at, Range range,
+                          std::string description) {
+  Field<Owner> field{{.name = std::move(name),
+                      .kind = Kind::number,
+                      .unit = unit.name,
+                      .range = range,
+                      .description = std::move(description)}};
+  field.set = [info = KeyInfo(field), unit, at](Owner& owner, const nlohmann::json& value,
+                                                const std::filesystem::path&) {
+    auto complaints = check_number(info, value);
+    if (complaints.empty()) at(owner) = unit.to_si(value.template get<double>());
+    return complaints;
+  };
+  field.optional = true;
+  field.get = [unit, at](const Owner& owner) -> nlohmann::json {
+    const auto& value = at(owner);
+    if (!value) return nullptr;
+    return unit.from_si(*value);
+  };
+  return field;
+}
+
+/// Places [x, y, z], into a vector of arrays of three.
+template <class Owner, class At>
+Field<Owner> places(std::string name, Unit unit, At at, std::string description) {
+  Field<Owner> field{{.name = std::move(name),
+                      .kind = Kind::places,
+                      .unit = unit.name,
+                      .description = std::move(description)}};
+  field.set = [info = KeyInfo(field), unit, at](Owner& owner, const nlohmann::json& value,
+                                                const std::filesystem::path&) {
+    auto complaints = check_places(info, value);
+    if (!complaints.empty()) return complaints;
+    at(owner).clear();
+    for (const auto& place : value)
+      at(owner).push_back({unit.to_si(place[0].template get<double>()),
+                           unit.to_si(place[1].template get<double>()),
+                           unit.to_si(place[2].template get<double>())});
+    return complaints;
+  };
+  field.get = [unit, at](const Owner& owner) {
+    auto list = nlohmann::json::array();
+    for (const auto& p : at(owner))
+      list.push_back({unit.from_si(p[0]), unit.from_si(p[1]), unit.from_si(p[2])});
+    return list;
+  };
+  return field;
+}
+
+/// A column that may be left out: its default then holds, and is not echoed.
+template <class Row>
+Field<Row> optional(Field<Row> column) {
+  column.optional = true;
+  return column;
 }
 
 template <class Owner, class At>
@@ -226,14 +285,14 @@ Field<Owner> names_or_all(std::string name, At at, AllAt all_at, std::string des
   return field;
 }
 
-/// An array of tables, [[name]], each filling one Row; every column is required.
+/// An array of tables, [[name]], each filling one Row; columns are required unless optional.
 template <class Owner, class Row, class At>
 Field<Owner> rows(std::string name, At at, std::vector<Field<Row>> columns,
                   std::string description) {
   Field<Owner> field{
       {.name = std::move(name), .kind = Kind::rows, .description = std::move(description)}};
   for (auto& column : columns) {
-    column.required = true;
+    column.required = !column.optional;
     field.columns.push_back(column);
   }
   field.set = [info = KeyInfo(field), columns, at](Owner& owner, const nlohmann::json& value,
@@ -258,7 +317,9 @@ Field<Owner> rows(std::string name, At at, std::vector<Field<Row>> columns,
     auto list = nlohmann::json::array();
     for (const Row& row : at(owner)) {
       auto& entry = list.emplace_back(nlohmann::json::object());
-      for (const auto& column : columns) entry[column.name] = column.get(row);
+      for (const auto& column : columns)
+        if (auto cell = column.get(row); !column.optional || cell != column.get(Row{}))
+          entry[column.name] = std::move(cell);
     }
     return list;
   };

@@ -15,8 +15,10 @@
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
+#include "hyperex/scene/pipeline.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 #include "hyperex/tissue/landmarks.hpp"
 #include "hyperex/tracking/expression/blend_shapes.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
@@ -219,6 +221,8 @@ void check_names(const Scene& scene, const Inputs& in) {
   std::vector<std::string> thick;
   for (const auto& p : scene.mesh.thickness_points) thick.push_back(p.landmark);
   add(check(thick, "mesh.thickness_point", false));
+  for (const auto& problem : tissue::problems_of(tissue_field_options(scene), in.landmarks))
+    all.push_back(problem_at(scene, "tissue." + problem.key, problem.expected));
   if (!all.empty()) throw InputError(all);
 }
 
@@ -229,7 +233,9 @@ void note_unknown_landmarks(const Scene& scene, const io::Landmarks& given, Inpu
     return in.motion.motion.index_of(name) >= 0 ||
            std::count(scene.drive.still_points.begin(), scene.drive.still_points.end(), name) > 0 ||
            std::any_of(scene.mesh.thickness_points.begin(), scene.mesh.thickness_points.end(),
-                       [&](const ThicknessPoint& p) { return p.landmark == name; });
+                       [&](const ThicknessPoint& p) { return p.landmark == name; }) ||
+           std::any_of(scene.tissue.points.begin(), scene.tissue.points.end(),
+                       [&](const tissue::TissuePoint& p) { return name.starts_with(p.landmark); });
   });
   if (!unknown.empty()) in.notes.push_back(tissue::unknown_landmarks_note(unknown));
 }

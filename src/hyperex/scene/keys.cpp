@@ -102,6 +102,65 @@ std::vector<Key> input_keys() {
   };
 }
 
+const Unit kilopascals{"kPa", 1000, 1}, pascal_seconds{"Pa s"}, density_unit{"kg/m^3"};
+const Range young_range{0, 1e6, true}, poisson_range{-0.99, 0.4999}, viscosity_range{0, 1e7},
+    density_range{0, 20000, true};
+
+/// Parameters of a point or a region, each given or not.
+template <class Row>
+std::vector<Field<Row>> given_parameters() {
+  using namespace tissue;
+  return {maybe_number<Row>("young_kpa", kilopascals, AT(value[young]), young_range,
+                            "Young's modulus there."),
+          maybe_number<Row>("viscosity_pa_s", pascal_seconds, AT(value[viscosity]), viscosity_range,
+                            "Viscosity there."),
+          maybe_number<Row>("poisson", none, AT(value[poisson]), poisson_range,
+                            "Poisson's ratio there."),
+          maybe_number<Row>("density_kg_m3", density_unit, AT(value[density]), density_range,
+                            "Density there.")};
+}
+
+std::vector<Field<tissue::TissuePoint>> point_columns() {
+  using Row = tissue::TissuePoint;
+  std::vector<Field<Row>> columns = {
+      text<Row>("landmark", AT(landmark), 1,
+                "A landmark of the scan, with its side (cheek_R) or without (cheek: both)."),
+      optional(choice<Row, std::string>("side", AT(side), {{"L", "L"}, {"R", "R"}, {"", ""}},
+                                        "The subject's own side, where the landmark's name "
+                                        "has none."))};
+  for (auto& column : given_parameters<Row>()) columns.push_back(std::move(column));
+  return columns;
+}
+
+std::vector<Field<tissue::TissueRegion>> region_columns() {
+  using Row = tissue::TissueRegion;
+  using namespace tissue;
+  constexpr Range factor_range{0, 1000, true};
+  std::vector<Field<Row>> columns = {
+      optional(text<Row>("name", AT(name), 1,
+                         "A part of the face, as cheek_R or lips (hyperex presets lists them).")),
+      optional(names<Row>("scar", AT(scar), 2,
+                          "In its place: landmarks along a scar, laid straight on the skin between "
+                          "them.")),
+      optional(places<Row>("scar_points_mm", millimetres, AT(scar_points_m),
+                           "In their place: places along a scar, in the scan's axes.")),
+      optional(number<Row>("width_mm", millimetres, AT(width_m), {0.5, 100},
+                           "Width of a scar; 4 where not given.")),
+      optional(number<Row>("blend_mm", millimetres, AT(blend_m), {0, 100},
+                           "Width over which the change sets in, half of it outside; 4 where not "
+                           "given."))};
+  for (auto& column : given_parameters<Row>()) columns.push_back(std::move(column));
+  columns.push_back(maybe_number<Row>("young_factor", none, AT(factor[young]), factor_range,
+                                      "Multiplies Young's modulus there."));
+  columns.push_back(maybe_number<Row>("viscosity_factor", none, AT(factor[viscosity]), {0, 1000},
+                                      "Multiplies the viscosity there."));
+  columns.push_back(maybe_number<Row>("poisson_factor", none, AT(factor[poisson]), {-1000, 1000},
+                                      "Multiplies Poisson's ratio there."));
+  columns.push_back(maybe_number<Row>("density_factor", none, AT(factor[density]), factor_range,
+                                      "Multiplies the density there."));
+  return columns;
+}
+
 std::vector<Key> model_keys() {
   return {
       number<Scene>("mesh.element_size_mm", millimetres, AT(mesh.element_size_m), {0.5, 30},
@@ -124,7 +183,7 @@ std::vector<Key> model_keys() {
                                   "Thickness of the soft tissue there.")},
           "Thickness at a landmark, in the place of the published depth there; interpolated in "
           "between. Only where mesh.thickness_mm is 0."),
-      number<Scene>("tissue.young_kpa", {"kPa", 1000, 1}, AT(tissue.young_pa), {0, 1e6, true},
+      number<Scene>("tissue.young_kpa", kilopascals, AT(tissue.young_pa), young_range,
                     "Young's modulus E."),
       number<Scene>(
           "tissue.poisson", none, AT(tissue.poisson), {-0.99, 0.4999},
@@ -143,6 +202,30 @@ std::vector<Key> model_keys() {
           {{"tet4", fem::ElementKind::tet4}, {"tet4-star", fem::ElementKind::tet4_star}},
           "The finite element: linear tetrahedra, plain, or with the change of volume averaged "
           "over patches, which does not lock near poisson = 0.5 (docs/elements.md)."),
+      text<Scene>("tissue.preset", AT(tissue.preset), 0,
+                  "Published parameters by name (hyperex presets lists them with their sources); "
+                  "keys that are given here take the place of its values. Empty: none."),
+      choice<Scene, tissue::Interpolation>(
+          "tissue.interpolation", AT(tissue.interpolation),
+          {{"harmonic", tissue::Interpolation::harmonic},
+           {"linear", tissue::Interpolation::linear}},
+          "How parameters at points are spread over the face: as a smooth harmonic field on the "
+          "skin, or linearly over triangles of points seen from in front (docs/tissue.md)."),
+      flag<Scene>("tissue.mirror", AT(tissue.mirror),
+                  "What [[tissue.point]] and [[tissue.region]] say of one side holds for the other "
+                  "too."),
+      path<Scene>("tissue.per_vertex", AT(tissue.per_vertex),
+                  "Parameters a vertex of the scan: a CSV with columns young_kpa, viscosity_pa_s, "
+                  "poisson or density_kg_m3 and a row a vertex, or a PLY with such vertex "
+                  "properties. Empty cells (nan) are left as they are otherwise."),
+      rows<Scene, tissue::TissuePoint>(
+          "tissue.point", AT(tissue.points), point_columns(),
+          "Parameters at a landmark, interpolated over the face in the place of the uniform ones. "
+          "At least one of them is given."),
+      rows<Scene, tissue::TissueRegion>(
+          "tissue.region", AT(tissue.regions), region_columns(),
+          "A change within a part of the face, applied after points, in the order of the file: "
+          "values or factors in a region by name or along a scar."),
       choice<Scene, bool>("support.border", AT(support.border_held),
                           {{"held", true}, {"free", false}},
                           "The tissue's outer border, from the skin to the inner surface."),

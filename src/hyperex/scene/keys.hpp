@@ -12,7 +12,7 @@
 
 namespace hyperex::scene {
 
-enum class Kind { flag, integer, number, numbers, text, choice, path, names, rows };
+enum class Kind { flag, integer, number, numbers, text, choice, path, names, places, rows };
 
 /// Allowed numbers, in the unit of the key.
 struct Range {
@@ -39,6 +39,7 @@ struct KeyInfo {
   std::vector<std::string> choices = {};  ///< allowed words, besides what the kind allows
   std::size_t least = 0, most = 1000;     ///< lists: how many elements
   bool required = false;
+  bool optional = false;              ///< of a column: may be left out
   std::string description = {};       ///< a sentence or two
   std::vector<KeyInfo> columns = {};  ///< rows: the keys of each table
   std::string expected() const;       ///< "a number from 1 to 30 (mm)"

@@ -67,18 +67,27 @@ void write_frames(const Results& r, const std::filesystem::path& directory) {
   const auto count = static_cast<std::size_t>(p.tets.rows());
   material.young_pa.assign(p.tet_young_pa.begin(), p.tet_young_pa.end());
   material.viscosity_pa_s.assign(p.tet_viscosity_pa_s.begin(), p.tet_viscosity_pa_s.end());
-  material.poisson.assign(count, r.scene.tissue.poisson);
+  material.poisson.assign(p.tet_poisson.begin(), p.tet_poisson.end());
   material.density_kg_m3.assign(count, r.scene.tissue.density_kg_m3);
+  std::vector<io::VtuArray> graded;
+  for (int q = 0; r.tissue && q < tissue::parameter_count; ++q)
+    if (r.tissue->varies(q))
+      graded.push_back(
+          {tissue::parameter_info(q).title,
+           (Eigen::Map<const Eigen::VectorXd>(r.tissue->element[q].data(), p.tets.rows()) /
+            tissue::parameter_info(q).si)
+               .cast<float>()});
   std::filesystem::create_directory(directory / "frames");
   std::vector<std::pair<double, std::filesystem::path>> frames;
   Progress progress("writing frames for ParaView", static_cast<long>(p.frame_time_s.size()));
   for (std::size_t f = 0; f < p.frame_time_s.size(); ++f) {
     const Points d = p.node_displacement_m[f].cast<double>();
     const auto file = directory / "frames" / fmt::format("frame_{:04}.vtu", f);
-    io::write_vtu(
-        file, p.nodes, p.tets, {{"displacement (m)", d.cast<float>()}},
-        {strain_array(p.nodes, p.tets, d),
-         {"von Mises stress (Pa)", fem::von_mises_pa(p.nodes, p.tets, material, d).cast<float>()}});
+    std::vector<io::VtuArray> cells = {
+        strain_array(p.nodes, p.tets, d),
+        {"von Mises stress (Pa)", fem::von_mises_pa(p.nodes, p.tets, material, d).cast<float>()}};
+    cells.insert(cells.end(), graded.begin(), graded.end());
+    io::write_vtu(file, p.nodes, p.tets, {{"displacement (m)", d.cast<float>()}}, cells);
     frames.emplace_back(p.frame_time_s[f], file);
     progress.update(static_cast<long>(f + 1));
   }
@@ -228,6 +237,7 @@ void write_outputs(const Results& r, const std::filesystem::path& directory) {
   if (r.scene.output.vtu) write_frames(r, directory);
   if (r.scene.output.glb)
     report::write_glb(directory / "performance.glb", p, r.inputs.scan, r.modes);
+  if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
   Progress progress("drawing the contact sheet", 0);
   write_contact_sheet(r, directory / "contact_sheet.png");
 }

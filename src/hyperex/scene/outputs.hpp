@@ -7,6 +7,7 @@
 #include "hyperex/reenact/simulation.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/scene/inputs.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::scene {
 
@@ -19,6 +20,7 @@ struct Results {
   metrics::SymmetryMeasures symmetry;
   std::vector<std::string> notes;
   report::DisplacementModes modes;  ///< of the skin; empty where neither glTF nor page is wanted
+  const tissue::TissueField* tissue = nullptr;  ///< where the tissue differs from place to place
 };
 
 /// Writes all files but summary.json and report.html into `directory`.
@@ -42,5 +44,9 @@ metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& in
 
 /// Rest and the still shapes from the front and three-quarter, coloured by displacement.
 void write_contact_sheet(const Results& results, const std::filesystem::path& file);
+
+/// Each parameter of the tissue that differs from place to place, over the skin at rest, seen from
+/// the right, from in front and from the left. Nothing where none does.
+void write_tissue_map(const Results& results, const std::filesystem::path& file);
 
 }  // namespace hyperex::scene

@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/tissue_fields.hpp"
 #include "hyperex/scene/variants.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::scene {
 using Json = nlohmann::ordered_json;
@@ -18,8 +23,12 @@ reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& 
   o.solver = {scene.tissue.element,   scene.solver.method,       scene.solver.linear,
               scene.solver.tolerance, scene.solver.newmark_beta, scene.solver.newmark_gamma,
               scene.solver.verify};
-  o.tissue = {scene.tissue.young_pa, scene.tissue.poisson, scene.tissue.viscosity_pa_s,
-              scene.tissue.density_kg_m3, scene.tissue.viscous_form};
+  const tissue::TissueParameters uniform = uniform_parameters(tissue_field_options(scene));
+  o.tissue.young_pa = uniform[tissue::young];
+  o.tissue.poisson = uniform[tissue::poisson];
+  o.tissue.viscosity_pa_s = uniform[tissue::viscosity];
+  o.tissue.density_kg_m3 = uniform[tissue::density];
+  o.tissue.viscous_form = scene.tissue.viscous_form;
   o.support.border_held = scene.support.border_held;
   o.support.skull = scene.support.skull;
   o.support.mandible = scene.support.mandible;
@@ -118,6 +127,26 @@ std::vector<std::string> all_notes(const Inputs& inputs, const tissue::TissueMes
 
 }  // namespace
 
+tissue::TissueFieldOptions tissue_field_options(const Scene& scene) {
+  const TissueOptions& t = scene.tissue;
+  tissue::TissueFieldOptions o;
+  o.preset = t.preset;
+  o.interpolation = t.interpolation;
+  o.mirror = t.mirror;
+  o.points = t.points;
+  o.per_vertex = t.per_vertex;
+  o.regions = t.regions;
+  const auto given = [&](tissue::Parameter parameter, double value) {
+    const std::string key = std::string("tissue.") + tissue::parameter_info(parameter).key;
+    if (t.preset.empty() || scene.origins.contains(key)) o.uniform[parameter] = value;
+  };
+  given(tissue::young, t.young_pa);
+  given(tissue::viscosity, t.viscosity_pa_s);
+  given(tissue::poisson, t.poisson);
+  given(tissue::density, t.density_kg_m3);
+  return o;
+}
+
 tissue::TissueMeshOptions mesh_options(const Scene& scene) {
   tissue::TissueMeshOptions o;
   o.element_size_m = scene.mesh.element_size_m;
@@ -140,6 +169,19 @@ std::vector<std::string> check_scene(const Scene& scene) {
 }
 
 namespace {
+/// Least and greatest value of each parameter over the elements.
+Json tissue_json(const tissue::TissueField& field) {
+  Json out = Json::object();
+  for (int p = 0; p < tissue::parameter_count; ++p) {
+    const auto [low, high] = std::minmax_element(field.element[p].begin(), field.element[p].end());
+    const tissue::ParameterInfo& info = tissue::parameter_info(p);
+    out[info.key] = {*low / info.si, *high / info.si};
+  }
+  return out;
+}
+
+/// Nothing where the tissue is the same everywhere.
+
 Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Stopwatch total, stage;
   Json seconds;
@@ -162,8 +204,13 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
                mesh.volume.tets.rows(), mesh.skin.points.rows());
 
-  const auto simulation =
-      reenact::simulate(mesh, inputs.landmarks, inputs.motion, simulation_options(scene, inputs));
+  reenact::SimulationOptions options = simulation_options(scene, inputs);
+  TissueFields fields(inputs, mesh);
+  const std::optional<tissue::TissueField> field = fields.of(scene);
+  if (field) options.tissue.element = field->element;
+  seconds["tissue"] = stage.lap();
+
+  const auto simulation = reenact::simulate(mesh, inputs.landmarks, inputs.motion, options);
   stage.lap();
   seconds["assemble"] = simulation.report.assemble_s;
   seconds["analyse"] = simulation.report.analyse_s;
@@ -171,7 +218,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
-  const std::vector<VariantRun> variants = run_variants(scene, inputs, mesh);
+  const std::vector<VariantRun> variants = run_variants(scene, inputs, mesh, fields);
   if (!variants.empty()) seconds["variants"] = stage.lap();
 
   Results results{scene,
@@ -180,7 +227,8 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
                   simulation,
                   symmetry_measures(scene, inputs, mesh, simulation.performance),
                   all_notes(inputs, mesh, simulation.report),
-                  {}};
+                  {},
+                  field ? &*field : nullptr};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty())
@@ -188,6 +236,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   for (std::size_t i = inputs.notes.size() + mesh.notes.size(); i < results.notes.size(); ++i)
     spdlog::warn("{}", results.notes[i]);
   Json summary = summary_of(results);
+  if (field) summary["tissue"] = tissue_json(*field);
   write_outputs(results, directory);
   if (!variants.empty()) summary["variants"] = write_variants(results, variants, mesh, directory);
   seconds["export"] = stage.lap();

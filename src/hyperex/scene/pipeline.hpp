@@ -21,7 +21,9 @@ std::vector<std::string> check_scene(const Scene& scene);
 
 /// Mesh options as tissue/ understands them.
 tissue::TissueMeshOptions mesh_options(const Scene& scene);
-/// Options of the simulation as reenact/ understands them.
+/// What makes the tissue differ from place to place, as tissue/ understands it.
+tissue::TissueFieldOptions tissue_field_options(const Scene& scene);
+/// Options of the simulation as reenact/ understands them, the tissue uniform.
 reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& inputs);
 
 }  // namespace hyperex::scene

@@ -50,6 +50,8 @@ std::string type_of(const KeyInfo& key) {
       return "path";
     case Kind::names:
       return "list of names";
+    case Kind::places:
+      return "list of places";
     case Kind::rows:
       break;
   }
@@ -103,7 +105,7 @@ std::string reference_markdown() {
           section.name.empty() ? key.name : key.name.substr(section.name.size() + 1);
       page += row(key.kind == Kind::rows ? "[[" + key.name + "]]" : name, key, default_of(key));
       for (const KeyInfo& column : key.columns)
-        page += row("... " + column.name, column, "*required*");
+        page += row("... " + column.name, column, column.required ? "*required*" : "");
     }
   }
   return page;

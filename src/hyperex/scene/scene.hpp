@@ -15,6 +15,7 @@
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/reenact/alignment.hpp"
 #include "hyperex/reenact/simulation.hpp"
+#include "hyperex/tissue/field/options.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::scene {
@@ -80,6 +81,12 @@ struct TissueOptions {
   double density_kg_m3 = 1100;    ///< > 0, to 20000
   fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
   fem::ElementKind element = fem::ElementKind::tet4_star;
+  std::string preset;  ///< empty: none
+  tissue::Interpolation interpolation = tissue::Interpolation::harmonic;
+  bool mirror = false;
+  std::filesystem::path per_vertex;  ///< empty: none
+  std::vector<tissue::TissuePoint> points;
+  std::vector<tissue::TissueRegion> regions;
 };
 
 using reenact::BoneLayer;

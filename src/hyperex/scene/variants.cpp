@@ -12,6 +12,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/motion/resample.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/canvas.hpp"
 #include "hyperex/render/contact_sheet.hpp"
@@ -155,7 +156,7 @@ Json json_of(const VariantComparison& c) {
 }  // namespace
 
 std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
-                                     const tissue::TissueMesh& mesh) {
+                                     const tissue::TissueMesh& mesh, TissueFields& fields) {
   std::vector<VariantRun> runs;
   for (const Variant& variant : scene.variants) {
     VariantRun run;
@@ -163,6 +164,7 @@ std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
     run.scene.title = variant.name;
     run.scene.output.vtu = run.scene.output.glb = run.scene.output.report = false;
     run.inputs = inputs_of_variant(variant.scene, inputs);
+    run.field = fields.of(variant.scene);
     runs.push_back(std::move(run));
   }
   if (runs.empty()) return runs;
@@ -170,8 +172,9 @@ std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
     VariantRun& run = runs[i];
     try {
-      run.simulation = reenact::simulate(mesh, run.inputs.landmarks, run.inputs.motion,
-                                         simulation_options(run.scene, run.inputs));
+      reenact::SimulationOptions options = simulation_options(run.scene, run.inputs);
+      if (run.field) options.tissue.element = run.field->element;
+      run.simulation = reenact::simulate(mesh, run.inputs.landmarks, run.inputs.motion, options);
     } catch (const NumericalError& error) {
       throw NumericalError(fmt::format("variant {}: {}", run.scene.title, error.what()));
     }
@@ -242,7 +245,8 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
         run.simulation,
         symmetry_measures(run.scene, run.inputs, mesh, run.simulation.performance),
         {},
-        {}};
+        {},
+        run.field ? &*run.field : nullptr};
     compared.push_back(compare_variant(run.scene.title, base, results, pair));
     const fs::path folder = directory / "variants" / run.scene.title;
     fs::create_directories(folder);

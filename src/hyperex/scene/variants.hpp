@@ -8,13 +8,15 @@
 #include "hyperex/metrics/lag.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/tissue_fields.hpp"
 
 namespace hyperex::scene {
 
 /// One variant's run on the mesh and motion of the scene itself.
 struct VariantRun {
-  Scene scene;    ///< the variant's, without ParaView's frames and glTF
-  Inputs inputs;  ///< the scene's, with the variant's driven points
+  Scene scene;                               ///< the variant's, without ParaView's frames and glTF
+  Inputs inputs;                             ///< the scene's, with the variant's driven points
+  std::optional<tissue::TissueField> field;  ///< where the tissue differs from place to place
   reenact::SimulationResult simulation;
 };
 
@@ -22,7 +24,7 @@ struct VariantRun {
 /// scene's own. Throws InputError naming the variant for a point that does not exist, and
 /// NumericalError where a variant cannot be solved.
 std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
-                                     const tissue::TissueMesh& mesh);
+                                     const tissue::TissueMesh& mesh, TissueFields& fields);
 
 /// A run against the scene's own.
 struct VariantComparison {

@@ -39,9 +39,14 @@ json other_value(const Key& key) {
       return "face.ply";
     case Kind::names:
       return {"one", "two", "three"};
+    case Kind::places:
+      return {{1.5, 2, 3}};
     case Kind::rows:
       break;
   }
+  if (key.name == "tissue.region") return {{{"name", "nose"}, {"young_factor", 2.5}}};
+  if (key.name == "tissue.point")
+    return {{{"landmark", "cheek"}, {"side", "R"}, {"young_kpa", 12.5}}};
   nlohmann::json row;
   for (const KeyInfo& column : key.columns)
     if (column.kind == Kind::number)

@@ -55,6 +55,36 @@ viscosity_pa_s = 40
 density_kg_m3 = 941
 viscous_form = "printed"
 element = "tet4"
+preset = "granite"
+interpolation = "linear"
+mirror = true
+per_vertex = "points.json"
+[[tissue.point]]
+landmark = "cheek"
+side = "R"
+young_kpa = 101
+viscosity_pa_s = 102
+poisson = 0.41
+density_kg_m3 = 1001
+[[tissue.point]]
+landmark = "chin"
+viscosity_pa_s = 103
+[[tissue.region]]
+name = "nose"
+blend_mm = 2.5
+young_kpa = 104
+viscosity_factor = 1.5
+poisson_factor = 0.5
+density_factor = 2
+[[tissue.region]]
+scar = ["a", "b"]
+width_mm = 3.5
+young_factor = 3
+[[tissue.region]]
+scar_points_mm = [[1, 2, 3], [4, 5, 6]]
+viscosity_pa_s = 105
+poisson = 0.42
+density_kg_m3 = 1002
 [support]
 border = "free"
 skull = "held"
@@ -131,6 +161,20 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.tissue.density_kg_m3, 941);
   EXPECT_EQ(s.tissue.viscous_form, fem::ViscousForm::printed);
   EXPECT_EQ(s.tissue.element, fem::ElementKind::tet4);
+  EXPECT_EQ(s.tissue.preset, "granite");
+  EXPECT_EQ(s.tissue.interpolation, tissue::Interpolation::linear);
+  EXPECT_TRUE(s.tissue.mirror);
+  EXPECT_EQ(s.tissue.per_vertex, folder / "points.json");
+  using Given = tissue::GivenParameters;  // young, viscosity, poisson, density
+  const std::vector<tissue::TissuePoint> points = {{"cheek", "R", Given{101e3, 102, 0.41, 1001}},
+                                                   {"chin", "", Given{std::nullopt, 103}}};
+  EXPECT_EQ(s.tissue.points, points);
+  const std::vector<tissue::TissueRegion> regions = {
+      {.name = "nose", .blend_m = 0.0025, .value = {104e3}, .factor = {std::nullopt, 1.5, 0.5, 2}},
+      {.scar = {"a", "b"}, .width_m = 0.0035, .factor = {3}},
+      {.scar_points_m = {{0.001, 0.002, 0.003}, {0.004, 0.005, 0.006}},
+       .value = {std::nullopt, 105, 0.42, 1002}}};
+  EXPECT_EQ(s.tissue.regions, regions);
   EXPECT_EQ(s.solver.method, SolverMethod::direct);
   EXPECT_EQ(s.solver.tolerance, 0.004);
   EXPECT_EQ(s.solver.linear, fem::LinearSolver::iterative);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tissue/field/presets.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "commands.hpp"
+#include "hyperex/tissue/field/regions.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+std::string values_of(const tissue::GivenParameters& given, const char* ending) {
+  std::string text;
+  for (int p = 0; p < tissue::parameter_count; ++p)
+    if (given[p])
+      text += fmt::format("{}{} = {:g}", text.empty() ? "" : ", ",
+                          *ending ? std::string("young_factor") : tissue::parameter_info(p).key,
+                          *ending ? *given[p] : *given[p] / tissue::parameter_info(p).si);
+  return text;
+}
+
+void print() {
+  std::cout << "Presets, for tissue.preset\n";
+  for (const tissue::TissuePreset& preset : tissue::tissue_presets()) {
+    std::cout << fmt::format("\n{}: {}\n  source: {}\n", preset.name, preset.summary,
+                             preset.source);
+    const std::string uniform = values_of(preset.uniform, ""),
+                      factor = values_of(preset.factor, "*");
+    if (!uniform.empty()) std::cout << "  everywhere: " << uniform << '\n';
+    if (!factor.empty()) std::cout << "  everything: " << factor << '\n';
+    for (const tissue::TissuePoint& point : preset.points)
+      std::cout << fmt::format("  {}: {}\n", point.landmark, values_of(point.value, ""));
+  }
+  std::cout << "\nRegions, for name in [[tissue.region]]; with _L or _R the subject's own left or "
+               "right half\n\n";
+  for (const tissue::FacialRegion& region : tissue::facial_regions())
+    std::cout << fmt::format("{:10} {}\n", region.name, region.meaning);
+}
+
+}  // namespace
+
+void add_presets(CLI::App& program) {
+  program
+      .add_subcommand("presets",
+                      "List published tissue parameters with their sources, and the "
+                      "named regions of the face")
+      ->footer("Example: hyperex presets")
+      ->callback(print);
+}
+
+}  // namespace hyperex::cli

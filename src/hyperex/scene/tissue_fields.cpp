@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/tissue_fields.hpp"
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/scene/pipeline.hpp"
+
+namespace hyperex::scene {
+
+std::optional<tissue::TissueField> TissueFields::of(const Scene& scene) {
+  const tissue::TissueFieldOptions options = tissue_field_options(scene);
+  if (!is_graded(options)) return std::nullopt;
+  Progress progress("spreading the tissue's parameters over the face", 0);
+  if (needs_registration(options) && !with_face_) {
+    face_ = tissue::register_canonical_face(inputs_.landmarks, inputs_.scan.mesh);
+    maker_.reset();
+    with_face_ = true;
+  }
+  if (!maker_) maker_.emplace(mesh_, inputs_.landmarks, face_ ? &*face_ : nullptr);
+  try {
+    return maker_->make(options);
+  } catch (const tissue::FieldError& error) {
+    throw InputError(problem_at(scene, "tissue." + error.problem.key, error.problem.expected));
+  }
+}
+
+}  // namespace hyperex::scene

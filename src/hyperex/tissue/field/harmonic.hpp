@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Sparse>
+#include <memory>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/tissue/field/side_tree.hpp"
+
+namespace hyperex::tissue {
+
+/// A smooth field on a surface through values at points: the minimum of
+///   integral k |grad u|^2,  k(x) = max(1, (r / d(x))^2),
+/// d the distance to the nearest point, r = 6 mm; free at borders. Farther than r from all points u
+/// is harmonic. The weight k is what makes the problem well posed: a point has no capacity in two
+/// dimensions, so that the plain harmonic field would sink to a constant with spikes at the points
+/// as the mesh is refined. With it u leaves a point as d^2: without a kink.
+/// Linear finite elements; an edge's weight (k_1 cot a_1 + k_2 cot a_2) / 2 is not let fall below
+/// 0.1 % of the mean of k_1 and k_2, so that the matrix is an M-matrix and u lies between the least
+/// and the greatest value (discrete maximum principle; M. Wardetzky et al., "Discrete Laplace
+/// operators: no free lunch", SGP 2007). On Delaunay meshes next to nothing is clamped.
+/// The corners of the triangle under a point take the point's value: met exactly there.
+class HarmonicField {
+ public:
+  /// `same`: the lowest vertex at the same place on the same side, itself where it is alone.
+  /// `at`: the points' places on `mesh`, one or more.
+  HarmonicField(const TriMesh& mesh, const std::vector<int>& same,
+                const std::vector<PlaceOnMesh>& at);
+  ~HarmonicField();
+
+  /// One value a point -> one a vertex. Where two points share a corner the first one's holds there
+  /// (shared_corner tells). A piece of the surface without a point takes the value of the vertex
+  /// nearest to it.
+  Eigen::VectorXd solve(const Eigen::VectorXd& values) const;
+
+  /// Two points whose triangles touch: {-1, -1} where there are none.
+  std::array<int, 2> shared_corner() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Vertices at one place are one, save across the lips' rims, which touch at rest.
+std::vector<int> joined_vertices(const Points& points, const std::vector<double>& upper_margin);
+
+}  // namespace hyperex::tissue

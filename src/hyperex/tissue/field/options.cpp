@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tissue/field/options.hpp"
+
+#include <cmath>
+
+namespace hyperex::tissue {
+
+const ParameterInfo& parameter_info(int parameter) {
+  static const ParameterInfo table[parameter_count] = {
+      {"young_kpa", "Young's modulus (kPa)", 1000, 0, 1e9, true, "above 0 to 1e+06 kPa"},
+      {"viscosity_pa_s", "Viscosity (Pa s)", 1, 0, 1e7, false, "from 0 to 1e+07 Pa s"},
+      {"poisson", "Poisson's ratio", 1, -0.99, 0.4999, false, "from -0.99 to 0.4999"},
+      {"density_kg_m3", "Density (kg/m^3)", 1, 0, 20000, true, "above 0 to 20000 kg/m^3"}};
+  return table[parameter];
+}
+
+bool is_allowed(int parameter, double value) {
+  const ParameterInfo& info = parameter_info(parameter);
+  return std::isfinite(value) && value <= info.most &&
+         (info.above_least ? value > info.least : value >= info.least);
+}
+
+}  // namespace hyperex::tissue

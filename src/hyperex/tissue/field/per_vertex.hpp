@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/tissue/field/options.hpp"
+
+namespace hyperex::tissue {
+
+/// Per parameter one value a vertex of the scan, NaN where the file gives none; empty where it has
+/// no such column.
+using PerVertex = std::array<Eigen::VectorXd, parameter_count>;
+
+/// A CSV with columns young_kpa, viscosity_pa_s, poisson, density_kg_m3 (one or more; others are
+/// passed over), a row a vertex of the scan in its order; or a PLY whose vertices have them.
+/// Throws InputError: another number of rows, none of the columns, a value out of range.
+PerVertex read_per_vertex(const std::filesystem::path& file, Eigen::Index scan_vertices);
+
+}  // namespace hyperex::tissue

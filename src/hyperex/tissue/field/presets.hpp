@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/tissue/field/options.hpp"
+
+namespace hyperex::tissue {
+
+/// Published tissue parameters (data/presets.toml, carried inside the program).
+struct TissuePreset {
+  std::string name, summary, source;
+  GivenParameters uniform{}, factor{};  ///< factor: on everything, points included
+  std::vector<TissuePoint> points;
+};
+
+/// In the order of the file; parsed at the first call.
+const std::vector<TissuePreset>& tissue_presets();
+/// Null where there is none of that name.
+const TissuePreset* find_preset(const std::string& name);
+
+}  // namespace hyperex::tissue

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/tissue/field/tissue_field.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/tissue/field/frontal.hpp"
+#include "hyperex/tissue/field/harmonic.hpp"
+#include "hyperex/tissue/field/per_vertex.hpp"
+#include "hyperex/tissue/field/points.hpp"
+#include "hyperex/tissue/field/presets.hpp"
+#include "hyperex/tissue/field/regions.hpp"
+#include "hyperex/tissue/lips.hpp"
+
+namespace hyperex::tissue {
+namespace {
+using SkinField = std::array<Eigen::VectorXd, parameter_count>;
+
+double reach_of(const io::Landmarks& landmarks) {
+  return 1.8 * (landmarks.at(ibug(54)) - face_frame(landmarks).origin).norm();
+}
+
+/// As upper_lip_margin: far on the landmark's own lip, 0 for those of neither.
+double margin_of(const std::string& landmark) {
+  if (landmark == "labiale_superius" || landmark.starts_with("crista_philtri")) return 1;
+  if (landmark == "labiale_inferius") return -1;
+  return lip_of(landmark);
+}
+
+/// The skin above the centroid of each tetrahedron: each node counts as the outer vertex over it.
+std::vector<PlaceOnMesh> places_above(const TissueMesh& mesh, const SideTree& tree) {
+  const VolumeMesh& volume = mesh.volume;
+  std::vector<PlaceOnMesh> places(volume.tets.rows());
+  for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
+    Vec3 at = Vec3::Zero();
+    double margin = 0;
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Index vertex = volume.tets(t, k) % volume.surface_nodes();
+      at += volume.outer.points.row(vertex).transpose() / 4;
+      margin += mesh.upper_margin[vertex] / 4;
+    }
+    places[t] = tree.query(at, margin);
+  }
+  return places;
+}
+
+std::string key_of(const ResolvedPoint& point) {
+  return point.key == "preset" ? point.key : point.key + ".landmark";
+}
+
+/// The points that give a parameter, and their values.
+struct Given {
+  std::vector<std::size_t> point;
+  Eigen::VectorXd value;
+};
+
+Given given_by(const std::vector<ResolvedPoint>& points, int parameter) {
+  Given given;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].value[parameter]) given.point.push_back(i);
+  given.value.resize(Eigen::Index(given.point.size()));
+  for (std::size_t i = 0; i < given.point.size(); ++i)
+    given.value[Eigen::Index(i)] = *points[given.point[i]].value[parameter];
+  return given;
+}
+
+bool any(const GivenParameters& values) {
+  return std::any_of(values.begin(), values.end(), [](const auto& v) { return v.has_value(); });
+}
+
+void check_region(const TissueFieldOptions& options, std::size_t index,
+                  const io::Landmarks& landmarks, std::vector<FieldProblem>& problems) {
+  const TissueRegion& region = options.regions[index];
+  const std::string key = fmt::format("region[{}]", index);
+  const auto complain = [&](const std::string& below, const std::string& expected) {
+    problems.push_back({key + below, expected});
+  };
+  const int kinds =
+      int(!region.name.empty()) + int(!region.scar.empty()) + int(!region.scar_points_m.empty());
+  if (kinds != 1) complain("", "one of name, scar and scar_points_mm");
+  if (!any(region.value) && !any(region.factor))
+    complain("", "a value or a factor, as young_kpa = 300 or young_factor = 5");
+  for (int p = 0; p < parameter_count; ++p)
+    if (region.value[p] && region.factor[p])
+      complain("", fmt::format("either {} or its factor", parameter_info(p).key));
+  if (!region.name.empty() && !is_region(region.name))
+    complain(".name", "the name of a region (hyperex presets lists them)");
+  if (region.scar.size() == 1) complain(".scar", "two landmarks or more");
+  if (region.scar_points_m.size() == 1) complain(".scar_points_mm", "two points or more");
+  for (const std::string& name : region.scar)
+    if (!landmarks.contains(name))
+      complain(".scar", fmt::format("names of landmarks of the scan ({} is none)", name));
+  if (!options.mirror) return;
+  if (!region.scar_points_m.empty())
+    complain(".scar_points_mm", "landmarks in its place (scar), as tissue.mirror is true");
+  for (std::size_t other = 0; other < index; ++other)
+    if (!region.name.empty() && region.name != options.regions[other].name &&
+        mirrored_landmark(region.name) == options.regions[other].name)
+      complain(".name",
+               fmt::format("one side alone, as tissue.mirror is true and tissue.region[{}] "
+                           "is {}",
+                           other, options.regions[other].name));
+}
+
+}  // namespace
+
+bool needs_registration(const TissueFieldOptions& options) {
+  return std::any_of(options.regions.begin(), options.regions.end(),
+                     [](const TissueRegion& region) { return !region.name.empty(); });
+}
+
+std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
+                                      const io::Landmarks& landmarks) {
+  std::vector<FieldProblem> problems;
+  if (!options.preset.empty() && !find_preset(options.preset))
+    problems.push_back({"preset", "the name of a preset (hyperex presets lists them)"});
+  if (options.mirror && !options.per_vertex.empty())
+    problems.push_back({"mirror", "false, as tissue.per_vertex says all of either side"});
+  resolve_points(options, landmarks, problems);
+  for (std::size_t i = 0; i < options.regions.size(); ++i)
+    check_region(options, i, landmarks, problems);
+  return problems;
+}
+
+TissueParameters uniform_parameters(const TissueFieldOptions& options) {
+  TissueParameters values = default_parameters;
+  const TissuePreset* preset = find_preset(options.preset);
+  for (int p = 0; p < parameter_count; ++p) {
+    if (preset && preset->uniform[p]) values[p] = *preset->uniform[p];
+    if (options.uniform[p]) values[p] = *options.uniform[p];
+    if (preset && preset->factor[p]) values[p] *= *preset->factor[p];
+  }
+  return values;
+}
+
+bool is_graded(const TissueFieldOptions& options) {
+  const TissuePreset* preset = find_preset(options.preset);
+  return !options.points.empty() || !options.regions.empty() || !options.per_vertex.empty() ||
+         (preset && !preset->points.empty());
+}
+
+TissueFieldMaker::TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& landmarks,
+                                   const RegisteredFace* face)
+    : mesh_(mesh),
+      landmarks_(landmarks),
+      joined_(joined_vertices(mesh.skin.points, mesh.skin_upper_margin)),
+      skin_tree_(mesh.skin, mesh.skin_upper_margin, face_frame(landmarks).origin,
+                 reach_of(landmarks)),
+      above_(places_above(mesh, skin_tree_)) {
+  if (face) regions_.emplace(mesh, landmarks, *face);
+}
+
+TissueField TissueFieldMaker::make(const TissueFieldOptions& options) const {
+  TissueField field;
+  field.skin = skin_field(options);
+  for (int p = 0; p < parameter_count; ++p) {
+    field.element[p].resize(above_.size());
+    for (std::size_t t = 0; t < above_.size(); ++t)
+      field.element[p][t] = above_[t].value(field.skin[p]);
+  }
+  return field;
+}
+
+SkinField TissueFieldMaker::skin_field(const TissueFieldOptions& options) const {
+  const Eigen::Index vertices = mesh_.skin.points.rows();
+  SkinField field;
+  const TissueParameters uniform = uniform_parameters(options);
+  for (int p = 0; p < parameter_count; ++p)
+    field[p] = Eigen::VectorXd::Constant(vertices, uniform[p]);
+  interpolate(options, field);
+  if (!options.per_vertex.empty()) {
+    const PerVertex own = read_per_vertex(options.per_vertex, mesh_.scan_vertices);
+    for (int p = 0; p < parameter_count; ++p) {
+      if (own[p].size() == 0) continue;
+      const auto take = [&](Eigen::Index v, double value) {
+        if (!std::isnan(value)) field[p][v] = value;
+      };
+      for (Eigen::Index v = 0; v < mesh_.scan_vertices; ++v) take(v, own[p][v]);
+      for (std::size_t i = 0; i < mesh_.appended.size(); ++i) {
+        const EdgePoint& e = mesh_.appended[i];
+        take(mesh_.scan_vertices + Eigen::Index(i), (1 - e.t) * own[p][e.a] + e.t * own[p][e.b]);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < options.regions.size(); ++i) apply_region(options, i, field);
+  return field;
+}
+
+void TissueFieldMaker::interpolate(const TissueFieldOptions& options, SkinField& field) const {
+  std::vector<FieldProblem> problems;
+  const auto points = resolve_points(options, landmarks_, problems);
+  const FaceFrame frame = face_frame(landmarks_);
+  const auto frontal = [&](const Points& at) {
+    Eigen::MatrixX2d out(at.rows(), 2);
+    for (Eigen::Index i = 0; i < at.rows(); ++i)
+      out.row(i) = frame.local(at.row(i)).head<2>().transpose();
+    return out;
+  };
+  const TissuePreset* preset = find_preset(options.preset);
+  std::optional<HarmonicField> harmonic;
+  std::vector<std::size_t> solved_for;
+  for (int p = 0; p < parameter_count; ++p) {
+    const Given given = given_by(points, p);
+    if (given.point.empty()) continue;
+    if (options.interpolation == Interpolation::linear) {
+      Points at(given.value.size(), 3);
+      for (std::size_t i = 0; i < given.point.size(); ++i)
+        at.row(Eigen::Index(i)) = landmarks_.at(points[given.point[i]].landmark).transpose();
+      const Eigen::MatrixX2d plane = frontal(at);
+      for (Eigen::Index i = 0; i < plane.rows(); ++i)
+        for (Eigen::Index j = 0; j < i; ++j)
+          if ((plane.row(i) - plane.row(j)).norm() < 1e-4)
+            throw FieldError(
+                {key_of(points[given.point[i]]),
+                 fmt::format("points apart as seen from in front: {} and {} are one",
+                             points[given.point[j]].landmark, points[given.point[i]].landmark)});
+      field[p] = FrontalField(plane).at(frontal(mesh_.skin.points), given.value);
+    } else {
+      if (!harmonic || solved_for != given.point) {
+        std::vector<PlaceOnMesh> at;
+        for (const std::size_t i : given.point)
+          at.push_back(
+              skin_tree_.query(landmarks_.at(points[i].landmark), margin_of(points[i].landmark)));
+        harmonic.emplace(mesh_.skin, joined_, at);
+        solved_for = given.point;
+      }
+      if (const auto [a, b] = harmonic->shared_corner(); a >= 0 && given.value[a] != given.value[b])
+        throw FieldError(
+            {key_of(points[given.point[b]]),
+             fmt::format("points apart on this scan: {} and {} lie in triangles that "
+                         "touch",
+                         points[given.point[a]].landmark, points[given.point[b]].landmark)});
+      field[p] = harmonic->solve(given.value);
+    }
+    if (preset && preset->factor[p]) field[p] *= *preset->factor[p];
+  }
+}
+
+Eigen::VectorXd TissueFieldMaker::region_depth(const TissueFieldOptions& options,
+                                               std::size_t index) const {
+  const TissueRegion& region = options.regions[index];
+  if (!region.name.empty()) {
+    const bool half = region.name.ends_with("_L") || region.name.ends_with("_R");
+    // Both halves are the whole: the middle between them is no border.
+    return regions_.value().depth(
+        options.mirror && half ? region.name.substr(0, region.name.size() - 2) : region.name);
+  }
+  std::vector<Vec3> line, twin;
+  for (const auto& p : region.scar_points_m) line.emplace_back(p[0], p[1], p[2]);
+  for (const std::string& name : region.scar) {
+    line.push_back(landmarks_.at(name));
+    const auto other = landmarks_.find(mirrored_landmark(name));
+    twin.push_back(other == landmarks_.end() ? line.back() : other->second);
+  }
+  for (const Vec3& p : line)
+    if (const double far = skin_tree_.query(p, 0).distance_m; far > 0.015)
+      throw FieldError(
+          {fmt::format("region[{}].scar{}", index, region.scar.empty() ? "_points_mm" : ""),
+           fmt::format("points within 15 mm of the scan's surface (one is {:.0f} mm "
+                       "from it)",
+                       1e3 * far)});
+  Eigen::VectorXd depth = band_depth(mesh_.skin, line, region.width_m);
+  if (options.mirror && !region.scar.empty())
+    depth = depth.cwiseMax(band_depth(mesh_.skin, twin, region.width_m));
+  return depth;
+}
+
+void TissueFieldMaker::apply_region(const TissueFieldOptions& options, std::size_t index,
+                                    SkinField& field) const {
+  const TissueRegion& region = options.regions[index];
+  const Eigen::VectorXd depth = region_depth(options, index);
+  const std::string key = fmt::format("region[{}]", index);
+  double most = 0;
+  for (Eigen::Index v = 0; v < depth.size(); ++v)
+    most = std::max(most, region_share(depth[v], region.blend_m));
+  if (most < 1e-6)
+    throw FieldError(
+        {key + (region.name.empty() ? region.scar.empty() ? ".scar_points_mm" : ".scar" : ".name"),
+         "a region that holds some of this scan's vertices; it is empty"});
+  for (int p = 0; p < parameter_count; ++p) {
+    if (!region.value[p] && !region.factor[p]) continue;
+    for (Eigen::Index v = 0; v < depth.size(); ++v) {
+      const double share = region_share(depth[v], region.blend_m);
+      double& u = field[p][v];
+      if (region.factor[p])
+        u *= 1 + share * (*region.factor[p] - 1);
+      else
+        u += share * (*region.value[p] - u);
+      if (!is_allowed(p, u)) {
+        std::string name = parameter_info(p).key;
+        if (region.factor[p])
+          name = p == young       ? "young_factor"
+                 : p == viscosity ? "viscosity_factor"
+                 : p == poisson   ? "poisson_factor"
+                                  : "density_factor";
+        throw FieldError({key + "." + name,
+                          fmt::format("{} to stay {}; it would be {:.4g}", parameter_info(p).title,
+                                      parameter_info(p).allowed, u / parameter_info(p).si)});
+      }
+    }
+  }
+}
+
+}  // namespace hyperex::tissue

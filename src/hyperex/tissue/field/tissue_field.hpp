@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/tissue/field/options.hpp"
+#include "hyperex/tissue/field/regions.hpp"
+#include "hyperex/tissue/field/side_tree.hpp"
+#include "hyperex/tissue/register_face.hpp"
+#include "hyperex/tissue/tissue_mesh.hpp"
+
+namespace hyperex::tissue {
+
+/// What the options say that no scan is needed to refuse, and, given its landmarks, what they say
+/// of those.
+std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
+                                      const io::Landmarks& landmarks);
+
+/// The value of each parameter where nothing makes it differ: options, else preset, else default.
+TissueParameters uniform_parameters(const TissueFieldOptions& options);
+
+/// False where the options give the same values everywhere, which uniform_parameters() are.
+bool is_graded(const TissueFieldOptions& options);
+
+/// A parameter a vertex of the skin (TissueMesh::skin), and a tetrahedron; SI.
+struct TissueField {
+  std::array<Eigen::VectorXd, parameter_count> skin;
+  std::array<std::vector<double>, parameter_count> element;
+
+  bool varies(int parameter) const {
+    return skin[parameter].size() > 0 &&
+           skin[parameter].maxCoeff() > skin[parameter].minCoeff() * (1 + 1e-9);
+  }
+};
+
+/// A problem that shows on the scan: an empty region, a parameter that leaves its range.
+struct FieldError : std::runtime_error {
+  explicit FieldError(FieldProblem p)
+      : std::runtime_error("tissue." + p.key + ": expected " + p.expected), problem(std::move(p)) {}
+  FieldProblem problem;
+};
+
+/// Fields on one mesh: what does not depend on the options is found once, so that variants cost
+/// their own solve alone.
+///   1. Each parameter is uniform, or where points give it interpolated between them. E itself is
+///      interpolated, not its logarithm: fields then add up, as the source's models 2 and 3 do
+///      about model 1.
+///   2. A preset's factor multiplies it.
+///   3. The file a vertex replaces it where it has values.
+///   4. Regions in turn: u <- u (1 + w (factor - 1)), or u <- u + w (value - u), w the region's
+///      share at the vertex.
+///   5. A tetrahedron takes the field at the point of the skin above its centroid: constant through
+///      the thickness.
+class TissueFieldMaker {
+ public:
+  /// `landmarks`: completed. `face`: the canonical face laid over the scan, for named regions; none
+  /// where no options will name any (needs_registration). Mesh and landmarks must outlive this.
+  TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& landmarks,
+                   const RegisteredFace* face);
+
+  /// problems_of(options) must be empty. Throws FieldError, InputError (the file a vertex).
+  TissueField make(const TissueFieldOptions& options) const;
+
+ private:
+  std::array<Eigen::VectorXd, parameter_count> skin_field(const TissueFieldOptions& options) const;
+  void interpolate(const TissueFieldOptions& options,
+                   std::array<Eigen::VectorXd, parameter_count>& field) const;
+  void apply_region(const TissueFieldOptions& options, std::size_t index,
+                    std::array<Eigen::VectorXd, parameter_count>& field) const;
+  Eigen::VectorXd region_depth(const TissueFieldOptions& options, std::size_t index) const;
+
+  const TissueMesh& mesh_;
+  const io::Landmarks& landmarks_;
+  std::vector<int> joined_;
+  SideTree skin_tree_;
+  std::optional<RegionMap> regions_;
+  std::vector<PlaceOnMesh> above_;  ///< of each tetrahedron's centroid
+};
+
+/// Some region is named.
+bool needs_registration(const TissueFieldOptions& options);
+
+}  // namespace hyperex::tissue

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tissue parameters on a whole face: points, regions, scars, files, tetrahedra.
+#include "hyperex/tissue/field/tissue_field.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/io/scan.hpp"
+#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/tissue/field/presets.hpp"
+#include "hyperex/tissue/field/regions.hpp"
+
+namespace hyperex::tissue {
+namespace {
+using testing::HasSubstr;
+
+class Field : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const EmbeddedFace embedded = embedded_face();
+    landmarks_ = new io::Landmarks(embedded.landmarks);
+    TissueMeshOptions options;
+    options.element_size_m = 0.006;
+    mesh_ = new TissueMesh(build_tissue_mesh(embedded.mesh, *landmarks_, options, "embedded"));
+    face_ = new RegisteredFace(register_canonical_face(*landmarks_, embedded.mesh));
+    tree_ = new SideTree(mesh_->skin, mesh_->skin_upper_margin, Vec3::Zero(), 0);
+    maker_ = new TissueFieldMaker(*mesh_, *landmarks_, face_);
+  }
+  static void TearDownTestSuite() {
+    delete maker_;
+    delete tree_;
+    delete face_;
+    delete mesh_;
+    delete landmarks_;
+  }
+  static double at(const Eigen::VectorXd& skin, const Vec3& place) {
+    return tree_->query(place, 0).value(skin);
+  }
+  static double at(const TissueField& field, const std::string& landmark, int p = young) {
+    return at(field.skin[p], landmarks_->at(landmark));
+  }
+  static TissueFieldOptions with_region(const std::string& name, double factor) {
+    TissueFieldOptions options;
+    options.regions.push_back({.name = name, .factor = {factor}});
+    return options;
+  }
+  static std::string refusal(const TissueFieldOptions& options) {
+    try {
+      maker_->make(options);
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  static inline io::Landmarks* landmarks_;
+  static inline TissueMesh* mesh_;
+  static inline RegisteredFace* face_;
+  static inline SideTree* tree_;
+  static inline TissueFieldMaker* maker_;
+};
+
+TEST_F(Field, MeetsItsPointsAndLiesBetweenThemInBothWays) {
+  for (const Interpolation way : {Interpolation::harmonic, Interpolation::linear}) {
+    TissueFieldOptions options;
+    options.preset = "source_model_2";
+    options.interpolation = way;
+    const TissueField field = maker_->make(options);
+    const double near = way == Interpolation::harmonic ? 1e-9 : 0.01;  // of a triangle, linear
+    for (const TissuePoint& point : find_preset(options.preset)->points)
+      for (const char* side : {"", "_L", "_R"})
+        for (const int p : {young, viscosity}) {
+          if (!landmarks_->contains(point.landmark + side)) continue;
+          EXPECT_NEAR(at(field, point.landmark + side, p) / *point.value[p], 1, near)
+              << point.landmark + side;
+        }
+    for (const auto& [low, high, p] :
+         {std::tuple{116.5e3, 216.9e3, young}, std::tuple{362.9, 453.0, viscosity}}) {
+      EXPECT_GE(field.skin[p].minCoeff(), low);
+      EXPECT_LE(field.skin[p].maxCoeff(), high);
+      EXPECT_GE(*std::min_element(field.element[p].begin(), field.element[p].end()), low);
+      EXPECT_LE(*std::max_element(field.element[p].begin(), field.element[p].end()), high);
+    }
+    EXPECT_TRUE(field.varies(young));
+    EXPECT_FALSE(field.varies(poisson));
+    EXPECT_EQ(field.element[poisson][0], 0.495);
+  }
+}
+
+TEST_F(Field, OfModelsTwoAndThreeLiesAsFarAboveAsBelowModelOne) {
+  std::array<TissueField, 3> model;
+  for (int m = 0; m < 3; ++m) {
+    TissueFieldOptions options;
+    options.preset = "source_model_" + std::to_string(m + 1);
+    model[std::size_t(m)] = maker_->make(options);
+  }
+  EXPECT_LT((model[1].skin[young] + model[2].skin[young] - 2 * model[0].skin[young])
+                .lpNorm<Eigen::Infinity>(),
+            1e-3);
+  // The upper lips differ most, the corners of the mouth hold their values.
+  EXPECT_NEAR(at(model[1], "cheilion_R"), 116.5e3, 1);
+}
+
+TEST_F(Field, MirroredIsTheMirrorImage) {
+  // The embedded face is its own mirror image to a fraction of a millimetre.
+  for (const auto way : {Interpolation::harmonic, Interpolation::linear}) {
+    TissueFieldOptions options;
+    options.mirror = true;
+    options.interpolation = way;
+    options.points = {{"cheek_L", "", {2e5}}, {"cheilion", "R", {1e5}}, {"glabella", "", {3e5}}};
+    options.regions.push_back({.name = "upper_lip_L", .factor = {2}});
+    options.regions.push_back(
+        {.scar = {"cheek_R", "cheilion_R"}, .width_m = 0.008, .value = {6e5}});
+    const Eigen::VectorXd u = maker_->make(options).skin[young];
+    double apart = 0;
+    for (Eigen::Index v = 0; v < mesh_->scan_vertices; v += 7) {
+      Vec3 mirrored = mesh_->skin.points.row(v);
+      mirrored.x() *= -1;
+      if (std::abs(mesh_->skin_upper_margin[v]) > 0.006)  // beside the lips' rims
+        apart = std::max(apart, std::abs(at(u, mirrored) - u[v]));
+    }
+    EXPECT_LT(apart, 0.06 * (u.maxCoeff() - u.minCoeff())) << int(way);
+  }
+}
+
+TEST_F(Field, RegionsAreWhereTheirNamesSay) {
+  const RegionMap map(*mesh_, *landmarks_, *face_);
+  const auto depth_mm = [&](const std::string& region, const std::string& landmark) {
+    return 1e3 * at(map.depth(region), landmarks_->at(landmark));
+  };
+  for (const std::string& name : region_names()) {
+    const Eigen::VectorXd depth = map.depth(name);
+    EXPECT_GT((depth.array() > 0).count(), 5) << name;
+    if (!name.starts_with("face")) {
+      EXPECT_LT((depth.array() > 0).count(), 0.5 * double(depth.size())) << name;
+    }
+  }
+  EXPECT_GT(depth_mm("cheek_R", "cheek_R"), 3);
+  EXPECT_LT(depth_mm("cheek_R", "cheek_L"), -3);
+  EXPECT_GT(depth_mm("cheek", "cheek_L"), 3);
+  EXPECT_GT(depth_mm("nose", "pronasale"), 3);
+  EXPECT_LT(depth_mm("nose", "cheek_L"), -3);
+  EXPECT_GT(depth_mm("chin", "pogonion"), 3);
+  EXPECT_GT(depth_mm("mouth", "cheilion_L"), 3);
+  EXPECT_LT(depth_mm("lips", "subnasale"), -3);
+  EXPECT_GT(depth_mm("face_L", "exocanthion_L"), 5);
+  EXPECT_LT(depth_mm("face_L", "exocanthion_R"), -5);
+  EXPECT_NEAR(depth_mm("face_L", "pronasale"), 0, 0.5);
+}
+
+TEST_F(Field, LipsThatTouchAreToldApart) {
+  const RegionMap map(*mesh_, *landmarks_, *face_);
+  const Eigen::VectorXd upper = map.depth("upper_lip"), lower = map.depth("lower_lip");
+  int upper_count = 0, lower_count = 0;
+  for (Eigen::Index v = 0; v < upper.size(); ++v) {
+    const double margin = mesh_->skin_upper_margin[v];
+    if (margin > 0.008) {
+      EXPECT_LE(lower[v], 0) << v;
+      upper_count += upper[v] > 0;
+    } else if (margin < -0.008) {
+      EXPECT_LE(upper[v], 0) << v;
+      lower_count += lower[v] > 0;
+    }
+  }
+  EXPECT_GT(upper_count, 20);
+  EXPECT_GT(lower_count, 20);
+}
+
+TEST_F(Field, FactorsHoldInsideFadeOverTheBlendAndEndOutside) {
+  const TissueField field = maker_->make(with_region("cheek_R", 5));
+  EXPECT_NEAR(at(field, "cheek_R"), 5 * 192.4e3, 1);
+  EXPECT_EQ(at(field, "cheek_L"), 192.4e3);
+  EXPECT_EQ(field.skin[young].minCoeff(), 192.4e3);
+  EXPECT_EQ(field.skin[viscosity].maxCoeff(), 476.8);
+  EXPECT_DOUBLE_EQ(region_share(0, 0.004), 0.5);
+  EXPECT_EQ(region_share(0.002, 0.004), 1);
+  EXPECT_EQ(region_share(-0.002, 0.004), 0);
+  EXPECT_EQ(region_share(1e-9, 0), 1);
+  // Elements on the right cheek, through the thickness, and nowhere else.
+  const auto& volume = mesh_->volume;
+  for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
+    const double e = field.element[young][std::size_t(t)];
+    Vec3 outer = Vec3::Zero();
+    for (int k = 0; k < 4; ++k)
+      outer += volume.outer.points.row(volume.tets(t, k) % volume.surface_nodes()).transpose() / 4;
+    if ((outer - landmarks_->at("cheek_R")).norm() < 0.005) {
+      EXPECT_NEAR(e, 5 * 192.4e3, 1);
+    }
+    if (outer.x() > 0.002) {
+      EXPECT_EQ(e, 192.4e3);
+    }
+  }
+}
+
+TEST_F(Field, ScarsRunOnTheSkinBetweenTheirLandmarks) {
+  TissueFieldOptions options;
+  options.regions.push_back({.scar = {"exocanthion_R", "cheek_R", "cheilion_R"},
+                             .width_m = 0.006,
+                             .blend_m = 0.002,
+                             .value = {9e5}});
+  const TissueField field = maker_->make(options);
+  for (const char* name : {"exocanthion_R", "cheek_R", "cheilion_R"})
+    EXPECT_NEAR(at(field, name), 9e5, 1) << name;
+  const Vec3 half = 0.5 * (landmarks_->at("cheek_R") + landmarks_->at("cheilion_R"));
+  EXPECT_NEAR(at(field.skin[young], half), 9e5, 1);
+  EXPECT_EQ(at(field.skin[young], half + Vec3(-0.014, 0, 0)), 192.4e3);
+  const Vec3 p = landmarks_->at("cheek_R"), q = landmarks_->at("cheilion_R");
+  TissueFieldOptions by_places;
+  by_places.regions.push_back({.scar_points_m = {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z()}},
+                               .width_m = 0.016,
+                               .factor = {2}});
+  EXPECT_NEAR(at(maker_->make(by_places).skin[young], half), 2 * 192.4e3, 1);
+}
+
+TEST_F(Field, EmptyRegionsAndParametersOutOfRangeAreRefused) {
+  TissueFieldOptions far;
+  far.regions.push_back({.scar_points_m = {{0.5, 0, 0}, {0.6, 0, 0}}, .factor = {2}});
+  EXPECT_THAT(refusal(far), HasSubstr("region[0].scar_points_mm: expected points within 15 mm"));
+  TissueFieldOptions thin;
+  const Vec3 near = landmarks_->at("cheek_R") + Vec3(0.0007, 0.0005, 0);
+  thin.regions.push_back(
+      {.scar_points_m = {{near.x(), near.y(), near.z()}, {near.x() + 1e-5, near.y(), near.z()}},
+       .width_m = 1e-5,
+       .blend_m = 0,
+       .factor = {2}});
+  EXPECT_THAT(refusal(thin), HasSubstr("it is empty"));
+  TissueFieldOptions squeezed;
+  squeezed.regions.push_back({.name = "nose", .factor = {std::nullopt, std::nullopt, 1.02}});
+  EXPECT_THAT(refusal(squeezed), HasSubstr("region[0].poisson_factor"));
+  EXPECT_THAT(refusal(squeezed), HasSubstr("from -0.99 to 0.4999"));
+  // A scan that ends below the brows has no forehead.
+  TissueMesh low = *mesh_;
+  std::vector<int> kept;
+  for (int f = 0; f < low.skin.triangles.rows(); ++f) {
+    bool below = true;
+    for (int k = 0; k < 3; ++k) below &= low.skin.points(low.skin.triangles(f, k), 1) < 0.02;
+    if (below) kept.push_back(f);
+  }
+  Triangles triangles(Eigen::Index(kept.size()), 3);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    triangles.row(Eigen::Index(i)) = low.skin.triangles.row(kept[i]);
+  low.skin.triangles = triangles;
+  for (Eigen::Index v = 0; v < low.skin.points.rows(); ++v)
+    low.skin.points(v, 1) = std::min(low.skin.points(v, 1), 0.02);
+  try {
+    TissueFieldMaker(low, *landmarks_, face_).make(with_region("forehead", 2));
+    FAIL();
+  } catch (const FieldError& error) {
+    EXPECT_EQ(error.problem.key, "region[0].name");
+    EXPECT_THAT(error.problem.expected, HasSubstr("it is empty"));
+  }
+}
+
+TEST_F(Field, ProblemsAreFoundBeforeAnythingIsBuilt) {
+  const auto first = [](const TissueFieldOptions& options) {
+    const auto problems = problems_of(options, *landmarks_);
+    return problems.empty() ? std::string() : problems[0].key + ": " + problems[0].expected;
+  };
+  EXPECT_EQ(first(with_region("cheek_R", 2)), "");
+  EXPECT_THAT(first(with_region("cheeks", 2)), HasSubstr("region[0].name"));
+  TissueFieldOptions both = with_region("cheek_R", 2);
+  both.regions[0].scar = {"cheek_R", "cheek_L"};
+  EXPECT_THAT(first(both), HasSubstr("region[0]: one of name, scar"));
+  TissueFieldOptions nothing = with_region("cheek_R", 2);
+  nothing.regions[0].factor = {};
+  EXPECT_THAT(first(nothing), HasSubstr("region[0]: a value or a factor"));
+  TissueFieldOptions twice = with_region("cheek_R", 2);
+  twice.regions.push_back({.name = "cheek_L", .factor = {3}});
+  EXPECT_EQ(first(twice), "");
+  twice.mirror = true;
+  EXPECT_THAT(first(twice), HasSubstr("region[1].name: one side alone"));
+  TissueFieldOptions unknown;
+  unknown.preset = "granite";
+  EXPECT_THAT(first(unknown), HasSubstr("preset: "));
+  TissueFieldOptions scar;
+  scar.regions.push_back({.scar = {"cheek_R", "antenna"}, .factor = {2}});
+  EXPECT_THAT(first(scar), HasSubstr("antenna is none"));
+}
+
+TEST_F(Field, IsReadFromFilesOfVertices) {
+  const std::filesystem::path folder = testing::TempDir();
+  const std::string stem = "hyperex_tissue_" + std::to_string(::getpid());
+  const std::filesystem::path csv = folder / (stem + ".csv"), ply = folder / (stem + ".ply");
+  const Eigen::Index count = mesh_->scan_vertices;
+  Eigen::VectorXf young_kpa(count);
+  std::ofstream table(csv);
+  table << "young_kpa,other\n";
+  for (Eigen::Index v = 0; v < count; ++v) {
+    young_kpa[v] = 100 + float(v % 50);
+    if (v == 3)
+      table << ",0\n";
+    else
+      table << young_kpa[v] << ",0\n";
+  }
+  table.close();
+  io::write_ply(ply, {mesh_->skin.points.topRows(count), embedded_face().mesh.triangles},
+                io::LengthUnit::metre, {{"young_kpa", young_kpa}});
+  for (const auto& file : {csv, ply}) {
+    TissueFieldOptions options;
+    options.per_vertex = file;
+    const TissueField field = maker_->make(options);
+    EXPECT_EQ(field.skin[young][17], 117e3);
+    EXPECT_EQ(field.skin[young][3], file == csv ? 192.4e3 : 103e3);  // an empty cell
+    EXPECT_EQ(field.skin[viscosity][17], 476.8);
+  }
+  std::ofstream(csv) << "young_kpa\n1\n2\n";
+  TissueFieldOptions options;
+  options.per_vertex = csv;
+  EXPECT_THAT(refusal(options), HasSubstr("2 rows of young_kpa: expected"));
+  std::ofstream(csv) << "stiffness\n1\n";
+  EXPECT_THAT(refusal(options), HasSubstr("no values a vertex"));
+  young_kpa[5] = -1;
+  io::write_ply(ply, {mesh_->skin.points.topRows(count), embedded_face().mesh.triangles},
+                io::LengthUnit::metre, {{"young_kpa", young_kpa}});
+  options.per_vertex = ply;
+  EXPECT_THAT(refusal(options), HasSubstr("young_kpa = -1 at vertex 5"));
+  std::filesystem::remove(csv);
+  std::filesystem::remove(ply);
+}
+
+}  // namespace
+}  // namespace hyperex::tissue
