@@ -49,6 +49,8 @@ void run(const Options& options) {
       {"skin_peak.ply", "the skin at its peak"},
       {"motion.csv", "landmarks over time"},
       {"symmetry.csv", "S(t)"},
+      {"variants.png", "where and how far the variants differ"},
+      {"variants.csv", "the same as a table; each has its folder in variants/"},
       {"excursions.csv", "how far and how fast either side moves"},
       {"asymmetry.png", "the face against its reflection"},
       {"summary.json", "counts, times, options"}};

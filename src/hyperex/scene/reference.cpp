@@ -90,6 +90,24 @@ std::string default_of(const Key& key) {
   return code("[" + text + "]");
 }
 
+std::string variants_text() {
+  std::string may;
+  for (const std::string& section : variant_sections()) may += "`[" + section + "]`, ";
+  return fmt::format(
+      "\n## [[variant]]\n"
+      "The same face and motion once more with something changed, as often as wanted:\n"
+      "```toml\n[[variant]]\nname = \"stiffer\"               # also its folder under variants/\n"
+      "tissue = {{ young_kpa = 400 }}    # any key of {}or motion.gain\n```\n"
+      "A run simulates the scene itself and all variants on one mesh, at once, and compares each "
+      "with the scene itself: `variants.png` shows where and how far the skin differs (greatest "
+      "distance over time, mm), `variants.csv` has a row each: greatest displacement, greatest and "
+      "root mean square distance, mean change of the displacement's length at the peak (below 0: "
+      "moves less), share of the summed squared distance within 25 mm of the mouth's middle, lag "
+      "(ms) and hysteresis of a response point behind a driven one (docs/symmetry.md), and the "
+      "integral of |xi_L - xi_R| over time.\n",
+      may);
+}
+
 }  // namespace
 
 std::string reference_markdown() {
@@ -108,7 +126,7 @@ std::string reference_markdown() {
         page += row("... " + column.name, column, column.required ? "*required*" : "");
     }
   }
-  return page;
+  return page + variants_text();
 }
 
 }  // namespace hyperex::scene

@@ -235,9 +235,10 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
 Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
                     const tissue::TissueMesh& mesh, const fs::path& directory) {
   const ResponsePair pair = response_pair(base);
-  std::vector<VariantComparison> compared;
-  Progress progress("writing variants", long(runs.size()));
-  for (const VariantRun& run : runs) {
+  std::vector<VariantComparison> compared(runs.size());
+  Progress progress("writing variants", 0);
+  tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
+    const VariantRun& run = runs[i];
     const Results results{
         run.scene,
         run.inputs,
@@ -247,12 +248,11 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
         {},
         {},
         run.field ? &*run.field : nullptr};
-    compared.push_back(compare_variant(run.scene.title, base, results, pair));
+    compared[i] = compare_variant(run.scene.title, base, results, pair);
     const fs::path folder = directory / "variants" / run.scene.title;
     fs::create_directories(folder);
     write_outputs(results, folder);
-    progress.update(long(compared.size()));
-  }
+  });
   const VariantComparison own = compare_variant("base", base, base, pair);
   write_table(directory / "variants.csv", own, compared, pair);
   draw(base, compared, runs, directory / "variants.png");

@@ -149,6 +149,46 @@ TEST(ReadScene, Lists) {
   EXPECT_THAT(only_problem(base, {"output.contact_times_s=[0, nan]"}), HasSubstr("[1] = nan"));
 }
 
+TEST(ReadScene, VariantsAreTheSceneWithTheirChanges) {
+  const SceneFolder folder;
+  const Scene scene = read_scene(
+      folder.write("scene.toml", std::string(smallest) + "[tissue]\npoisson = 0.3\n"
+                                                         "[[variant]]\nname = \"stiff\"\n"
+                                                         "tissue = { young_kpa = 400 }\n"
+                                                         "[[variant]]\nname = \"more of it\"\n"
+                                                         "[variant.motion]\ngain = 2\n"));
+  ASSERT_EQ(scene.variants.size(), 2u);
+  EXPECT_EQ(scene.tissue.young_pa, 192400);
+  EXPECT_EQ(scene.variants[0].name, "stiff");
+  EXPECT_EQ(scene.variants[0].scene.tissue.young_pa, 400e3);
+  EXPECT_EQ(scene.variants[0].scene.tissue.poisson, 0.3);
+  EXPECT_EQ(scene.variants[0].scene.motion.gain, 1);
+  EXPECT_EQ(scene.variants[0].changes.dump(), "{\"tissue.young_kpa\":400}");
+  EXPECT_EQ(scene.variants[1].scene.motion.gain, 2);
+  EXPECT_EQ(scene.variants[1].scene.tissue.young_pa, 192400);
+  EXPECT_TRUE(scene.variants[1].scene.variants.empty());
+}
+
+TEST(ReadScene, VariantsThatCannotBe) {
+  const std::string base = std::string(smallest) + "[[variant]]\n";
+  EXPECT_THAT(only_problem(base + "name = \"a\"\n"),
+              HasSubstr("variant[0]: expected at least one key that it changes"));
+  EXPECT_THAT(only_problem(base + "tissue = { young_kpa = 4 }\n"),
+              HasSubstr("variant[0].name: expected a name of letters"));
+  EXPECT_THAT(only_problem(base + "name = \"../a\"\ntissue = { young_kpa = 4 }\n"),
+              HasSubstr("variant[0].name = \"../a\""));
+  EXPECT_THAT(only_problem(base + "name = \"a\"\ntissue = { young_kpa = -4 }\n"),
+              HasSubstr("variant[0].tissue.young_kpa = -4: expected a number above 0"));
+  EXPECT_THAT(
+      only_problem(base + "name = \"a\"\nmesh = { layers = 3 }\ntissue = { young_kpa = 4 }"),
+      HasSubstr("variant[0].mesh.layers = 3: expected a key of what may vary: [tissue]"));
+  EXPECT_THAT(only_problem(base + "name = \"a\"\ntissue = { yuong_kpa = 4 }\n"),
+              HasSubstr("did you mean tissue.young_kpa"));
+  const std::string one = "name = \"a\"\ntissue = { young_kpa = 4 }\n";
+  EXPECT_THAT(only_problem(base + one + "[[variant]]\n" + one),
+              HasSubstr("variant[1].name = \"a\": expected a name that no other variant has"));
+}
+
 TEST(ReadScene, KeysThatDependOnEachOther) {
   const std::string base = smallest;
   EXPECT_THAT(only_problem(base, {"region.measured=points"}),

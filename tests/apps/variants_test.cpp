@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Variants of a scene, end to end.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/program.hpp"
+#include "hyperex/core/files.hpp"
+
+namespace hyperex {
+namespace {
+
+class Variants : public ProgramTest {
+ protected:
+  void run(const std::string& out, const std::string& more) {
+    const Outcome outcome =
+        call("run '" HYPEREX_SOURCE_DIR "/examples/variants.toml' --out " + out +
+             " --set time.end_s=0.7 --set mesh.element_size_mm=5 --set output.vtu=false"
+             " --set output.glb=false --set output.report=false"
+             " --set 'output.contact_times_s=[0]' " +
+             more);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+};
+
+TEST_F(Variants, AreAsIfRunAlone) {
+  run("all", "");
+  run("alone", "--set tissue.young_kpa=1000");
+  // To the last byte: nothing of one run leaks into another.
+  EXPECT_EQ(read_file(in("all/variants/stiffer/skin_peak.ply")),
+            read_file(in("alone/skin_peak.ply")));
+  EXPECT_NE(read_file(in("all/skin_peak.ply")), read_file(in("alone/skin_peak.ply")));
+  EXPECT_TRUE(std::filesystem::exists(in("all/variants.png")));
+
+  const auto summary = nlohmann::json::parse(read_file(in("all/summary.json")));
+  const auto& table = summary["variants"]["table"];
+  ASSERT_EQ(table.size(), 5u);
+  EXPECT_EQ(table[0]["greatest_distance_mm"], 0);
+  EXPECT_TRUE(table[0]["share_within_25_mm_of_mouth"].is_null());
+  for (int i = 1; i < 5; ++i) EXPECT_GT(table[i]["greatest_distance_mm"], 0.01) << table[i];
+  EXPECT_EQ(table[1]["changes"]["tissue.young_kpa"], 1000);
+  // More viscous tissue trails: by milliseconds, against next to nothing.
+  EXPECT_GT(table[2]["lag_ms"].get<double>(), table[0]["lag_ms"].get<double>() + 3);
+  EXPECT_GT(table[2]["hysteresis"].get<double>(), table[0]["hysteresis"].get<double>());
+  // The one stiff cheek makes a symmetric motion asymmetric.
+  EXPECT_GT(table[4]["symmetry_integral_s"].get<double>(),
+            1.2 * table[0]["symmetry_integral_s"].get<double>());
+}
+
+}  // namespace
+}  // namespace hyperex
