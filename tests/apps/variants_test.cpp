@@ -6,6 +6,7 @@
 
 #include "apps/program.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/io/scan.hpp"
 
 namespace hyperex {
 namespace {
@@ -26,10 +27,13 @@ class Variants : public ProgramTest {
 TEST_F(Variants, AreAsIfRunAlone) {
   run("all", "");
   run("alone", "--set tissue.young_kpa=1000");
-  // To the last byte: nothing of one run leaks into another.
-  EXPECT_EQ(read_file(in("all/variants/stiffer/skin_peak.ply")),
-            read_file(in("alone/skin_peak.ply")));
-  EXPECT_NE(read_file(in("all/skin_peak.ply")), read_file(in("alone/skin_peak.ply")));
+  const auto peak_mm = [&](const std::string& folder) {
+    return io::read_ply_scalars(in(folder + "/skin_peak.ply")).at(0).values;
+  };
+  const Eigen::VectorXf alone = peak_mm("alone");
+  // Nothing of one run leaks into another; sums of parallel work differ in their last bits.
+  EXPECT_LT((peak_mm("all/variants/stiffer") - alone).cwiseAbs().maxCoeff(), 1e-3F);
+  EXPECT_GT((peak_mm("all") - alone).cwiseAbs().maxCoeff(), 0.1F);
   EXPECT_TRUE(std::filesystem::exists(in("all/variants.png")));
 
   const auto summary = nlohmann::json::parse(read_file(in("all/summary.json")));
