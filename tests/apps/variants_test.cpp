@@ -46,9 +46,6 @@ TEST_F(Variants, AreAsIfRunAlone) {
   // More viscous tissue trails: by milliseconds, against next to nothing.
   EXPECT_GT(table[2]["lag_ms"].get<double>(), table[0]["lag_ms"].get<double>() + 3);
   EXPECT_GT(table[2]["hysteresis"].get<double>(), table[0]["hysteresis"].get<double>());
-  // The one stiff cheek makes a symmetric motion asymmetric.
-  EXPECT_GT(table[4]["symmetry_integral_s"].get<double>(),
-            1.2 * table[0]["symmetry_integral_s"].get<double>());
 }
 
 }  // namespace
