@@ -3,6 +3,7 @@
 // Makers of table rows, one a kind of value. `at` gives the field of an options struct:
 // [](auto& o) -> auto& { return o.time.step_s; }
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,13 @@ std::vector<Complaint> check_places(const KeyInfo& info, const nlohmann::json& v
 std::vector<Complaint> check_rows(const KeyInfo& info, const nlohmann::json& value);
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 
+inline nlohmann::json json_from_si(const Unit& unit, double si) {
+  return unit.from_si(si);
+}
+inline nlohmann::json json_from_si(const Unit& unit, const std::optional<double>& si) {
+  return si ? nlohmann::json(unit.from_si(*si)) : nlohmann::json();
+}
+
 template <class Owner, class At>
 Field<Owner> number(std::string name, Unit unit, At at, Range range, std::string description) {
   Field<Owner> field{{.name = std::move(name),
@@ -43,7 +51,7 @@ Field<Owner> number(std::string name, Unit unit, At at, Range range, std::string
     if (complaints.empty()) at(owner) = unit.to_si(value.template get<double>());
     return complaints;
   };
-  field.get = [unit, at](const Owner& owner) -> nlohmann::json { return unit.from_si(at(owner)); };
+  field.get = [unit, at](const Owner& owner) { return json_from_si(unit, at(owner)); };
   return field;
 }
 
@@ -51,23 +59,9 @@ Field<Owner> number(std::string name, Unit unit, At at, Range range, std::string
 template <class Owner, class At>
 Field<Owner> maybe_number(std::string name, Unit unit, At at, Range range,
                           std::string description) {
-  Field<Owner> field{{.name = std::move(name),
-                      .kind = Kind::number,
-                      .unit = unit.name,
-                      .range = range,
-                      .description = std::move(description)}};
-  field.set = [info = KeyInfo(field), unit, at](Owner& owner, const nlohmann::json& value,
-                                                const std::filesystem::path&) {
-    auto complaints = check_number(info, value);
-    if (complaints.empty()) at(owner) = unit.to_si(value.template get<double>());
-    return complaints;
-  };
+  Field<Owner> field =
+      number<Owner>(std::move(name), std::move(unit), std::move(at), range, std::move(description));
   field.optional = true;
-  field.get = [unit, at](const Owner& owner) -> nlohmann::json {
-    const auto& value = at(owner);
-    if (!value) return nullptr;
-    return unit.from_si(*value);
-  };
   return field;
 }
 

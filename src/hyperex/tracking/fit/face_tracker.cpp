@@ -26,9 +26,8 @@ constexpr double kRegionMargin = 0.15;  // around the points, of their extent
 /// face: its measurements weigh as those of the canonical vertices in its place would together, and
 /// it may lie farther from its neighbours' mean (which grows with the square of their distance).
 TrackerOptions for_mesh_of(const FaceModel& model, TrackerOptions options) {
-  constexpr double kVertices = 468;
-  const double network = std::sqrt(double(model.pairs.size()) / kVertices);
-  const double surface = double(model.vertex_count()) / kVertices;
+  const double network = std::sqrt(double(model.pairs.size()) / face_point_count);
+  const double surface = double(model.vertex_count()) / face_point_count;
   for (FitOptions* fit : {&options.fit, &options.neutral.fit}) {
     fit->network_px *= network;
     fit->network_outline_px *= network;
