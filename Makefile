@@ -5,11 +5,11 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build asan bench clean setup
+.PHONY: help demo test build asan bench experiments clean setup
 
 help: ## this list
 	@echo "make TARGET, where TARGET is one of"
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  \1\t\2/p' Makefile | expand -t 12
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  \1\t\2/p' Makefile | expand -t 15
 
 demo: build ## re-enact a mouth opening on the face that comes with the program
 	$(PROGRAM) run examples/demo.toml --out out/demo
@@ -41,6 +41,10 @@ bench: ## measure everything, beside CalculiX, and write docs/performance.md (QU
 	cmake --build --preset release --parallel $(JOBS) --target \
 	  assembly_bench solver_bench reduced_bench growth_bench tracking_bench
 	bench/run.sh build/release $(if $(QUICK),--quick)
+
+experiments: build ## the source's three experiments, as reports and docs/experiments.md (subject A too where ../shared is)
+	cmake --build --preset release --parallel $(JOBS) --target experiments_study
+	bench/experiments/run.sh build/release
 
 setup: ## install what building takes (asks for sudo where you are not root)
 	scripts/setup.sh

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/render/canvas.hpp"
+
+namespace hyperex::bench {
+
+struct Curve {
+  std::string name;  ///< in the legend; empty: not there
+  std::vector<double> time_s, value;
+  render::Colour colour;
+};
+
+/// Curves over time on axes of their own.
+struct CurvePanel {
+  std::string title = {}, unit = {};  ///< two lines above
+  std::vector<Curve> curves = {};
+  render::Range range = {};       ///< of the values; what lies outside is not drawn
+  bool legend_on_top = false;     ///< left; else below, right
+  render::Range marked = {0, 0};  ///< a stretch of time that is shaded; none where empty
+};
+
+/// Panels in rows of `columns`, each with its axis of time.
+render::Image draw_curves(const std::vector<CurvePanel>& panels, int columns);
+
+/// Least and greatest value of all curves, a little wider.
+render::Range range_of(const std::vector<Curve>& curves);
+
+/// Of the n-th of some curves: told apart without colour vision (M. Okabe and K. Ito).
+render::Colour curve_colour(int n);
+
+}  // namespace hyperex::bench

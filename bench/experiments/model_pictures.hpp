@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "experiments/curves.hpp"
+#include "experiments/study.hpp"
+
+namespace hyperex::bench {
+
+/// The shapes of three models at the end, and the distance of the second and third from the first.
+void draw_model_maps(const Study& study,
+                     const std::array<const reenact::SimulationResult*, 3>& models,
+                     const std::filesystem::path& file);
+
+/// Two panels: S(t) on the source's axis, and what the tissue alone does to xi_L - xi_R.
+void add_model_panels(const std::string& face, const std::array<metrics::SymmetryCurve, 3>& curves,
+                      std::vector<CurvePanel>& panels);
+
+}  // namespace hyperex::bench

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "experiments/study.hpp"
+#include "hyperex/render/contact_sheet.hpp"
+#include "hyperex/render/render.hpp"
+
+namespace hyperex::bench {
+
+/// Pictures of one face, all at one scale: what is seen is the surroundings of its landmarks.
+class FacePictures {
+ public:
+  explicit FacePictures(const Study& study);
+
+  /// Surfaces in the scan's frame; scalars and colours as render::render takes them.
+  struct Layer {
+    TriMesh mesh;
+    Eigen::VectorXf scalar = {};
+    render::Range range = {};
+    render::Colour plain = render::palette::skin;
+  };
+  render::Image draw(const std::vector<Layer>& layers, const Vec3& view, int width_px = 300,
+                     int height_px = 380, const std::vector<render::Marker>& markers = {}) const;
+  /// A disc at a place of the scan's frame.
+  render::Marker marker(const Vec3& at, const render::Colour& colour) const;
+
+ private:
+  const tissue::FaceFrame& frame_;
+  Points framed_;
+  double widened_;
+};
+
+/// The skin of a performance moved by `displacement`.
+TriMesh moved_skin(const reenact::Performance& p, const PointsF& displacement);
+
+/// JPEG, for pictures of faces, which as PNG are several times as large.
+void write_jpeg(const std::filesystem::path& file, const render::Image& image);
+
+}  // namespace hyperex::bench

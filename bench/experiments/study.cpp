@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiments/study.hpp"
+
+#include "hyperex/core/progress.hpp"
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/metrics/midsagittal.hpp"
+#include "hyperex/scene/pipeline.hpp"
+
+namespace hyperex::bench {
+namespace {
+
+scene::Inputs read(const scene::Scene& scene) {
+  const Progress progress("reading scan and recording", 0);
+  return scene::read_inputs(scene);
+}
+
+}  // namespace
+
+Study::Study(const std::filesystem::path& scene, const std::vector<std::string>& overrides)
+    : scene_(scene::read_scene(scene, overrides)),
+      inputs_(read(scene_)),
+      mesh_(tissue::build_tissue_mesh(inputs_.scan.mesh, inputs_.landmarks,
+                                      scene::mesh_options(scene_), inputs_.scan.file.string())),
+      frame_(tissue::face_frame(inputs_.landmarks)),
+      fields_(inputs_, mesh_) {}
+
+std::string Study::name() const {
+  return embedded() ? "embedded face" : "subject A";
+}
+
+Tissue Study::tissue_of(const scene::Scene& scene) {
+  if (const auto field = fields_.of(scene)) return field->element;
+  const auto uniform = tissue::uniform_parameters(scene::tissue_field_options(scene));
+  Tissue tissue;
+  for (int p = 0; p < tissue::parameter_count; ++p)
+    tissue[p].assign(std::size_t(mesh_.volume.tets.rows()), uniform[p]);
+  return tissue;
+}
+
+reenact::SimulationResult Study::simulate(const Trial& trial) const {
+  return simulate(trial, inputs_.motion);
+}
+
+reenact::SimulationResult Study::simulate(const Trial& trial,
+                                          const reenact::AlignedMotion& motion) const {
+  // Differences of some hundredths of a millimetre are looked at: the reduced model must be nearer
+  // to the full one than a run that is looked at by eye.
+  constexpr double tolerance = 1e-4;
+  reenact::SimulationOptions options = scene::simulation_options(scene_, inputs_);
+  options.solver.element = trial.element;
+  options.solver.tolerance = tolerance;
+  options.tissue.viscous_form = trial.form;
+  options.tissue.element = trial.tissue;
+  return reenact::simulate(mesh_, inputs_.landmarks, motion, options);
+}
+
+metrics::SymmetryCurve Study::symmetry_of(const motion::Motion& landmarks) const {
+  return metrics::symmetry_of(landmarks, scene_.output.symmetry_floor, inputs_.jitter_m);
+}
+
+reenact::AlignedMotion Study::mirrored_motion() const {
+  const metrics::MidsagittalPlane plane =
+      metrics::midsagittal_plane(inputs_.scan.mesh, inputs_.landmarks);
+  reenact::AlignedMotion mirrored = inputs_.motion;
+  const motion::Motion& from = inputs_.motion.motion;
+  for (std::size_t p = 0; p < from.names.size(); ++p) {
+    const int other = from.index_of(face::mirrored_landmark(from.names[p]));
+    if (other < 0) continue;  // without a counterpart it moves as it did
+    for (std::size_t k = 0; k < from.positions.size(); ++k) {
+      const Vec3 moved = (from.positions[k].row(other) - from.positions[0].row(other)).transpose();
+      mirrored.motion.positions[k].row(Eigen::Index(p)) =
+          from.positions[0].row(Eigen::Index(p)) + plane.reflect_vector(moved).transpose();
+    }
+  }
+  return mirrored;
+}
+
+Points track_of(const motion::Motion& landmarks, const std::string& name) {
+  const int row = landmarks.index_of(name);
+  if (row < 0) throw std::invalid_argument("no landmark " + name);
+  Points track(Eigen::Index(landmarks.positions.size()), 3);
+  for (std::size_t k = 0; k < landmarks.positions.size(); ++k)
+    track.row(Eigen::Index(k)) = landmarks.positions[k].row(row);
+  return track;
+}
+
+Tissue times(Tissue tissue, tissue::Parameter parameter, double factor) {
+  for (double& value : tissue[parameter]) value *= factor;
+  return tissue;
+}
+
+Tissue at_once(Tissue tissue) {
+  constexpr double hardly_any = 0.01;
+  return times(times(std::move(tissue), tissue::viscosity, hardly_any), tissue::density,
+               hardly_any);
+}
+
+std::vector<std::string> undriven_landmarks(const Study& study, const reenact::Performance& p) {
+  constexpr double moves_m = 1e-3;
+  const double clear_m = 2 * study.scene().drive.patch_radius_m;
+  std::vector<std::string> names;
+  for (const std::string& name : p.landmarks.names) {
+    const Points track = track_of(p.landmarks, name);
+    bool kept = (track.rowwise() - track.row(0)).rowwise().norm().maxCoeff() > moves_m;
+    for (const auto at : p.driven_points_rest.rowwise())
+      kept = kept && (at - track.row(0)).norm() > clear_m;
+    if (kept) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace hyperex::bench

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hyperex/metrics/symmetry.hpp"
+#include "hyperex/scene/inputs.hpp"
+#include "hyperex/scene/tissue_fields.hpp"
+#include "hyperex/tissue/face_frame.hpp"
+
+namespace hyperex::bench {
+
+/// Parameters of the tissue, a value a tetrahedron, SI (tissue::Parameter).
+using Tissue = std::array<std::vector<double>, tissue::parameter_count>;
+
+/// One simulation of a study's face.
+struct Trial {
+  Tissue tissue;
+  fem::ElementKind element = fem::ElementKind::tet4_star;
+  fem::ViscousForm form = fem::ViscousForm::isotropic;
+};
+
+/// A scene read and meshed once, simulated as often as wanted with another tissue.
+class Study {
+ public:
+  /// `overrides` as for hyperex run --set.
+  explicit Study(const std::filesystem::path& scene,
+                 const std::vector<std::string>& overrides = {});
+  Study(const Study&) = delete;
+  Study& operator=(const Study&) = delete;
+
+  const scene::Scene& scene() const { return scene_; }
+  const scene::Inputs& inputs() const { return inputs_; }
+  const tissue::TissueMesh& mesh() const { return mesh_; }
+  const tissue::FaceFrame& frame() const { return frame_; }
+  bool embedded() const { return scene_.scan.source.embedded; }
+  /// "embedded face", "subject A"
+  std::string name() const;
+
+  /// Of the scene, or of one of its variants.
+  Tissue tissue_of(const scene::Scene& scene);
+  Trial own_trial() {
+    return {tissue_of(scene_), scene_.tissue.element, scene_.tissue.viscous_form};
+  }
+
+  reenact::SimulationResult simulate(const Trial& trial) const;
+  reenact::SimulationResult simulate(const Trial& trial,
+                                     const reenact::AlignedMotion& motion) const;
+  metrics::SymmetryCurve symmetry_of(const motion::Motion& landmarks) const;
+
+  /// The motion reflected in the face's midsagittal plane: each point moves as its counterpart on
+  /// the other side did, mirrored.
+  reenact::AlignedMotion mirrored_motion() const;
+
+ private:
+  scene::Scene scene_;
+  scene::Inputs inputs_;
+  tissue::TissueMesh mesh_;
+  tissue::FaceFrame frame_;
+  scene::TissueFields fields_;
+};
+
+/// Positions of a landmark over time, N x 3 (m); it must be there.
+Points track_of(const motion::Motion& landmarks, const std::string& name);
+
+/// The tissue with one parameter multiplied.
+Tissue times(Tissue tissue, tissue::Parameter parameter, double factor);
+
+/// A hundredth of the viscosity and of the density: what follows its input at once, to a hundredth
+/// of a lag. Without any viscosity it would ring at every jitter of a recording.
+Tissue at_once(Tissue tissue);
+
+/// Landmarks that move by more than a millimetre and lie farther than twice the radius of a driven
+/// patch from all driven points: what follows through the tissue alone.
+std::vector<std::string> undriven_landmarks(const Study& study, const reenact::Performance& p);
+
+}  // namespace hyperex::bench
