@@ -71,7 +71,7 @@ MeasuredWay way_of(const std::string& name, const Study& study, const Peak& peak
       metrics::distance_to_corresponding(own, second.truth.points, count);
   const Eigen::VectorXd moved = (own - rest).rowwise().norm();
   const Eigen::VectorXd truth = (second.truth.points.topRows(count) - rest).rowwise().norm();
-  MeasuredWay way{name, {}};
+  MeasuredWay way{name, 0, {}};
   for (const metrics::Region& part : parts_of_face(rest, study.inputs().landmarks)) {
     const auto over = std::count_if(part.vertices.begin(), part.vertices.end(),
                                     [&](int v) { return closest[v] > 0.010; });
@@ -80,6 +80,12 @@ MeasuredWay way_of(const std::string& name, const Study& study, const Peak& peak
                            metrics::statistics_of(closest, part.vertices),
                            metrics::statistics_of(corresponding, part.vertices),
                            double(over) / double(part.vertices.size())});
+    if (part.name != "whole face" || over == 0) continue;
+    const double chin = study.frame().local(study.inputs().landmarks.at(tissue::ibug(8))).y();
+    const auto below = std::count_if(part.vertices.begin(), part.vertices.end(), [&](int v) {
+      return closest[v] > 0.010 && study.frame().local(rest.row(v)).y() < chin;
+    });
+    way.over_below_chin = double(below) / double(over);
   }
   return way;
 }

@@ -20,6 +20,9 @@ struct MeasuredRegion {
 /// One way to drive the face.
 struct MeasuredWay {
   std::string name;
+  /// Of the face's vertices farther than 10 mm from the second scan, the share below the chin
+  /// point.
+  double over_below_chin = 0;
   std::vector<MeasuredRegion> regions;  ///< mouth, nose and cheeks, rest, whole face
 };
 

@@ -49,6 +49,7 @@ reenact::SimulationResult Study::simulate(const Trial& trial,
   reenact::SimulationOptions options = scene::simulation_options(scene_, inputs_);
   options.solver.element = trial.element;
   options.solver.tolerance = tolerance;
+  if (!trial.reduced) options.solver.method = reenact::SolverMethod::direct;
   options.tissue.viscous_form = trial.form;
   options.tissue.element = trial.tissue;
   return reenact::simulate(mesh_, inputs_.landmarks, motion, options);

@@ -20,6 +20,7 @@ struct Trial {
   Tissue tissue;
   fem::ElementKind element = fem::ElementKind::tet4_star;
   fem::ViscousForm form = fem::ViscousForm::isotropic;
+  bool reduced = true;  ///< false: all unknowns at every step
 };
 
 /// A scene read and meshed once, simulated as often as wanted with another tissue.
@@ -42,7 +43,7 @@ class Study {
   /// Of the scene, or of one of its variants.
   Tissue tissue_of(const scene::Scene& scene);
   Trial own_trial() {
-    return {tissue_of(scene_), scene_.tissue.element, scene_.tissue.viscous_form};
+    return {tissue_of(scene_), scene_.tissue.element, scene_.tissue.viscous_form, true};
   }
 
   reenact::SimulationResult simulate(const Trial& trial) const;

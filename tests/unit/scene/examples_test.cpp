@@ -10,6 +10,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/scene/pipeline.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::scene {
 namespace {
