@@ -64,10 +64,18 @@ void add_model_panels(const std::string& face, const std::array<metrics::Symmetr
                     .unit = "change of xi_L - xi_R against model 1, times 1000",
                     .legend_on_top = true,
                     .marked = window};
+  CurvePanel parted{.title = fmt::format("How far they part, {}", face),
+                    .unit = "S less that of model 1",
+                    .marked = window};
   const auto own = metrics::signed_difference(curves[0]);
   for (std::size_t m = 0; m < 3; ++m) {
     s.curves.push_back({names[m], curves[m].time_s, curves[m].s, curve_colour(int(m))});
-    std::vector<double> change = metrics::signed_difference(curves[m]);
+    std::vector<double> change = metrics::signed_difference(curves[m]), apart(own.size());
+    for (std::size_t k = 0; k < own.size(); ++k) {  // near zero S is decided by rounding
+      const bool clear = std::min(std::abs(own[k]), std::abs(change[k])) > 10 * curves[m].floor;
+      apart[k] = clear ? std::log(std::abs(change[k] / own[k])) : std::nan("");
+    }
+    parted.curves.push_back({"", curves[m].time_s, apart, curve_colour(int(m))});
     for (std::size_t k = 0; k < change.size(); ++k) change[k] = 1e3 * (change[k] - own[k]);
     tissue.curves.push_back({names[m], curves[m].time_s, change, curve_colour(int(m))});
   }
@@ -79,7 +87,9 @@ void add_model_panels(const std::string& face, const std::array<metrics::Symmetr
     s.curves.push_back(std::move(floor));
   }
   tissue.range = range_of(tissue.curves);
+  parted.range = range_of(parted.curves);
   panels.push_back(std::move(s));
+  panels.push_back(std::move(parted));
   panels.push_back(std::move(tissue));
 }
 

@@ -14,7 +14,8 @@ void draw_model_maps(const Study& study,
                      const std::array<const reenact::SimulationResult*, 3>& models,
                      const std::filesystem::path& file);
 
-/// Two panels: S(t) on the source's axis, and what the tissue alone does to xi_L - xi_R.
+/// Three panels: S(t), how far models 2 and 3 part from 1 in it, and what the tissue alone does to
+/// xi_L - xi_R.
 void add_model_panels(const std::string& face, const std::array<metrics::SymmetryCurve, 3>& curves,
                       std::vector<CurvePanel>& panels);
 

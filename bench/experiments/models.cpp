@@ -290,7 +290,7 @@ std::vector<ModelsFace> hyper_expression(const Setting& setting) {
   std::vector<CurvePanel> panels;
   std::vector<ModelsFace> faces;
   for (const bool subject_a : setting.faces()) faces.push_back(face_of(setting, subject_a, panels));
-  render::write_png(setting.pictures / "experiment_3_symmetry.png", draw_curves(panels, 2));
+  render::write_png(setting.pictures / "experiment_3_symmetry.png", draw_curves(panels, 3));
   return faces;
 }
 
