@@ -2,14 +2,12 @@
 #include "experiments/models.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 
 #include "experiments/curves.hpp"
 #include "experiments/model_pictures.hpp"
-#include "hyperex/core/progress.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/metrics/lag.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
@@ -64,13 +62,12 @@ std::vector<Condition> conditions_of(const std::array<Tissue, 3>& models,
 
 /// Fills the curves; returns the greatest estimated error of the reduced models.
 double simulate_all(const Study& study, std::vector<Condition>& conditions) {
-  std::vector<double> errors(3 * conditions.size());
-  Progress progress(fmt::format("experiment 3, {}: {} simulations", study.name(), errors.size()),
-                    0);
-  tbb::parallel_for(std::size_t(0), errors.size(), [&](std::size_t i) {
-    Condition& condition = conditions[i / 3];
-    const SimulationResult result = study.simulate(condition.trials[i % 3]);
-    condition.curves[i % 3] = study.symmetry_of(result.performance.landmarks);
+  std::vector<Trial> trials;
+  for (const Condition& condition : conditions)
+    trials.insert(trials.end(), condition.trials.begin(), condition.trials.end());
+  std::vector<double> errors(trials.size());
+  study.simulate_all(trials, [&](std::size_t i, const SimulationResult& result) {
+    conditions[i / 3].curves[i % 3] = study.symmetry_of(result.performance.landmarks);
     errors[i] = result.report.estimated_error;
   });
   return *std::max_element(errors.begin(), errors.end());
@@ -225,8 +222,8 @@ ModelsFace face_of(const Setting& setting, bool subject_a, std::vector<CurvePane
   for (const Condition& condition : conditions) face.rows.push_back(row_of(condition));
 
   std::array<SimulationResult, 3> runs;
-  tbb::parallel_for(std::size_t(0), std::size_t(3),
-                    [&](std::size_t m) { runs[m] = study.simulate(conditions[0].trials[m]); });
+  study.simulate_all({conditions[0].trials.begin(), conditions[0].trials.end()},
+                     [&](std::size_t m, SimulationResult run) { runs[m] = std::move(run); });
   const Performance& base = runs[0].performance;
   face.end_s = base.frame_time_s.back();
   face.estimated_error_mm =

@@ -199,7 +199,14 @@ std::string experiments_page(const Experiments& all, const PageHead& head) {
       "* **30 Hz input, steps of 1 or 2 ms**: a C2 spline through the recorded frames, at rest at "
       "both ends.\n"
       "* **Interpolation** of the named points: linear over triangles of points, as the source's "
-      "likely is; one row above has\n  the harmonic field ([tissue.md](tissue.md)).\n"
+      "likely is; with "
+      "the harmonic\n  field ([tissue.md](tissue.md)) the tissue changes xi_L - xi_R by less: " +
+      of_each(all.models,
+              [](const ModelsFace& f) {
+                return fmt::format("{:.0f} %",
+                                   100 * f.rows.back().tissue_2 / f.rows.front().tissue_2);
+              }) +
+      " of that.\n"
       "* **Element**: `tet4-star`, which does not lock at nu = 0.495; `tet4`, the source's, beside "
       "it ([elements.md](elements.md)).\n"
       "* **Viscous tensor**: Stokes' law; the printed one, which is not isotropic, beside it.\n"

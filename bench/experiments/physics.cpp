@@ -2,12 +2,10 @@
 #include "experiments/physics.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
 #include "experiments/pictures.hpp"
-#include "hyperex/core/progress.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/metrics/lag.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
@@ -17,15 +15,6 @@ namespace {
 
 using reenact::Performance;
 using reenact::SimulationResult;
-
-std::vector<SimulationResult> simulate_all(const Study& study, const std::vector<Trial>& trials) {
-  std::vector<SimulationResult> results(trials.size());
-  const Progress progress(fmt::format("experiment 2, {}: {} tissues", study.name(), trials.size()),
-                          0);
-  tbb::parallel_for(std::size_t(0), trials.size(),
-                    [&](std::size_t i) { results[i] = study.simulate(trials[i]); });
-  return results;
-}
 
 double largest_mm(const Performance& p) {
   float most = 0;
@@ -102,7 +91,9 @@ PhysicsFace face_of(const Setting& setting, bool subject_a, render::ContactSheet
   const double eta = own.tissue[tissue::viscosity].front();
   for (const double factor : {10.0, 100.0})
     trials.push_back({times(own.tissue, tissue::viscosity, factor), own.element, own.form});
-  const std::vector<SimulationResult> results = simulate_all(study, trials);
+  std::vector<SimulationResult> results(trials.size());
+  study.simulate_all(
+      trials, [&](std::size_t i, SimulationResult result) { results[i] = std::move(result); });
   const Performance& base = results[0].performance;
   const std::vector<std::string> landmarks = undriven_landmarks(study, base);
 

@@ -213,7 +213,16 @@ void add_maps(const std::vector<ModelsFace>& faces, std::vector<Point>& points) 
        "with the opening, not of a delay"});
 }
 
-void add_curves(const std::vector<ModelsFace>& faces, std::vector<Point>& points) {
+/// The longest time by which any landmark of experiment 2 trails its input or runs ahead, ms.
+double longest_lag_ms(const std::vector<PhysicsFace>& faces) {
+  double most = 0;
+  for (const PhysicsFace& f : faces)
+    most = std::max({most, std::abs(f.elements.front().lag_least_ms),
+                     std::abs(f.elements.front().lag_most_ms)});
+  return most;
+}
+
+void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector<Point>& points) {
   const bool axis =
       all_of(faces, [](const ModelsFace& f) { return f.s_least > -10 && f.s_most < -4; });
   points.push_back({"S(t) between -10 and -4",
@@ -233,7 +242,9 @@ void add_curves(const std::vector<ModelsFace>& faces, std::vector<Point>& points
                  return fmt::format("by {:.2f} at most (a factor of {:.2f})", f.rows[0].spread,
                                     std::exp(f.rows[0].spread));
                }),
-       "yes", "the sides differ by what the tissue adds to or takes from their own asymmetry"});
+       all_of(faces, [](const ModelsFace& f) { return f.rows[0].spread > 0.01; }) ? "yes"
+                                                                                  : "hardly",
+       "the sides differ by what the tissue adds to or takes from their own asymmetry"});
   const bool held = all_of(faces, [](const ModelsFace& f) { return in_window(f) > 1.25; });
   std::string why;
   for (const ModelsFace& f : faces) {
@@ -278,9 +289,11 @@ void add_curves(const std::vector<ModelsFace>& faces, std::vector<Point>& points
                      100 * by_young(f), 100 * by_eta(f), f.at_once_change);
                }),
        stiffness ? "no: stiffness parts the curves" : "in part",
-       "the response follows its input within a millisecond, so it is the ratio of stiffnesses "
-       "that "
-       "shows; the same with both viscous tensors and both elements (table below)"});
+       fmt::format(
+           "the response follows its input to within {:.1f} ms (experiment 2), so what shows is "
+           "the ratio of stiffnesses; for both viscous tensors and both elements see the table "
+           "below",
+           lag_ms)});
   points.push_back(
       {"tissue parameters could be estimated from S(t)",
        of_each(faces,
@@ -307,7 +320,7 @@ std::string point_by_point(const Experiments& all) {
     if (!face.ways.empty()) add_second_scan(face, first);
   add_physics(all.physics, second);
   add_maps(all.models, third);
-  add_curves(all.models, third);
+  add_curves(all.models, longest_lag_ms(all.physics), third);
   return "## Point by point\nIn brackets: what the source does not report, and one would ask.\n\n"
          "**Experiment 1, measured deformation**\n\n" +
          table(first) + "\n**Experiment 2, mouth opening by physics**\n\n" + table(second) +

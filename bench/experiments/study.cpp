@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments/study.hpp"
 
-#include "hyperex/core/progress.hpp"
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cstdio>
+
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/metrics/midsagittal.hpp"
 #include "hyperex/scene/pipeline.hpp"
 
 namespace hyperex::bench {
-namespace {
-
-scene::Inputs read(const scene::Scene& scene) {
-  const Progress progress("reading scan and recording", 0);
-  return scene::read_inputs(scene);
-}
-
-}  // namespace
 
 Study::Study(const std::filesystem::path& scene, const std::vector<std::string>& overrides)
     : scene_(scene::read_scene(scene, overrides)),
-      inputs_(read(scene_)),
+      inputs_(scene::read_inputs(scene_)),
       mesh_(tissue::build_tissue_mesh(inputs_.scan.mesh, inputs_.landmarks,
                                       scene::mesh_options(scene_), inputs_.scan.file.string())),
       frame_(tissue::face_frame(inputs_.landmarks)),
@@ -53,6 +50,17 @@ reenact::SimulationResult Study::simulate(const Trial& trial,
   options.tissue.viscous_form = trial.form;
   options.tissue.element = trial.tissue;
   return reenact::simulate(mesh_, inputs_.landmarks, motion, options);
+}
+
+void Study::simulate_all(
+    const std::vector<Trial>& trials,
+    const std::function<void(std::size_t, reenact::SimulationResult)>& take) const {
+  std::atomic<int> done = 0;
+  tbb::parallel_for(std::size_t(0), trials.size(), [&](std::size_t i) {
+    take(i, simulate(trials[i]));
+    if (const int now = ++done; now % 10 == 0 || now == int(trials.size()))
+      fmt::print(stderr, "  {}: {} of {} simulations\n", name(), now, trials.size());
+  });
 }
 
 metrics::SymmetryCurve Study::symmetry_of(const motion::Motion& landmarks) const {

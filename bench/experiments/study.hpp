@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ class Study {
   }
 
   reenact::SimulationResult simulate(const Trial& trial) const;
+  /// All of them at once, told of on standard error; `take` gets each result, from several threads.
+  void simulate_all(const std::vector<Trial>& trials,
+                    const std::function<void(std::size_t, reenact::SimulationResult)>& take) const;
   reenact::SimulationResult simulate(const Trial& trial,
                                      const reenact::AlignedMotion& motion) const;
   metrics::SymmetryCurve symmetry_of(const motion::Motion& landmarks) const;

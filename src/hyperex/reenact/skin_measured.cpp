@@ -35,6 +35,33 @@ std::vector<int> sides(const Points& places, const std::vector<double>& margin,
   return side;
 }
 
+/// Which lip each tracked point belongs to: by its name, or where the motion has a mesh of its own,
+/// whose vertices have numbers for names, by walking on that.
+std::vector<int> point_sides(const TriMesh& tracked, const std::vector<std::string>& names,
+                             const io::Landmarks& landmarks, const tissue::FaceFrame& frame,
+                             double reach) {
+  std::vector<int> row(names.size(), -1), used;  // of points that triangles hold
+  TriMesh mesh{{}, tracked.triangles};
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      int& at = row[std::size_t(mesh.triangles(f, k))];
+      if (at < 0) {
+        at = int(used.size());
+        used.push_back(mesh.triangles(f, k));
+      }
+      mesh.triangles(f, k) = at;
+    }
+  mesh.points = tracked.points(used, Eigen::all);
+  const std::vector<int> walked =
+      sides(mesh.points, tissue::upper_lip_margin(mesh, landmarks), frame, reach);
+  std::vector<int> side;
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    const int named = tissue::lip_of(names[p]);
+    side.push_back(named != 0 || row[p] < 0 ? named : walked[std::size_t(row[p])]);
+  }
+  return side;
+}
+
 }  // namespace
 
 MeasuredRegion measured_region(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
@@ -54,15 +81,18 @@ MeasuredRegion measured_region(const tissue::TissueMesh& mesh, const io::Landmar
   }
   const tissue::FaceFrame frame = tissue::face_frame(landmarks);
   TriMesh tracked{motion.rest, motion.motion.triangles};
-  if (tracked.triangles.rows() == 0)
-    tracked.triangles = triangulate_points(motion.motion.names, motion.rest, frame);
+  const bool own_mesh = tracked.triangles.rows() > 0;
+  if (!own_mesh) tracked.triangles = triangulate_points(motion.motion.names, motion.rest, frame);
   if (tracked.triangles.rows() == 0)
     throw InputError(motion.motion.source,
                      "has too few points to make triangles of; expected at "
                      "least three, not on one line, for a measured region");
-  std::vector<int> point_side;
-  for (const auto& name : motion.motion.names) point_side.push_back(tissue::lip_of(name));
   const double reach = 1.8 * (landmarks.at(tissue::ibug(54)) - frame.origin).norm();
+  std::vector<int> point_side;
+  if (own_mesh)
+    point_side = point_sides(tracked, motion.motion.names, landmarks, frame, reach);
+  else
+    for (const auto& name : motion.motion.names) point_side.push_back(tissue::lip_of(name));
   region.skin = match(mesh.skin.points, tracked,
                       sides(mesh.skin.points, mesh.skin_upper_margin, frame, reach), point_side);
   const Points& outer = mesh.volume.outer.points;

@@ -101,6 +101,34 @@ TEST_F(Region, TheMotionsOwnTrianglesAreUsed) {
     EXPECT_THAT(m.point, testing::ElementsAreArray(motion_.motion.triangles.row(0)));
 }
 
+TEST_F(Region, LipsOfAMeshWithoutNamesNeverCross) {
+  options_.measured = Measured::all;
+  const Points& skin = face_.mesh.skin.points;
+  // The skin itself, tracked with its lips a little too high: the nearest point of an upper lip's
+  // vertex is then one of the lower lip.
+  motion_.motion.names.clear();
+  for (Eigen::Index v = 0; v < skin.rows(); ++v)
+    motion_.motion.names.push_back("vertex_" + std::to_string(v));
+  motion_.motion.triangles = face_.mesh.skin.triangles;
+  motion_.rest = skin.rowwise() + Eigen::RowVector3d(0, 0.004, 0);
+  const MeasuredRegion r = region();
+  int lips = 0;
+  for (std::size_t v = 0; v < r.skin.size(); ++v) {
+    const double margin = face_.mesh.skin_upper_margin[v];
+    bool near = false;
+    for (int k = 48; k < 68; ++k)
+      near |= (skin.row(Eigen::Index(v)).transpose() - face_.landmarks.at(ibug(k))).norm() < 0.008;
+    if (!near || std::abs(margin) < 0.005) continue;
+    ++lips;
+    for (int k = 0; k < 3; ++k)
+      if (r.skin[v].weight[k] > 0.01) {
+        const double other = face_.mesh.skin_upper_margin[std::size_t(r.skin[v].point[k])];
+        EXPECT_FALSE(std::abs(other) > 0.005 && other * margin < 0) << v;
+      }
+  }
+  EXPECT_GT(lips, 20);
+}
+
 TEST_F(Region, RefusesUnknownNamesAndTooFewPoints) {
   options_.measured = Measured::points;
   options_.points = {"nobody"};
