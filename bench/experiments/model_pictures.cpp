@@ -47,8 +47,8 @@ void draw_model_maps(const Study& study,
          fmt::format("model {}", m + 1)});
   for (std::size_t m = 1; m < 3; ++m)
     sheet.pictures.push_back(
-        {pictures.draw({{.mesh = rest, .scalar = apart_mm[m], .range = {0, top}}},
-                       render::front_view(), width, height, {marker}),
+        {pictures.draw_mouth({{.mesh = rest, .scalar = apart_mm[m], .range = {0, top}}}, width,
+                             height, {marker}),
          fmt::format("models 1 and {}, on the face at rest", m + 1)});
   write_jpeg(file, render::contact_sheet(sheet));
 }

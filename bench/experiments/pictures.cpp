@@ -20,6 +20,23 @@ FacePictures::FacePictures(const Study& study) : frame_(study.frame()) {
 
 render::Image FacePictures::draw(const std::vector<Layer>& layers, const Vec3& view, int width_px,
                                  int height_px, const std::vector<render::Marker>& markers) const {
+  render::Camera camera = render::framing(framed_, view, double(width_px) / height_px);
+  camera.height_m *= widened_;
+  return draw(layers, camera, width_px, height_px, markers);
+}
+
+render::Image FacePictures::draw_mouth(const std::vector<Layer>& layers, int width_px,
+                                       int height_px,
+                                       const std::vector<render::Marker>& markers) const {
+  // The frame's origin lies between the corners of the mouth.
+  const render::Camera camera{
+      .target = {0, 0.018, 0}, .to_viewer = render::front_view(), .height_m = 0.11};
+  return draw(layers, camera, width_px, height_px, markers);
+}
+
+render::Image FacePictures::draw(const std::vector<Layer>& layers, const render::Camera& camera,
+                                 int width_px, int height_px,
+                                 const std::vector<render::Marker>& markers) const {
   std::vector<TriMesh> meshes;
   for (const Layer& layer : layers) {
     Points points = layer.mesh.points;
@@ -33,8 +50,6 @@ render::Image FacePictures::draw(const std::vector<Layer>& layers, const Vec3& v
                         .scalar = layers[i].scalar,
                         .range = layers[i].range,
                         .plain = layers[i].plain});
-  render::Camera camera = render::framing(framed_, view, double(width_px) / height_px);
-  camera.height_m *= widened_;
   return render::render(surfaces, camera, {.width_px = width_px, .height_px = height_px}, markers);
 }
 

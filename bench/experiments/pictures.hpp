@@ -23,10 +23,16 @@ class FacePictures {
   };
   render::Image draw(const std::vector<Layer>& layers, const Vec3& view, int width_px = 300,
                      int height_px = 380, const std::vector<render::Marker>& markers = {}) const;
+  /// The mouth and the nose alone, from in front.
+  render::Image draw_mouth(const std::vector<Layer>& layers, int width_px, int height_px,
+                           const std::vector<render::Marker>& markers) const;
   /// A disc at a place of the scan's frame.
   render::Marker marker(const Vec3& at, const render::Colour& colour) const;
 
  private:
+  render::Image draw(const std::vector<Layer>& layers, const render::Camera& camera, int width_px,
+                     int height_px, const std::vector<render::Marker>& markers) const;
+
   const tissue::FaceFrame& frame_;
   Points framed_;
   double widened_;

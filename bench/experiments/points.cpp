@@ -27,6 +27,15 @@ bool all_of(const Faces& faces, const Test& test) {
   return std::all_of(faces.begin(), faces.end(), test);
 }
 
+/// One word for all faces, or one each.
+template <class Faces, class Test>
+std::string verdict(const Faces& faces, const Test& test, const std::string& yes,
+                    const std::string& no) {
+  if (all_of(faces, test)) return yes;
+  if (std::none_of(faces.begin(), faces.end(), test)) return no;
+  return of_each(faces, [&](const auto& face) { return test(face) ? yes : no; });
+}
+
 const MeasuredRegion& part_of(const MeasuredWay& way, const std::string& name) {
   return *std::find_if(way.regions.begin(), way.regions.end(),
                        [&](const MeasuredRegion& r) { return r.name == name; });
@@ -94,7 +103,8 @@ void add_second_scan(const MeasuredFace& face, std::vector<Point>& points) {
            ? "points between the lips are matched to the other lip and stretch across the mouth "
              "as it opens; where a driven boundary and physics take the place of the matching "
              "they do not"
-           : "lips are told apart by walking on the skin"});
+           : "lips are told apart by walking on the skin and on the tracked mesh, not by what is "
+             "nearest"});
 }
 
 void add_physics(const std::vector<PhysicsFace>& faces, std::vector<Point>& points) {
@@ -194,8 +204,6 @@ void add_maps(const std::vector<ModelsFace>& faces, std::vector<Point>& points) 
   const bool less = all_of(faces, [](const ModelsFace& f) {
     return f.pairs[0].change_mm < 0 && f.pairs[1].change_mm > 0;
   });
-  const bool later = all_of(
-      faces, [](const ModelsFace& f) { return f.pairs[0].lag_ms > 0 && f.pairs[1].lag_ms < 0; });
   points.push_back(
       {"(the stiffer side moves less, or later)",
        of_each(faces,
@@ -206,8 +214,12 @@ void add_maps(const std::vector<ModelsFace>& faces, std::vector<Point>& points) 
                      f.pairs[0].change_mm, f.pairs[1].change_mm, f.pairs[0].moved_mm,
                      f.pairs[0].lag_ms, f.pairs[1].lag_ms);
                }),
-       fmt::format("{}; {}", less ? "less: yes" : "less: not everywhere",
-                   later ? "later: by under a millisecond" : "later: not on both faces"),
+       fmt::format(
+           "{}; {}", less ? "less: yes" : "less: not everywhere",
+           verdict(
+               faces,
+               [](const ModelsFace& f) { return f.pairs[0].lag_ms > 0 && f.pairs[1].lag_ms < 0; },
+               "later: by milliseconds at most", "not later")),
        "stiff tissue is stretched less by the driven lip; times are those of the shape, which "
        "changes "
        "with the opening, not of a delay"});
@@ -223,15 +235,14 @@ double longest_lag_ms(const std::vector<PhysicsFace>& faces) {
 }
 
 void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector<Point>& points) {
-  const bool axis =
-      all_of(faces, [](const ModelsFace& f) { return f.s_least > -10 && f.s_most < -4; });
+  const auto on_axis = [](const ModelsFace& f) { return f.s_least > -10 && f.s_most < -4; };
   points.push_back({"S(t) between -10 and -4",
                     of_each(faces,
                             [](const ModelsFace& f) {
                               return fmt::format("{:.1f} to {:.1f} from 0.1 s on", f.s_least,
                                                  f.s_most);
                             }),
-                    axis ? "yes" : "on some faces",
+                    verdict(faces, on_axis, "yes", "no, higher"),
                     "where S lies is the asymmetry of the face and its motion, not of the tissue: "
                     "see D_1 below; a "
                     "tracked person's lies higher, at the noise floor of the tracking"});
@@ -245,12 +256,12 @@ void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector
        all_of(faces, [](const ModelsFace& f) { return f.rows[0].spread > 0.01; }) ? "yes"
                                                                                   : "hardly",
        "the sides differ by what the tissue adds to or takes from their own asymmetry"});
-  const bool held = all_of(faces, [](const ModelsFace& f) { return in_window(f) > 1.25; });
+  const auto held = [](const ModelsFace& f) { return in_window(f) > 1.25; };
   std::string why;
   for (const ModelsFace& f : faces) {
     if (!why.empty()) why += "; ";
     why += f.name;
-    why += in_window(f) <= 1.25
+    why += !held(f)
                ? " all along alike: D grows in proportion, and a ratio is the same at any opening"
            : std::abs(f.rows[0].spread_at_s - f.own_least_s) < 0.015
                ? fmt::format(
@@ -264,13 +275,14 @@ void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector
        of_each(faces,
                [](const ModelsFace& f) {
                  return fmt::format(
-                     "most at {:.2f} s; in that window, {:.0f} % of the time, {:.0f} % of "
-                     "the spread; the size of D_2 - D_3 itself is greatest at {:.2f} s",
-                     f.rows[0].spread_at_s,
+                     "most at {:.2f} s (with E alone at {:.2f} s); in that window, {:.0f} % of the "
+                     "time, {:.0f} % of the spread; the size of D_2 - D_3 itself is greatest at "
+                     "{:.2f} s",
+                     f.rows[0].spread_at_s, row_of(f, "E alone differs").spread_at_s,
                      100 * (kSourceWindow_s[1] - kSourceWindow_s[0]) / f.end_s,
                      100 * f.rows[0].share_in_window, f.parted_most_s);
                }),
-       held ? "yes" : "not on all faces", why});
+       verdict(faces, held, "yes", "no, all along"), why});
   const auto by_eta = [](const ModelsFace& f) {
     return std::abs(row_of(f, "eta alone differs").tissue_2 / f.rows[0].tissue_2);
   };
