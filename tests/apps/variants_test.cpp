@@ -35,13 +35,14 @@ TEST_F(Variants, AreAsIfRunAlone) {
   EXPECT_LT((peak_mm("all/variants/stiffer") - alone).cwiseAbs().maxCoeff(), 1e-3F);
   EXPECT_GT((peak_mm("all") - alone).cwiseAbs().maxCoeff(), 0.1F);
   EXPECT_TRUE(std::filesystem::exists(in("all/variants.png")));
+  EXPECT_TRUE(std::filesystem::exists(in("all/variants_symmetry.png")));
 
   const auto summary = nlohmann::json::parse(read_file(in("all/summary.json")));
   const auto& table = summary["variants"]["table"];
-  ASSERT_EQ(table.size(), 5u);
+  ASSERT_EQ(table.size(), 6u);
   EXPECT_EQ(table[0]["greatest_distance_mm"], 0);
   EXPECT_TRUE(table[0]["share_within_25_mm_of_mouth"].is_null());
-  for (int i = 1; i < 5; ++i) EXPECT_GT(table[i]["greatest_distance_mm"], 0.01) << table[i];
+  for (int i = 1; i < 6; ++i) EXPECT_GT(table[i]["greatest_distance_mm"], 0.01) << table[i];
   EXPECT_EQ(table[1]["changes"]["tissue.young_kpa"], 1000);
   // More viscous tissue trails: by milliseconds, against next to nothing.
   EXPECT_GT(table[2]["lag_ms"].get<double>(), table[0]["lag_ms"].get<double>() + 3);

@@ -112,9 +112,13 @@ struct Still {
 /// The shapes wanted, each with the time that it shows: what is wanted after the end of the run is
 /// the shape at its end, and stands there once.
 std::vector<Still> stills_of(const Results& r) {
+  std::vector<Still> stills;
+  const Performance& p = r.simulation.performance;
+  if (r.scene.output.contact_times_s.empty())
+    for (const std::size_t f : spread_frames(p.frame_time_s.size(), std::size_t(p.peak_frame)))
+      stills.push_back({p.frame_time_s[f], &p.skin_displacement_m[f]});
   const std::vector<double> shown =
       shown_times_s(r.scene.output.contact_times_s, run_end_s(r.scene, r.inputs));
-  std::vector<Still> stills;
   for (std::size_t s = 0; s < shown.size(); ++s)
     stills.push_back({shown[s], &r.simulation.still_displacement_m[s]});
   return stills;
@@ -168,6 +172,21 @@ std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double en
     if (shown.empty() || at > shown.back()) shown.push_back(at);
   }
   return shown;
+}
+
+std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak) {
+  constexpr std::size_t most = 5;
+  const std::size_t wanted = std::min(most, count);
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i < wanted; ++i)
+    frames.push_back(wanted > 1 ? (i * (count - 1) + (wanted - 1) / 2) / (wanted - 1) : 0);
+  if (wanted < 3 || peak == 0 || peak + 1 >= count) return frames;
+  // Ends stay: the face at rest and what is left at the end are worth a picture.
+  *std::min_element(frames.begin() + 1, frames.end() - 1, [&](std::size_t a, std::size_t b) {
+    const auto off = [&](std::size_t f) { return f > peak ? f - peak : peak - f; };
+    return off(a) < off(b);
+  }) = peak;
+  return frames;
 }
 
 metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,

@@ -33,6 +33,10 @@ double run_end_s(const Scene& scene, const Inputs& inputs);
 /// later shows the end, which stands there once.
 std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double end_s);
 
+/// At most five of `count` frames, rising: spread over all, first and last among them, the one that
+/// comes nearest to the peak moved onto it.
+std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak);
+
 /// S(t), excursions and the asymmetry map of a simulated face, to the jitter of its input.
 metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
                                             const tissue::TissueMesh& mesh,

@@ -51,7 +51,7 @@ ResponsePair response_pair(const Results& base);
 VariantComparison compare_variant(const std::string& name, const Results& base, const Results& run,
                                   const ResponsePair& pair);
 
-/// Writes variants.csv, variants.png (where and how far each differs) and a folder a variant under
+/// Writes variants.csv, the pictures of variants_picture.hpp and a folder a variant under
 /// variants/, and returns what summary.json says of them.
 nlohmann::ordered_json write_variants(const Results& base, const std::vector<VariantRun>& runs,
                                       const tissue::TissueMesh& mesh,
