@@ -189,17 +189,21 @@ std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak) {
   return frames;
 }
 
-metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
-                                            const tissue::TissueMesh& mesh,
-                                            const reenact::Performance& p) {
+metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inputs& inputs) {
   constexpr double lip_margin_m = 0.002;  // nearer to both lips, a vertex is of neither
   std::vector<int> side;
   for (const double m : mesh.skin_upper_margin)
     side.push_back(m > lip_margin_m ? 1 : m < -lip_margin_m ? -1 : 0);
+  return metrics::rest_asymmetry(mesh.skin, inputs.landmarks, side);
+}
+
+metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
+                                            const metrics::RestAsymmetry& at_rest,
+                                            const reenact::Performance& p) {
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, inputs.jitter_m);
   all.excursions = metrics::excursions_of(p.landmarks, inputs.jitter_m);
-  all.map = metrics::asymmetry_of(p.skin_rest, p.skin_displacement_m, inputs.landmarks, side);
+  all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m);
   return all;
 }
 

@@ -218,14 +218,15 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
-  Results results{scene,
-                  inputs,
-                  mesh,
-                  simulation,
-                  symmetry_measures(scene, inputs, mesh, simulation.performance),
-                  all_notes(inputs, mesh, simulation.report),
-                  {},
-                  field ? &*field : nullptr};
+  Results results{
+      scene,
+      inputs,
+      mesh,
+      simulation,
+      symmetry_measures(scene, inputs, rest_asymmetry(mesh, inputs), simulation.performance),
+      all_notes(inputs, mesh, simulation.report),
+      {},
+      field ? &*field : nullptr};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty())
@@ -240,7 +241,8 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
                        [&] {
                          if (scene.variants.empty()) return;
                          Stopwatch own;
-                         variants = run_variants(scene, inputs, mesh, fields);
+                         variants =
+                             run_variants(scene, inputs, mesh, fields, *results.symmetry.map);
                          seconds["variants"] = own.lap();
                          summary["variants"] = write_variants(results, variants, mesh, directory);
                        });

@@ -108,7 +108,8 @@ Json json_of(const VariantComparison& c) {
 }  // namespace
 
 std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
-                                     const tissue::TissueMesh& mesh, TissueFields& fields) {
+                                     const tissue::TissueMesh& mesh, TissueFields& fields,
+                                     const metrics::RestAsymmetry& at_rest) {
   std::vector<VariantRun> runs;
   for (const Variant& variant : scene.variants) {
     VariantRun run;
@@ -129,7 +130,7 @@ std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
       reenact::SimulationOptions options = simulation_options(run.scene, run.inputs);
       if (run.field) options.tissue.element = run.field->element;
       run.simulation = reenact::simulate(mesh, run.inputs.landmarks, run.inputs.motion, options);
-      run.symmetry = symmetry_measures(run.scene, run.inputs, mesh, run.simulation.performance);
+      run.symmetry = symmetry_measures(run.scene, run.inputs, at_rest, run.simulation.performance);
     } catch (const NumericalError& error) {
       throw NumericalError(fmt::format("variant {}: {}", run.scene.title, error.what()));
     }

@@ -25,7 +25,8 @@ struct VariantRun {
 /// scene's own. Throws InputError naming the variant for a point that does not exist, and
 /// NumericalError where a variant cannot be solved.
 std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
-                                     const tissue::TissueMesh& mesh, TissueFields& fields);
+                                     const tissue::TissueMesh& mesh, TissueFields& fields,
+                                     const metrics::RestAsymmetry& at_rest);
 
 /// A run against the scene's own.
 struct VariantComparison {
