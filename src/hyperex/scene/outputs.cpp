@@ -200,9 +200,10 @@ metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inpu
 metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
                                             const metrics::RestAsymmetry& at_rest,
                                             const reenact::Performance& p) {
+  const double jitter_m = inputs.jitter_m * scene.motion.gain;
   metrics::SymmetryMeasures all;
-  all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, inputs.jitter_m);
-  all.excursions = metrics::excursions_of(p.landmarks, inputs.jitter_m);
+  all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
+  all.excursions = metrics::excursions_of(p.landmarks, jitter_m);
   all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m);
   return all;
 }

@@ -167,7 +167,15 @@ tissue::TissueMeshOptions mesh_options(const Scene& scene) {
 }
 
 std::vector<std::string> check_scene(const Scene& scene) {
-  return read_inputs(scene, Look::quick).notes;
+  std::vector<std::string> notes = read_inputs(scene, Look::quick).notes;
+  const auto has_regions = [](const Scene& s) { return !s.tissue.regions.empty(); };
+  if (has_regions(scene) ||
+      std::any_of(scene.variants.begin(), scene.variants.end(),
+                  [&](const Variant& variant) { return has_regions(variant.scene); }))
+    notes.push_back(
+        "not checked: whether the regions of the tissue lie on this scan and which values their "
+        "factors lead to");
+  return notes;
 }
 
 namespace {
@@ -208,6 +216,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   TissueFields fields(inputs, mesh);
   const std::optional<tissue::TissueField> field = fields.of(scene);
   if (field) options.tissue.element = field->element;
+  std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
   const auto simulation = reenact::simulate(mesh, inputs.landmarks, inputs.motion, options);
@@ -236,13 +245,11 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Json summary = summary_of(results);
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.
-  std::vector<VariantRun> variants;
   tbb::parallel_invoke([&] { write_outputs(results, directory); },
                        [&] {
-                         if (scene.variants.empty()) return;
+                         if (variants.empty()) return;
                          Stopwatch own;
-                         variants =
-                             run_variants(scene, inputs, mesh, fields, *results.symmetry.map);
+                         simulate_variants(variants, mesh, *results.symmetry.map);
                          seconds["variants"] = own.lap();
                          summary["variants"] = write_variants(results, variants, mesh, directory);
                        });

@@ -107,9 +107,8 @@ Json json_of(const VariantComparison& c) {
 
 }  // namespace
 
-std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
-                                     const tissue::TissueMesh& mesh, TissueFields& fields,
-                                     const metrics::RestAsymmetry& at_rest) {
+std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& inputs,
+                                         TissueFields& fields) {
   std::vector<VariantRun> runs;
   for (const Variant& variant : scene.variants) {
     VariantRun run;
@@ -117,10 +116,14 @@ std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
     run.scene.title = variant.name;
     run.scene.output.vtu = run.scene.output.glb = run.scene.output.report = false;
     run.inputs = inputs_of_variant(variant.scene, inputs);
-    run.field = fields.of(variant.scene);
+    run.field = fields.of(variant.scene, fmt::format("variant[{}].", runs.size()));
     runs.push_back(std::move(run));
   }
-  if (runs.empty()) return runs;
+  return runs;
+}
+
+void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& mesh,
+                       const metrics::RestAsymmetry& at_rest) {
   Progress progress("simulating variants", static_cast<long>(runs.size()));
   std::mutex telling;
   long done = 0;
@@ -137,7 +140,6 @@ std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
     const std::lock_guard lock(telling);
     progress.update(++done);
   });
-  return runs;
 }
 
 ResponsePair response_pair(const Results& base) {
