@@ -4,6 +4,7 @@ import './style.css';
 import { drawColourBar, niceCeiling } from './colour';
 import { readReplay, type Replay } from './data';
 import { frameAt } from './deform';
+import { defineFaceColours } from './face_colour';
 import { number } from './format';
 import { Playback } from './playback';
 import { Plots } from './plots';
@@ -114,6 +115,7 @@ function wireTransport(replay: Replay, playback: Playback): () => void {
 
 function start(): void {
   const replay = readReplay();
+  defineFaceColours();
   fillPage(replay);
   const { timeS } = replay;
   const playback = new Playback(timeS[0] ?? 0, timeS[timeS.length - 1] ?? 0);
