@@ -19,16 +19,17 @@ export function drawColourBar(figure: HTMLElement, { scale }: Colouring): void {
   ticks.className = 'ticks';
   const values = ticksOf(scale);
   ticks.append(
-    ...values.map((value) => {
-      const text = document.createElement('span');
-      text.textContent = value;
-      return text;
+    ...values.map(({ text, share }) => {
+      const tick = document.createElement('span');
+      tick.textContent = text;
+      tick.style.left = `${100 * share}%`;
+      return tick;
     }),
   );
   const scaled = document.createElement('div');
   scaled.className = 'scaled';
   scaled.setAttribute('role', 'img');
-  scaled.setAttribute('aria-label', `Colours from ${values[0]} to ${values.at(-1)} ${scale.unit}`);
+  scaled.setAttribute('aria-label', `Colours from ${values[0].text} to ${values.at(-1)!.text} ${scale.unit}`);
   scaled.append(bar, ticks);
   figure.replaceChildren(caption, scaled);
 }

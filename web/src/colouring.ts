@@ -21,8 +21,6 @@ export interface Colouring {
   label: string;
   /** Null where the face has its own colours. */
   scale: Scale | null;
-  /** Whether it changes from frame to frame. */
-  moves: boolean;
   /** Writes a number from 0 (least) to 1 (greatest) a vertex; may leave that range. */
   fill(shape: FaceShape, out: Float32Array): void;
   /** A word on what a face shows, where the colours alone would not say. */
@@ -37,7 +35,6 @@ function displacement(replay: Replay): Colouring {
     key: 'displacement',
     label: 'Displacement',
     scale: { ramp: 'viridis', title: 'Displacement from rest', unit: 'mm', least: 0, greatest },
-    moves: true,
     fill(shape, out) {
       const d = shape.displacement;
       const factor = 1e3 / greatest;
@@ -54,7 +51,6 @@ function difference(replay: Replay): Colouring {
     key: 'difference',
     label: 'Difference',
     scale: { ramp: 'embers', title: 'Distance from the scene itself', unit: 'mm', least: 0, greatest },
-    moves: true,
     fill(shape, out) {
       if (!shape.face.difference) {
         out.fill(0);
@@ -70,7 +66,7 @@ function difference(replay: Replay): Colouring {
         out[i] = factor * Math.sqrt(x * x + y * y + z * z);
       }
     },
-    note: (face) => (face.difference ? '' : 'The scene itself is what all are compared with: 0 mm everywhere.'),
+    note: (face) => (face.difference ? '' : 'what the others are compared with: 0 mm everywhere'),
   };
 }
 
@@ -81,7 +77,6 @@ function tissue(replay: Replay, key: string): Colouring {
     key: `tissue:${key}`,
     label: name,
     scale: { ramp: 'sea', title: name, unit, least, greatest },
-    moves: false,
     fill(shape, out) {
       const bytes = bytesOf(shape.face);
       if (!bytes) out.fill(0);
@@ -91,32 +86,35 @@ function tissue(replay: Replay, key: string): Colouring {
       const bytes = bytesOf(face);
       if (!bytes || !bytes.every((b) => b === bytes[0])) return '';
       const value = least + (bytes[0] / 255) * (greatest - least);
-      return `${number(Number(value.toPrecision(3)))} ${unit} all over the face.`;
+      return `${number(Number(value.toPrecision(3)))} ${unit} everywhere`;
     },
   };
 }
 
-function skin(replay: Replay): Colouring {
-  const own = replay.texture || replay.colour;
-  return {
-    key: 'skin',
-    label: 'Skin',
-    scale: null,
-    moves: false,
-    fill: (_shape, out) => void out.fill(0),
-    note: () => (own ? "The scan's own colours." : 'One colour of skin: the scan has none of its own.'),
-  };
-}
+const skin: Colouring = {
+  key: 'skin',
+  label: 'Skin',
+  scale: null,
+  fill: (_shape, out) => void out.fill(0),
+  note: without,
+};
 
 export function colouringsOf(replay: Replay): Colouring[] {
   return [
     displacement(replay),
     ...(replay.faces.length > 1 ? [difference(replay)] : []),
     ...replay.faces[0].tissue.map((map) => tissue(replay, map.key)),
-    skin(replay),
+    skin,
   ];
 }
 
-/** Five values from least to greatest, as the bar names them. */
-export const ticksOf = ({ least, greatest }: Scale): string[] =>
-  [0, 0.25, 0.5, 0.75, 1].map((share) => number(Number((least + share * (greatest - least)).toPrecision(3))));
+/** Places along the bar, 0 to 1, and their values: round ones where few even steps make them. */
+export function ticksOf({ least, greatest }: Scale): { share: number; text: string }[] {
+  const range = greatest - least;
+  const round = (step: number) => [1, 2, 5].includes(Number(step.toExponential(6).split('e')[0]));
+  const count = [5, 4, 6, 3].find((n) => round(range / n)) ?? 4;
+  return Array.from({ length: count + 1 }, (_, i) => {
+    const share = i / count;
+    return { share, text: number(Number((least + share * range).toPrecision(3))) };
+  });
+}

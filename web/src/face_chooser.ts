@@ -13,7 +13,7 @@ const swatch = (i: number): HTMLElement => {
   return dot;
 };
 
-function chipsOf(replay: Replay, group: HTMLElement, choose: (face: number) => void): HTMLButtonElement[] {
+function fillChips(replay: Replay, group: HTMLElement, choose: (face: number) => void): HTMLButtonElement[] {
   return replay.faces.map((face, i) => {
     const chip = document.createElement('button');
     chip.type = 'button';
@@ -28,38 +28,76 @@ function chipsOf(replay: Replay, group: HTMLElement, choose: (face: number) => v
   });
 }
 
-/** Fills a label over the picture: the face's name, and what differs in it. */
-function fillLabel(label: HTMLElement, face: Face, i: number): void {
-  const name = document.createElement('b');
-  name.append(swatch(i), faceTitle(face));
-  const changes = document.createElement('span');
-  changes.textContent = face.changes.join(', ');
-  label.replaceChildren(name, ...(face.changes.length > 0 ? [changes] : []));
+/** A label over the picture: the face's name, from which another is chosen, and what there is to say of it. */
+class FaceLabel {
+  private readonly dot = swatch(0);
+  private readonly select = document.createElement('select');
+  private readonly words = document.createElement('span');
+
+  constructor(private readonly label: HTMLElement, private readonly replay: Replay, choose: (face: number) => void) {
+    const name = document.createElement('div');
+    name.className = 'name';
+    replay.faces.forEach((face, i) => this.select.add(new Option(faceTitle(face), String(i))));
+    this.select.addEventListener('change', () => choose(Number(this.select.value)));
+    name.append(this.dot, this.select);
+    this.words.className = 'words';
+    label.append(name, this.words);
+  }
+
+  show(i: number, side: string, note: string): void {
+    this.label.hidden = false;
+    this.dot.style.background = faceColour(i);
+    this.select.value = String(i);
+    this.select.setAttribute('aria-label', side);
+    this.words.textContent = [this.replay.faces[i].changes.join(', '), note].filter((text) => text).join(' \u00b7 ');
+    this.words.title = this.words.textContent;
+  }
+
+  hide(): void {
+    this.label.hidden = true;
+  }
 }
 
-/** `host` holds the elements named below; without variants all stay hidden. */
-export function wireFaces(replay: Replay, shown: Shown, at: (id: string) => HTMLElement): void {
-  if (replay.faces.length < 2) return;
+/** Two faces: the one that was looked at, right, beside the scene itself. One again: the right one. */
+export function changeMode(shown: Shown, mode: Mode): void {
+  if (mode === shown.mode) return;
+  if (mode === 'single') shown.set({ mode, first: shown.second });
+  else if (shown.mode === 'single' && shown.first > 0) shown.set({ mode, first: 0, second: shown.first });
+  else shown.set({ mode });
+}
+
+/** The face looked at, of two the right one. */
+export const chooseFace = (shown: Shown, face: number): void =>
+  shown.set(shown.mode === 'single' ? { first: face } : { second: face });
+
+/** Wires the controls around the stage; without variants they stay hidden. Returns what says a word on each of
+ *  the faces shown. */
+export function wireFaces(replay: Replay, shown: Shown, at: (id: string) => HTMLElement): (note: (face: Face) => string) => void {
+  if (replay.faces.length < 2) return () => {};
   at('faces').hidden = false;
-  const first = chipsOf(replay, at('first-faces'), (face) => shown.set({ first: face }));
-  const second = chipsOf(replay, at('second-faces'), (face) => shown.set({ second: face }));
+  const chips = fillChips(replay, at('chips'), (face) => chooseFace(shown, face));
+  const first = new FaceLabel(at('first-label'), replay, (face) => shown.set({ first: face }));
+  const second = new FaceLabel(at('second-label'), replay, (face) => shown.set({ second: face }));
   const modes = [...at('modes').querySelectorAll('button')];
-  for (const button of modes)
-    button.addEventListener('click', () => shown.set({ mode: button.dataset.mode as Mode }));
+  for (const button of modes) button.addEventListener('click', () => changeMode(shown, button.dataset.mode as Mode));
   at('swap').addEventListener('click', () => shown.set({ first: shown.second, second: shown.first }));
 
+  let note: (face: Face) => string = () => '';
   const show = () => {
     const two = shown.mode !== 'single';
     for (const button of modes) button.setAttribute('aria-pressed', String(button.dataset.mode === shown.mode));
-    first.forEach((chip, i) => chip.setAttribute('aria-pressed', String(i === shown.first)));
-    second.forEach((chip, i) => chip.setAttribute('aria-pressed', String(i === shown.second)));
-    at('first-faces').setAttribute('aria-label', two ? 'Face on the left' : 'Face');
-    for (const id of ['first-side', 'second-row', 'swap', 'second-label']) at(id).hidden = !two;
-    at('first-label').hidden = false;
+    chips.forEach((chip, i) => chip.setAttribute('aria-pressed', String(i === (two ? shown.second : shown.first))));
+    at('chips').setAttribute('aria-label', two ? 'Face on the right' : 'Face');
+    at('swap').hidden = !two;
     at('canvas-host').dataset.mode = shown.mode;
-    fillLabel(at('first-label'), replay.faces[shown.first], shown.first);
-    fillLabel(at('second-label'), replay.faces[shown.second], shown.second);
+    first.show(shown.first, two ? 'Face on the left' : 'Face', note(replay.faces[shown.first]));
+    if (two) second.show(shown.second, 'Face on the right', note(replay.faces[shown.second]));
+    else second.hide();
   };
   shown.onChange(show);
   show();
+  return (next) => {
+    note = next;
+    show();
+  };
 }

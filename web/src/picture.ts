@@ -109,9 +109,9 @@ function drawScale(pen: Pen, scale: Scale, top: number): void {
   stops.forEach((stop, i) => fade.addColorStop(i / (stops.length - 1), stop));
   pen.text(`${scale.title}, ${scale.unit}`, x, top + 15, 13, pen.colour('--ink'), { weight: 600, most: barWidth });
   pen.fill(fade, x, top + 27, barWidth, 11, 3);
-  ticksOf(scale).forEach((tick, i) => {
-    const align = i === 0 ? 'left' : i === 4 ? 'right' : 'center';
-    pen.text(tick, x + (i / 4) * barWidth, top + 50, 12, pen.colour('--ink-soft'), { align });
+  ticksOf(scale).forEach(({ text, share }) => {
+    const align = share === 0 ? 'left' : share === 1 ? 'right' : 'center';
+    pen.text(text, x + share * barWidth, top + 50, 12, pen.colour('--ink-soft'), { align });
   });
 }
 

@@ -2,8 +2,8 @@
 // The stage: the face in 3D and the controls around it.
 import { drawColourBar } from './colour_bar';
 import { colouringsOf, type Colouring } from './colouring';
-import type { Replay } from './data';
-import { faceTitle, wireFaces } from './face_chooser';
+import type { Face, Replay } from './data';
+import { changeMode, chooseFace, faceTitle, wireFaces } from './face_chooser';
 import { faceHue, palettes } from './face_colour';
 import type { Key } from './keys';
 import { drawPicture, pngOf } from './picture';
@@ -20,12 +20,13 @@ export class Stage {
   private wipe: WipeHandle | null = null;
   private readonly colourings: Colouring[];
   private colouring: Colouring;
+  private readonly sayOfFaces: (note: (face: Face) => string) => void;
   private timeS = 0;
 
   constructor(private readonly replay: Replay, private readonly shown: Shown) {
     this.colourings = colouringsOf(replay);
     this.colouring = this.colourings[0];
-    wireFaces(replay, shown, at);
+    this.sayOfFaces = wireFaces(replay, shown, at);
     try {
       this.viewer = new FaceViewer(at<HTMLCanvasElement>('face'), at('canvas-host'), replay, shown, this.colouring);
     } catch {
@@ -51,19 +52,19 @@ export class Stage {
     const keys: Key[] = [];
     if (replay.faces.length > 1) {
       const digit = (event: KeyboardEvent) => Number(/^(?:Digit|Numpad)([1-9])$/.exec(event.code)?.[1] ?? 0);
-      const either = (mode: 'side-by-side' | 'wipe') => () => shown.set({ mode: shown.mode === mode ? 'single' : mode });
+      const either = (mode: 'side-by-side' | 'wipe') => () => changeMode(shown, shown.mode === mode ? 'single' : mode);
       keys.push(
         {
           shown: '1 to 9', does: 'face; of two faces the right one, with Shift the left one',
           when: (event) => digit(event) > 0,
           act(event) {
-            const left = shown.mode === 'single' || event.shiftKey;
-            shown.set(left ? { first: digit(event) - 1 } : { second: digit(event) - 1 });
+            if (event.shiftKey) shown.set({ first: digit(event) - 1 });
+            else chooseFace(shown, digit(event) - 1);
           },
         },
         { shown: 's', does: 'two faces side by side, and back', when: ['s'], act: either('side-by-side') },
         { shown: 'w', does: 'wipe between two faces, and back', when: ['w'], act: either('wipe') },
-        { shown: 'x', does: 'left and right face change places', when: ['x'], act: () => at('swap').click() },
+        { shown: 'x', does: 'left and right face change places', when: ['x'], act: () => shown.set({ first: shown.second, second: shown.first }) },
       );
     }
     const turn = (key: string, yaw: number, pitch: number): [string, () => void] => [key, () => viewer.turn(yaw, pitch)];
@@ -85,7 +86,7 @@ export class Stage {
 
   private goWithout(): void {
     at('no-webgl').hidden = false;
-    for (const id of ['face', 'view-tools', 'faces', 'first-label', 'colour-key']) at(id).hidden = true;
+    for (const id of ['face', 'view-tools', 'faces', 'first-label', 'second-label', 'colour-key']) at(id).hidden = true;
   }
 
   private wireViews(): void {
@@ -106,7 +107,6 @@ export class Stage {
       button.addEventListener('click', () => this.setColouring(colouring));
       at('colouring').append(button);
     }
-    this.shown.onChange(() => this.explainColours());
     this.setColouring(this.colouring);
   }
 
@@ -116,23 +116,12 @@ export class Stage {
       button.setAttribute('aria-pressed', String(button.dataset.colouring === colouring.key));
     this.viewer!.setColouring(colouring);
     drawColourBar(at('colour-bar'), colouring);
-    this.explainColours();
+    this.sayOfFaces((face) => colouring.note(face));
   }
 
   private nextColouring(): void {
     const { colourings } = this;
     this.setColouring(colourings[(colourings.indexOf(this.colouring) + 1) % colourings.length]);
-  }
-
-  private explainColours(): void {
-    const { faces } = this.replay;
-    const notes = this.shown.visible.map((i) => ({ face: faces[i], note: this.colouring.note(faces[i]) }));
-    const said = notes.filter(({ note }) => note !== '');
-    // Whose note it is, where two faces are shown and both say something of their own.
-    const alike = new Set(notes.map(({ note }) => note)).size === 1;
-    at('colour-note').textContent = alike
-      ? notes[0].note
-      : said.map(({ face, note }) => (note.startsWith('The ') ? note : `${faceTitle(face)}: ${note}`)).join(' ');
   }
 
   private wireOverlays(): void {

@@ -93,7 +93,8 @@ export class FaceViewer {
     this.colouring = colouring;
     if (colouring.scale) this.materials.useRamp(colouring.scale.ramp);
     // A map is read by its colour: less shading, more light from everywhere.
-    this.sky.intensity = colouring.scale ? 2.3 : 1.0;
+    this.sky.intensity = colouring.scale ? 2.35 : 1.0;
+    this.sky.groundColor.set(colouring.scale ? '#cdc8c2' : '#8a7f78');
     for (const { light, onSkin, onMap } of this.lights) light.intensity = colouring.scale ? onMap : onSkin;
     this.touch();
   }
