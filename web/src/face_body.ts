@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One face to draw: its skin, coloured, and what is shown over it.
 import {
-  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Group, LinearFilter, Mesh, MeshStandardMaterial,
-  RGBAFormat, SRGBColorSpace, Texture,
+  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Group, LinearFilter, Mesh, MeshLambertMaterial,
+  MeshStandardMaterial, RGBAFormat, SRGBColorSpace, Texture,
 } from 'three';
 import { linearOf, rampBytes, type RampName } from './colour';
 import type { Colouring } from './colouring';
@@ -15,7 +15,7 @@ const rampSize = 256;
 /** What all faces are drawn with. */
 export class FaceMaterials {
   /** Colours of a map, looked up for every pixel. */
-  readonly mapped = new MeshStandardMaterial({ roughness: 0.8, metalness: 0, side: DoubleSide });
+  readonly mapped = new MeshLambertMaterial({ side: DoubleSide });
   /** The skin's own. */
   readonly plain = new MeshStandardMaterial({
     color: '#dba58c', roughness: 0.55, metalness: 0, side: DoubleSide,
@@ -52,7 +52,7 @@ export class FaceMaterials {
 export class FaceBody {
   readonly object = new Group();
   readonly overlays: Overlay[];
-  readonly mesh: Mesh<BufferGeometry, MeshStandardMaterial>;
+  readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>;
   private readonly shape: FaceShape;
   private readonly shares: Float32Array;
   /** Vertices drawn, where the picture's seams split those of the skin. */
@@ -80,7 +80,7 @@ export class FaceBody {
     if (replay.texture) attribute('uv', replay.texture.uv, 2);
     if (replay.colour) attribute('color', linearColours(replay.colour), 3);
     geometry.setIndex(new BufferAttribute(new Uint32Array(replay.texture?.triangles ?? replay.triangles), 1));
-    this.mesh = new Mesh(geometry, materials.mapped);
+    this.mesh = new Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>(geometry, materials.mapped);
     this.mesh.frustumCulled = false;
     this.object.add(this.mesh, ...this.overlays.map((o) => o.object));
     for (const overlay of this.overlays) overlay.object.visible = false;

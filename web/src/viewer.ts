@@ -13,6 +13,7 @@ import { FaceBody, FaceMaterials } from './face_body';
 import { uprightFromScan } from './face_frame';
 import type { Overlay, OverlayName } from './overlays';
 import type { Shown } from './shown';
+import { drawsInSoftware } from './software_gl';
 
 export type View = 'front' | 'three-quarter' | 'left' | 'right';
 
@@ -47,6 +48,10 @@ export class FaceViewer {
   private wipe = 0.5;
   private stale = true; // shapes are not those of `frame` and `shown`
   private queued = false;
+  /** Then pictures in motion are drawn with as few pixels as do, and those at rest once more with all. */
+  private readonly software = drawsInSoftware();
+  private drawnAt = 0;
+  private rest = 0;
 
   /** Throws where the browser has no WebGL. */
   constructor(
@@ -56,7 +61,7 @@ export class FaceViewer {
     private readonly shown: Shown,
     private colouring: Colouring,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: true });
     this.renderer.toneMapping = NoToneMapping;
     this.renderer.setClearColor(0, 0);
     this.renderer.autoClear = false;
@@ -142,12 +147,18 @@ export class FaceViewer {
   /** What is shown, `scale` pixels for each of the page's. */
   snapshot(scale: number): HTMLCanvasElement {
     const before = this.renderer.getPixelRatio();
-    this.renderer.setPixelRatio(scale);
+    const { clientWidth: width, clientHeight: height } = this.host;
+    // Where edges are not smoothed, twice the pixels in each direction make them smooth.
+    const finer = this.software ? 2 * scale : scale;
+    const most = this.renderer.capabilities.maxTextureSize / Math.max(width, height);
+    this.renderer.setPixelRatio(Math.min(finer, most));
     this.draw();
     const copy = document.createElement('canvas');
-    copy.width = this.canvas.width;
-    copy.height = this.canvas.height;
-    copy.getContext('2d')!.drawImage(this.canvas, 0, 0);
+    copy.width = Math.round(scale * width);
+    copy.height = Math.round(scale * height);
+    const context = copy.getContext('2d')!;
+    context.imageSmoothingQuality = 'high';
+    context.drawImage(this.canvas, 0, 0, copy.width, copy.height);
     this.renderer.setPixelRatio(before);
     this.draw();
     return copy;
@@ -204,7 +215,7 @@ export class FaceViewer {
   private refit(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setPixelRatio(this.ratio);
     this.renderer.setSize(width, height, false);
     const before = this.fitting();
     this.camera.aspect = (this.shown.mode === 'side-by-side' ? width / 2 : width) / height;
@@ -276,11 +287,28 @@ export class FaceViewer {
     requestAnimationFrame(() => {
       this.queued = false;
       const before = performance.now();
+      if (this.renderer.getPixelRatio() !== this.ratio) this.renderer.setPixelRatio(this.ratio);
       this.draw();
+      if (this.software) this.refineAtRest(before - this.drawnAt);
+      this.drawnAt = before;
       // For whoever watches from outside: what was drawn, and what it took.
       this.canvas.dataset.frame = this.frame.toFixed(3);
       this.canvas.dataset.faces = this.shown.visible.join(' ');
       this.canvas.dataset.drawMs = (performance.now() - before).toFixed(2);
     });
+  }
+
+  private get ratio(): number {
+    return this.software ? 1 : Math.min(window.devicePixelRatio, 2);
+  }
+
+  /** `gap`: since the picture before, ms. Three such without another picture is rest. */
+  private refineAtRest(gap: number): void {
+    clearTimeout(this.rest);
+    this.rest = window.setTimeout(() => {
+      if (this.queued) return;
+      this.renderer.setPixelRatio(2);
+      this.draw();
+    }, gap > 1500 ? 250 : Math.max(250, 3 * gap));
   }
 }
