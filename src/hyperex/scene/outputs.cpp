@@ -16,7 +16,6 @@
 #include "hyperex/render/render.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
-#include "hyperex/report/html_report.hpp"
 #include "hyperex/scene/asymmetry_picture.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 
@@ -240,19 +239,6 @@ void write_outputs(const Results& r, const std::filesystem::path& directory) {
   if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
   Progress progress("drawing the contact sheet", 0);
   write_contact_sheet(r, directory / "contact_sheet.png");
-}
-
-void write_report(const Results& r, const nlohmann::ordered_json& summary,
-                  const std::filesystem::path& directory) {
-  const Performance& p = r.simulation.performance;
-  report::ReportInput input{.performance = p,
-                            .scan = r.inputs.scan,
-                            .modes = r.modes,
-                            .symmetry = &r.symmetry.curve,
-                            .summary = nlohmann::json(summary),
-                            .notes = r.notes,
-                            .title = r.scene.title};
-  report::write_html_report(directory / "report.html", input);
 }
 
 }  // namespace hyperex::scene

@@ -26,10 +26,6 @@ struct Results {
 /// Writes all files but summary.json and report.html into `directory`.
 void write_outputs(const Results& results, const std::filesystem::path& directory);
 
-/// The page, which shows the summary.
-void write_report(const Results& results, const nlohmann::ordered_json& summary,
-                  const std::filesystem::path& directory);
-
 /// Where the simulation ends, from the start of the motion.
 double run_end_s(const Scene& scene, const Inputs& inputs);
 

@@ -11,6 +11,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/report_page.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
 #include "hyperex/scene/variants.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -180,8 +181,6 @@ Json tissue_json(const tissue::TissueField& field) {
   return out;
 }
 
-/// Nothing where the tissue is the same everywhere.
-
 Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Stopwatch total, stage;
   Json seconds;
@@ -245,7 +244,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   summary["notes"] = results.notes;
   summary["options"] = options_json(scene);
   if (scene.output.report) {
-    write_report(results, summary, directory);
+    write_report(results, variants, summary, directory);
     seconds["export"] = seconds["export"].get<double>() + stage.lap();
     seconds["total"] = seconds["total"].get<double>() + total.lap();
     summary["seconds"] = seconds;

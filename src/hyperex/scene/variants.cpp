@@ -175,6 +175,7 @@ std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
       reenact::SimulationOptions options = simulation_options(run.scene, run.inputs);
       if (run.field) options.tissue.element = run.field->element;
       run.simulation = reenact::simulate(mesh, run.inputs.landmarks, run.inputs.motion, options);
+      run.symmetry = symmetry_measures(run.scene, run.inputs, mesh, run.simulation.performance);
     } catch (const NumericalError& error) {
       throw NumericalError(fmt::format("variant {}: {}", run.scene.title, error.what()));
     }
@@ -239,15 +240,8 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
   Progress progress("writing variants", 0);
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
     const VariantRun& run = runs[i];
-    const Results results{
-        run.scene,
-        run.inputs,
-        mesh,
-        run.simulation,
-        symmetry_measures(run.scene, run.inputs, mesh, run.simulation.performance),
-        {},
-        {},
-        run.field ? &*run.field : nullptr};
+    const Results results{run.scene,    run.inputs, mesh, run.simulation,
+                          run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
     compared[i] = compare_variant(run.scene.title, base, results, pair);
     const fs::path folder = directory / "variants" / run.scene.title;
     fs::create_directories(folder);

@@ -18,6 +18,7 @@ struct VariantRun {
   Inputs inputs;                             ///< the scene's, with the variant's driven points
   std::optional<tissue::TissueField> field;  ///< where the tissue differs from place to place
   reenact::SimulationResult simulation;
+  metrics::SymmetryMeasures symmetry;
 };
 
 /// Simulates all of scene.variants at once. Mesh, landmarks, motion and its alignment are the
