@@ -85,10 +85,13 @@ export async function pictureOf(chart: Chart, window: [number, number] | null): 
   const { card, ink, inkSoft } = theme();
   const canvas = document.createElement('canvas');
   const pen = canvas.getContext('2d')!;
+  pen.font = letters(15, '600');
+  const title = linesOf(pen, `${document.title}: ${chart.title}`, width - 2 * margin);
   pen.font = letters(12);
   const caption = chart.caption ? linesOf(pen, chart.caption, width - 2 * margin) : [];
   const entries = legendOf(pen, chart);
-  const top = margin + 44 + 32 * caption.length + 12;
+  const captionTop = margin + 38 * title.length;
+  const top = captionTop + 32 * caption.length + 18;
   canvas.width = width;
   canvas.height = top + height + 24 + 36 * (entries.length > 0 ? entries[entries.length - 1].row + 1 : 0) + margin / 2;
   pen.fillStyle = card;
@@ -96,10 +99,10 @@ export async function pictureOf(chart: Chart, window: [number, number] | null): 
   pen.textBaseline = 'middle';
   pen.fillStyle = ink;
   pen.font = letters(15, '600');
-  pen.fillText(chart.title, margin, margin + 14);
+  title.forEach((text, i) => pen.fillText(text, margin, margin + 14 + 38 * i));
   pen.fillStyle = inkSoft;
   pen.font = letters(12);
-  caption.forEach((text, i) => pen.fillText(text, margin, margin + 58 + 32 * i));
+  caption.forEach((text, i) => pen.fillText(text, margin, captionTop + 20 + 32 * i));
   pen.drawImage(plot.ctx.canvas, margin, top);
   drawLegend(pen, entries, top + height + 24, ink);
   plot.destroy();

@@ -13,7 +13,7 @@ export function number(value: number): string {
 }
 
 const units: [string, string][] = [
-  ['_pa_s', 'Pa s'], ['_kg_m3', 'kg/m³'], ['_kpa', 'kPa'], ['_pa', 'Pa'], ['_mm', 'mm'], ['_deg', '°'],
+  ['_pa_s', 'Pa s'], ['_kg_m3', 'kg/m³'], ['_kpa_per_mm', 'kPa/mm'], ['_mm_s', 'mm/s'], ['_kpa', 'kPa'], ['_pa', 'Pa'], ['_mm', 'mm'], ['_deg', '°'],
   ['_hz', 'Hz'], ['_ms', 'ms'], ['_m', 'm'], ['_s', 's'],
 ];
 

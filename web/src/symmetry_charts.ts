@@ -10,7 +10,12 @@ import type { Shown } from './shown';
 
 type Part = Omit<Chart, 'title'>;
 
-const power = (value: number): string => signed(value.toExponential().replace('e', ' · 10^')).replace(/^1 · /, '');
+/** "10⁻⁶", "2.5 · 10⁻³" */
+function power(value: number): string {
+  const [digits, exponent] = value.toExponential().split('e');
+  const raised = [...exponent.replace('+', '')].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('');
+  return `${digits === '1' ? '' : `${digits} · `}10${raised}`;
+}
 
 /** The faces whose curve is known at the same times as the scene's own. */
 const facesWithCurve = (replay: Replay): { i: number; curve: SymmetryCurve }[] =>
@@ -27,8 +32,8 @@ function floorOf(curve: SymmetryCurve): { curve: Curve; caption: string } {
         values: noise.map((n) => (n === null || !(n > 0) ? null : Math.log(Math.max(n, floor)))),
       },
       caption:
-        `Hatched, undecided: under the noise floor, where jitter of the points (${number(Number(jitter_mm.toPrecision(2)))} mm) ` +
-        'alone keeps S of a symmetric motion in 95 of 100 samples; values there are not told apart.',
+        'Hatched, undecided: under the noise floor, which a symmetric motion seen with the jitter of these points ' +
+        `(${number(Number(jitter_mm.toPrecision(2)))} mm) stays under in 95 of 100 samples; values there are not told apart.`,
     };
   const least = Math.log(floor);
   return {
@@ -47,7 +52,7 @@ export function symmetryCurves(replay: Replay, shown: Shown): Part[] {
   const floor = floorOf(replay.faces[shown.first].symmetry ?? own);
   return [{
     caption: `S = ln |ξL − ξR|: smaller is more symmetric; it does not say which side moves more. ${floor.caption}`,
-    unit: '', digits: 2, timeS: own.time_s, heightPx: several ? 240 : 190,
+    unit: '', digits: 2, timeS: own.time_s, yLabel: 'S (natural logarithm)', heightPx: several ? 250 : 200,
     curves: [
       floor.curve,
       ...facesWithCurve(replay).map(({ i, curve }) => ({
@@ -69,7 +74,7 @@ export function stretchCurves(replay: Replay, shown: Shown): Part[] {
     caption:
       'Relative change of the distances from the mouth corner to eye, lid, nose and lip, summed. ' +
       `Solid: left, dashed: right, the subject’s own${several && one ? `; of ${faceWords(replay.faces, shown.first)}` : ''}.`,
-    unit: '', digits: 4, timeS: own.time_s,
+    unit: '', digits: 4, timeS: own.time_s, yLabel: 'ξ (relative change)', heightPx: 200,
     curves: faces.flatMap(({ i, curve }) => {
       const of = one ? '' : ` of ${faceWords(replay.faces, i)}`;
       const file = several ? ` of ${replay.faces[i].name} (1)` : ' (1)';

@@ -112,6 +112,7 @@ export class TimeChart {
   /** What takes curves away and brings them back can be reached and told without a mouse. */
   private makeButtons(plot: uPlot): void {
     [...plot.root.querySelectorAll('.u-series')].slice(1).forEach((row, i) => {
+      row.classList.toggle('hatched', this.chart.curves[i].under !== undefined);
       const head = row.querySelector('th')!;
       const button = document.createElement('button');
       button.type = 'button';

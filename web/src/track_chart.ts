@@ -56,8 +56,8 @@ export class TrackCurves {
     if (second !== undefined && second !== first)
       curves.push(...this.curvesOf(second, `, ${faceWords(faces, second)}`, true));
     return {
-      caption: `Distance of points on the skin from where they were in the first frame, mm.${which}`,
-      unit: ' mm', digits: 2, timeS: this.replay.landmarks.timeS, curves,
+      caption: `Distance of points on the skin from where they were in the first frame.${which}`,
+      unit: ' mm', digits: 2, yLabel: 'distance (mm)', heightPx: 210, timeS: this.replay.landmarks.timeS, curves,
     };
   }
 
