@@ -132,21 +132,3 @@ export function readReplay(): Replay {
     faces: facesOf(manifest, block),
   };
 }
-
-/** Distance of each landmark from its first sample, mm: one array a landmark, null where unknown. */
-export function landmarkTracksMm(replay: Replay): (number | null)[][] {
-  const { names, timeS, positions } = replay.landmarks;
-  const stride = 3 * names.length;
-  return names.map((_, p) =>
-    timeS.map((_t, f) => {
-      const a = 3 * p;
-      const b = f * stride + 3 * p;
-      const d = Math.hypot(
-        positions[b] - positions[a],
-        positions[b + 1] - positions[a + 1],
-        positions[b + 2] - positions[a + 2],
-      );
-      return Number.isFinite(d) ? 1e3 * d : null;
-    }),
-  );
-}

@@ -11,6 +11,7 @@ import { Plots } from './plots';
 import { Shown } from './shown';
 import { Stage } from './stage';
 import { fillSummary } from './summary';
+import { fillTables } from './tables';
 
 const at = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 
@@ -98,7 +99,8 @@ function start(): void {
   const playback = new Playback(timeS[0] ?? 0, timeS[timeS.length - 1] ?? 0);
   const shown = new Shown(replay.faces.length);
   const stage = new Stage(replay, shown);
-  const plots = new Plots(replay, at('plots'), (t) => playback.seek(t));
+  const plots = new Plots(replay, shown, at('plots'), (t) => playback.seek(t));
+  fillTables(replay, shown, at('tables'));
   const showTransport = wireTransport(replay, playback);
   const show = () => {
     stage.moveTo(frameAt(timeS, playback.timeS), playback.timeS);

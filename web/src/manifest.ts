@@ -28,7 +28,12 @@ export interface SymmetryCurve {
   xi_left: (number | null)[];
   xi_right: (number | null)[];
   s: (number | null)[];
+  /** Where S stops, as perfect symmetry is minus infinity: the least |xi_left - xi_right| told apart. */
   floor: number;
+  /** What |xi_left - xi_right| of a symmetric motion stays under by jitter alone; [] of an exact motion. */
+  noise?: (number | null)[];
+  /** Of the points, a standard deviation a coordinate; 0 of an exact motion. */
+  jitter_mm?: number;
 }
 
 /** Other tissue on the same mesh, moved by the same motion at the same times. */

@@ -20,6 +20,15 @@ interface Row {
   value: unknown;
 }
 
+/** A list of objects as one object: each under its name, or its place in the list. */
+const byName = (list: unknown[]): Json =>
+  Object.fromEntries(list.map((item, i) => {
+    if (!isObject(item)) return [String(i + 1), item];
+    const { name, point, landmark, ...rest } = item;
+    const called = [name, point, landmark].find((v) => typeof v === 'string' && v !== '');
+    return [`${i + 1}${called ? ` ${String(called)}` : ''}`, rest];
+  }));
+
 /** Nested objects row by row; a unit in an outer key ("distance_mm": {"mean": ...}) goes for the inner. */
 function rowsOf(object: Json, outer: Omit<Row, 'value'> = { key: '', name: '', unit: '' }): Row[] {
   return Object.entries(object).flatMap(([key, value]) => {
@@ -29,6 +38,7 @@ function rowsOf(object: Json, outer: Omit<Row, 'value'> = { key: '', name: '', u
       name: outer.name ? `${outer.name} · ${own.name}` : own.name,
       unit: own.unit || outer.unit,
     };
+    if (Array.isArray(value) && value.some(isObject)) return rowsOf(byName(value), row);
     return isObject(value) ? rowsOf(value, row) : [{ ...row, value }];
   });
 }
@@ -55,7 +65,15 @@ function table(caption: string, rows: Row[]): HTMLElement {
   return card;
 }
 
-export function fillSummary(summary: Json, into: HTMLElement): void {
+/** What stands elsewhere on the page is left out. */
+function restOf({ variants: _variants, notes: _notes, ...summary }: Json): Json {
+  if (!isObject(summary.symmetry)) return summary;
+  const { excursions: _excursions, ...symmetry } = summary.symmetry;
+  return { ...summary, symmetry };
+}
+
+export function fillSummary(whole: Json, into: HTMLElement): void {
+  const summary = restOf(whole);
   const single = Object.fromEntries(Object.entries(summary).filter(([, value]) => !isObject(value)));
   if (Object.keys(single).length > 0) into.append(table('run', rowsOf(single)));
   for (const [key, value] of Object.entries(summary)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The charts besides those of units: what is drawn in each, and what it says.
-import { signed, type Chart, type Curve } from '../time_chart';
+import type { Chart, Curve } from '../chart_options';
+import { signed } from '../format';
 import type { Channel, Group, Tracking } from './data';
 
 export interface Section {

@@ -2,8 +2,10 @@
 // Ties the parts together: data, cursor, charts and the page's controls.
 import '../style.css';
 import './tracking.css';
+import type { Chart } from '../chart_options';
 import { number } from '../format';
-import { dark, setPrinting, TimeChart, type Chart } from '../time_chart';
+import { dark, setPrinting } from '../theme';
+import { TimeChart } from '../time_chart';
 import { headAndDistances, residuals, type Section } from './charts';
 import { Cursor, listenToKeys } from './cursor';
 import { faultAt, faultSpans, readTracking, type Tracking } from './data';

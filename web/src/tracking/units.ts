@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The action units, a chart each, left and right of one in the same: those that move, strongest
 // first, and the rest on demand.
+import type { Chart } from '../chart_options';
 import { words } from '../format';
-import type { Chart } from '../time_chart';
 import type { Channel, Tracking } from './data';
 import { facsName } from './facs';
 
