@@ -66,7 +66,7 @@ function difference(replay: Replay): Colouring {
         out[i] = factor * Math.sqrt(x * x + y * y + z * z);
       }
     },
-    note: (face) => (face.difference ? '' : 'what the others are compared with: 0 mm everywhere'),
+    note: (face) => (face.difference ? '' : '0 mm everywhere by definition'),
   };
 }
 
@@ -85,8 +85,7 @@ function tissue(replay: Replay, key: string): Colouring {
     note(face) {
       const bytes = bytesOf(face);
       if (!bytes || !bytes.every((b) => b === bytes[0])) return '';
-      const value = least + (bytes[0] / 255) * (greatest - least);
-      return `${number(Number(value.toPrecision(3)))} ${unit} everywhere`;
+      return 'the same everywhere';
     },
   };
 }
@@ -115,6 +114,6 @@ export function ticksOf({ least, greatest }: Scale): { share: number; text: stri
   const count = [5, 4, 6, 3].find((n) => round(range / n)) ?? 4;
   return Array.from({ length: count + 1 }, (_, i) => {
     const share = i / count;
-    return { share, text: number(Number((least + share * range).toPrecision(3))) };
+    return { share, text: number(Number((least + share * range).toPrecision(4))) };
   });
 }

@@ -2,10 +2,9 @@
 // Which face is looked at, or which two: a button each in the face's colour, and their names over the picture.
 import type { Face, Replay } from './data';
 import { faceColour } from './face_colour';
+import { faceWords } from './format';
 import type { Mode, Shown } from './shown';
-
-/** As people read it. */
-export const faceTitle = (face: Face): string => (face.difference ? face.name : 'The scene itself');
+import { changesOf } from './variants_table';
 
 const swatch = (i: number): HTMLElement => {
   const dot = document.createElement('i');
@@ -14,13 +13,13 @@ const swatch = (i: number): HTMLElement => {
 };
 
 function fillChips(replay: Replay, group: HTMLElement, choose: (face: number) => void): HTMLButtonElement[] {
-  return replay.faces.map((face, i) => {
+  return replay.faces.map((_face, i) => {
     const chip = document.createElement('button');
     chip.type = 'button';
     chip.className = 'chip';
     chip.dataset.face = String(i);
-    chip.append(swatch(i), faceTitle(face));
-    chip.title = face.changes.join('\n');
+    chip.append(swatch(i), faceWords(replay.faces, i));
+    chip.title = changesOf(replay, i).join('\n');
     chip.style.setProperty('--face', faceColour(i));
     chip.addEventListener('click', () => choose(i));
     group.append(chip);
@@ -37,7 +36,7 @@ class FaceLabel {
   constructor(private readonly label: HTMLElement, private readonly replay: Replay, choose: (face: number) => void) {
     const name = document.createElement('div');
     name.className = 'name';
-    replay.faces.forEach((face, i) => this.select.add(new Option(faceTitle(face), String(i))));
+    replay.faces.forEach((_face, i) => this.select.add(new Option(faceWords(replay.faces, i), String(i))));
     this.select.addEventListener('change', () => choose(Number(this.select.value)));
     name.append(this.dot, this.select);
     this.words.className = 'words';
@@ -49,7 +48,7 @@ class FaceLabel {
     this.dot.style.background = faceColour(i);
     this.select.value = String(i);
     this.select.setAttribute('aria-label', side);
-    this.words.textContent = [this.replay.faces[i].changes.join(', '), note].filter((text) => text).join(' \u00b7 ');
+    this.words.textContent = [changesOf(this.replay, i).join(', '), note].filter((text) => text).join(' \u00b7 ');
     this.words.title = this.words.textContent;
   }
 
@@ -72,7 +71,7 @@ export const chooseFace = (shown: Shown, face: number): void =>
 
 /** Wires the controls around the stage; without variants they stay hidden. Returns what says a word on each of
  *  the faces shown. */
-export function wireFaces(replay: Replay, shown: Shown, at: (id: string) => HTMLElement): (note: (face: Face) => string) => void {
+export function wireFaces(replay: Replay, shown: Shown, at: <T extends HTMLElement>(id: string) => T): (note: (face: Face) => string) => void {
   if (replay.faces.length < 2) return () => {};
   at('faces').hidden = false;
   const chips = fillChips(replay, at('chips'), (face) => chooseFace(shown, face));
@@ -88,7 +87,7 @@ export function wireFaces(replay: Replay, shown: Shown, at: (id: string) => HTML
     for (const button of modes) button.setAttribute('aria-pressed', String(button.dataset.mode === shown.mode));
     chips.forEach((chip, i) => chip.setAttribute('aria-pressed', String(i === (two ? shown.second : shown.first))));
     at('chips').setAttribute('aria-label', two ? 'Face on the right' : 'Face');
-    at('swap').hidden = !two;
+    at<HTMLButtonElement>('swap').disabled = !two;
     at('canvas-host').dataset.mode = shown.mode;
     first.show(shown.first, two ? 'Face on the left' : 'Face', note(replay.faces[shown.first]));
     if (two) second.show(shown.second, 'Face on the right', note(replay.faces[shown.second]));

@@ -13,9 +13,6 @@ export const faceHue = (i: number): number => i % palettes.light.length;
 /** For style sheets: follows the page's light or dark. */
 export const faceColour = (i: number): string => `var(--face-${faceHue(i)})`;
 
-/** For canvases, which know no variables: the colour in the given theme. */
-export const faceColourIn = (theme: 'light' | 'dark', i: number): string => palettes[theme][faceHue(i)];
-
 /** Defines the variables that faceColour names. Printed pages are light. */
 export function defineFaceColours(): void {
   const rule = (colours: string[]) =>

@@ -85,19 +85,22 @@ function drawBackground(pen: Pen, stageHeight: number): void {
 }
 
 function drawName(pen: Pen, face: PictureParts['faces'][number], x: number, most: number, right: boolean): void {
+  const { on } = pen;
   const y = headHeight + 12;
-  pen.on.font = `600 14px ${family}`;
-  const nameWidth = pen.on.measureText(face.name).width + 19;
-  pen.on.font = `400 12px ${family}`;
-  const changesWidth = face.changes ? pen.on.measureText(face.changes).width : 0;
-  const inner = Math.min(Math.max(nameWidth, changesWidth), most - 20);
+  const small = most < 220; // no room for what differs
+  const px = small ? 12 : 14;
+  const changes = small ? '' : face.changes;
+  on.font = `600 ${px}px ${family}`;
+  const nameWidth = on.measureText(face.name).width + 19;
+  on.font = `400 12px ${family}`;
+  const inner = Math.min(Math.max(nameWidth, on.measureText(changes).width), most - 20);
   const left = right ? x + most - inner - 20 : x;
-  pen.on.globalAlpha = 0.85;
-  pen.fill(pen.colour('--card'), left, y, inner + 20, face.changes ? 46 : 29, 8);
-  pen.on.globalAlpha = 1;
+  on.globalAlpha = 0.85;
+  pen.fill(pen.colour('--card'), left, y, inner + 20, changes ? 46 : 29, 8);
+  on.globalAlpha = 1;
   pen.fill(face.colour, left + 10, y + 9, 11, 11, 5.5);
-  pen.text(face.name, left + 29, y + 15, 14, pen.colour('--ink'), { weight: 600, most: inner - 19 });
-  if (face.changes) pen.text(face.changes, left + 10, y + 34, 12, pen.colour('--ink-soft'), { most: inner });
+  pen.text(face.name, left + 29, y + 15, px, pen.colour('--ink'), { weight: 600, most: inner - 18 });
+  if (changes) pen.text(changes, left + 10, y + 34, 12, pen.colour('--ink-soft'), { most: inner + 1 });
 }
 
 function drawScale(pen: Pen, scale: Scale, top: number): void {
@@ -130,7 +133,7 @@ export function drawPicture(parts: PictureParts): HTMLCanvasElement {
   const soft = pen.colour('--ink-soft');
   pen.on.font = `400 14px ${family}`;
   const timeWidth = pen.on.measureText(parts.time).width;
-  pen.text(parts.title, margin, headHeight / 2, 19, ink, { weight: 650, most: width - 3 * margin - timeWidth });
+  pen.text(parts.title, margin, headHeight / 2, narrow ? 16 : 19, ink, { weight: 650, most: width - 3 * margin - timeWidth });
   pen.text(parts.time, width - margin, headHeight / 2, 14, soft, { align: 'right' });
 
   if (divided !== null) {

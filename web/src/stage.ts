@@ -3,12 +3,15 @@
 import { drawColourBar } from './colour_bar';
 import { colouringsOf, type Colouring } from './colouring';
 import type { Face, Replay } from './data';
-import { changeMode, chooseFace, faceTitle, wireFaces } from './face_chooser';
-import { faceHue, palettes } from './face_colour';
+import { changeMode, chooseFace, wireFaces } from './face_chooser';
+import { faceHue } from './face_colour';
+import { faceWords } from './format';
 import type { Key } from './keys';
 import { drawPicture, pngOf } from './picture';
 import { fileName, save } from './save';
 import type { Shown } from './shown';
+import { theme } from './theme';
+import { changesOf } from './variants_table';
 import { FaceViewer, type View } from './viewer';
 import { WipeHandle } from './wipe_handle';
 
@@ -86,7 +89,7 @@ export class Stage {
 
   private goWithout(): void {
     at('no-webgl').hidden = false;
-    for (const id of ['face', 'view-tools', 'faces', 'first-label', 'second-label', 'colour-key']) at(id).hidden = true;
+    for (const id of ['face', 'view-tools', 'faces', 'first-label', 'second-label', 'save-picture', 'colour-key']) at(id).hidden = true;
   }
 
   private wireViews(): void {
@@ -141,7 +144,7 @@ export class Stage {
   private wireWipe(): void {
     const { shown, replay, viewer } = this;
     const names = (): [string, string] =>
-      [faceTitle(replay.faces[shown.first]), faceTitle(replay.faces[shown.second])];
+      [faceWords(replay.faces, shown.first), faceWords(replay.faces, shown.second)];
     const wipe = new WipeHandle(at('wipe'), at('canvas-host'), names, (share) => viewer!.setWipe(share));
     const show = () => wipe.show(shown.mode === 'wipe');
     shown.onChange(show);
@@ -151,7 +154,7 @@ export class Stage {
 
   private async savePicture(): Promise<void> {
     const { replay, shown, timeS, wipe } = this;
-    const dark = matchMedia('(prefers-color-scheme: dark)').matches;
+    const { palette } = theme();
     const named = replay.faces.length > 1 ? shown.visible : [];
     const picture = drawPicture({
       stage: this.viewer!.snapshot(pictureScale),
@@ -159,9 +162,9 @@ export class Stage {
       title: document.title,
       time: `${timeS.toFixed(3)} s`,
       faces: named.map((i) => ({
-        name: faceTitle(replay.faces[i]),
-        changes: replay.faces[i].changes.join(', '),
-        colour: (dark ? palettes.dark : palettes.light)[faceHue(i)],
+        name: faceWords(replay.faces, i),
+        changes: changesOf(replay, i).join(', '),
+        colour: palette[faceHue(i)],
       })),
       divided: shown.mode === 'single' ? null : shown.mode === 'wipe' ? wipe!.at : 0.5,
       colours: this.colouring.scale,

@@ -246,10 +246,10 @@ export class FaceViewer {
       const line = Math.round(this.wipe * width);
       return [{ body: left, ...all, to: line }, { body: right, ...all, from: line }];
     }
-    const half = width / 2;
+    const half = Math.floor(width / 2);
     return [
       { body: left, x: 0, width: half, from: 0, to: half },
-      { body: right, x: half, width: half, from: half, to: width },
+      { body: right, x: width - half, width: half, from: width - half, to: width },
     ];
   }
 
@@ -284,11 +284,13 @@ export class FaceViewer {
   private queue(): void {
     if (this.queued) return;
     this.queued = true;
+    this.canvas.dataset.atRest = 'false';
     requestAnimationFrame(() => {
       this.queued = false;
       const before = performance.now();
       if (this.renderer.getPixelRatio() !== this.ratio) this.renderer.setPixelRatio(this.ratio);
       this.draw();
+      this.canvas.dataset.atRest = String(!this.software);
       if (this.software) this.refineAtRest(before - this.drawnAt);
       this.drawnAt = before;
       // For whoever watches from outside: what was drawn, and what it took.
@@ -309,6 +311,7 @@ export class FaceViewer {
       if (this.queued) return;
       this.renderer.setPixelRatio(2);
       this.draw();
+      this.canvas.dataset.atRest = 'true';
     }, gap > 1500 ? 250 : Math.max(250, 3 * gap));
   }
 }
