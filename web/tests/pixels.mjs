@@ -37,7 +37,7 @@ export const halvesDiffer = (picture) =>
   picture.evaluate(({ width, height, data }) => {
     const half = Math.floor(width / 2);
     let [changed, all] = [0, 0];
-    for (let y = Math.ceil(0.2 * height); y < 0.9 * height; ++y)
+    for (let y = Math.ceil(0.2 * height); y < 0.85 * height; ++y)
       for (let x = 2; x < half - 2; ++x, ++all) {
         const [i, j] = [4 * (y * width + x), 4 * (y * width + x + width - half)];
         if ([0, 1, 2].reduce((sum, k) => sum + Math.abs(data[i + k] - data[j + k]), 0) > 24) ++changed;

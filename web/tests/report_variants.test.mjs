@@ -36,7 +36,7 @@ async function open(options = {}) {
 describe('a report with variants', () => {
   let page, complaints, close, count;
   before(async () => {
-    ({ page, complaints, close } = await open({ viewport: { width: 1000, height: 700 } }));
+    ({ page, complaints, close } = await open({ viewport: { width: 1360, height: 700 } }));
     count = await page.locator('#chips button').count();
     // Halves of the stage compare where what is behind the faces is the same.
     await page.addStyleTag({ content: '#canvas-host { background: #808080; }' });
