@@ -315,8 +315,9 @@ std::vector<Key> run_keys() {
                     "Jitter of the recorded points, a standard deviation a coordinate, which "
                     "sets the noise floor of S(t) (docs/symmetry.md). Below 0: that of the "
                     "tracked points at rest for motion.recording, else none."),
-      numbers<Scene>("output.contact_times_s", seconds, AT(output.contact_times_s), {0, 600}, 1, 12,
-                     "Times of the pictures in contact_sheet.png."),
+      numbers<Scene>("output.contact_times_s", seconds, AT(output.contact_times_s), {0, 600}, 0, 12,
+                     "Times of the pictures in contact_sheet.png. None: five spread over the run, "
+                     "the peak among them."),
   };
 }
 #undef AT
