@@ -40,6 +40,7 @@ export class Stage {
     this.wireColourings();
     this.wireOverlays();
     this.wireWipe();
+    shown.onChange(() => this.say());
     at('save-picture').addEventListener('click', () => void this.savePicture());
   }
 
@@ -67,7 +68,7 @@ export class Stage {
         },
         { shown: 's', does: 'two faces side by side, and back', when: ['s'], act: either('side-by-side') },
         { shown: 'w', does: 'wipe between two faces, and back', when: ['w'], act: either('wipe') },
-        { shown: 'x', does: 'left and right face change places', when: ['x'], act: () => shown.set({ first: shown.second, second: shown.first }) },
+        { shown: 'x', does: 'left and right face change places', when: ['x'], act: () => at('swap').click() },
       );
     }
     const turn = (key: string, yaw: number, pitch: number): [string, () => void] => [key, () => viewer.turn(yaw, pitch)];
@@ -125,6 +126,15 @@ export class Stage {
   private nextColouring(): void {
     const { colourings } = this;
     this.setColouring(colourings[(colourings.indexOf(this.colouring) + 1) % colourings.length]);
+    this.say();
+  }
+
+  /** For those who hear the page and chose by a key. */
+  private say(): void {
+    const { replay, shown, colouring } = this;
+    const faces = shown.visible.map((i) => faceWords(replay.faces, i));
+    const named = replay.faces.length > 1 ? `${faces.join(', right ')}; ` : '';
+    at('said').textContent = `${faces.length > 1 ? 'left ' : ''}${named}${colouring.scale?.title ?? colouring.label}`;
   }
 
   private wireOverlays(): void {

@@ -159,7 +159,7 @@ describe(`curves of ${basename(report)}`, () => {
     assert.equal(await legend(page, trackTitle, label), rounded(travel(floats(landmarks), point), 2));
     await showFace(0);
     await page.locator('#modes [data-mode=side-by-side]').click();
-    await page.locator('#second-faces [data-face="1"]').click();
+    await page.locator('#chips [data-face="1"]').click();
     assert.equal(await legend(page, trackTitle, label), rounded(travel(floats(data.landmarks.positions), point), 2));
     assert.equal(await legend(page, trackTitle, `${label}, ${name}`), rounded(travel(floats(landmarks), point), 2));
     assert.match(await card(page, trackTitle).locator('p').textContent(), new RegExp(`Solid: the scene itself; dashed: ${name}`));

@@ -76,22 +76,22 @@ describe('a report with variants', () => {
   });
 
   test('compares a variant with the scene itself, and two faces side by side', async () => {
-    await page.keyboard.press('3');
+    await page.keyboard.press('2');
     await page.keyboard.press('s');
-    await drawn(page, '0 2');
+    await drawn(page, '0 1');
     assert.deepEqual(await pressed(page, 'modes'), ['Side by side']);
     assert.ok((await halvesDiffer(await look(page))) > 3e-3, 'both halves look alike');
     await page.keyboard.press('1');
     await drawn(page, '0 0');
     const apart = await halvesDiffer(await look(page));
     assert.ok(apart < 2e-3, `the same face in both halves differs in ${apart}`);
-    await page.keyboard.press('2');
-    await page.keyboard.press('Shift+Digit3');
-    await drawn(page, '2 1');
-    await page.getByRole('button', { name: 'Swap' }).click();
+    await page.keyboard.press('3');
+    await page.keyboard.press('Shift+Digit2');
     await drawn(page, '1 2');
+    await page.getByRole('button', { name: 'Swap' }).click();
+    await drawn(page, '2 1');
     await page.getByRole('button', { name: 'One face' }).click();
-    await drawn(page, '2');
+    await drawn(page, '1');
   });
 
   test('both faces turn together', async () => {
@@ -125,11 +125,11 @@ describe('a report with variants', () => {
     await page.keyboard.press('1');
     await drawn(page, '0');
     const left = await look(page);
-    await page.keyboard.press('3');
-    await drawn(page, '2');
+    await page.keyboard.press('2');
+    await drawn(page, '1');
     const right = await look(page);
     await page.keyboard.press('w');
-    await drawn(page, '0 2');
+    await drawn(page, '0 1');
     const handle = page.locator('#wipe');
     const stage = await page.locator('#canvas-host').boundingBox();
     for (const share of [0.3, 0.55, 0.8]) {
@@ -159,7 +159,7 @@ describe('a report with variants', () => {
     assert.match(await handle.getAttribute('aria-valuetext'), /100 % the scene itself/);
     assert.equal(await page.locator('#frame').inputValue(), frame, 'keys of the line moved the frame');
     await page.keyboard.press('w');
-    await drawn(page, '2');
+    await drawn(page, '1');
     assert.equal(await handle.isVisible(), false);
   });
 
