@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a variant changes, in words: {"tissue.young_kpa": 1000} is "Young's modulus 1,000 instead of 192.4 kPa".
-import { landmarkName, nameAndUnit, number } from './format';
+import { landmarkName, nameAndUnit, number, upper } from './format';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
@@ -8,8 +8,6 @@ const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null 
 const parameters: Record<string, string> = {
   young: 'Young’s modulus', viscosity: 'viscosity', poisson: 'Poisson’s ratio', density: 'density',
 };
-
-const upper = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
 function valueWords(value: unknown): string {
   if (typeof value === 'number') return number(value);

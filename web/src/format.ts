@@ -30,6 +30,11 @@ export const words = (key: string): string => key.replaceAll('_', ' ');
 /** "ibug68_48" is "iBUG 48", "cheilion_L" is "cheilion L". */
 export const landmarkName = (name: string): string => words(name.replace(/^ibug68_/, 'iBUG '));
 
-/** The scene's own run is "base" in files. */
+export const upper = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** As people read it; the scene's own run is "base" in files. */
+export const faceTitle = (faces: { name: string }[], i: number): string => (i === 0 ? 'The scene itself' : faces[i].name);
+
+/** The same within a sentence. */
 export const faceWords = (faces: { name: string }[], i: number): string =>
   i === 0 ? 'the scene itself' : faces[i].name;

@@ -84,7 +84,7 @@ function linesOf(replay: Replay, { driven_point, response_point }: Variants): st
   const decided = noise.length > 0
     ? `The points are known to ${number(Number(jitter_mm.toPrecision(2)))} mm: changes of symmetry under the noise floor of S(t) are undecided.`
     : 'The motion is exact, so that all variants follow the very same input; where S(t) of two is under the floor, their difference is undecided.';
-  return ['The same motion on other tissue. Press a name to see that face.', ...points, decided];
+  return ['Each variant against the scene itself. Press a name to see that face.', ...points, decided];
 }
 
 /** Digits enough for the column's largest figure to show two that are not zero. */
