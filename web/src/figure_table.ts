@@ -89,7 +89,9 @@ export function figureCard(
     text.textContent = line;
     card.append(text);
   }
-  table.createCaption().textContent = title;
+  const caption = table.createCaption();
+  caption.textContent = title;
+  caption.className = 'unseen'; // the heading says the same
   // Wider than a telephone: it is scrolled in its card, also by keys.
   const scroller = document.createElement('div');
   scroller.className = 'scroller';
