@@ -2,6 +2,7 @@
 // How far, how fast and how much alike each pair of points moves (summary.symmetry.excursions), in
 // the words of docs/symmetry.md.
 import type { Replay } from './data';
+import { button, element } from './dom';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
 import { landmarkName } from './format';
 
@@ -53,8 +54,8 @@ const isNumbered = ({ point }: Excursion): boolean => point.startsWith('ibug68_'
 function headOf(table: HTMLTableElement): void {
   const [upper, lower] = [table.createTHead().insertRow(), table.tHead!.insertRow()];
   const cell = (text: string, scope: 'col' | 'colgroup', span: [number, number], title: string) => {
-    const th = document.createElement('th');
-    [th.textContent, th.scope, th.title, th.colSpan, th.rowSpan] = [text, scope, title, ...span];
+    const th = element('th', text);
+    [th.scope, th.title, th.colSpan, th.rowSpan] = [scope, title, ...span];
     return th;
   };
   upper.append(cell('Point', 'col', [1, 2], ''));
@@ -70,12 +71,11 @@ function headOf(table: HTMLTableElement): void {
 
 /** A bar to either side, to the table's scale. */
 function balance({ L, R }: Sides): HTMLElement {
-  const cell = document.createElement('td');
-  const bars = document.createElement('span');
-  bars.className = 'balance';
+  const cell = element('td');
+  const bars = element('span', '', 'balance');
   bars.setAttribute('aria-hidden', 'true');
   for (const side of [L, R]) {
-    const bar = document.createElement('i');
+    const bar = element('i');
     bar.style.setProperty('--mm', String(side ?? 0));
     bars.append(bar);
   }
@@ -85,13 +85,10 @@ function balance({ L, R }: Sides): HTMLElement {
 
 function addRow(body: HTMLTableSectionElement, pair: Excursion): void {
   const row = body.insertRow();
-  const name = document.createElement('th');
+  const name = element('th', landmarkName(pair.point));
   name.scope = 'row';
-  name.textContent = landmarkName(pair.point);
   if (pair.undecided) {
-    const mark = document.createElement('span');
-    mark.className = 'undecided';
-    mark.textContent = ' undecided';
+    const mark = element('span', ' undecided', 'undecided');
     mark.title = undecided.says;
     name.append(mark);
   }
@@ -125,7 +122,7 @@ export function excursionTable(replay: Replay): HTMLElement | null {
   const named = pairs.filter((pair) => !isNumbered(pair));
   const first = named.length > 0 ? named : pairs;
   const more = pairs.filter((pair) => !first.includes(pair));
-  const table = document.createElement('table');
+  const table = element('table');
   headOf(table);
   const body = table.createTBody();
   for (const pair of first) addRow(body, pair);
@@ -140,20 +137,17 @@ export function excursionTable(replay: Replay): HTMLElement | null {
   ], table, () => csvRows(pairs));
   card.classList.add('excursions');
   if (more.length > 0) {
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.className = 'quiet more';
-    const show = () => {
-      button.textContent = hidden.hidden ? `Show ${more.length} numbered points too` : 'Named points only';
-      button.setAttribute('aria-expanded', String(!hidden.hidden));
-    };
-    button.addEventListener('click', () => {
+    const fold = button('', 'quiet more', () => {
       hidden.hidden = !hidden.hidden;
       scaleTo(hidden.hidden ? first : pairs);
       show();
     });
+    const show = () => {
+      fold.textContent = hidden.hidden ? `Show ${more.length} numbered points too` : 'Named points only';
+      fold.setAttribute('aria-expanded', String(!hidden.hidden));
+    };
     show();
-    card.append(button);
+    card.append(fold);
   }
   card.append(columnNotes([...groups, ratio, correlation, ...(pairs.some((p) => p.undecided) ? [undecided] : [])]));
   return card;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A table of figures in its card: heading, lines above it, a way to take it along, notes on its columns.
 import './tables.css';
+import { element } from './dom';
 import { signed } from './format';
-import { csvFile, fileName, save } from './save';
+import { csvFile, fileName, save, saveButton } from './save';
 
 export interface Column {
   key: string;
@@ -26,37 +27,26 @@ export function figureText(value: unknown, { digits, factor = 1 }: Column): stri
 }
 
 export function figureCell(value: unknown, column: Column): HTMLTableCellElement {
-  const cell = document.createElement('td');
-  cell.textContent = figureText(value, column);
+  const cell = element('td', figureText(value, column));
   if (isNumber(value)) cell.title = signed(`${Number((value * (column.factor ?? 1)).toPrecision(6))} ${column.unit}`.trim());
   else cell.title = 'not defined';
   return cell;
 }
 
 export function headCell({ head, unit, says }: Column): HTMLTableCellElement {
-  const cell = document.createElement('th');
+  const cell = element('th', head);
   cell.scope = 'col';
   cell.title = says;
-  cell.append(head);
-  if (unit) {
-    const small = document.createElement('small');
-    small.textContent = unit;
-    cell.append(small);
-  }
+  if (unit) cell.append(element('small', unit));
   return cell;
 }
 
 /** What each column is, under the table. */
 export function columnNotes(columns: Pick<Column, 'head' | 'says'>[]): HTMLElement {
-  const list = document.createElement('dl');
-  list.className = 'column-notes';
+  const list = element('dl', '', 'column-notes');
   for (const { head, says } of columns) {
-    const pair = document.createElement('div');
-    const name = document.createElement('dt');
-    name.textContent = head;
-    const text = document.createElement('dd');
-    text.textContent = says;
-    pair.append(name, text);
+    const pair = element('div');
+    pair.append(element('dt', head), element('dd', says));
     list.append(pair);
   }
   return list;
@@ -66,35 +56,18 @@ export function columnNotes(columns: Pick<Column, 'head' | 'says'>[]): HTMLEleme
 export function figureCard(
   title: string, lines: string[], table: HTMLTableElement, rows: () => (string | number | null)[][],
 ): HTMLElement {
-  const card = document.createElement('article');
-  card.className = 'figures';
-  const head = document.createElement('div');
-  head.className = 'figures-head';
-  const name = document.createElement('h2');
-  name.textContent = title;
-  const tools = document.createElement('span');
-  tools.className = 'table-tools';
-  const button = document.createElement('button');
-  button.type = 'button';
-  button.className = 'quiet';
-  button.textContent = 'CSV';
-  button.title = 'Save the table, figures not rounded';
-  button.setAttribute('aria-label', `CSV: ${button.title} (${title})`);
-  button.addEventListener('click', () => save(csvFile(rows()), fileName(document.title, title, 'csv')));
-  tools.append(button);
-  head.append(name, tools);
-  card.append(head);
-  for (const line of lines) {
-    const text = document.createElement('p');
-    text.textContent = line;
-    card.append(text);
-  }
+  const card = element('article', '', 'figures');
+  const head = element('div', '', 'figures-head');
+  const tools = element('span', '', 'table-tools');
+  const saveTable = () => save(csvFile(rows()), fileName(document.title, title, 'csv'));
+  tools.append(saveButton('CSV', 'Save the table, figures not rounded', title, saveTable));
+  head.append(element('h2', title), tools);
+  card.append(head, ...lines.map((line) => element('p', line)));
   const caption = table.createCaption();
   caption.textContent = title;
   caption.className = 'unseen'; // the heading says the same
   // Wider than a telephone: it is scrolled in its card, also by keys.
-  const scroller = document.createElement('div');
-  scroller.className = 'scroller';
+  const scroller = element('div', '', 'scroller');
   scroller.tabIndex = 0;
   scroller.setAttribute('role', 'region');
   scroller.setAttribute('aria-label', title);

@@ -3,6 +3,7 @@
 import './style.css';
 import { readReplay, type Replay } from './data';
 import { frameAt } from './deform';
+import { at, startPage } from './dom';
 import { defineFaceColours } from './face_colour';
 import { number } from './format';
 import { wireKeys, type Key } from './keys';
@@ -12,8 +13,6 @@ import { Shown } from './shown';
 import { Stage } from './stage';
 import { fillSummary } from './summary';
 import { fillTables } from './tables';
-
-const at = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 
 function fillPage(replay: Replay): void {
   const title = replay.title || 'A face in motion';
@@ -115,8 +114,4 @@ function start(): void {
   if (!window.matchMedia('(prefers-reduced-motion: reduce)').matches) playback.play();
 }
 
-try {
-  start();
-} catch (error) {
-  at('title').textContent = error instanceof Error ? error.message : String(error);
-}
+startPage(start);

@@ -2,6 +2,7 @@
 // The curves over time, each with a cursor at the time shown; pressing on one seeks.
 import type { Chart } from './chart_options';
 import type { Replay } from './data';
+import { element } from './dom';
 import type { Shown } from './shown';
 import { stretchCurves, symmetryCurves } from './symmetry_charts';
 import { dark } from './theme';
@@ -29,8 +30,7 @@ export class Plots {
   private add(title: string, made: () => Omit<Chart, 'title'>[]): TimeChart | null {
     const [chart] = made();
     if (!chart) return null;
-    const card = document.createElement('article');
-    card.className = 'plot-card';
+    const card = element('article', '', 'plot-card');
     this.into.append(card);
     const plot = new TimeChart(card, { ...chart, title }, this.seek);
     this.plots.push(plot);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hands files that the page makes to the reader.
+import { button } from './dom';
 
 /** "Smile, left", "Point tracks", "csv" is "smile-left-point-tracks.csv". */
 export function fileName(...parts: string[]): string {
@@ -15,6 +16,14 @@ export function save(content: Blob, name: string): void {
   link.click();
   // The browser has taken it by then.
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+/** `what` it saves is told to those who do not see what it stands beside. */
+export function saveButton(name: string, says: string, what: string, press: () => void): HTMLButtonElement {
+  const made = button(name, 'quiet', press);
+  made.title = says;
+  made.setAttribute('aria-label', `${name}: ${says} (${what})`);
+  return made;
 }
 
 /** One row of a CSV file (RFC 4180). */

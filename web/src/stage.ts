@@ -15,7 +15,6 @@ import { changesOf } from './variants_table';
 import { FaceViewer, type View } from './viewer';
 import { WipeHandle } from './wipe_handle';
 
-const at = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 const pictureScale = 2;
 
 export class Stage {

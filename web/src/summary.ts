@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The run's summary (any JSON object) as tables: single values first, a table a nested object.
+import { element } from './dom';
 import { nameAndUnit, number } from './format';
 
 type Json = Record<string, unknown>;
@@ -44,16 +45,14 @@ function rowsOf(object: Json, outer: Omit<Row, 'value'> = { key: '', name: '', u
 }
 
 function table(caption: string, rows: Row[]): HTMLElement {
-  const card = document.createElement('div');
-  card.className = 'table-card';
-  const element = document.createElement('table');
-  element.createCaption().textContent = caption;
-  const body = element.createTBody();
+  const card = element('div', '', 'table-card');
+  const made = element('table');
+  made.createCaption().textContent = caption;
+  const body = made.createTBody();
   for (const { key, name, unit, value } of rows) {
     const row = body.insertRow();
-    const head = document.createElement('th');
+    const head = element('th', name);
     head.scope = 'row';
-    head.textContent = name;
     head.title = key;
     const shown = typeof value === 'number' || Array.isArray(value) ? unit : '';
     row.append(head);
@@ -61,7 +60,7 @@ function table(caption: string, rows: Row[]): HTMLElement {
     cell.textContent = textOf(value) + (shown ? (shown === '°' ? '°' : ` ${shown}`) : '');
     if (typeof value === 'string') cell.className = 'text';
   }
-  card.append(element);
+  card.append(made);
   return card;
 }
 

@@ -5,7 +5,8 @@ import 'uplot/dist/uPlot.min.css';
 import './charts.css';
 import { csvOf, pictureOf } from './chart_export';
 import { chartOptions, type Chart } from './chart_options';
-import { fileName, save } from './save';
+import { button, element } from './dom';
+import { fileName, save, saveButton } from './save';
 
 /** One chart in its card. Made anew when its curves or the colours of the page change. */
 export class TimeChart {
@@ -26,11 +27,8 @@ export class TimeChart {
     private readonly seek: (timeS: number) => void,
     private readonly left: () => void = () => this.mark(this.timeS),
   ) {
-    const head = document.createElement('div');
-    head.className = 'plot-head';
-    const title = document.createElement('h3');
-    title.textContent = chart.title;
-    head.append(title, this.tools());
+    const head = element('div', '', 'plot-head');
+    head.append(element('h3', chart.title), this.tools());
     this.host.className = 'plot';
     this.host.style.minHeight = `${this.heightPx}px`;
     this.now.className = 'now';
@@ -114,12 +112,11 @@ export class TimeChart {
     [...plot.root.querySelectorAll('.u-series')].slice(1).forEach((row, i) => {
       row.classList.toggle('hatched', this.chart.curves[i].under !== undefined);
       const head = row.querySelector('th')!;
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.title = 'Show or hide this curve; with Ctrl all others';
-      button.append(...head.childNodes);
-      head.append(button);
-      button.setAttribute('aria-pressed', String(!this.hidden.has(this.chart.curves[i].label)));
+      const toggle = button('', '', () => {}); // the press goes on to the head, which uPlot listens to
+      toggle.title = 'Show or hide this curve; with Ctrl all others';
+      toggle.append(...head.childNodes);
+      head.append(toggle);
+      toggle.setAttribute('aria-pressed', String(!this.hidden.has(this.chart.curves[i].label)));
     });
   }
 
@@ -135,24 +132,15 @@ export class TimeChart {
 
   /** The chart without what the reader has taken away. */
   private get plotted(): Chart {
-    // What a curve is drawn with does not change with the others' going.
+    // The others keep their colours.
     const curves = this.chart.curves.map((curve, i) => ({ ...curve, hue: curve.hue ?? i }));
     return { ...this.chart, curves: curves.filter((curve) => !this.hidden.has(curve.label)) };
   }
 
   private tools(): HTMLElement {
-    const tools = document.createElement('span');
-    tools.className = 'plot-tools';
-    const add = (name: string, says: string, press: () => void) => {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.className = 'quiet';
-      button.textContent = name;
-      button.title = says;
-      button.setAttribute('aria-label', `${name}: ${says} (${this.chart.title})`);
-      button.addEventListener('click', press);
-      tools.append(button);
-    };
+    const tools = element('span', '', 'plot-tools');
+    const add = (name: string, says: string, press: () => void) =>
+      tools.append(saveButton(name, says, this.chart.title, press));
     const file = (ending: string) => fileName(document.title, this.chart.title, ending);
     add('CSV', 'Save the plotted values', () => save(csvOf(this.plotted), file('csv')));
     add('PNG', 'Save the plot as a picture', () => {

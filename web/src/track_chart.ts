@@ -2,6 +2,7 @@
 // How far points on the skin are from where they began, of the faces that are shown.
 import type { Chart, Curve } from './chart_options';
 import type { Replay } from './data';
+import { element, memberBox } from './dom';
 import { faceWords, landmarkName } from './format';
 import type { Shown } from './shown';
 
@@ -80,24 +81,13 @@ export class TrackCurves {
 
 /** Check boxes; `changed` is told after each change of `chosen`. */
 export function trackChooser(names: string[], chosen: Set<number>, changed: () => void): HTMLElement {
-  const details = document.createElement('details');
-  details.className = 'chooser';
-  const summary = document.createElement('summary');
-  summary.textContent = `Choose points (${names.length})`;
-  const list = document.createElement('div');
+  const details = element('details', '', 'chooser');
+  const list = element('div');
   names.forEach((name, i) => {
-    const label = document.createElement('label');
-    const box = document.createElement('input');
-    box.type = 'checkbox';
-    box.checked = chosen.has(i);
-    box.addEventListener('change', () => {
-      if (box.checked) chosen.add(i);
-      else chosen.delete(i);
-      changed();
-    });
-    label.append(box, landmarkName(name));
+    const label = element('label');
+    label.append(memberBox(chosen, i, changed), landmarkName(name));
     list.append(label);
   });
-  details.append(summary, list);
+  details.append(element('summary', `Choose points (${names.length})`), list);
   return details;
 }

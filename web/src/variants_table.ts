@@ -2,6 +2,7 @@
 // The variants side by side in figures (summary.variants); pressing a name shows that face.
 import { changeWords } from './change_words';
 import type { Replay } from './data';
+import { button, element } from './dom';
 import { faceColour } from './face_colour';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
 import { landmarkName, number } from './format';
@@ -94,22 +95,15 @@ function fitted(column: Column, rows: VariantRow[]): Column {
   return { ...column, digits: Math.min(Math.max(column.digits, 1 - Math.floor(Math.log10(most))), 9) };
 }
 
-function nameCell(replay: Replay, i: number, press: () => void): { cell: HTMLElement; button: HTMLButtonElement } {
-  const cell = document.createElement('th');
+function nameCell(replay: Replay, i: number, press: () => void): { cell: HTMLElement; face: HTMLButtonElement } {
+  const cell = element('th');
   cell.scope = 'row';
-  const button = document.createElement('button');
-  button.type = 'button';
-  button.className = 'face';
-  button.title = 'Show this face';
-  button.append(document.createElement('i'), replay.faces[i].name);
-  button.addEventListener('click', press);
-  cell.append(button);
-  for (const change of i === 0 ? ['the scene itself'] : changesOf(replay, i)) {
-    const line = document.createElement('small');
-    line.textContent = change;
-    cell.append(line);
-  }
-  return { cell, button };
+  const face = button('', 'face', press);
+  face.title = 'Show this face';
+  face.append(element('i'), replay.faces[i].name);
+  const changes = i === 0 ? ['the scene itself'] : changesOf(replay, i);
+  cell.append(face, ...changes.map((change) => element('small', change)));
+  return { cell, face };
 }
 
 /** Null without variants. */
@@ -124,7 +118,7 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
   const turned = rows.some((row) => (row.inverted_tets ?? 0) > 0) ? [insideOut] : [];
   const used = [...columns, ...turned].map((column) => fitted(column, rows));
 
-  const table = document.createElement('table');
+  const table = element('table');
   const head = table.createTHead().insertRow();
   head.append(headCell({ key: 'name', head: 'Face', unit: '', digits: 0, says: 'Press a name to see that face' }));
   head.append(...used.map(headCell));
@@ -133,7 +127,7 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
   const buttons = rows.map((row, i) => {
     const line = body.insertRow();
     line.style.setProperty('--face', faceColour(i));
-    const { cell, button } = nameCell(replay, i, () =>
+    const { cell, face } = nameCell(replay, i, () =>
       shown.set({ first: i, second: i === shown.second ? shown.first : shown.second }));
     line.append(cell);
     used.forEach((column, c) => {
@@ -143,12 +137,12 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
       if (isNumber(value) && most[c] > 0) made.style.setProperty('--share', String(Math.abs(value) / most[c]));
       line.append(made);
     });
-    return button;
+    return face;
   });
-  const show = () => buttons.forEach((button, i) => {
+  const show = () => buttons.forEach((face, i) => {
     const visible = shown.visible.includes(i);
-    button.setAttribute('aria-pressed', String(visible));
-    button.closest('tr')!.classList.toggle('shown', visible);
+    face.setAttribute('aria-pressed', String(visible));
+    face.closest('tr')!.classList.toggle('shown', visible);
   });
   shown.onChange(show);
   show();
