@@ -3,6 +3,7 @@
 import { drawColourBar } from './colour_bar';
 import { colouringsOf, type Colouring } from './colouring';
 import type { Face, Replay } from './data';
+import { at } from './dom';
 import { changeMode, chooseFace, wireFaces } from './face_chooser';
 import { faceHue } from './face_colour';
 import { faceWords } from './format';
