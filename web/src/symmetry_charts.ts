@@ -4,7 +4,7 @@
 import type { Chart, Curve } from './chart_options';
 import type { Replay } from './data';
 import { faceHue } from './face_colour';
-import { faceTitle, faceWords, number, signed } from './format';
+import { faceWords, number, signed } from './format';
 import type { SymmetryCurve } from './manifest';
 import type { Shown } from './shown';
 
@@ -56,7 +56,7 @@ export function symmetryCurves(replay: Replay, shown: Shown): Part[] {
     curves: [
       floor.curve,
       ...facesWithCurve(replay).map(({ i, curve }) => ({
-        label: several ? faceTitle(replay.faces, i) : 'S',
+        label: several ? faceWords(replay.faces, i) : 'S',
         column: several ? `S (ln) of ${replay.faces[i].name}` : 'S (ln)',
         values: curve.s, hue: faceHue(i), strong: several && shown.visible.includes(i),
       })),

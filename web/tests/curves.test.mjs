@@ -16,7 +16,7 @@ const pictures = process.env.SCREENSHOTS;
 const symmetryTitle = 'Symmetry of motion, S(t)';
 const stretchTitle = 'Stretch of either side, ξ(t)';
 const trackTitle = 'Point tracks';
-const itself = 'The scene itself';
+const itself = 'the scene itself';
 
 let browser;
 before(async () => {
@@ -140,7 +140,7 @@ describe(`curves of ${basename(report)}`, () => {
       assert.deepEqual(await page.locator('.variants tbody tr').evaluateAll((all) => all.findIndex((r) => r.classList.contains('shown'))), i);
       assert.equal(await legend(page, stretchTitle, 'ξL'), rounded(symmetryOf(i).xi_left[frame], 4));
       assert.equal(await legend(page, stretchTitle, 'ξR'), rounded(symmetryOf(i).xi_right[frame], 4));
-      assert.match(await card(page, trackTitle).locator('p').textContent(), new RegExp(`Of ${names[i].replace('The', 'the')}\\.$`));
+      assert.match(await card(page, trackTitle).locator('p').textContent(), new RegExp(`Of ${names[i]}\\.$`));
     }
   });
 
