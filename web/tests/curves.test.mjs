@@ -117,6 +117,22 @@ describe(`curves of ${basename(report)}`, () => {
     await page.mouse.move(0, 0);
   });
 
+  test('the noise floor is drawn, hatched beneath, with room for what lies over it', async (t) => {
+    const { noise, floor, time_s } = data.symmetry;
+    if (noise.length === 0) return t.skip('the motion is exact');
+    const frame = Math.round(0.42 * (time_s.length - 1));
+    await goTo(frame);
+    assert.equal(await legend(page, symmetryTitle, 'noise floor'), rounded(Math.log(noise[frame]), 2));
+    assert.match(await card(page, symmetryTitle).locator('p').textContent(), /undecided: under the noise floor.*\(\S+ mm\)/);
+    const drawn = [...noise.map(Math.log), ...names.flatMap((_, i) => symmetryOf(i).s)].filter((v) => v > Math.log(floor) + 1e-6);
+    const [low, high] = [Math.min(...drawn), Math.max(...drawn)];
+    const button = entry(page, symmetryTitle, 'noise floor').getByRole('button');
+    await button.click({ modifiers: ['Control'] });
+    const { over, under } = await inkAround(page, (high + 0.06 * (high - low) - Math.log(noise[frame])) / (1.26 * (high - low)));
+    await button.click({ modifiers: ['Control'] });
+    assert.ok(under > over + 0.2, `${over} over, ${under} under`);
+  });
+
   test('the cursor goes along with the time', async () => {
     const place = () => page.locator('.plot-card .now').evaluateAll((all) => all.map((now) => {
       const over = now.parentElement.getBoundingClientRect();
