@@ -144,6 +144,10 @@ std::vector<Field<tissue::TissueRegion>> region_columns() {
                           "them.")),
       optional(places<Row>("scar_points_mm", millimetres, AT(scar_points_m),
                            "In their place: places along a scar, in the scan's axes.")),
+      optional(
+          path<Row>("painted", AT(painted),
+                    "In their place: the scan painted red where it applies (PLY, OBJ, GLB with "
+                    "vertex colours), or a CSV or PLY with a weight from 0 to 1 a vertex.")),
       optional(number<Row>("width_mm", millimetres, AT(width_m), {0.5, 100},
                            "Width of a scar; 4 where not given.")),
       optional(number<Row>("blend_mm", millimetres, AT(blend_m), {0, 100},
