@@ -4,7 +4,7 @@ import type { Face, Replay } from './data';
 import { faceColour } from './face_colour';
 import { faceWords } from './format';
 import type { Mode, Shown } from './shown';
-import { changesOf } from './variants_table';
+import { changesOf } from './variants';
 
 const swatch = (i: number): HTMLElement => {
   const dot = document.createElement('i');

@@ -33,8 +33,5 @@ export const landmarkName = (name: string): string => words(name.replace(/^ibug6
 export const upper = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** As people read it; the scene's own run is "base" in files. */
-export const faceTitle = (faces: { name: string }[], i: number): string => (i === 0 ? 'The scene itself' : faces[i].name);
-
-/** The same within a sentence. */
 export const faceWords = (faces: { name: string }[], i: number): string =>
   i === 0 ? 'the scene itself' : faces[i].name;

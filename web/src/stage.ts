@@ -12,7 +12,7 @@ import { drawPicture, pngOf } from './picture';
 import { fileName, save } from './save';
 import type { Shown } from './shown';
 import { theme } from './theme';
-import { changesOf } from './variants_table';
+import { changesOf } from './variants';
 import { FaceViewer, type View } from './viewer';
 import { WipeHandle } from './wipe_handle';
 

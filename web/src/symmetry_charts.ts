@@ -3,8 +3,7 @@
 // either side of those that are shown.
 import type { Chart, Curve } from './chart_options';
 import type { Replay } from './data';
-import { faceHue } from './face_colour';
-import { faceTitle, faceWords, number, signed } from './format';
+import { faceWords, number, signed } from './format';
 import type { SymmetryCurve } from './manifest';
 import type { Shown } from './shown';
 
@@ -44,21 +43,33 @@ function floorOf(curve: SymmetryCurve): { curve: Curve; caption: string } {
   };
 }
 
+/** Where jitter is known S has its noise floor to be seen against; samples at which it stops, as at rest, do not count. */
+function rangeOf(own: SymmetryCurve, curves: (number | null)[][]): [number, number] | undefined {
+  if ((own.noise ?? []).length === 0) return undefined;
+  const least = Math.log(own.floor) + 1e-6;
+  const all = curves.flat().filter((v) => v !== null && v > least) as number[];
+  if (all.length < 2) return undefined;
+  const [low, high] = all.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
+  return [low - 0.2 * (high - low), high + 0.06 * (high - low)];
+}
+
 /** Empty where the run has no such curves. */
 export function symmetryCurves(replay: Replay, shown: Shown): Part[] {
   const own = replay.symmetry;
   if (!own || own.time_s.length < 2) return [];
   const several = replay.faces.length > 1;
   const floor = floorOf(replay.faces[shown.first].symmetry ?? own);
+  const faces = facesWithCurve(replay);
   return [{
     caption: `S = ln |ξL − ξR|: smaller is more symmetric; it does not say which side moves more. ${floor.caption}`,
     unit: '', digits: 2, timeS: own.time_s, yLabel: 'S (natural logarithm)', heightPx: several ? 250 : 200,
+    range: rangeOf(own, [floor.curve.values, ...faces.map(({ curve }) => curve.s)]),
     curves: [
       floor.curve,
-      ...facesWithCurve(replay).map(({ i, curve }) => ({
-        label: several ? faceTitle(replay.faces, i) : 'S',
+      ...faces.map(({ i, curve }) => ({
+        label: several ? faceWords(replay.faces, i) : 'S',
         column: several ? `S (ln) of ${replay.faces[i].name}` : 'S (ln)',
-        values: curve.s, hue: faceHue(i), strong: several && shown.visible.includes(i),
+        values: curve.s, hue: i, strong: several && shown.visible.includes(i),
       })),
     ],
   }];
@@ -79,8 +90,8 @@ export function stretchCurves(replay: Replay, shown: Shown): Part[] {
       const of = one ? '' : ` of ${faceWords(replay.faces, i)}`;
       const file = several ? ` of ${replay.faces[i].name} (1)` : ' (1)';
       return [
-        { label: `ξL${of}`, column: `ξL${file}`, values: curve.xi_left, hue: faceHue(i) },
-        { label: `ξR${of}`, column: `ξR${file}`, values: curve.xi_right, hue: several ? faceHue(i) : 1, broken: true },
+        { label: `ξL${of}`, column: `ξL${file}`, values: curve.xi_left, hue: i },
+        { label: `ξR${of}`, column: `ξR${file}`, values: curve.xi_right, hue: several ? i : 1, broken: true },
       ];
     }),
   }];

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The variants side by side in figures (summary.variants); pressing a name shows that face.
-import { changeWords } from './change_words';
 import type { Replay } from './data';
 import { button, element } from './dom';
+import { chooseFace } from './face_chooser';
 import { faceColour } from './face_colour';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
 import { landmarkName, number } from './format';
 import type { Shown } from './shown';
-
-export interface VariantRow {
-  name: string;
-  changes?: Record<string, unknown> | string[];
-  inverted_tets?: number;
-  [figure: string]: unknown;
-}
-interface Variants {
-  driven_point?: string;
-  response_point?: string;
-  table: VariantRow[];
-}
+import { changesOf, variantsOf, type VariantRow, type Variants } from './variants';
 
 const columns: Column[] = [
   {
@@ -58,23 +47,6 @@ const insideOut: Column = {
   key: 'inverted_tets', head: 'Inside out', unit: 'elements', digits: 0,
   says: 'tetrahedra turned inside out in some frame: there the motion is too large for the model.',
 };
-
-const isVariants = (v: unknown): v is Variants =>
-  typeof v === 'object' && v !== null && Array.isArray((v as Variants).table);
-
-/** Of the scene itself and its variants, as `Replay.faces`; null where the run has none. */
-export function variantsOf(replay: Replay): Variants | null {
-  const { variants } = replay.summary;
-  return isVariants(variants) && variants.table.length > 1 ? variants : null;
-}
-
-/** What differs in a face, a sentence each; from the summary, which keeps numbers and names apart. */
-export function changesOf(replay: Replay, i: number): string[] {
-  const row = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[i].name);
-  if (Array.isArray(row?.changes)) return row.changes;
-  if (!row?.changes) return replay.faces[i].changes;
-  return changeWords(row.changes, replay.summary.options);
-}
 
 function linesOf(replay: Replay, { driven_point, response_point }: Variants): string[] {
   const points = driven_point && response_point
@@ -127,8 +99,7 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
   const buttons = rows.map((row, i) => {
     const line = body.insertRow();
     line.style.setProperty('--face', faceColour(i));
-    const { cell, face } = nameCell(replay, i, () =>
-      shown.set({ first: i, second: i === shown.second ? shown.first : shown.second }));
+    const { cell, face } = nameCell(replay, i, () => chooseFace(shown, i));
     line.append(cell);
     used.forEach((column, c) => {
       const made = figureCell(row[column.key], column);

@@ -16,7 +16,7 @@ const pictures = process.env.SCREENSHOTS;
 const symmetryTitle = 'Symmetry of motion, S(t)';
 const stretchTitle = 'Stretch of either side, ξ(t)';
 const trackTitle = 'Point tracks';
-const itself = 'The scene itself';
+const itself = 'the scene itself';
 
 let browser;
 before(async () => {
@@ -117,6 +117,22 @@ describe(`curves of ${basename(report)}`, () => {
     await page.mouse.move(0, 0);
   });
 
+  test('the noise floor is drawn, hatched beneath, with room for what lies over it', async (t) => {
+    const { noise, floor, time_s } = data.symmetry;
+    if (noise.length === 0) return t.skip('the motion is exact');
+    const frame = Math.round(0.42 * (time_s.length - 1));
+    await goTo(frame);
+    assert.equal(await legend(page, symmetryTitle, 'noise floor'), rounded(Math.log(noise[frame]), 2));
+    assert.match(await card(page, symmetryTitle).locator('p').textContent(), /undecided: under the noise floor.*\(\S+ mm\)/);
+    const drawn = [...noise.map(Math.log), ...names.flatMap((_, i) => symmetryOf(i).s)].filter((v) => v > Math.log(floor) + 1e-6);
+    const [low, high] = [Math.min(...drawn), Math.max(...drawn)];
+    const button = entry(page, symmetryTitle, 'noise floor').getByRole('button');
+    await button.click({ modifiers: ['Control'] });
+    const { over, under } = await inkAround(page, (high + 0.06 * (high - low) - Math.log(noise[frame])) / (1.26 * (high - low)));
+    await button.click({ modifiers: ['Control'] });
+    assert.ok(under > over + 0.2, `${over} over, ${under} under`);
+  });
+
   test('the cursor goes along with the time', async () => {
     const place = () => page.locator('.plot-card .now').evaluateAll((all) => all.map((now) => {
       const over = now.parentElement.getBoundingClientRect();
@@ -140,7 +156,7 @@ describe(`curves of ${basename(report)}`, () => {
       assert.deepEqual(await page.locator('.variants tbody tr').evaluateAll((all) => all.findIndex((r) => r.classList.contains('shown'))), i);
       assert.equal(await legend(page, stretchTitle, 'ξL'), rounded(symmetryOf(i).xi_left[frame], 4));
       assert.equal(await legend(page, stretchTitle, 'ξR'), rounded(symmetryOf(i).xi_right[frame], 4));
-      assert.match(await card(page, trackTitle).locator('p').textContent(), new RegExp(`Of ${names[i].replace('The', 'the')}\\.$`));
+      assert.match(await card(page, trackTitle).locator('p').textContent(), new RegExp(`Of ${names[i]}\\.$`));
     }
   });
 
