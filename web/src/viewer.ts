@@ -51,6 +51,7 @@ export class FaceViewer {
   /** Then pictures in motion are drawn with as few pixels as do, and those at rest once more with all. */
   private readonly software = drawsInSoftware();
   private drawnAt = 0;
+  private slow = 0; // pictures in a row that came late
   private rest = 0;
 
   /** Throws where the browser has no WebGL. */
@@ -292,7 +293,6 @@ export class FaceViewer {
       this.draw();
       this.canvas.dataset.atRest = String(!this.software);
       if (this.software) this.refineAtRest(before - this.drawnAt);
-      this.drawnAt = before;
       // For whoever watches from outside: what was drawn, and what it took.
       this.canvas.dataset.frame = this.frame.toFixed(3);
       this.canvas.dataset.faces = this.shown.visible.join(' ');
@@ -301,11 +301,15 @@ export class FaceViewer {
   }
 
   private get ratio(): number {
-    return this.software ? 1 : Math.min(window.devicePixelRatio, 2);
+    if (!this.software) return Math.min(window.devicePixelRatio, 2);
+    return this.slow < 3 ? 1 : 0.7;
   }
 
   /** `gap`: since the picture before, ms. Three such without another picture is rest. */
   private refineAtRest(gap: number): void {
+    this.drawnAt += gap;
+    // Once they come late, pictures in motion stay coarse: going back and forth would show.
+    if (this.slow < 3) this.slow = gap > 50 && gap < 1500 ? this.slow + 1 : 0;
     clearTimeout(this.rest);
     this.rest = window.setTimeout(() => {
       if (this.queued) return;

@@ -168,7 +168,7 @@ describe(`curves of ${basename(report)}`, () => {
       const at = (f) => [0, 1, 2].map((k) => positions[(f * points.length + point) * 3 + k]);
       return 1e3 * Math.hypot(...at(frame).map((v, k) => v - at(0)[k]));
     };
-    const point = points.indexOf(data.driven.names[0]);
+    const point = points.indexOf(data.summary.variants.response_point);
     const label = points[point].replace(/^ibug68_/, 'iBUG ').replaceAll('_', ' ');
     const { name, landmarks } = data.variants[0];
     await showFace(1);
