@@ -50,13 +50,14 @@ void run(const Options& options) {
       {"motion.csv", "landmarks over time"},
       {"symmetry.csv", "S(t)"},
       {"variants.png", "where and how far the variants differ"},
+      {"variants_symmetry.png", "S(t) of all variants"},
       {"variants.csv", "the same as a table; each has its folder in variants/"},
       {"excursions.csv", "how far and how fast either side moves"},
       {"asymmetry.png", "the face against its reflection"},
       {"summary.json", "counts, times, options"}};
   for (const auto& [name, use] : files)
     if (std::filesystem::exists(options.out / name))
-      std::cout << fmt::format("  {:<18} {}\n", name, use);
+      std::cout << fmt::format("  {:<22} {}\n", name, use);
 }
 
 }  // namespace

@@ -153,7 +153,8 @@ void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(frames.tracks, options.floor, jitter_m);
   all.excursions = metrics::excursions_of(frames.tracks, jitter_m);
-  all.map = metrics::asymmetry_of(frames.rest, displacement, frames.landmarks);
+  all.map =
+      metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
   tell(options, all);

@@ -7,93 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include "hyperex/render/canvas.hpp"
+#include "hyperex/render/time_plot.hpp"
 
 namespace hyperex::cli {
 namespace {
-
-struct Line {
-  const std::vector<double>& values;
-  render::Colour colour;
-  std::string name;
-};
-
-struct Panel {
-  double x, y, width, height;
-  render::Range time, range;
-  std::string label;
-};
-
-// The values' interval, widened by a twentieth.
-render::Range span_of(const std::vector<Line>& lines) {
-  render::Range range{INFINITY, -INFINITY};
-  for (const Line& line : lines)
-    for (const double value : line.values)
-      if (!std::isnan(value)) {
-        range.low = std::min(range.low, value);
-        range.high = std::max(range.high, value);
-      }
-  if (!(range.low <= range.high)) return {0, 1};
-  const double pad = std::max(0.05 * (range.high - range.low), 1e-6);
-  return {range.low - pad, range.high + pad};
-}
-
-void draw_axes(render::Canvas& canvas, const Panel& panel) {
-  const render::Colour grid{0.86, 0.86, 0.87};
-  const render::TextStyle small{.size_px = 12, .colour = render::palette::faint_ink};
-  canvas.rectangle(panel.x, panel.y, panel.width, panel.height, {1, 1, 1});
-  for (const double value : render::ticks(panel.range, 5)) {
-    const double y = panel.y + panel.height * (1 - render::share_in(panel.range, value));
-    canvas.line(panel.x, y, panel.x + panel.width, y, grid);
-    render::TextStyle right = small;
-    right.align = render::Align::right;
-    canvas.text(panel.x - 8, y + 4, fmt::format("{:.4g}", value), right);
-  }
-  for (const double value : render::ticks(panel.time, 8)) {
-    const double x = panel.x + panel.width * render::share_in(panel.time, value);
-    canvas.line(x, panel.y, x, panel.y + panel.height, grid);
-    render::TextStyle centred = small;
-    centred.align = render::Align::centre;
-    canvas.text(x, panel.y + panel.height + 16, fmt::format("{:.4g}", value), centred);
-  }
-  canvas.text(panel.x, panel.y - 8, panel.label, {.size_px = 13});
-}
-
-void draw_lines(render::Canvas& canvas, const Panel& panel, const std::vector<double>& time_s,
-                const std::vector<Line>& lines) {
-  double legend = panel.x + panel.width;
-  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-    for (size_t i = 1; i < time_s.size(); ++i) {
-      const double values[2] = {line->values[i - 1], line->values[i]};
-      if (std::isnan(values[0]) || std::isnan(values[1])) continue;
-      double x[2], y[2];
-      for (int k = 0; k < 2; ++k) {
-        x[k] = panel.x + panel.width * render::share_in(panel.time, time_s[i - 1 + k]);
-        y[k] = panel.y + panel.height * (1 - render::share_in(panel.range, values[k]));
-      }
-      canvas.line(x[0], y[0], x[1], y[1], line->colour, 2);
-    }
-    if (line->name.empty()) continue;
-    legend -= canvas.text(legend, panel.y - 8, line->name,
-                          {.size_px = 13, .colour = line->colour, .align = render::Align::right}) +
-              16;
-  }
-}
-
-/// What lies under the noise floor, shaded, and the floor itself.
-void draw_floor(render::Canvas& canvas, const Panel& panel, const std::vector<double>& time_s,
-                const std::vector<double>& floor) {
-  const render::Colour shade{0.93, 0.91, 0.86};
-  const double bottom = panel.y + panel.height;
-  for (size_t i = 1; i < time_s.size(); ++i) {
-    if (std::isnan(floor[i - 1]) || std::isnan(floor[i])) continue;
-    const double from = panel.x + panel.width * render::share_in(panel.time, time_s[i - 1]);
-    const double to = panel.x + panel.width * render::share_in(panel.time, time_s[i]);
-    const double mean = 0.5 * (floor[i - 1] + floor[i]);
-    const double top = panel.y + panel.height * (1 - render::share_in(panel.range, mean));
-    canvas.rectangle(from, top, to - from + 0.5, bottom - top, shade);
-  }
-}
 
 std::vector<metrics::PairExcursion> farthest(const metrics::Excursions& excursions) {
   constexpr size_t most = 10;
@@ -159,24 +76,25 @@ render::Image draw(const metrics::SymmetryMeasures& measures, const std::string&
                            std::max(curve.time_s.back(), curve.time_s.front() + 1e-3)};
   std::vector<double> floor;
   for (const double value : curve.noise) floor.push_back(std::log(value));
-  const std::vector<Line> sides = {{curve.xi_left, render::palette::driven, "left"},
-                                   {curve.xi_right, render::palette::held, "right"}};
-  std::vector<Line> s = {{curve.s, render::palette::ink, ""}};
+  const std::vector<render::PlotCurve> sides = {{curve.xi_left, render::palette::driven, "left"},
+                                                {curve.xi_right, render::palette::held, "right"}};
+  std::vector<render::PlotCurve> s = {{curve.s, render::palette::ink, ""}};
   if (!floor.empty())
     s.push_back({floor, render::palette::cut,
                  fmt::format("noise floor of {:.2g} mm jitter; below it: undecided",
                              1e3 * curve.jitter_m)});
-  const Panel upper{70, 90, 800, 230, time, span_of(sides), "xi, relative change of length"};
+  const render::TimePlot upper{
+      70, 90, 800, 230, time, render::span_of(sides), "xi, relative change of length"};
   const std::string label = fmt::format(
       "S = ln |xi_L - xi_R|, not below {:.2f}; smaller is more "
       "symmetric",
       std::log(curve.floor));
-  const Panel lower{70, 380, 800, 230, time, span_of(s), label};
-  draw_axes(canvas, upper);
-  draw_lines(canvas, upper, curve.time_s, sides);
-  draw_axes(canvas, lower);
-  if (!floor.empty()) draw_floor(canvas, lower, curve.time_s, floor);
-  draw_lines(canvas, lower, curve.time_s, s);
+  const render::TimePlot lower{70, 380, 800, 230, time, render::span_of(s), label};
+  render::draw_axes(canvas, upper);
+  render::draw_curves(canvas, upper, curve.time_s, sides);
+  render::draw_axes(canvas, lower);
+  if (!floor.empty()) render::shade_under(canvas, lower, curve.time_s, floor);
+  render::draw_curves(canvas, lower, curve.time_s, s);
   canvas.text(470, 648, "time (s)", {.size_px = 13, .align = render::Align::centre});
   if (!pairs.empty()) draw_bars(canvas, bars, pairs);
   canvas.text(70, end + 10, "No medical device: these figures diagnose nothing.",

@@ -2,6 +2,7 @@
 // Variants of a scene, end to end.
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/program.hpp"
@@ -35,18 +36,64 @@ TEST_F(Variants, AreAsIfRunAlone) {
   EXPECT_LT((peak_mm("all/variants/stiffer") - alone).cwiseAbs().maxCoeff(), 1e-3F);
   EXPECT_GT((peak_mm("all") - alone).cwiseAbs().maxCoeff(), 0.1F);
   EXPECT_TRUE(std::filesystem::exists(in("all/variants.png")));
+  EXPECT_TRUE(std::filesystem::exists(in("all/variants_symmetry.png")));
 
   const auto summary = nlohmann::json::parse(read_file(in("all/summary.json")));
   const auto& table = summary["variants"]["table"];
-  ASSERT_EQ(table.size(), 5u);
+  ASSERT_EQ(table.size(), 6u);
   EXPECT_EQ(table[0]["greatest_distance_mm"], 0);
   EXPECT_TRUE(table[0]["share_within_25_mm_of_mouth"].is_null());
-  for (int i = 1; i < 5; ++i) EXPECT_GT(table[i]["greatest_distance_mm"], 0.01) << table[i];
+  for (int i = 1; i < 6; ++i) EXPECT_GT(table[i]["greatest_distance_mm"], 0.01) << table[i];
   EXPECT_EQ(table[1]["changes"]["tissue.young_kpa"], 1000);
   // More viscous tissue trails: by milliseconds, against next to nothing.
   EXPECT_GT(table[2]["lag_ms"].get<double>(), table[0]["lag_ms"].get<double>() + 3);
   EXPECT_GT(table[2]["hysteresis"].get<double>(), table[0]["hysteresis"].get<double>());
 }
+
+struct Fault {
+  const char *name, *block, *line;
+};
+
+class FaultyVariant : public ProgramTest, public testing::WithParamInterface<Fault> {};
+
+TEST_P(FaultyVariant, IsRefusedInOneLineBeforeAnythingIsSimulated) {
+  std::ofstream(in("scene.toml"))
+      << "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\" }\n[[variant]]\n"
+         "name = \"x\"\n"
+      << GetParam().block;
+  const Outcome outcome = call("run scene.toml --out out");
+  EXPECT_EQ(outcome.status, 2);
+  std::string error = outcome.err;
+  std::erase_if(error, [](char c) { return c == '\r'; });
+  EXPECT_THAT(error,
+              testing::HasSubstr("scene.toml:5: variant[0]." + std::string(GetParam().line)));
+  EXPECT_EQ(error.find("variant[0]"), error.rfind("variant[0]")) << "one line";
+  EXPECT_FALSE(std::filesystem::exists(in("out")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Variant, FaultyVariant,
+    testing::Values(
+        Fault{"Point", "drive = { points = [\"nobody\"] }\n",
+              "drive.points = [\"nobody\"]: expected names of points in the recording (nobody is "
+              "none)"},
+        Fault{"Region", "tissue = { region = [{ name = \"cheek_Q\", young_factor = 2 }] }\n",
+              "tissue.region[0].name = \"cheek_Q\": expected the name of a region"},
+        Fault{"Side",
+              "tissue = { point = [{ landmark = \"cheek_R\", side = \"L\", young_kpa = 5 }] }\n",
+              "tissue.point[0].side = \"L\": expected \"R\" or none"},
+        Fault{
+            "Empty",
+            "tissue = { region = [{ scar_points_mm = [[500, 0, 0], [510, 0, 0]], young_factor = 2 "
+            "}] }\n",
+            "tissue.region[0].scar_points_mm"},
+        Fault{"Indefinite", "tissue = { region = [{ name = \"cheek_R\", poisson_factor = 2 }] }\n",
+              "tissue.region[0].poisson_factor = 2.0: expected Poisson's ratio to stay from"},
+        Fault{"Negative", "tissue = { young_kpa = -3 }\n",
+              "tissue.young_kpa = -3: expected a number above 0"},
+        Fault{"NotToVary", "mesh = { layers = 3 }\n",
+              "mesh.layers = 3: expected a key of what may vary"}),
+    [](const auto& fault) { return std::string(fault.param.name); });
 
 }  // namespace
 }  // namespace hyperex

@@ -1,9 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The replay's data as the other parts use them.
-import type { Manifest } from './manifest';
-import { readPageData } from './page_data';
+import type { Manifest, ModeData, SymmetryCurve, TissueMapData } from './manifest';
+import { readPageData, type Block } from './page_data';
 
 export type Vec3 = [number, number, number];
+
+export interface Mode {
+  stepM: number;
+  values: Int16Array;
+}
+
+/** A parameter of the tissue on the skin: least + bytes / 255 * (greatest - least). */
+export interface TissueMap {
+  key: string;
+  name: string;
+  unit: string;
+  least: number;
+  greatest: number;
+  bytes: Uint8Array;
+}
+
+/** The scene itself or a variant of it: the same skin, moved otherwise. */
+export interface Face {
+  name: string;
+  /** What differs from the scene itself, a sentence each. */
+  changes: string[];
+  maxDisplacementMm: number;
+  /** From the scene itself, over all vertices and frames. */
+  maxDifferenceMm: number;
+  /** What is added to the scene's own displacement; null for the scene itself. */
+  difference: { modes: Mode[]; weights: Float32Array; maxErrorMm: number } | null;
+  symmetry: SymmetryCurve | null;
+  /** Samples x names x 3, as in `Replay.landmarks`. */
+  landmarkPositions: Float32Array;
+  tissue: TissueMap[];
+}
 
 export interface Replay {
   title: string;
@@ -16,7 +47,7 @@ export interface Replay {
   texture: { image: Blob; uv: Float32Array; skinVertex: Int32Array; triangles: Int32Array } | null;
   timeS: number[];
   peakFrame: number;
-  modes: { stepM: number; values: Int16Array }[];
+  modes: Mode[];
   weights: Float32Array;
   maxErrorMm: number;
   maxDisplacementMm: number;
@@ -24,12 +55,48 @@ export interface Replay {
   driven: { names: string[]; points: Vec3[] };
   held: Vec3[];
   lipCut: Vec3[];
-  symmetry: Manifest['symmetry'];
+  symmetry: SymmetryCurve | null;
+  /** The scene itself first, then its variants in their order. */
+  faces: Face[];
+}
+
+const modesOf = (modes: ModeData[], block: Block): Mode[] =>
+  modes.map((m) => ({ stepM: m.step_m, values: block.int16(m.values) }));
+
+const tissueOf = (maps: TissueMapData[] | undefined, block: Block): TissueMap[] =>
+  (maps ?? []).map(({ values, ...map }) => ({ ...map, bytes: block.uint8(values) }));
+
+function facesOf(manifest: Manifest, block: Block): Face[] {
+  const itself: Face = {
+    name: 'base',
+    changes: [],
+    maxDisplacementMm: manifest.motion.max_displacement_mm,
+    maxDifferenceMm: 0,
+    difference: null,
+    symmetry: manifest.symmetry,
+    landmarkPositions: block.float32(manifest.landmarks.positions),
+    tissue: tissueOf(manifest.tissue, block),
+  };
+  const variants = (manifest.variants ?? []).map((variant) => ({
+    name: variant.name,
+    changes: variant.changes,
+    maxDisplacementMm: variant.max_displacement_mm,
+    maxDifferenceMm: variant.max_difference_mm,
+    difference: {
+      modes: modesOf(variant.difference.modes, block),
+      weights: block.float32(variant.difference.weights),
+      maxErrorMm: variant.difference.max_error_mm,
+    },
+    symmetry: variant.symmetry,
+    landmarkPositions: block.float32(variant.landmarks),
+    tissue: tissueOf(variant.tissue, block),
+  }));
+  return [itself, ...variants];
 }
 
 export function readReplay(): Replay {
   const { manifest, block } = readPageData<Manifest>();
-  const { float32, int32, int16, uint8 } = block;
+  const { float32, int32, uint8 } = block;
   const { skin, motion } = manifest;
   return {
     title: manifest.title,
@@ -49,7 +116,7 @@ export function readReplay(): Replay {
       : null,
     timeS: motion.time_s,
     peakFrame: motion.peak_frame,
-    modes: motion.modes.map((m) => ({ stepM: m.step_m, values: int16(m.values) })),
+    modes: modesOf(motion.modes, block),
     weights: float32(motion.weights),
     maxErrorMm: motion.max_error_mm,
     maxDisplacementMm: motion.max_displacement_mm,
@@ -62,23 +129,6 @@ export function readReplay(): Replay {
     held: manifest.held,
     lipCut: manifest.lip_cut,
     symmetry: manifest.symmetry,
+    faces: facesOf(manifest, block),
   };
-}
-
-/** Distance of each landmark from its first sample, mm: one array a landmark, null where unknown. */
-export function landmarkTracksMm(replay: Replay): (number | null)[][] {
-  const { names, timeS, positions } = replay.landmarks;
-  const stride = 3 * names.length;
-  return names.map((_, p) =>
-    timeS.map((_t, f) => {
-      const a = 3 * p;
-      const b = f * stride + 3 * p;
-      const d = Math.hypot(
-        positions[b] - positions[a],
-        positions[b + 1] - positions[a + 1],
-        positions[b + 2] - positions[a + 2],
-      );
-      return Number.isFinite(d) ? 1e3 * d : null;
-    }),
-  );
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The skin at any time: modes times weights, and the normals that go with it.
-import type { Replay } from './data';
+import type { Face, Mode, Replay } from './data';
 
 /** The frame (with its fraction) at time t, clamped to the recording. */
 export function frameAt(timeS: number[], t: number): number {
@@ -16,33 +16,76 @@ export function frameAt(timeS: number[], t: number): number {
   return low + (t - timeS[low]) / (timeS[high] - timeS[low]);
 }
 
-export class Deformer {
+/** Displacements smaller than this are not worth an addition, metres. */
+const negligibleM = 1e-7;
+
+/** Adds weights times modes at a frame to `out`. Between frames weights are interpolated linearly, as the
+ *  animated glTF does. Four modes a pass: writing `out` is what takes the time. */
+function addModes(modes: Mode[], weights: Float32Array, frame: number, frames: number, out: Float32Array): void {
+  const count = modes.length;
+  const first = Math.floor(frame);
+  const second = Math.min(first + 1, frames - 1);
+  const share = frame - first;
+  const factors: number[] = [];
+  const values: Int16Array[] = [];
+  for (let k = 0; k < count; ++k) {
+    const w = (1 - share) * weights[first * count + k] + share * weights[second * count + k];
+    const factor = w * modes[k].stepM;
+    if (Math.abs(factor) * 32767 < negligibleM) continue;
+    factors.push(factor);
+    values.push(modes[k].values);
+  }
+  let k = 0;
+  for (; k + 4 <= factors.length; k += 4) {
+    const [fa, fb, fc, fd] = factors.slice(k, k + 4);
+    const [a, b, c, d] = values.slice(k, k + 4);
+    for (let i = 0; i < out.length; ++i) out[i] += fa * a[i] + fb * b[i] + fc * c[i] + fd * d[i];
+  }
+  for (; k < factors.length; ++k) {
+    const f = factors[k];
+    const a = values[k];
+    for (let i = 0; i < out.length; ++i) out[i] += f * a[i];
+  }
+}
+
+/** How the scene itself moves: worked out once a frame, whatever faces are made of it. */
+export class SceneMotion {
+  readonly displacement: Float32Array; // metres
+  private frame = NaN;
+
+  constructor(private readonly replay: Replay) {
+    this.displacement = new Float32Array(replay.points.length);
+  }
+
+  moveTo(frame: number): void {
+    if (frame === this.frame) return;
+    this.frame = frame;
+    this.displacement.fill(0);
+    const { modes, weights, timeS } = this.replay;
+    addModes(modes, weights, frame, timeS.length, this.displacement);
+  }
+}
+
+/** One face's skin at any time. */
+export class FaceShape {
   readonly displacement: Float32Array; // metres
   readonly position: Float32Array;
   readonly normal: Float32Array;
 
-  constructor(private readonly replay: Replay) {
+  constructor(private readonly replay: Replay, readonly scene: SceneMotion, public face: Face) {
     this.displacement = new Float32Array(replay.points.length);
     this.position = new Float32Array(replay.points);
     this.normal = new Float32Array(replay.points.length);
-    this.updateNormals();
   }
 
-  /** Between frames the weights are interpolated linearly, as the animated glTF does. */
   moveTo(frame: number): void {
-    const { modes, weights, points } = this.replay;
-    const count = modes.length;
-    const first = Math.floor(frame);
-    const second = Math.min(first + 1, this.replay.timeS.length - 1);
-    const share = frame - first;
-    const { displacement, position } = this;
-    displacement.fill(0);
-    for (let k = 0; k < count; ++k) {
-      const w = (1 - share) * weights[first * count + k] + share * weights[second * count + k];
-      const factor = w * modes[k].stepM;
-      if (factor === 0) continue;
-      const values = modes[k].values;
-      for (let i = 0; i < values.length; ++i) displacement[i] += factor * values[i];
+    const { displacement, position, scene, face } = this;
+    const { points, timeS } = this.replay;
+    scene.moveTo(frame);
+    displacement.set(scene.displacement);
+    if (face.difference) {
+      const { modes, weights } = face.difference;
+      addModes(modes, weights, frame, timeS.length, displacement);
     }
     for (let i = 0; i < position.length; ++i) position[i] = points[i] + displacement[i];
     this.updateNormals();

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Words and numbers as people read them.
 
+/** "−1.50": a true minus sign, as everywhere on the pages. */
+export const signed = (text: string): string => text.replace('-', '−');
+
 export function number(value: number): string {
   if (!Number.isFinite(value)) return '–';
   if (Number.isInteger(value)) return value.toLocaleString('en');
   const magnitude = Math.abs(value);
-  if (magnitude < 1e-3 || magnitude >= 1e6) return value.toExponential(2).replace('-', '−');
-  return String(Number(value.toPrecision(4))).replace('-', '−');
+  if (magnitude < 1e-3 || magnitude >= 1e6) return signed(value.toExponential(2));
+  return signed(String(Number(value.toPrecision(4))));
 }
 
 const units: [string, string][] = [
-  ['_pa_s', 'Pa s'], ['_kg_m3', 'kg/m³'], ['_kpa', 'kPa'], ['_pa', 'Pa'], ['_mm', 'mm'], ['_deg', '°'],
+  ['_pa_s', 'Pa s'], ['_kg_m3', 'kg/m³'], ['_kpa_per_mm', 'kPa/mm'], ['_mm_s', 'mm/s'], ['_kpa', 'kPa'], ['_pa', 'Pa'], ['_mm', 'mm'], ['_deg', '°'],
   ['_hz', 'Hz'], ['_ms', 'ms'], ['_m', 'm'], ['_s', 's'],
 ];
 
@@ -26,3 +29,9 @@ export const words = (key: string): string => key.replaceAll('_', ' ');
 
 /** "ibug68_48" is "iBUG 48", "cheilion_L" is "cheilion L". */
 export const landmarkName = (name: string): string => words(name.replace(/^ibug68_/, 'iBUG '));
+
+export const upper = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** As people read it; the scene's own run is "base" in files. */
+export const faceWords = (faces: { name: string }[], i: number): string =>
+  i === 0 ? 'the scene itself' : faces[i].name;

@@ -1,59 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ties the parts together: data, clock, viewer, plots, and the page's controls.
+// Ties the parts together: data, clock, stage, plots, and the keyboard.
 import './style.css';
-import { drawColourBar, niceCeiling } from './colour';
 import { readReplay, type Replay } from './data';
 import { frameAt } from './deform';
+import { at, startPage } from './dom';
+import { defineFaceColours } from './face_colour';
 import { number } from './format';
+import { wireKeys, type Key } from './keys';
 import { Playback } from './playback';
 import { Plots } from './plots';
+import { Shown } from './shown';
+import { Stage } from './stage';
 import { fillSummary } from './summary';
-import { FaceViewer, type Colouring, type View } from './viewer';
-
-const at = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
-
-/** A row of buttons of which one is pressed. */
-function segments(group: HTMLElement, key: 'view' | 'colouring', chosen: (value: string) => void): void {
-  const buttons = [...group.querySelectorAll('button')];
-  for (const button of buttons)
-    button.addEventListener('click', () => {
-      for (const other of buttons) other.setAttribute('aria-pressed', String(other === button));
-      chosen(button.dataset[key]!);
-    });
-}
-
-function makeViewer(replay: Replay): FaceViewer | null {
-  const top = niceCeiling(replay.maxDisplacementMm);
-  const bar = at('colour-bar');
-  let viewer: FaceViewer;
-  try {
-    viewer = new FaceViewer(at<HTMLCanvasElement>('face'), at('canvas-host'), replay, top);
-  } catch {
-    at('no-webgl').hidden = false;
-    at('face').hidden = true;
-    bar.hidden = true;
-    return null;
-  }
-  drawColourBar(bar, top);
-  viewer.setColouring('displacement');
-  segments(at('views'), 'view', (view) => viewer.lookFrom(view as View));
-  segments(at('colouring'), 'colouring', (colouring) => {
-    viewer.setColouring(colouring as Colouring);
-    bar.hidden = colouring !== 'displacement';
-  });
-  for (const overlay of viewer.overlays) {
-    const label = document.createElement('label');
-    const box = document.createElement('input');
-    box.type = 'checkbox';
-    box.dataset.overlay = overlay.name;
-    box.addEventListener('change', () => viewer.showOverlay(overlay.name, box.checked));
-    const swatch = document.createElement('i');
-    swatch.style.background = overlay.colour;
-    label.append(box, swatch, overlay.label);
-    at('overlays').append(label);
-  }
-  return viewer;
-}
+import { fillTables } from './tables';
 
 function fillPage(replay: Replay): void {
   const title = replay.title || 'A face in motion';
@@ -95,12 +54,6 @@ function wireTransport(replay: Replay, playback: Playback): () => void {
   play.addEventListener('click', toggle);
   speed.addEventListener('change', () => (playback.speed = Number(speed.value)));
   at('to-peak').addEventListener('click', () => playback.seek(replay.timeS[replay.peakFrame]));
-  document.addEventListener('keydown', (event) => {
-    const target = event.target as HTMLElement;
-    if (event.key !== ' ' || target.closest('button, select, summary, input[type=checkbox]')) return;
-    event.preventDefault();
-    toggle();
-  });
   return () => {
     const frame = Math.round(frameAt(replay.timeS, playback.timeS));
     if (slider.value !== String(frame)) slider.value = String(frame);
@@ -112,27 +65,53 @@ function wireTransport(replay: Replay, playback: Playback): () => void {
   };
 }
 
+function transportKeys(replay: Replay, playback: Playback): Key[] {
+  const { timeS, peakFrame } = replay;
+  const last = timeS.length - 1;
+  const step = (by: number) => {
+    const frame = frameAt(timeS, playback.timeS) + by;
+    playback.seek(timeS[Math.min(Math.max(by > 0 ? Math.floor(frame + 1e-9) : Math.ceil(frame - 1e-9), 0), last)]);
+  };
+  const steps: Record<string, number> = { ArrowLeft: -1, ArrowRight: 1 };
+  return [
+    {
+      shown: 'Space', does: 'play, pause', when: [' '],
+      act: () => (playback.playing ? playback.pause() : playback.play()),
+    },
+    {
+      shown: '← or →', does: 'a frame back, on',
+      when: (event) => !event.shiftKey && event.key in steps, act: ({ key }) => step(steps[key]),
+    },
+    {
+      shown: 'Home or End', does: 'first, last frame',
+      when: ['Home', 'End'], act: ({ key }) => playback.seek(timeS[key === 'Home' ? 0 : last]),
+    },
+    { shown: 'p', does: 'where the driven points moved most', when: ['p'], act: () => playback.seek(timeS[peakFrame]) },
+  ];
+}
+
 function start(): void {
   const replay = readReplay();
+  defineFaceColours();
   fillPage(replay);
   const { timeS } = replay;
   const playback = new Playback(timeS[0] ?? 0, timeS[timeS.length - 1] ?? 0);
-  const viewer = makeViewer(replay);
-  const plots = new Plots(replay, at('plots'), (t) => playback.seek(t));
+  const shown = new Shown(replay.faces.length);
+  const stage = new Stage(replay, shown);
+  const plots = new Plots(replay, shown, at('plots'), (t) => playback.seek(t));
+  fillTables(replay, shown, at('tables'));
   const showTransport = wireTransport(replay, playback);
   const show = () => {
-    viewer?.moveTo(frameAt(timeS, playback.timeS));
+    stage.moveTo(frameAt(timeS, playback.timeS), playback.timeS);
     plots.mark(playback.timeS);
     showTransport();
   };
+  const keys = [...transportKeys(replay, playback), ...stage.keys()];
+  wireKeys(keys, at<HTMLDialogElement>('help'), at<HTMLButtonElement>('open-help'), at<HTMLInputElement>('keys-on'));
   playback.onChange(show);
   show();
   document.documentElement.dataset.ready = 'true';
   if (!window.matchMedia('(prefers-reduced-motion: reduce)').matches) playback.play();
 }
 
-try {
-  start();
-} catch (error) {
-  at('title').textContent = error instanceof Error ? error.message : String(error);
-}
+startPage(start);

@@ -4,6 +4,54 @@
 
 import type { Stretch } from './page_data';
 
+/** Displacements of all vertices: step_m * values. */
+export interface ModeData {
+  step_m: number;
+  values: Stretch;
+}
+
+/** A parameter of the tissue on the skin. */
+export interface TissueMapData {
+  key: string;
+  /** As people say it: "Young's modulus". */
+  name: string;
+  unit: string;
+  /** Over all maps of this parameter in the page, so that one colour bar serves all. */
+  least: number;
+  greatest: number;
+  /** A byte a vertex: value = least + byte / 255 * (greatest - least). */
+  values: Stretch;
+}
+
+export interface SymmetryCurve {
+  time_s: number[];
+  xi_left: (number | null)[];
+  xi_right: (number | null)[];
+  s: (number | null)[];
+  /** Where S stops, as perfect symmetry is minus infinity: the least |xi_left - xi_right| told apart. */
+  floor: number;
+  /** What |xi_left - xi_right| of a symmetric motion stays under by jitter alone; [] of an exact motion. */
+  noise?: (number | null)[];
+  /** Of the points, a standard deviation a coordinate; 0 of an exact motion. */
+  jitter_mm?: number;
+}
+
+/** Other tissue on the same mesh, moved by the same motion at the same times. */
+export interface VariantData {
+  name: string;
+  /** What differs from the scene itself, a sentence each. */
+  changes: string[];
+  /** Displacement in frame f = the scene's own + sum over modes of weights[f, k] * step_m * values. */
+  difference: { modes: ModeData[]; weights: Stretch; max_error_mm: number };
+  max_displacement_mm: number;
+  /** Greatest distance from the scene's own run, over all vertices and frames. */
+  max_difference_mm: number;
+  symmetry: SymmetryCurve | null;
+  /** Samples x names x 3, of the names and times of the scene's landmarks. */
+  landmarks: Stretch;
+  tissue: TissueMapData[];
+}
+
 export interface Manifest {
   version: 1;
   title: string;
@@ -23,7 +71,7 @@ export interface Manifest {
     time_s: number[];
     peak_frame: number;
     /** Displacement of frame f = sum over modes of weights[f, k] * step_m * values. */
-    modes: { step_m: number; values: Stretch }[];
+    modes: ModeData[];
     /** Frames x modes. */
     weights: Stretch;
     max_error_mm: number;
@@ -34,11 +82,8 @@ export interface Manifest {
   driven: { names: string[]; points: [number, number, number][] };
   held: [number, number, number][];
   lip_cut: [number, number, number][];
-  symmetry: {
-    time_s: number[];
-    xi_left: (number | null)[];
-    xi_right: (number | null)[];
-    s: (number | null)[];
-    floor: number;
-  } | null;
+  symmetry: SymmetryCurve | null;
+  variants?: VariantData[];
+  /** What differs from place to place in the scene or a variant: the same keys for all of them. */
+  tissue?: TissueMapData[];
 }

@@ -1,199 +1,227 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The face in 3D. Draws only when something changed.
+// The face in 3D, or two of them: beside each other, or in one place and divided by an upright line.
+// One camera for both. Draws only when something changed, and deforms only what is drawn.
 import {
-  Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group,
-  HemisphereLight, Mesh, MeshStandardMaterial, NoToneMapping, PerspectiveCamera, Scene,
+  Box3, Color, DirectionalLight, Group, HemisphereLight, NoToneMapping, PerspectiveCamera, Scene, Spherical,
   SRGBColorSpace, Texture, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { linearOf, putColour } from './colour';
+import type { Colouring } from './colouring';
 import type { Replay } from './data';
-import { Deformer } from './deform';
+import { SceneMotion } from './deform';
+import { FaceBody, FaceMaterials } from './face_body';
 import { uprightFromScan } from './face_frame';
-import { overlaysOf, type Overlay, type OverlayName } from './overlays';
+import type { Overlay, OverlayName } from './overlays';
+import type { Shown } from './shown';
+import { drawsInSoftware } from './software_gl';
 
 export type View = 'front' | 'three-quarter' | 'left' | 'right';
-export type Colouring = 'displacement' | 'skin';
 
 const yawDegrees: Record<View, number> = { front: 0, 'three-quarter': 38, left: 90, right: -90 };
+const radians = (degrees: number) => (degrees * Math.PI) / 180;
+
+/** Where a body is drawn: from pixel x on, of which those in [from, to) are kept. */
+interface Pass {
+  body: FaceBody;
+  x: number;
+  width: number;
+  from: number;
+  to: number;
+}
 
 export class FaceViewer {
-  readonly overlays: Overlay[];
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(24, 1, 0.01, 10);
   private readonly controls: OrbitControls;
-  private readonly deformer: Deformer;
-  private readonly geometry = new BufferGeometry();
-  private readonly mesh: Mesh<BufferGeometry, MeshStandardMaterial>;
-  private readonly mapped = new MeshStandardMaterial({
-    vertexColors: true, roughness: 0.5, metalness: 0, side: DoubleSide,
-  });
-  private readonly plain = new MeshStandardMaterial({
-    color: '#dba58c', roughness: 0.55, metalness: 0, side: DoubleSide,
-  });
-  private readonly ownColours: Float32Array | null;
+  private readonly motion: SceneMotion;
+  private readonly materials: FaceMaterials;
+  private readonly upright = new Group();
+  /** The second is made when two faces are first shown. */
+  private readonly bodies: FaceBody[] = [];
+  private readonly lights: { light: DirectionalLight; onSkin: number; onMap: number }[] = [];
   private readonly sky = new HemisphereLight('#ffffff', '#8a7f78', 1);
   private readonly centre = new Vector3();
   private readonly size = new Vector3();
-  private view: View = 'front';
-  private colouring: Colouring = 'displacement';
+  private readonly visibleOverlays = new Set<OverlayName>();
   private frame = 0;
+  private wipe = 0.5;
+  private stale = true; // shapes are not those of `frame` and `shown`
   private queued = false;
+  /** Then pictures in motion are drawn with as few pixels as do, and those at rest once more with all. */
+  private readonly software = drawsInSoftware();
+  private drawnAt = 0;
+  private slow = 0; // pictures in a row that came late
+  private rest = 0;
 
   /** Throws where the browser has no WebGL. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly host: HTMLElement,
     private readonly replay: Replay,
-    private readonly topMm: number,
+    private readonly shown: Shown,
+    private colouring: Colouring,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: true });
     this.renderer.toneMapping = NoToneMapping;
     this.renderer.setClearColor(0, 0);
-    this.deformer = new Deformer(replay);
-    this.overlays = overlaysOf(replay);
-    this.ownColours = this.scanColours();
-    this.fillGeometry();
-    this.mesh = new Mesh(this.geometry, this.mapped);
-    this.mesh.frustumCulled = false;
-    this.loadTexture();
-
-    const upright = new Group();
-    upright.quaternion.copy(uprightFromScan(replay));
-    upright.add(this.mesh, ...this.overlays.map((o) => o.object));
-    this.scene.add(upright);
-    for (const overlay of this.overlays) overlay.object.visible = false;
+    this.renderer.autoClear = false;
+    this.motion = new SceneMotion(replay);
+    this.materials = new FaceMaterials(replay);
+    this.upright.quaternion.copy(uprightFromScan(replay));
+    this.scene.add(this.upright);
     this.addLights();
-
+    this.loadTexture();
+    this.measure();
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener('change', () => this.queue());
-    upright.updateMatrixWorld(true);
-    // Room for the face at rest and where it moves farthest: a dropped jaw must not leave the picture.
-    const box = new Box3().setFromObject(this.mesh, true);
-    this.moveTo(replay.peakFrame);
-    box.union(new Box3().setFromObject(this.mesh, true));
-    box.getCenter(this.centre);
-    box.getSize(this.size);
-    new ResizeObserver(() => this.resize()).observe(host);
-    this.resize();
-    this.moveTo(0);
+    this.setColouring(colouring);
+    this.lookFrom('front');
+    shown.onChange(() => {
+      this.refit();
+      this.touch();
+    });
+    new ResizeObserver(() => this.refit()).observe(host);
+    this.refit();
+  }
+
+  get overlays(): Overlay[] {
+    return this.body(0).overlays;
   }
 
   moveTo(frame: number): void {
     this.frame = frame;
-    this.deformer.moveTo(frame);
-    const map = this.replay.texture?.skinVertex;
-    this.copyOut(this.deformer.position, 'position', map);
-    this.copyOut(this.deformer.normal, 'normal', map);
-    if (this.colouring === 'displacement') this.paintDisplacement();
-    for (const overlay of this.overlays)
-      if (overlay.object.visible) overlay.follow(this.deformer.displacement);
-    this.queue();
+    this.touch();
   }
 
   setColouring(colouring: Colouring): void {
     this.colouring = colouring;
-    if (colouring === 'displacement') {
-      this.mesh.material = this.mapped;
-      this.paintDisplacement();
-    } else {
-      this.mesh.material = this.plain;
-      if (this.ownColours) this.setColours(this.ownColours);
-    }
-    // The map is read by colour: less shading, more light from everywhere.
-    this.sky.intensity = colouring === 'displacement' ? 2.4 : 1.0;
+    if (colouring.scale) this.materials.useRamp(colouring.scale.ramp);
+    // A map is read by its colour: less shading, more light from everywhere.
+    this.sky.intensity = colouring.scale ? 2.35 : 1.0;
+    this.sky.groundColor.set(colouring.scale ? '#cdc8c2' : '#8a7f78');
+    for (const { light, onSkin, onMap } of this.lights) light.intensity = colouring.scale ? onMap : onSkin;
+    this.touch();
+  }
+
+  /** Where the line between two faces in one place lies: 0 is the left edge, 1 the right. */
+  setWipe(share: number): void {
+    this.wipe = share;
     this.queue();
   }
 
   showOverlay(name: OverlayName, visible: boolean): void {
-    for (const overlay of this.overlays) {
-      if (overlay.name !== name) continue;
-      overlay.object.visible = visible;
-      if (visible) overlay.follow(this.deformer.displacement);
-    }
+    if (visible) this.visibleOverlays.add(name);
+    else this.visibleOverlays.delete(name);
+    for (const body of this.bodies) body.showOverlay(name, visible);
     this.queue();
   }
 
   lookFrom(view: View): void {
-    this.view = view;
-    const halfHeight = Math.max(this.size.y, this.size.x / Math.max(this.camera.aspect, 0.1)) / 2;
-    const distance =
-      (1.06 * halfHeight) / Math.tan((this.camera.fov * Math.PI) / 360) + this.size.z / 4;
-    const yaw = (yawDegrees[view] * Math.PI) / 180;
-    const from = new Vector3(Math.sin(yaw), 0.04, Math.cos(yaw)).multiplyScalar(distance);
-    this.camera.position.copy(this.centre).add(from);
+    const yaw = radians(yawDegrees[view]);
+    const from = new Vector3(Math.sin(yaw), 0.04, Math.cos(yaw)).normalize();
+    this.camera.position.copy(this.centre).addScaledVector(from, this.fitting());
     this.controls.target.copy(this.centre);
     this.controls.update();
     this.queue();
   }
 
+  /** Walks around the face, to its left and up. */
+  turn(yaw: number, pitch: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const at = new Spherical().setFromVector3(offset);
+    at.theta += radians(yaw);
+    at.phi = Math.min(Math.max(at.phi - radians(pitch), 0.05), Math.PI - 0.05);
+    this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(at));
+    this.controls.update();
+    this.queue();
+  }
+
+  zoom(factor: number): void {
+    const { target } = this.controls;
+    this.camera.position.sub(target).divideScalar(factor).add(target);
+    this.controls.update();
+    this.queue();
+  }
+
+  /** What is shown, `scale` pixels for each of the page's. */
+  snapshot(scale: number): HTMLCanvasElement {
+    const before = this.renderer.getPixelRatio();
+    const { clientWidth: width, clientHeight: height } = this.host;
+    // Where edges are not smoothed, twice the pixels in each direction make them smooth.
+    const finer = this.software ? 2 * scale : scale;
+    const most = this.renderer.capabilities.maxTextureSize / Math.max(width, height);
+    this.renderer.setPixelRatio(Math.min(finer, most));
+    this.draw();
+    const copy = document.createElement('canvas');
+    copy.width = Math.round(scale * width);
+    copy.height = Math.round(scale * height);
+    const context = copy.getContext('2d')!;
+    context.imageSmoothingQuality = 'high';
+    context.drawImage(this.canvas, 0, 0, copy.width, copy.height);
+    this.renderer.setPixelRatio(before);
+    this.draw();
+    return copy;
+  }
+
+  private body(i: number): FaceBody {
+    if (!this.bodies[i]) {
+      const body = new FaceBody(this.replay, this.motion, this.replay.faces[0], this.materials);
+      this.bodies[i] = body;
+      this.upright.add(body.object);
+      for (const name of this.visibleOverlays) body.showOverlay(name, true);
+    }
+    return this.bodies[i];
+  }
+
   private addLights(): void {
     const rig = new Group(); // goes with the camera, so that every side is lit alike
-    const light = (colour: string, intensity: number, x: number, y: number, z: number) => {
-      const one = new DirectionalLight(new Color(colour), intensity);
-      one.position.set(x, y, z);
-      rig.add(one, one.target);
+    const add = (colour: string, onSkin: number, onMap: number, x: number, y: number, z: number) => {
+      const light = new DirectionalLight(new Color(colour), onSkin);
+      light.position.set(x, y, z);
+      rig.add(light, light.target);
+      this.lights.push({ light, onSkin, onMap });
     };
-    light('#fff6ec', 2.0, -0.8, 0.9, 1.0);
-    light('#dfe9ff', 0.7, 1.2, 0.1, 0.6);
-    light('#ffffff', 0.6, 0.2, 1.0, -0.9);
+    add('#fff6ec', 2.0, 1.3, -0.8, 0.9, 1.0);
+    add('#dfe9ff', 0.7, 0.5, 1.2, 0.1, 0.6);
+    add('#ffffff', 0.6, 0.4, 0.2, 1.0, -0.9);
     this.camera.add(rig);
     this.scene.add(this.camera, this.sky);
   }
 
-  private fillGeometry(): void {
-    const texture = this.replay.texture;
-    const count = texture ? texture.skinVertex.length : this.replay.points.length / 3;
-    for (const name of ['position', 'normal', 'color'])
-      this.geometry.setAttribute(name, new BufferAttribute(new Float32Array(3 * count), 3));
-    if (texture) this.geometry.setAttribute('uv', new BufferAttribute(texture.uv, 2));
-    const triangles = texture ? texture.triangles : this.replay.triangles;
-    this.geometry.setIndex(new BufferAttribute(new Uint32Array(triangles), 1));
-    this.copyOut(this.deformer.position, 'position', texture?.skinVertex);
-  }
-
-  private copyOut(from: Float32Array, name: string, map: Int32Array | undefined): void {
-    const attribute = this.geometry.getAttribute(name) as BufferAttribute;
-    const out = attribute.array as Float32Array;
-    if (map) {
-      for (let i = 0; i < map.length; ++i)
-        for (let k = 0; k < 3; ++k) out[3 * i + k] = from[3 * map[i] + k];
-    } else {
-      out.set(from);
+  /** Room for the face at rest and where any moves farthest: a dropped jaw must not leave the picture. */
+  private measure(): void {
+    const body = this.body(0);
+    this.upright.updateMatrixWorld(true);
+    const box = new Box3();
+    const include = () => box.union(new Box3().setFromObject(body.mesh, true));
+    body.moveTo(this.replay.faces[0], 0);
+    include();
+    for (const face of this.replay.faces) {
+      body.moveTo(face, this.replay.peakFrame);
+      include();
     }
-    attribute.needsUpdate = true;
+    box.getCenter(this.centre);
+    box.getSize(this.size);
   }
 
-  private paintDisplacement(): void {
-    const d = this.deformer.displacement;
-    const perTop = 1e3 / this.topMm;
-    const map = this.replay.texture?.skinVertex;
-    const colour = this.geometry.getAttribute('color') as BufferAttribute;
-    const out = colour.array as Float32Array;
-    for (let i = 0; i < colour.count; ++i) {
-      const v = 3 * (map ? map[i] : i);
-      putColour(perTop * Math.hypot(d[v], d[v + 1], d[v + 2]), out, 3 * i);
-    }
-    colour.needsUpdate = true;
+  /** How far the camera must be for the face to fill its part of the stage. */
+  private fitting(): number {
+    const half = Math.max(this.size.y, this.size.x / Math.max(this.camera.aspect, 0.1)) / 2;
+    return (1.06 * half) / Math.tan(radians(this.camera.fov) / 2) + this.size.z / 4;
   }
 
-  private scanColours(): Float32Array | null {
-    const { colour } = this.replay;
-    if (!colour) return null;
-    const out = new Float32Array((3 * colour.length) / 4);
-    for (let v = 0; v < colour.length / 4; ++v)
-      for (let k = 0; k < 3; ++k) out[3 * v + k] = linearOf(colour[4 * v + k]);
-    this.plain.vertexColors = true;
-    this.plain.color.set('#ffffff');
-    return out;
-  }
-
-  private setColours(colours: Float32Array): void {
-    const attribute = this.geometry.getAttribute('color') as BufferAttribute;
-    (attribute.array as Float32Array).set(colours);
-    attribute.needsUpdate = true;
+  /** After the stage or its parts have another size: nearer or farther, but seen from where it was. */
+  private refit(): void {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    if (width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(this.ratio);
+    this.renderer.setSize(width, height, false);
+    const before = this.fitting();
+    this.camera.aspect = (this.shown.mode === 'side-by-side' ? width / 2 : width) / height;
+    this.camera.updateProjectionMatrix();
+    this.zoom(before / this.fitting());
   }
 
   private loadTexture(): void {
@@ -205,32 +233,89 @@ export class FaceViewer {
       texture.colorSpace = SRGBColorSpace;
       texture.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
       texture.needsUpdate = true;
-      this.plain.map = texture;
-      this.plain.color.set('#ffffff');
-      this.plain.needsUpdate = true;
+      this.materials.useTexture(texture);
       this.queue();
     });
   }
 
-  private resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.host;
-    if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.setSize(width, height, false);
-    const before = this.camera.aspect;
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
-    if (Math.abs(before - this.camera.aspect) > 1e-3) this.lookFrom(this.view);
+  private passes(): Pass[] {
+    const width = this.host.clientWidth;
+    const all = { x: 0, width, from: 0, to: width };
+    if (this.shown.mode === 'single') return [{ body: this.body(0), ...all }];
+    const [left, right] = [this.body(0), this.body(1)];
+    if (this.shown.mode === 'wipe') {
+      const line = Math.round(this.wipe * width);
+      return [{ body: left, ...all, to: line }, { body: right, ...all, from: line }];
+    }
+    const half = Math.floor(width / 2);
+    return [
+      { body: left, x: 0, width: half, from: 0, to: half },
+      { body: right, x: width - half, width: half, from: width - half, to: width },
+    ];
+  }
+
+  private draw(): void {
+    const height = this.host.clientHeight;
+    const passes = this.passes();
+    if (this.stale) {
+      this.stale = false;
+      const { faces } = this.replay;
+      this.shown.visible.forEach((face, i) => {
+        passes[i].body.moveTo(faces[face], this.frame);
+        passes[i].body.paint(this.colouring);
+      });
+    }
+    this.renderer.setScissorTest(false);
+    this.renderer.clear();
+    this.renderer.setScissorTest(true);
+    for (const { body, x, width, from, to } of passes) {
+      if (to <= from) continue;
+      for (const other of this.bodies) other.object.visible = other === body;
+      this.renderer.setViewport(x, 0, width, height);
+      this.renderer.setScissor(from, 0, to - from, height);
+      this.renderer.render(this.scene, this.camera);
+    }
+  }
+
+  private touch(): void {
+    this.stale = true;
     this.queue();
   }
 
   private queue(): void {
     if (this.queued) return;
     this.queued = true;
+    this.canvas.dataset.atRest = 'false';
     requestAnimationFrame(() => {
       this.queued = false;
-      this.renderer.render(this.scene, this.camera);
+      const before = performance.now();
+      if (this.renderer.getPixelRatio() !== this.ratio) this.renderer.setPixelRatio(this.ratio);
+      this.draw();
+      this.canvas.dataset.atRest = String(!this.software);
+      if (this.software) this.refineAtRest(before - this.drawnAt);
+      // For whoever watches from outside: what was drawn, and what it took.
       this.canvas.dataset.frame = this.frame.toFixed(3);
+      this.canvas.dataset.faces = this.shown.visible.join(' ');
+      this.canvas.dataset.drawMs = (performance.now() - before).toFixed(2);
     });
+  }
+
+  private get ratio(): number {
+    if (!this.software) return Math.min(window.devicePixelRatio, 2);
+    return this.slow < 3 ? 1 : 0.7;
+  }
+
+  /** `gap`: since the picture before, ms. Three such without another picture is rest. */
+  private refineAtRest(gap: number): void {
+    this.drawnAt += gap;
+    // Once they come late, pictures in motion stay coarse: going back and forth would show.
+    if (this.slow < 3) this.slow = gap > 50 && gap < 1500 ? this.slow + 1 : 0;
+    clearTimeout(this.rest);
+    this.rest = window.setTimeout(() => {
+      if (this.queued) return;
+      this.renderer.setPixelRatio(2);
+      this.draw();
+      this.canvas.dataset.atRest = 'true';
+    }, gap > 1500 ? 250 : Math.max(250, 3 * gap));
   }
 }

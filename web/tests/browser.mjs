@@ -12,11 +12,13 @@ export const launch = () =>
     ],
   });
 
-/** Waits until the page says that it is ready. `complaints`: errors, warnings and requests. */
-export async function openPage(browser, file, options = {}) {
+/** Waits until the page says that it is ready. `complaints`: errors, warnings and requests. `init`: a
+ *  script that runs before the page's own. `readyMs`: from asking for the page until it is ready. */
+export async function openPage(browser, file, { init, ...options } = {}) {
   const context = await browser.newContext({
     viewport: { width: 1360, height: 900 }, reducedMotion: 'reduce', ...options,
   });
+  if (init) await context.addInitScript(init);
   const page = await context.newPage();
   page.setDefaultTimeout(30_000);
   const complaints = [];
@@ -31,9 +33,11 @@ export async function openPage(browser, file, options = {}) {
     const url = request.url();
     if (url !== address && !/^(data|blob):/.test(url)) complaints.push(`request to ${url}`);
   });
+  const asked = performance.now();
   await page.goto(address);
   await page.waitForSelector('html[data-ready]', { timeout: 60_000 });
-  return { page, complaints, close: () => context.close() };
+  const readyMs = performance.now() - asked;
+  return { page, complaints, readyMs, close: () => context.close() };
 }
 
 /** By how many pixels the page is wider than its window. */

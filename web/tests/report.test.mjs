@@ -8,6 +8,7 @@ import { basename, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
 import { fixture } from './fixtures.mjs';
+import { changedShare, distinctColours, look } from './pixels.mjs';
 
 const reports = process.env.REPORT
   ? [resolve(process.env.REPORT)]
@@ -28,35 +29,6 @@ async function open(report, options = {}) {
 }
 
 const drawnFrame = (page) => page.locator('#face').getAttribute('data-frame').then(Number);
-
-/** Pixels of the canvas as people see them: decoded and kept in the browser, a handle here. */
-async function look(page) {
-  const png = await page.locator('#face').screenshot();
-  return page.evaluateHandle(async (base64) => {
-    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-    const canvas = new OffscreenCanvas(image.width, image.height);
-    const context = canvas.getContext('2d');
-    context.drawImage(image, 0, 0);
-    return context.getImageData(0, 0, image.width, image.height).data;
-  }, png.toString('base64'));
-}
-
-const changedShare = (before, after) =>
-  before.evaluate((a, b) => {
-    if (a.length !== b.length) throw new Error('the canvas changed its size');
-    let changed = 0;
-    for (let i = 0; i < a.length; i += 4)
-      if (Math.abs(a[i] - b[i]) + Math.abs(a[i + 1] - b[i + 1]) + Math.abs(a[i + 2] - b[i + 2]) > 12) ++changed;
-    return changed / (a.length / 4);
-  }, after);
-
-const distinctColours = (pixels) =>
-  pixels.evaluate((p) => {
-    const seen = new Set();
-    for (let i = 0; i < p.length; i += 4) seen.add((p[i] >> 3) * 1024 + (p[i + 1] >> 3) * 32 + (p[i + 2] >> 3));
-    return seen.size;
-  });
 
 async function goTo(page, frame) {
   await page.locator('#frame').fill(String(frame));

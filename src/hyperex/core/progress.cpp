@@ -11,13 +11,16 @@
 namespace hyperex {
 namespace {
 std::atomic<bool> silenced{false};
+std::atomic<bool> taken{false};  // a bar stands
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
 }
 }  // namespace
 
-void Progress::silence(bool silent) { silenced = silent; }
+void Progress::silence(bool silent) {
+  silenced = silent;
+}
 
 Progress::Progress(std::string label, long total)
     : label_(std::move(label)), total_(total), start_(Clock::now()), last_draw_(start_) {
@@ -27,9 +30,12 @@ Progress::Progress(std::string label, long total)
 
 Progress::~Progress() {
   if (shown_) draw(total_, true);
+  if (standing_) taken = false;
 }
 
-double Progress::seconds() const { return seconds_since(start_); }
+double Progress::seconds() const {
+  return seconds_since(start_);
+}
 
 void Progress::update(long done) {
   if (silenced) return;
@@ -41,17 +47,23 @@ void Progress::update(long done) {
 
 void Progress::draw(long done, bool last) {
   if (silenced) return;
-  shown_ = true;
+  if (!standing_ && taken.exchange(true)) return;
+  standing_ = shown_ = true;
   last_draw_ = Clock::now();
   constexpr int width = 30;
-  const double share = last ? 1.0 : total_ > 0 ? std::clamp(double(done) / double(total_), 0., 1.) : 0.;
+  const double share = last         ? 1.0
+                       : total_ > 0 ? std::clamp(double(done) / double(total_), 0., 1.)
+                                    : 0.;
   const int filled = int(share * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
   if (::isatty(2)) {
-    std::fputs(fmt::format("\r{:<28} [{}] {:3.0f} % {:6.1f} s{}", label_, bar, 100 * share, seconds(),
-                           last ? "\n" : "").c_str(), stderr);
+    std::fputs(fmt::format("\r{:<28} [{}] {:3.0f} % {:6.1f} s{}", label_, bar, 100 * share,
+                           seconds(), last ? "\n" : "")
+                   .c_str(),
+               stderr);
   } else {
-    std::fputs(fmt::format("{:<28} {:3.0f} % {:6.1f} s\n", label_, 100 * share, seconds()).c_str(), stderr);
+    std::fputs(fmt::format("{:<28} {:3.0f} % {:6.1f} s\n", label_, 100 * share, seconds()).c_str(),
+               stderr);
   }
   std::fflush(stderr);
 }

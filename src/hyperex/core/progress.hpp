@@ -6,7 +6,9 @@
 namespace hyperex {
 
 /// A progress bar on standard error. On a terminal it redraws one line; elsewhere it prints one
-/// line when it starts lasting (1 s) and one at the end. Nothing at all for short work.
+/// line when it starts lasting (1 s) and one at the end. Nothing at all for short work. One bar at
+/// a time: work within or beside other work that has its bar standing shows none until that is
+/// done.
 class Progress {
  public:
   /// `total` steps of work; 0 where the length is not known beforehand.
@@ -24,7 +26,7 @@ class Progress {
   void draw(long done, bool last);
   std::string label_;
   long total_;
-  bool shown_ = false;
+  bool standing_ = false, shown_ = false;
   std::chrono::steady_clock::time_point start_, last_draw_;
 };
 

@@ -99,9 +99,9 @@ Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& 
   return out;
 }
 
-Asymmetry asymmetry_of(const TriMesh& rest, const std::vector<PointsF>& frames,
-                       const io::Landmarks& landmarks, const std::vector<int>& side) {
-  Asymmetry out;
+RestAsymmetry rest_asymmetry(const TriMesh& rest, const io::Landmarks& landmarks,
+                             const std::vector<int>& side) {
+  RestAsymmetry out;
   out.plane = midsagittal_plane(rest, landmarks);
   out.pairs = counterparts(rest, out.plane, side);
   const Regions regions = regions_of(rest.points, landmarks);
@@ -113,6 +113,11 @@ Asymmetry asymmetry_of(const TriMesh& rest, const std::vector<PointsF>& frames,
   const DistanceStatistics at_rest = statistics_of(out.pairs.distance_m, out.face);
   out.rest_rms_mm = at_rest.rms_mm;
   out.rest_p95_mm = at_rest.p95_mm;
+  return out;
+}
+
+Asymmetry asymmetry_of(const RestAsymmetry& rest, const std::vector<PointsF>& frames) {
+  Asymmetry out{rest, {}, 0};
   out.frames.resize(frames.size());
   tbb::parallel_for(size_t{0}, frames.size(), [&](size_t f) {
     const Eigen::VectorXd map_m =

@@ -37,19 +37,26 @@ struct AsymmetrySummary {
   double mouth_rms_mm = 0, mouth_p95_mm = 0;  ///< over the region "lips"
 };
 
-struct Asymmetry {
+/// What does not depend on the motion.
+struct RestAsymmetry {
   MidsagittalPlane plane;
   Counterparts pairs;
-  std::vector<AsymmetrySummary> frames;
   double rest_rms_mm = 0, rest_p95_mm = 0;  ///< distance of the reflected face at rest from itself
   double paired_share = 0;                  ///< of the face's vertices that have a counterpart
   std::vector<int> face, mouth;             ///< vertices of both regions that have one
-  int worst_frame = 0;                      ///< largest face_rms_mm
 };
 
-/// Everything of a sequence: `frames` are displacements of rest.points (m). Numbers are NaN where a
-/// region cannot be defined. Throws InputError where the landmarks give no plane.
-Asymmetry asymmetry_of(const TriMesh& rest, const std::vector<PointsF>& frames,
-                       const io::Landmarks& landmarks, const std::vector<int>& side = {});
+/// Numbers are NaN where a region cannot be defined. Throws InputError where the landmarks give no
+/// plane.
+RestAsymmetry rest_asymmetry(const TriMesh& rest, const io::Landmarks& landmarks,
+                             const std::vector<int>& side = {});
+
+struct Asymmetry : RestAsymmetry {
+  std::vector<AsymmetrySummary> frames;
+  int worst_frame = 0;  ///< largest face_rms_mm
+};
+
+/// Everything of a sequence: `frames` are displacements of the points at rest (m).
+Asymmetry asymmetry_of(const RestAsymmetry& rest, const std::vector<PointsF>& frames);
 
 }  // namespace hyperex::metrics

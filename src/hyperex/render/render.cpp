@@ -23,14 +23,27 @@ Vec3f linear(const Colour& colour) {
       .cast<float>();
 }
 
+// Fine enough for 8 bits a channel.
+const ColourTable& linear_viridis() {
+  static const ColourTable table = [] {
+    constexpr int last = 4095;
+    ColourTable t;
+    for (int i = 0; i <= last; ++i) t.push_back(linear(viridis(i / double(last))));
+    return t;
+  }();
+  return table;
+}
+
 // A surface made ready: normals in the camera's frame, and per vertex either the scalar (mapped
 // where the ray lands, so that colours do not mix through the map) or a colour.
 struct Prepared {
   const Surface* surface;
   PointsF normals;
   ColourTable colours;
+  Vec3f plain;
 
-  Prepared(const Surface& s, const Eigen::Matrix3d& camera_from_world) : surface(&s) {
+  Prepared(const Surface& s, const Eigen::Matrix3d& camera_from_world)
+      : surface(&s), plain(linear(s.plain)) {
     const TriMesh& mesh = s.mesh;
     const Eigen::Index vertices = mesh.points.rows();
     if (s.scalar.size() != 0 && s.scalar.size() != vertices)
@@ -62,9 +75,12 @@ struct Prepared {
     if (surface->scalar.size() != 0) {
       double value = 0;
       for (int k = 0; k < 3; ++k) value += hit.weight[k] * surface->scalar[corners[k]];
-      return linear(std::isnan(value) ? surface->plain : viridis(share_in(surface->range, value)));
+      if (std::isnan(value)) return plain;
+      const ColourTable& map = linear_viridis();
+      return map[std::size_t(
+          std::lround(share_in(surface->range, value) * double(map.size() - 1)))];
     }
-    if (colours.empty()) return linear(surface->plain);
+    if (colours.empty()) return plain;
     Vec3f colour = Vec3f::Zero();
     for (int k = 0; k < 3; ++k) colour += static_cast<float>(hit.weight[k]) * colours[corners[k]];
     return colour;
@@ -91,7 +107,8 @@ Vec3f shaded(const Vec3f& colour, Vec3f normal, bool back) {
   const float lit = std::max(0.f, normal.dot(key));
   const float light = 0.26f + 0.10f * (0.5f + 0.5f * normal.y()) + 0.66f * lit +
                       0.16f * std::max(0.f, normal.dot(fill));
-  const float sheen = 0.03f * lit + 0.07f * std::pow(std::max(0.f, normal.dot(half_way)), 14.f);
+  const float square = std::pow(std::max(0.f, normal.dot(half_way)), 2), fourth = square * square;
+  const float sheen = 0.03f * lit + 0.07f * fourth * fourth * fourth * square;  // power of 14
   return (colour * light).array() * (back ? 0.4f : 1.f) + (back ? 0.f : sheen);
 }
 
@@ -100,25 +117,40 @@ void cast_rays(const std::vector<Prepared>& prepared, const RayScene& scene, con
   const double m_per_px = camera.height_m / options.height_px;
   const Vec3f background = linear(options.background);
   const int n = options.samples;
+  const int along = n * options.width_px;  // rays in a row
+  const auto m_per_ray = static_cast<float>(m_per_px / n);
+  const auto x_first = static_cast<float>((0.5 / n - options.width_px / 2.0) * m_per_px);
+  struct Sum {
+    Vec3f light = Vec3f::Zero();
+    int hits = 0;
+  };
   tbb::parallel_for(0, options.height_px, [&](int y) {
-    for (int x = 0; x < options.width_px; ++x) {
-      Vec3f sum = Vec3f::Zero();
-      int hits = 0;
-      for (int s = 0; s < n * n; ++s) {
-        const double px = x + (s % n + 0.5) / n - options.width_px / 2.0;
-        const double py = options.height_px / 2.0 - y - (s / n + 0.5) / n;
-        const auto hit =
-            scene.look_at(static_cast<float>(px * m_per_px), static_cast<float>(py * m_per_px));
-        if (!hit || (options.hide_backs && hit->normal.z() < 0)) continue;
-        const Prepared& p = prepared[hit->surface];
-        sum += shaded(p.colour_at(*hit), p.normal_at(*hit), hit->normal.z() < 0);
-        ++hits;
+    std::vector<Sum> row(static_cast<std::size_t>(options.width_px));
+    RayScene::Packet packet;
+    for (int s = 0; s < n; ++s) {
+      const auto py = static_cast<float>((options.height_px / 2.0 - y - (s + 0.5) / n) * m_per_px);
+      for (int first = 0; first < along; first += RayScene::kPacket) {
+        const int count = std::min(RayScene::kPacket, along - first);
+        scene.look_along(x_first + static_cast<float>(first) * m_per_ray, m_per_ray, py, count,
+                         packet);
+        for (int i = 0; i < count; ++i) {
+          const auto& hit = packet[static_cast<std::size_t>(i)];
+          if (!hit || (options.hide_backs && hit->normal.z() < 0)) continue;
+          const Prepared& p = prepared[static_cast<std::size_t>(hit->surface)];
+          Sum& sum = row[static_cast<std::size_t>((first + i) / n)];
+          sum.light += shaded(p.colour_at(*hit), p.normal_at(*hit), hit->normal.z() < 0);
+          ++sum.hits;
+        }
       }
-      if (hits == 0) continue;
-      sum = (sum + static_cast<float>(n * n - hits) * background) / static_cast<float>(n * n);
+    }
+    for (int x = 0; x < options.width_px; ++x) {
+      const Sum& sum = row[static_cast<std::size_t>(x)];
+      if (sum.hits == 0) continue;
+      const Vec3f light = (sum.light + static_cast<float>(n * n - sum.hits) * background) /
+                          static_cast<float>(n * n);
       for (int k = 0; k < 3; ++k)
         image.pixel(x, y)[k] = static_cast<std::uint8_t>(
-            std::lround(255 * std::clamp(srgb_from_linear(std::min(sum[k], 1.f)), 0.0, 1.0)));
+            std::lround(255 * std::clamp(srgb_from_linear(std::min(light[k], 1.f)), 0.0, 1.0)));
     }
   });
 }

@@ -38,9 +38,10 @@ json skin_section(const ReportInput& input, BinaryBlock& block) {
   return skin;
 }
 
-json motion_section(const ReportInput& input, BinaryBlock& block) {
+/// {"modes": a mode its int16 values and their step, "weights": frames x modes}.
+json modes_section(const DisplacementModes& motion, BinaryBlock& block) {
   json modes = json::array();
-  for (const auto& mode : input.modes.modes) {
+  for (const auto& mode : motion.modes) {
     const float largest = mode.cwiseAbs().maxCoeff();
     const float step_m = largest > 0 ? largest / 32767 : 1;
     std::vector<std::int16_t> steps(mode.size());
@@ -51,24 +52,89 @@ json motion_section(const ReportInput& input, BinaryBlock& block) {
         {{"step_m", step_m}, {"values", block.add("int16", steps.data(), steps.size())}});
   }
   using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const RowMajor weights = input.modes.weights;
-  double largest_m = 0;
-  for (const auto& frame : input.performance.skin_displacement_m)
-    largest_m = std::max<double>(largest_m, frame.rows() ? frame.rowwise().norm().maxCoeff() : 0);
-  return {{"time_s", input.performance.frame_time_s},
-          {"peak_frame", input.performance.peak_frame},
-          {"modes", modes},
+  const RowMajor weights = motion.weights;
+  return {{"modes", modes},
           {"weights", block.add("float32", weights.data(), weights.size())},
-          {"max_error_mm", 1e3 * input.modes.max_error_m},
-          {"max_displacement_mm", 1e3 * largest_m}};
+          {"max_error_mm", 1e3 * motion.max_error_m}};
 }
 
-json landmark_section(const motion::Motion& landmarks, BinaryBlock& block) {
+double largest_mm(const std::vector<PointsF>& displacement) {
+  double largest_m = 0;
+  for (const auto& frame : displacement)
+    largest_m = std::max<double>(largest_m, frame.rows() ? frame.rowwise().norm().maxCoeff() : 0);
+  return 1e3 * largest_m;
+}
+
+json motion_section(const ReportInput& input, BinaryBlock& block) {
+  json motion = modes_section(input.modes, block);
+  motion["time_s"] = input.performance.frame_time_s;
+  motion["peak_frame"] = input.performance.peak_frame;
+  motion["max_displacement_mm"] = largest_mm(input.performance.skin_displacement_m);
+  return motion;
+}
+
+json positions_of(const motion::Motion& landmarks, BinaryBlock& block) {
   std::vector<float> values;  // N x P x 3
   for (const auto& frame : landmarks.positions)
     for (Index i = 0; i < frame.size(); ++i) values.push_back(static_cast<float>(frame.data()[i]));
-  return {
-      {"names", landmarks.names}, {"time_s", landmarks.time_s}, {"positions", block.add(values)}};
+  return block.add(values);
+}
+
+json symmetry_section(const metrics::SymmetryCurve* curve) {
+  if (!curve) return nullptr;
+  return {{"time_s", curve->time_s},
+          {"xi_left", curve->xi_left},
+          {"xi_right", curve->xi_right},
+          {"s", curve->s},
+          {"floor", curve->floor},
+          {"noise", curve->noise},
+          {"jitter_mm", 1e3 * curve->jitter_m}};
+}
+
+json tissue_section(const std::vector<TissueMap>& maps, BinaryBlock& block) {
+  json section = json::array();
+  for (const TissueMap& map : maps) {
+    const double span = map.greatest - map.least;
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(map.values.size()));
+    std::transform(map.values.begin(), map.values.end(), bytes.begin(), [&](double value) {
+      const double share = span > 0 ? (value - map.least) / span : 0;
+      return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0., 1.)));
+    });
+    section.push_back({{"key", map.key},
+                       {"name", map.name},
+                       {"unit", map.unit},
+                       {"least", map.least},
+                       {"greatest", map.greatest},
+                       {"values", block.add(bytes)}});
+  }
+  return section;
+}
+
+json variants_section(const ReportInput& input, BinaryBlock& block) {
+  const auto& own = input.performance.skin_displacement_m;
+  json section = json::array();
+  for (const ReportVariant& variant : input.variants) {
+    const auto& displacement = variant.performance.skin_displacement_m;
+    double difference_m = 0;
+    for (std::size_t f = 0; f < own.size(); ++f)
+      difference_m = std::max<double>(
+          difference_m, own[f].rows() ? (displacement[f] - own[f]).rowwise().norm().maxCoeff() : 0);
+    section.push_back({{"name", variant.name},
+                       {"changes", variant.changes},
+                       {"difference", modes_section(variant.difference, block)},
+                       {"max_displacement_mm", largest_mm(displacement)},
+                       {"max_difference_mm", 1e3 * difference_m},
+                       {"symmetry", symmetry_section(variant.symmetry)},
+                       {"landmarks", positions_of(variant.performance.landmarks, block)},
+                       {"tissue", tissue_section(variant.tissue, block)}});
+  }
+  return section;
+}
+
+json landmark_section(const motion::Motion& landmarks, BinaryBlock& block) {
+  return {{"names", landmarks.names},
+          {"time_s", landmarks.time_s},
+          {"positions", positions_of(landmarks, block)}};
 }
 
 json points_json(const Points& points) {
@@ -93,24 +159,33 @@ json manifest_of(const ReportInput& input, BinaryBlock& block) {
                      {"points", points_json(performance.driven_points_rest)}}},
                    {"held", points_json(performance.held_points_rest)},
                    {"lip_cut", points_json(performance.lip_cut_rest)},
-                   {"symmetry", nullptr}};
-  if (input.symmetry)
-    manifest["symmetry"] = {{"time_s", input.symmetry->time_s},
-                            {"xi_left", input.symmetry->xi_left},
-                            {"xi_right", input.symmetry->xi_right},
-                            {"s", input.symmetry->s},
-                            {"floor", input.symmetry->floor}};
+                   {"symmetry", symmetry_section(input.symmetry)},
+                   {"tissue", tissue_section(input.tissue, block)},
+                   {"variants", variants_section(input, block)}};
   return manifest;
 }
 
 void check(const ReportInput& input) {
   const auto& performance = input.performance;
   const auto frames = performance.frame_time_s.size();
-  if (performance.skin_displacement_m.size() != frames ||
-      static_cast<std::size_t>(input.modes.weights.rows()) != frames ||
-      (!input.modes.modes.empty() &&
-       input.modes.modes[0].rows() != performance.skin_rest.points.rows()))
+  const Index vertices = performance.skin_rest.points.rows();
+  const auto fits = [&](const reenact::Performance& of, const DisplacementModes& modes) {
+    return of.skin_displacement_m.size() == frames &&
+           static_cast<std::size_t>(modes.weights.rows()) == frames &&
+           (modes.modes.empty() || modes.modes[0].rows() == vertices) &&
+           of.landmarks.names == performance.landmarks.names &&
+           of.landmarks.time_s.size() == performance.landmarks.time_s.size();
+  };
+  if (!fits(performance, input.modes))
     throw std::invalid_argument("write_html_report: performance and modes do not belong together");
+  const auto map_fits = [&](const TissueMap& map) { return map.values.size() == vertices; };
+  bool all = std::all_of(input.tissue.begin(), input.tissue.end(), map_fits);
+  for (const ReportVariant& variant : input.variants)
+    all = all && fits(variant.performance, variant.difference) &&
+          variant.tissue.size() == input.tissue.size() &&
+          std::all_of(variant.tissue.begin(), variant.tissue.end(), map_fits);
+  if (!all)
+    throw std::invalid_argument("write_html_report: a variant does not belong to the scene's run");
 }
 
 }  // namespace

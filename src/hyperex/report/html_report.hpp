@@ -12,6 +12,26 @@
 
 namespace hyperex::report {
 
+/// A parameter of the tissue over the skin.
+struct TissueMap {
+  std::string key;        ///< as the scene writes it: "young_kpa"
+  std::string name;       ///< "Young's modulus"
+  std::string unit = {};  ///< "kPa"
+  /// Of all maps of this key in the page, so that one colour bar serves all; least <= greatest.
+  double least = 0, greatest = 0;
+  Eigen::VectorXd values = {};  ///< a vertex of skin_rest, in `unit`
+};
+
+/// The same face with other tissue: mesh, rest shape and times as the scene's own.
+struct ReportVariant {
+  std::string name;
+  std::vector<std::string> changes;         ///< what differs, "tissue.young_kpa = 1000"
+  const reenact::Performance& performance;  ///< its landmarks are sampled as the scene's own
+  DisplacementModes difference;             ///< of its displacement less the scene's own
+  const metrics::SymmetryCurve* symmetry = nullptr;
+  std::vector<TissueMap> tissue;  ///< keys as the scene's own
+};
+
 /// What the page shows. References must outlive the call.
 struct ReportInput {
   const reenact::Performance& performance;
@@ -20,9 +40,12 @@ struct ReportInput {
   /// the accuracy of the replay.
   const DisplacementModes& modes;
   const metrics::SymmetryCurve* symmetry = nullptr;  ///< its plots are left out where null
-  nlohmann::json summary;                            ///< an object; shown as tables
-  std::vector<std::string> notes;                    ///< warnings and remarks, a sentence each
-  std::string title;
+  nlohmann::json summary = {};                       ///< an object; shown as tables
+  std::vector<std::string> notes = {};               ///< warnings and remarks, a sentence each
+  std::string title = {};
+  /// Parameters that differ from place to place in any of the faces.
+  std::vector<TissueMap> tissue = {};
+  std::vector<ReportVariant> variants = {};
 };
 
 /// Writes one HTML file that replays the performance in a browser without any network: the page

@@ -179,7 +179,7 @@ void check_point_gains(const Scene& scene, const motion::Motion& m) {
   if (!problems.empty()) throw InputError(problems);
 }
 
-/// Gains, the jitter that they leave, and the scale of time.
+/// Gains of points, the jitter, and the scale of time.
 void exaggerate(const Scene& scene, Look look, motion::Motion& m, Inputs& in) {
   check_point_gains(scene, m);
   m = motion::with_point_gains(m, scene.motion.point_gains);
@@ -195,11 +195,11 @@ void exaggerate(const Scene& scene, Look look, motion::Motion& m, Inputs& in) {
                   1e3 * jitter_m)
             : "the recording is too short to tell its jitter: S(t) has no noise floor");
   }
-  in.jitter_m *= scene.motion.gain;
   m = motion::time_scaled(m, scene.motion.time_scale);
 }
 
-void check_names(const Scene& scene, const Inputs& in) {
+/// Names that do not exist, and tissue that cannot be. `of` precedes the keys: "variant[0].".
+void check_names(const Scene& scene, const Inputs& in, const std::string& of = "") {
   const auto check = [&](const std::vector<std::string>& names, const char* key, bool in_motion) {
     std::vector<InputProblem> problems;
     for (const auto& name : names)
@@ -223,6 +223,7 @@ void check_names(const Scene& scene, const Inputs& in) {
   add(check(thick, "mesh.thickness_point", false));
   for (const auto& problem : tissue::problems_of(tissue_field_options(scene), in.landmarks))
     all.push_back(problem_at(scene, "tissue." + problem.key, problem.expected));
+  for (InputProblem& problem : all) problem.key = of + problem.key;
   if (!all.empty()) throw InputError(all);
 }
 
@@ -330,13 +331,18 @@ Inputs read_inputs(const Scene& scene, Look look) {
   problems.attempt([&] { check_names(scene, in); });
   problems.attempt([&] { check_element_size(scene, in); });
   problems.throw_if_any();
+  for (std::size_t i = 0; i < scene.variants.size(); ++i)
+    problems.attempt([&] {
+      check_names(scene.variants[i].scene, inputs_of_variant(scene.variants[i].scene, in),
+                  fmt::format("variant[{}].", i));
+    });
+  problems.throw_if_any();
   return in;
 }
 
 Inputs inputs_of_variant(const Scene& variant, const Inputs& inputs) {
   Inputs in = inputs;
   in.driven = variant.drive.all_points ? in.motion.motion.names : variant.drive.points;
-  check_names(variant, in);
   return in;
 }
 

@@ -17,7 +17,7 @@ struct Inputs {
   std::vector<std::string> placed;  ///< landmarks that were not given
   reenact::AlignedMotion motion;    ///< gaps filled, head pose out, in the scan's frame
   double rigid_rms_mm = 0;          ///< mean residual of the rigid points
-  double jitter_m = 0;              ///< of the points that S(t) takes, gain included; 0: none known
+  double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
   std::vector<std::string> driven;  ///< names of the driven points
   std::vector<std::string> notes;   ///< what was guessed, placed, filled: a sentence each
 };
@@ -42,8 +42,7 @@ enum class Look {
 /// Throws InputError, as far as possible with all problems at once.
 Inputs read_inputs(const Scene& scene, Look look = Look::whole);
 
-/// A scene's inputs with a variant's driven points. Throws InputError for names of the variant that
-/// do not exist.
+/// A scene's inputs with a variant's driven points.
 Inputs inputs_of_variant(const Scene& variant, const Inputs& inputs);
 
 }  // namespace hyperex::scene

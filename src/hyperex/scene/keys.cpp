@@ -144,6 +144,10 @@ std::vector<Field<tissue::TissueRegion>> region_columns() {
                           "them.")),
       optional(places<Row>("scar_points_mm", millimetres, AT(scar_points_m),
                            "In their place: places along a scar, in the scan's axes.")),
+      optional(
+          path<Row>("painted", AT(painted),
+                    "In their place: the scan painted red where it applies (PLY, OBJ, GLB with "
+                    "vertex colours), or a CSV or PLY with a weight from 0 to 1 a vertex.")),
       optional(number<Row>("width_mm", millimetres, AT(width_m), {0.5, 100},
                            "Width of a scar; 4 where not given.")),
       optional(number<Row>("blend_mm", millimetres, AT(blend_m), {0, 100},
@@ -315,8 +319,9 @@ std::vector<Key> run_keys() {
                     "Jitter of the recorded points, a standard deviation a coordinate, which "
                     "sets the noise floor of S(t) (docs/symmetry.md). Below 0: that of the "
                     "tracked points at rest for motion.recording, else none."),
-      numbers<Scene>("output.contact_times_s", seconds, AT(output.contact_times_s), {0, 600}, 1, 12,
-                     "Times of the pictures in contact_sheet.png."),
+      numbers<Scene>("output.contact_times_s", seconds, AT(output.contact_times_s), {0, 600}, 0, 12,
+                     "Times of the pictures in contact_sheet.png. None: five spread over the run, "
+                     "the peak among them."),
   };
 }
 #undef AT

@@ -16,7 +16,6 @@
 #include "hyperex/render/render.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
-#include "hyperex/report/html_report.hpp"
 #include "hyperex/scene/asymmetry_picture.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 
@@ -113,9 +112,13 @@ struct Still {
 /// The shapes wanted, each with the time that it shows: what is wanted after the end of the run is
 /// the shape at its end, and stands there once.
 std::vector<Still> stills_of(const Results& r) {
+  std::vector<Still> stills;
+  const Performance& p = r.simulation.performance;
+  if (r.scene.output.contact_times_s.empty())
+    for (const std::size_t f : spread_frames(p.frame_time_s.size(), std::size_t(p.peak_frame)))
+      stills.push_back({p.frame_time_s[f], &p.skin_displacement_m[f]});
   const std::vector<double> shown =
       shown_times_s(r.scene.output.contact_times_s, run_end_s(r.scene, r.inputs));
-  std::vector<Still> stills;
   for (std::size_t s = 0; s < shown.size(); ++s)
     stills.push_back({shown[s], &r.simulation.still_displacement_m[s]});
   return stills;
@@ -171,17 +174,37 @@ std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double en
   return shown;
 }
 
-metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
-                                            const tissue::TissueMesh& mesh,
-                                            const reenact::Performance& p) {
+std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak) {
+  constexpr std::size_t most = 5;
+  const std::size_t wanted = std::min(most, count);
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i < wanted; ++i)
+    frames.push_back(wanted > 1 ? (i * (count - 1) + (wanted - 1) / 2) / (wanted - 1) : 0);
+  if (wanted < 3 || peak == 0 || peak + 1 >= count) return frames;
+  // Ends stay: the face at rest and what is left at the end are worth a picture.
+  *std::min_element(frames.begin() + 1, frames.end() - 1, [&](std::size_t a, std::size_t b) {
+    const auto off = [&](std::size_t f) { return f > peak ? f - peak : peak - f; };
+    return off(a) < off(b);
+  }) = peak;
+  return frames;
+}
+
+metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inputs& inputs) {
   constexpr double lip_margin_m = 0.002;  // nearer to both lips, a vertex is of neither
   std::vector<int> side;
   for (const double m : mesh.skin_upper_margin)
     side.push_back(m > lip_margin_m ? 1 : m < -lip_margin_m ? -1 : 0);
+  return metrics::rest_asymmetry(mesh.skin, inputs.landmarks, side);
+}
+
+metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
+                                            const metrics::RestAsymmetry& at_rest,
+                                            const reenact::Performance& p) {
+  const double jitter_m = inputs.jitter_m * scene.motion.gain;
   metrics::SymmetryMeasures all;
-  all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, inputs.jitter_m);
-  all.excursions = metrics::excursions_of(p.landmarks, inputs.jitter_m);
-  all.map = metrics::asymmetry_of(p.skin_rest, p.skin_displacement_m, inputs.landmarks, side);
+  all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
+  all.excursions = metrics::excursions_of(p.landmarks, jitter_m);
+  all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m);
   return all;
 }
 
@@ -240,19 +263,6 @@ void write_outputs(const Results& r, const std::filesystem::path& directory) {
   if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
   Progress progress("drawing the contact sheet", 0);
   write_contact_sheet(r, directory / "contact_sheet.png");
-}
-
-void write_report(const Results& r, const nlohmann::ordered_json& summary,
-                  const std::filesystem::path& directory) {
-  const Performance& p = r.simulation.performance;
-  report::ReportInput input{.performance = p,
-                            .scan = r.inputs.scan,
-                            .modes = r.modes,
-                            .symmetry = &r.symmetry.curve,
-                            .summary = nlohmann::json(summary),
-                            .notes = r.notes,
-                            .title = r.scene.title};
-  report::write_html_report(directory / "report.html", input);
 }
 
 }  // namespace hyperex::scene

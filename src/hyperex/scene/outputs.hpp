@@ -26,10 +26,6 @@ struct Results {
 /// Writes all files but summary.json and report.html into `directory`.
 void write_outputs(const Results& results, const std::filesystem::path& directory);
 
-/// The page, which shows the summary.
-void write_report(const Results& results, const nlohmann::ordered_json& summary,
-                  const std::filesystem::path& directory);
-
 /// Where the simulation ends, from the start of the motion.
 double run_end_s(const Scene& scene, const Inputs& inputs);
 
@@ -37,9 +33,16 @@ double run_end_s(const Scene& scene, const Inputs& inputs);
 /// later shows the end, which stands there once.
 std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double end_s);
 
+/// At most five of `count` frames, rising: spread over all, first and last among them, the one that
+/// comes nearest to the peak moved onto it.
+std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak);
+
+/// The asymmetry of the skin at rest, the same for all tissues; neither lip is taken for the other.
+metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inputs& inputs);
+
 /// S(t), excursions and the asymmetry map of a simulated face, to the jitter of its input.
 metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
-                                            const tissue::TissueMesh& mesh,
+                                            const metrics::RestAsymmetry& at_rest,
                                             const reenact::Performance& performance);
 
 /// Rest and the still shapes from the front and three-quarter, coloured by displacement.

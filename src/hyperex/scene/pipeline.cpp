@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/report_page.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
 #include "hyperex/scene/variants.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -165,7 +167,15 @@ tissue::TissueMeshOptions mesh_options(const Scene& scene) {
 }
 
 std::vector<std::string> check_scene(const Scene& scene) {
-  return read_inputs(scene, Look::quick).notes;
+  std::vector<std::string> notes = read_inputs(scene, Look::quick).notes;
+  const auto has_regions = [](const Scene& s) { return !s.tissue.regions.empty(); };
+  if (has_regions(scene) ||
+      std::any_of(scene.variants.begin(), scene.variants.end(),
+                  [&](const Variant& variant) { return has_regions(variant.scene); }))
+    notes.push_back(
+        "not checked: whether the regions of the tissue lie on this scan and which values their "
+        "factors lead to");
+  return notes;
 }
 
 namespace {
@@ -179,8 +189,6 @@ Json tissue_json(const tissue::TissueField& field) {
   }
   return out;
 }
-
-/// Nothing where the tissue is the same everywhere.
 
 Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Stopwatch total, stage;
@@ -208,6 +216,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   TissueFields fields(inputs, mesh);
   const std::optional<tissue::TissueField> field = fields.of(scene);
   if (field) options.tissue.element = field->element;
+  std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
   const auto simulation = reenact::simulate(mesh, inputs.landmarks, inputs.motion, options);
@@ -218,17 +227,15 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
-  const std::vector<VariantRun> variants = run_variants(scene, inputs, mesh, fields);
-  if (!variants.empty()) seconds["variants"] = stage.lap();
-
-  Results results{scene,
-                  inputs,
-                  mesh,
-                  simulation,
-                  symmetry_measures(scene, inputs, mesh, simulation.performance),
-                  all_notes(inputs, mesh, simulation.report),
-                  {},
-                  field ? &*field : nullptr};
+  Results results{
+      scene,
+      inputs,
+      mesh,
+      simulation,
+      symmetry_measures(scene, inputs, rest_asymmetry(mesh, inputs), simulation.performance),
+      all_notes(inputs, mesh, simulation.report),
+      {},
+      field ? &*field : nullptr};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty())
@@ -237,15 +244,22 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
     spdlog::warn("{}", results.notes[i]);
   Json summary = summary_of(results);
   if (field) summary["tissue"] = tissue_json(*field);
-  write_outputs(results, directory);
-  if (!variants.empty()) summary["variants"] = write_variants(results, variants, mesh, directory);
-  seconds["export"] = stage.lap();
+  // The scene's own files are written on one core while its variants are simulated.
+  tbb::parallel_invoke([&] { write_outputs(results, directory); },
+                       [&] {
+                         if (variants.empty()) return;
+                         Stopwatch own;
+                         simulate_variants(variants, mesh, *results.symmetry.map);
+                         seconds["variants"] = own.lap();
+                         summary["variants"] = write_variants(results, variants, mesh, directory);
+                       });
+  seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;
   summary["notes"] = results.notes;
   summary["options"] = options_json(scene);
   if (scene.output.report) {
-    write_report(results, summary, directory);
+    write_report(results, variants, summary, directory);
     seconds["export"] = seconds["export"].get<double>() + stage.lap();
     seconds["total"] = seconds["total"].get<double>() + total.lap();
     summary["seconds"] = seconds;

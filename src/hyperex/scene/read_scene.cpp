@@ -321,7 +321,7 @@ void Reader::settle_variant(const json& block, const std::string& at) {
     varied.lines_[key] = in_file(place).line;
     variant.changes[key] = value;
   }
-  if (variant.changes.empty())
+  if (changes_of(block).empty())
     complain(in_file(at), at, nullptr,
              "at least one key that it changes, as in tissue.young_kpa = 400");
   varied.fill();

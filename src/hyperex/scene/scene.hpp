@@ -130,7 +130,7 @@ struct OutputOptions {
   bool vtu = true, glb = true, report = true;
   double symmetry_floor = 1e-6;  ///< > 0, to 1
   double jitter_m = -1e-3;  ///< of the recorded points; below 0: from tracking, else none; to 20 mm
-  std::vector<double> contact_times_s = {0, 0.7, 1.3, 2, 2.7};  ///< 1 to 12, rising, 0 to 600
+  std::vector<double> contact_times_s;  ///< up to 12, rising, 0 to 600; empty: spread_frames()
 };
 
 /// Where a value came from.

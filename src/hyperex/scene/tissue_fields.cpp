@@ -7,7 +7,7 @@
 
 namespace hyperex::scene {
 
-std::optional<tissue::TissueField> TissueFields::of(const Scene& scene) {
+std::optional<tissue::TissueField> TissueFields::of(const Scene& scene, const std::string& owner) {
   const tissue::TissueFieldOptions options = tissue_field_options(scene);
   if (!is_graded(options)) return std::nullopt;
   Progress progress("spreading the tissue's parameters over the face", 0);
@@ -20,7 +20,9 @@ std::optional<tissue::TissueField> TissueFields::of(const Scene& scene) {
   try {
     return maker_->make(options);
   } catch (const tissue::FieldError& error) {
-    throw InputError(problem_at(scene, "tissue." + error.problem.key, error.problem.expected));
+    InputProblem problem = problem_at(scene, "tissue." + error.problem.key, error.problem.expected);
+    problem.key = owner + problem.key;
+    throw InputError(problem);
   }
 }
 

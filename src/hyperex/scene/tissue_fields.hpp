@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <optional>
+#include <string>
 
 #include "hyperex/scene/inputs.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -15,8 +16,9 @@ class TissueFields {
   TissueFields(const Inputs& inputs, const tissue::TissueMesh& mesh)
       : inputs_(inputs), mesh_(mesh) {}
 
-  /// Nothing where the tissue is the same everywhere. Throws InputError naming the scene's key.
-  std::optional<tissue::TissueField> of(const Scene& scene);
+  /// Nothing where the tissue is the same everywhere. Throws InputError naming the scene's key,
+  /// `owner` before it: "variant[0].".
+  std::optional<tissue::TissueField> of(const Scene& scene, const std::string& owner = "");
 
  private:
   const Inputs& inputs_;

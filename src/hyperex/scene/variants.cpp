@@ -6,20 +6,16 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <mutex>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/motion/resample.hpp"
-#include "hyperex/render/camera.hpp"
-#include "hyperex/render/canvas.hpp"
-#include "hyperex/render/contact_sheet.hpp"
-#include "hyperex/render/render.hpp"
 #include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/variants_picture.hpp"
 #include "hyperex/tissue/face_frame.hpp"
-#include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -74,50 +70,6 @@ Points driven_track(const Results& r, const std::string& name) {
   return track;
 }
 
-void draw(const Results& base, const std::vector<VariantComparison>& compared,
-          const std::vector<VariantRun>& runs, const fs::path& file) {
-  const tissue::FaceFrame frame = tissue::face_frame(base.inputs.landmarks);
-  const reenact::Performance& p = base.simulation.performance;
-  const auto skin_at_peak = [&](const reenact::Performance& of) {
-    const PointsF& d = of.skin_displacement_m[std::size_t(p.peak_frame)];
-    Points points = p.skin_rest.points + d.cast<double>();
-    for (Eigen::Index v = 0; v < points.rows(); ++v)
-      points.row(v) = frame.local(points.row(v)).transpose();
-    return TriMesh{std::move(points), p.skin_rest.triangles};
-  };
-  double top = 0;
-  for (const auto& one : compared) top = std::max(top, 1e3 * one.difference.greatest_m.maxCoeff());
-  top = std::max(top, 0.1);  // equal faces are of one colour, not of their noise
-  const render::RenderOptions size{.width_px = 300, .height_px = 380};
-  const double aspect = double(size.width_px) / size.height_px;
-  const TriMesh own = skin_at_peak(p);
-  Points framed(Eigen::Index(base.inputs.landmarks.size()), 3);
-  Eigen::Index row = 0;
-  for (const auto& [name, at] : base.inputs.landmarks)
-    framed.row(row++) = frame.local(at).transpose();
-  render::ContactSheet sheet;
-  sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
-  sheet.note =
-      fmt::format("the face at {:.2f} s; colour: greatest distance over time from the scene itself",
-                  p.frame_time_s[std::size_t(p.peak_frame)]);
-  sheet.columns = int(runs.size()) + 1;
-  sheet.bar = render::ColourBar{{0, top}, "distance (mm)"};
-  for (const Vec3& view : {render::front_view(), render::three_quarter_view()}) {
-    render::Camera camera = render::framing(framed, view, aspect);
-    camera.height_m *= 1.15;
-    sheet.pictures.push_back({render::render({{.mesh = own}}, camera, size), "the scene itself"});
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      const TriMesh skin = skin_at_peak(runs[i].simulation.performance);
-      const render::Surface surface{
-          .mesh = skin,
-          .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
-          .range = {0, top}};
-      sheet.pictures.push_back({render::render({surface}, camera, size), compared[i].name});
-    }
-  }
-  render::write_png(file, render::contact_sheet(sheet));
-}
-
 void write_table(const fs::path& file, const VariantComparison& base,
                  const std::vector<VariantComparison>& compared, const ResponsePair& pair) {
   write_file_atomically(file, [&](std::ostream& out) {
@@ -155,8 +107,8 @@ Json json_of(const VariantComparison& c) {
 
 }  // namespace
 
-std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
-                                     const tissue::TissueMesh& mesh, TissueFields& fields) {
+std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& inputs,
+                                         TissueFields& fields) {
   std::vector<VariantRun> runs;
   for (const Variant& variant : scene.variants) {
     VariantRun run;
@@ -164,22 +116,30 @@ std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
     run.scene.title = variant.name;
     run.scene.output.vtu = run.scene.output.glb = run.scene.output.report = false;
     run.inputs = inputs_of_variant(variant.scene, inputs);
-    run.field = fields.of(variant.scene);
+    run.field = fields.of(variant.scene, fmt::format("variant[{}].", runs.size()));
     runs.push_back(std::move(run));
   }
-  if (runs.empty()) return runs;
-  Progress progress("simulating variants", 0);
+  return runs;
+}
+
+void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& mesh,
+                       const metrics::RestAsymmetry& at_rest) {
+  Progress progress("simulating variants", static_cast<long>(runs.size()));
+  std::mutex telling;
+  long done = 0;
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
     VariantRun& run = runs[i];
     try {
       reenact::SimulationOptions options = simulation_options(run.scene, run.inputs);
       if (run.field) options.tissue.element = run.field->element;
       run.simulation = reenact::simulate(mesh, run.inputs.landmarks, run.inputs.motion, options);
+      run.symmetry = symmetry_measures(run.scene, run.inputs, at_rest, run.simulation.performance);
     } catch (const NumericalError& error) {
       throw NumericalError(fmt::format("variant {}: {}", run.scene.title, error.what()));
     }
+    const std::lock_guard lock(telling);
+    progress.update(++done);
   });
-  return runs;
 }
 
 ResponsePair response_pair(const Results& base) {
@@ -239,15 +199,8 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
   Progress progress("writing variants", 0);
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
     const VariantRun& run = runs[i];
-    const Results results{
-        run.scene,
-        run.inputs,
-        mesh,
-        run.simulation,
-        symmetry_measures(run.scene, run.inputs, mesh, run.simulation.performance),
-        {},
-        {},
-        run.field ? &*run.field : nullptr};
+    const Results results{run.scene,    run.inputs, mesh, run.simulation,
+                          run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
     compared[i] = compare_variant(run.scene.title, base, results, pair);
     const fs::path folder = directory / "variants" / run.scene.title;
     fs::create_directories(folder);
@@ -255,7 +208,8 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
   });
   const VariantComparison own = compare_variant("base", base, base, pair);
   write_table(directory / "variants.csv", own, compared, pair);
-  draw(base, compared, runs, directory / "variants.png");
+  draw_variants(base, compared, runs, directory / "variants.png");
+  draw_variant_symmetry(base, runs, directory / "variants_symmetry.png");
   Json json;
   json["driven_point"] = pair.driven;
   json["response_point"] = pair.response;
@@ -264,6 +218,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
     Json one = json_of(compared[i]);
     one["changes"] = base.scene.variants[i].changes;
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
+    one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");
     json["table"].push_back(one);
   }
   return json;

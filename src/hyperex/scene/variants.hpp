@@ -18,13 +18,17 @@ struct VariantRun {
   Inputs inputs;                             ///< the scene's, with the variant's driven points
   std::optional<tissue::TissueField> field;  ///< where the tissue differs from place to place
   reenact::SimulationResult simulation;
+  metrics::SymmetryMeasures symmetry;
 };
 
-/// Simulates all of scene.variants at once. Mesh, landmarks, motion and its alignment are the
-/// scene's own. Throws InputError naming the variant for a point that does not exist, and
-/// NumericalError where a variant cannot be solved.
-std::vector<VariantRun> run_variants(const Scene& scene, const Inputs& inputs,
-                                     const tissue::TissueMesh& mesh, TissueFields& fields);
+/// The runs of scene.variants, not simulated yet. Mesh, landmarks, motion and its alignment are the
+/// scene's own. Throws InputError naming the variant's key for tissue that cannot be.
+std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& inputs,
+                                         TissueFields& fields);
+
+/// Simulates all at once. Throws NumericalError naming the variant that cannot be solved.
+void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& mesh,
+                       const metrics::RestAsymmetry& at_rest);
 
 /// A run against the scene's own.
 struct VariantComparison {
@@ -50,7 +54,7 @@ ResponsePair response_pair(const Results& base);
 VariantComparison compare_variant(const std::string& name, const Results& base, const Results& run,
                                   const ResponsePair& pair);
 
-/// Writes variants.csv, variants.png (where and how far each differs) and a folder a variant under
+/// Writes variants.csv, the pictures of variants_picture.hpp and a folder a variant under
 /// variants/, and returns what summary.json says of them.
 nlohmann::ordered_json write_variants(const Results& base, const std::vector<VariantRun>& runs,
                                       const tissue::TissueMesh& mesh,

@@ -26,7 +26,7 @@ PointsF mirrored_motion(const Points& rest) {
 TEST(Asymmetry, OfAMirroredMotionIsZero) {
   const Face face = testing::mirrored_face();
   const std::vector<PointsF> frames = {mirrored_motion(face.mesh.points)};
-  const Asymmetry all = asymmetry_of(face.mesh, frames, face.landmarks);
+  const Asymmetry all = asymmetry_of(rest_asymmetry(face.mesh, face.landmarks), frames);
   EXPECT_DOUBLE_EQ(all.paired_share, 1);
   EXPECT_LT(all.rest_rms_mm, 1e-6);
   EXPECT_LT(all.frames[0].face_rms_mm, 1e-4);
@@ -45,7 +45,8 @@ TEST(Asymmetry, OfAOneSidedMotionIsItsLength) {
     PointsF u = PointsF::Zero(upright.rows(), 3);
     for (Eigen::Index v = 0; v < u.rows(); ++v)
       if (upright(v, 0) > 0.005) u.row(v) = lift.transpose().cast<float>();
-    const Asymmetry all = asymmetry_of(face.mesh, {PointsF::Zero(u.rows(), 3), u}, face.landmarks);
+    const Asymmetry all =
+        asymmetry_of(rest_asymmetry(face.mesh, face.landmarks), {PointsF::Zero(u.rows(), 3), u});
     EXPECT_EQ(all.worst_frame, 1);
     EXPECT_LT(all.frames[0].face_rms_mm, 1e-9);
     const Eigen::VectorXf map = asymmetry_mm(all.plane, all.pairs, u);
@@ -66,7 +67,7 @@ TEST(Asymmetry, SeesWhatSlidesAcross) {
   const Face face = testing::mirrored_face();
   PointsF u = PointsF::Zero(face.mesh.points.rows(), 3);
   u.col(0).setConstant(0.002F);  // all to the left: the reflection goes right
-  const Asymmetry all = asymmetry_of(face.mesh, {u}, face.landmarks);
+  const Asymmetry all = asymmetry_of(rest_asymmetry(face.mesh, face.landmarks), {u});
   EXPECT_NEAR(all.frames[0].face_rms_mm, 4, 1e-3);
 }
 
@@ -78,7 +79,8 @@ TEST(Asymmetry, AtRestIsTakenOut) {
     const double far = (upright.row(v).transpose() - cheek).norm() / 0.02;
     face.mesh.points(v, 2) += 0.003 * std::exp(-far * far);
   }
-  const Asymmetry all = asymmetry_of(face.mesh, {mirrored_motion(upright)}, face.landmarks);
+  const Asymmetry all =
+      asymmetry_of(rest_asymmetry(face.mesh, face.landmarks), {mirrored_motion(upright)});
   EXPECT_GT(all.rest_p95_mm, 0.5);
   EXPECT_LT(all.frames[0].face_rms_mm, 0.15);
 }
@@ -111,8 +113,8 @@ TEST(Asymmetry, WhatHasNoCounterpartIsNoNumber) {
   }
   const Triangles cut = face.mesh.triangles(kept, Eigen::all);
   face.mesh.triangles = cut;
-  const Asymmetry all =
-      asymmetry_of(face.mesh, {PointsF::Zero(face.mesh.points.rows(), 3)}, face.landmarks);
+  const Asymmetry all = asymmetry_of(rest_asymmetry(face.mesh, face.landmarks),
+                                     {PointsF::Zero(face.mesh.points.rows(), 3)});
   EXPECT_LT(all.paired_share, 0.95);
   const Eigen::VectorXf map =
       asymmetry_mm(all.plane, all.pairs, PointsF::Zero(face.mesh.points.rows(), 3));

@@ -67,6 +67,48 @@ TEST(HtmlReport, HoldsTheMotionWithinToleranceAndQuantisation) {
             static_cast<std::size_t>(face.performance.lip_cut_rest.rows()));
 }
 
+TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
+  const auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  std::vector<testing::MadeUpVariant> made;
+  for (int i = 0; i < testing::made_up_variants; ++i) made.push_back(made_up_variant(face, i));
+  ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  input.tissue = testing::made_up_tissue(face);
+  for (const auto& variant : made) input.variants.push_back(reported(face, variant));
+  const auto file = std::filesystem::path(::testing::TempDir()) / "report_variants_test.html";
+  write_html_report(file, input);
+  const std::string page = read_file(file);
+  const json variants = json::parse(element(page, "hyperex-manifest")).at("variants");
+  const auto bytes = from_base64(element(page, "hyperex-binary"));
+  ASSERT_EQ(variants.size(), made.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const auto& difference = variants[i].at("difference");
+    const auto& shown = made[i].face.performance;
+    const auto weights = stretch<float>(bytes, difference.at("weights"));
+    const std::size_t count = difference.at("modes").size(), f = 15;
+    PointsF sum = face.performance.skin_displacement_m[f];
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto values = stretch<std::int16_t>(bytes, difference["modes"][k].at("values"));
+      const float factor =
+          weights[f * count + k] * difference["modes"][k].at("step_m").get<float>();
+      for (Eigen::Index j = 0; j < sum.size(); ++j) sum.data()[j] += factor * values[j];
+    }
+    EXPECT_LT((sum - shown.skin_displacement_m[f]).rowwise().norm().maxCoeff(), 2.2e-5);
+    EXPECT_NEAR(variants[i].at("max_displacement_mm").get<double>(),
+                1e3 * shown.skin_displacement_m[f].rowwise().norm().maxCoeff(), 1e-6);
+    const auto& map = variants[i].at("tissue").at(0);
+    const auto steps = stretch<std::uint8_t>(bytes, map.at("values"));
+    const double step = (map["greatest"].get<double>() - map["least"].get<double>()) / 255;
+    for (std::size_t v = 0; v < steps.size(); ++v)
+      ASSERT_NEAR(map["least"].get<double>() + step * steps[v],
+                  made[i].tissue[0].values[Eigen::Index(v)], 0.51 * step);
+  }
+  EXPECT_TRUE(variants[4].at("difference").at("modes").empty());
+  EXPECT_EQ(variants[4].at("max_difference_mm"), 0);
+  input.variants[0].tissue.clear();
+  EXPECT_THROW(write_html_report(file, input), std::invalid_argument);
+}
+
 TEST(HtmlReport, CarriesPictureAndColours) {
   const auto textured = made_up_face(Surface::textured);
   auto modes = displacement_modes(textured.performance.skin_displacement_m);

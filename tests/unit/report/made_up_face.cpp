@@ -168,13 +168,68 @@ MadeUpFace made_up_face(Surface surface, int side, int frames) {
       v = face.performance.appended[v - face.performance.scan_vertices].a;
   dress(surface, face.performance, face.scan);
   face.symmetry.time_s = face.performance.frame_time_s;
+  face.symmetry.jitter_m = 2e-5;
   for (const double t : face.symmetry.time_s) {
     const double left = 0.3 * std::sin(3 * t), right = 0.28 * std::sin(3 * t + 0.02 * t);
     face.symmetry.xi_left.push_back(left);
     face.symmetry.xi_right.push_back(right);
     face.symmetry.s.push_back(std::log(std::max(std::abs(left - right), face.symmetry.floor)));
+    face.symmetry.noise.push_back(0.002 + 0.002 * t);
   }
   return face;
+}
+
+std::vector<TissueMap> made_up_tissue(const MadeUpFace& face) {
+  return {{.key = "young_kpa",
+           .name = "Young's modulus",
+           .unit = "kPa",
+           .least = 192.4,
+           .greatest = 1924,
+           .values = Eigen::VectorXd::Constant(face.performance.skin_rest.points.rows(), 192.4)}};
+}
+
+MadeUpVariant made_up_variant(const MadeUpFace& face, int which) {
+  static const char* const names[made_up_variants] = {"stiff right cheek", "stiff left cheek",
+                                                      "half the motion", "softer under the skin",
+                                                      "the same again"};
+  MadeUpVariant variant{names[which], face, made_up_tissue(face)};
+  const Points rest = face.performance.skin_rest.points;
+  // How much of the motion is left at a place; the subject's right lies at -x.
+  const auto share = [&](double x) {
+    const double side = 1 / (1 + std::exp(which == 0 ? x / 0.01 : -x / 0.01));
+    return which < 2 ? 1 - 0.4 * side : which == 2 ? 0.5 : which == 3 ? 1.15 : 1.0;
+  };
+  for (auto& frame : variant.face.performance.skin_displacement_m)
+    for (Eigen::Index v = 0; v < frame.rows(); ++v) {
+      frame.row(v) *= static_cast<float>(share(rest(v, 0)));
+      if (which == 2) frame(v, 0) *= 2;
+    }
+  if (which < 2)
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+      variant.tissue[0].values[v] = 192.4 + 1731.6 * (1 - share(rest(v, 0))) / 0.4;
+  motion::Motion& landmarks = variant.face.performance.landmarks;
+  const Points first = landmarks.positions.front();
+  for (Points& frame : landmarks.positions)
+    for (Eigen::Index i = 0; i < frame.rows(); ++i)
+      frame.row(i) = first.row(i) + share(first(i, 0)) * (frame.row(i) - first.row(i));
+  metrics::SymmetryCurve& s = variant.face.symmetry;
+  for (std::size_t k = 0; k < s.s.size(); ++k) {
+    (which == 0 ? s.xi_right : s.xi_left)[k] *= share(which == 0 ? -0.03 : 0.03);
+    s.s[k] = std::log(std::max(std::abs(s.xi_left[k] - s.xi_right[k]), s.floor));
+  }
+  return variant;
+}
+
+ReportVariant reported(const MadeUpFace& face, const MadeUpVariant& variant) {
+  std::vector<PointsF> difference = variant.face.performance.skin_displacement_m;
+  for (std::size_t f = 0; f < difference.size(); ++f)
+    difference[f] -= face.performance.skin_displacement_m[f];
+  return {.name = variant.name,
+          .changes = {"tissue.region: name = " + variant.name + ", young_factor = 10"},
+          .performance = variant.face.performance,
+          .difference = displacement_modes(difference),
+          .symmetry = &variant.face.symmetry,
+          .tissue = variant.tissue};
 }
 
 }  // namespace hyperex::report::testing

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <string>
+#include <vector>
 
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/reenact/performance.hpp"
+#include "hyperex/report/html_report.hpp"
 
 namespace hyperex::report::testing {
 
@@ -18,5 +20,20 @@ struct MadeUpFace {
   metrics::SymmetryCurve symmetry;
 };
 MadeUpFace made_up_face(Surface surface, int side = 41, int frames = 31);
+
+/// The face with other tissue: 0 moves less on its right side, 1 less on its left, 2 half as much
+/// and wider, 3 somewhat more, 4 as the face itself. Young's modulus differs in 0 and 1.
+struct MadeUpVariant {
+  std::string name;
+  MadeUpFace face;
+  std::vector<TissueMap> tissue;
+};
+inline constexpr int made_up_variants = 5;
+MadeUpVariant made_up_variant(const MadeUpFace& face, int which);
+/// Uniform: the tissue of the face itself.
+std::vector<TissueMap> made_up_tissue(const MadeUpFace& face);
+
+/// The variant for a page; it must outlive the page's input.
+ReportVariant reported(const MadeUpFace& face, const MadeUpVariant& variant);
 
 }  // namespace hyperex::report::testing

@@ -12,6 +12,46 @@
 #include "unit/report/made_up_face.hpp"
 #include "unit/report/made_up_tracking.hpp"
 
+namespace {
+using namespace hyperex::report;
+
+void write_variants_page(const std::filesystem::path& folder) {
+  const auto face = testing::made_up_face(testing::Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  std::vector<testing::MadeUpVariant> made;
+  for (int i = 0; i < testing::made_up_variants; ++i)
+    made.push_back(testing::made_up_variant(face, i));
+  ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  input.title = "A made-up face, variants";
+  input.tissue = testing::made_up_tissue(face);
+  nlohmann::json table = nlohmann::json::array();
+  const auto row = [&](const std::string& name, double share) {
+    table.push_back({{"name", name},
+                     {"greatest_displacement_mm", 25 * share},
+                     {"greatest_distance_mm", 25 * (1 - share)},
+                     {"rms_distance_at_peak_mm", 12 * (1 - share)},
+                     {"mean_change_at_peak_mm", -10 * (1 - share)},
+                     {"share_within_25_mm_of_mouth",
+                      share < 1 ? nlohmann::json(0.25) : nlohmann::json(nullptr)},
+                     {"lag_ms", 1.5 / share},
+                     {"hysteresis", 0.01},
+                     {"symmetry_integral_s", 0.02 * (2 - share)}});
+  };
+  row("base", 1);
+  for (const auto& variant : made) {
+    input.variants.push_back(testing::reported(face, variant));
+    row(variant.name, variant.name == "the same again" ? 1 : 0.8);
+    table.back()["changes"] = {{"tissue.region", {{{"name", "cheek_R"}, {"young_factor", 10}}}}};
+    table.back()["inverted_tets"] = 0;
+  }
+  input.summary = {
+      {"title", "variants"},
+      {"variants",
+       {{"driven_point", "ibug68_8"}, {"response_point", "cheilion_L"}, {"table", table}}}};
+  write_html_report(folder / "variants.html", input);
+}
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace hyperex::report;
   using testing::Surface;
@@ -50,6 +90,7 @@ int main(int argc, char** argv) {
                          "recordings/made-up face/",
                          92,
                          {"A sentence of the source."}});
+  write_variants_page(folder);
   write_tracked_glb(folder / "tracked.glb", hyperex::tracking::canonical_model(),
                     testing::made_up_tracking(90), {500, 500, 320, 240, 640, 480});
   return 0;

@@ -18,5 +18,14 @@ TEST(ShownTimes, ShowTheEndOnceForAllThatIsWantedLater) {
   EXPECT_THAT(shown_times_s({5}, 0.2), ElementsAre(0.2));
 }
 
+TEST(SpreadFrames, HoldBothEndsAndThePeak) {
+  EXPECT_THAT(spread_frames(81, 39), ElementsAre(0, 20, 39, 60, 80));
+  EXPECT_THAT(spread_frames(81, 3), ElementsAre(0, 3, 40, 60, 80));
+  EXPECT_THAT(spread_frames(81, 0), ElementsAre(0, 20, 40, 60, 80));
+  EXPECT_THAT(spread_frames(81, 80), ElementsAre(0, 20, 40, 60, 80));
+  EXPECT_THAT(spread_frames(2, 1), ElementsAre(0, 1));
+  EXPECT_THAT(spread_frames(1, 0), ElementsAre(0));
+}
+
 }  // namespace
 }  // namespace hyperex::scene

@@ -321,5 +321,56 @@ TEST_F(Field, IsReadFromFilesOfVertices) {
   std::filesystem::remove(ply);
 }
 
+TEST_F(Field, APaintedRegionChangesAsMuchAsItIsPainted) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::string stem = "hyperex_paint_" + std::to_string(::getpid());
+  const std::filesystem::path csv = folder / (stem + ".csv"), ply = folder / (stem + ".ply");
+  const Eigen::Index count = mesh_->scan_vertices;
+  const TriMesh scan{mesh_->skin.points.topRows(count), embedded_face().mesh.triangles};
+  io::VertexColours colours(count, 4);
+  std::ofstream table(csv);
+  table << "weight\n";
+  for (Eigen::Index v = 0; v < count; ++v) {
+    // Red, half red, white, grey and black after each other.
+    const std::array<std::array<int, 3>, 5> paint{
+        {{255, 0, 0}, {255, 127, 127}, {255, 255, 255}, {90, 90, 90}, {0, 0, 0}}};
+    const auto& c = paint[std::size_t(v % 5)];
+    colours.row(v) << std::uint8_t(c[0]), std::uint8_t(c[1]), std::uint8_t(c[2]), 255;
+    table << (v % 5 == 0 ? 1.0 : v % 5 == 1 ? 128 / 255.0 : 0.0) << "\n";
+  }
+  table.close();
+  io::write_ply(ply, scan, io::LengthUnit::metre, {}, colours);
+  TissueFieldOptions options;
+  options.regions.resize(1);
+  options.regions[0].factor[young] = 3;
+  for (const auto& file : {csv, ply}) {
+    options.regions[0].painted = file;
+    const TissueField field = maker_->make(options);
+    for (const auto& [vertex, factor] :
+         {std::pair{10, 3.0}, {11, 1 + 2 * 128 / 255.0}, {12, 1.0}, {13, 1.0}, {14, 1.0}})
+      EXPECT_NEAR(field.skin[young][vertex], factor * 192.4e3, 2) << file << " vertex " << vertex;
+    EXPECT_EQ(field.skin[viscosity][10], 476.8);
+  }
+  colours.setConstant(255);
+  io::write_ply(ply, scan, io::LengthUnit::metre, {}, colours);
+  try {
+    maker_->make(options);
+    FAIL() << "white alone is an empty region";
+  } catch (const FieldError& error) {
+    EXPECT_EQ(error.problem.key, "region[0].painted");
+  }
+  io::write_ply(ply, scan, io::LengthUnit::metre, {});
+  EXPECT_THAT(refusal(options), HasSubstr("nothing painted"));
+  std::ofstream(csv) << "weight\n0.5\n2\n";
+  options.regions[0].painted = csv;
+  EXPECT_THAT(refusal(options), HasSubstr("2 painted vertices: expected"));
+  options.mirror = true;
+  const auto problems = problems_of(options, *landmarks_);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].key, "region[0].painted");
+  std::filesystem::remove(csv);
+  std::filesystem::remove(ply);
+}
+
 }  // namespace
 }  // namespace hyperex::tissue

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The charts besides those of units: what is drawn in each, and what it says.
-import { signed, type Chart, type Curve } from '../time_chart';
+import type { Chart, Curve } from '../chart_options';
+import { signed, upper } from '../format';
 import type { Channel, Group, Tracking } from './data';
 
 export interface Section {
@@ -19,7 +20,7 @@ function extremeText(tracking: Tracking, which: 'least' | 'most', channels: Chan
     const label = labels.length > 1 ? `${labels[i]} ` : '';
     return `${label}${signed(c[which].toFixed(1))} ${unit} at ${tracking.timeS[frame].toFixed(2)} s`;
   });
-  return `${which[0].toUpperCase()}${which.slice(1)}: ${told.join(', ')}.`;
+  return `${upper(which)}: ${told.join(', ')}.`;
 }
 
 function rangeOf(channels: Channel[], span: number, fromZero: boolean): [number, number] {

@@ -2,21 +2,15 @@
 // Ties the parts together: data, cursor, charts and the page's controls.
 import '../style.css';
 import './tracking.css';
+import type { Chart } from '../chart_options';
+import { at, button, element, startPage } from '../dom';
 import { number } from '../format';
-import { dark, setPrinting, TimeChart, type Chart } from '../time_chart';
+import { dark, setPrinting } from '../theme';
+import { TimeChart } from '../time_chart';
 import { headAndDistances, residuals, type Section } from './charts';
 import { Cursor, listenToKeys } from './cursor';
 import { faultAt, faultSpans, readTracking, type Tracking } from './data';
 import { commonRange, firstCaption, firstPairs, unitChart, unitChooser, unitPairs } from './units';
-
-const at = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
-
-function element<K extends keyof HTMLElementTagNameMap>(tag: K, text = '', className = ''): HTMLElementTagNameMap[K] {
-  const made = document.createElement(tag);
-  made.textContent = text;
-  made.className = className;
-  return made;
-}
 
 function factsText(t: Tracking): string {
   const count = t.timeS.length;
@@ -57,10 +51,7 @@ function fillHead(t: Tracking, cursor: Cursor): void {
     const item = element('li');
     if (typeof note === 'string') item.textContent = note;
     else {
-      const go = element('button', note.text, 'link');
-      go.type = 'button';
-      go.addEventListener('click', () => cursor.goTo(note.frame));
-      item.append(go);
+      item.append(button(note.text, 'link', () => cursor.goTo(note.frame)));
     }
     at('note-list').append(item);
     at('notes').hidden = false;
@@ -202,8 +193,4 @@ function start(): void {
   }));
 }
 
-try {
-  start();
-} catch (error) {
-  at('title').textContent = error instanceof Error ? error.message : String(error);
-}
+startPage(start);

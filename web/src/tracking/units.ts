@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The action units, a chart each, left and right of one in the same: those that move, strongest
 // first, and the rest on demand.
-import { words } from '../format';
-import type { Chart } from '../time_chart';
+import type { Chart } from '../chart_options';
+import { button, element, memberBox } from '../dom';
+import { upper, words } from '../format';
 import type { Channel, Tracking } from './data';
 import { facsName } from './facs';
 
@@ -56,7 +57,7 @@ export const firstCaption = (pairs: UnitPair[]): string =>
   pairs[0].travel >= moves ? 'Those that move, strongest first' : `None moves by ${moves} or more; the strongest`;
 
 export const pairTitle = ({ name, facs }: UnitPair): string =>
-  [name[0].toUpperCase() + name.slice(1), facs && `${facs.replaceAll('+', ' + ')} ${facsName(facs)}`]
+  [upper(name), facs && `${facs.replaceAll('+', ' + ')} ${facsName(facs)}`]
     .filter(Boolean).join(' · ');
 
 /** All on one scale, so that charts compare. */
@@ -83,9 +84,8 @@ export function unitChart(pair: UnitPair, timeS: number[], range: [number, numbe
 
 /** Search field and check boxes; `changed` is told after each change of `chosen`. */
 export function unitChooser(pairs: UnitPair[], chosen: Set<UnitPair>, changed: () => void): HTMLElement {
-  const details = document.createElement('details');
-  details.className = 'chooser';
-  const summary = document.createElement('summary');
+  const details = element('details', '', 'chooser');
+  const summary = element('summary');
   const units = pairs.reduce((sum, pair) => sum + pair.channels.length, 0);
   const tell = () => {
     const shown = pairs.filter((p) => chosen.has(p)).reduce((sum, pair) => sum + pair.channels.length, 0);
@@ -99,18 +99,12 @@ export function unitChooser(pairs: UnitPair[], chosen: Set<UnitPair>, changed: (
   const boxes: HTMLInputElement[] = [];
   const labels = pairs.map((pair) => {
     const label = document.createElement('label');
-    const box = document.createElement('input');
-    box.type = 'checkbox';
-    box.checked = chosen.has(pair);
-    box.addEventListener('change', () => {
-      if (box.checked) chosen.add(pair);
-      else chosen.delete(pair);
+    const box = memberBox(chosen, pair, () => {
       tell();
       changed();
     });
     boxes.push(box);
-    const travel = document.createElement('small');
-    travel.textContent = pair.travel.toFixed(2);
+    const travel = element('small', pair.travel.toFixed(2));
     travel.title = 'How far its weight goes';
     label.append(box, pairTitle(pair), travel);
     list.append(label);
@@ -120,12 +114,8 @@ export function unitChooser(pairs: UnitPair[], chosen: Set<UnitPair>, changed: (
     const wanted = search.value.trim().toLowerCase();
     labels.forEach((label, i) => (label.hidden = !pairTitle(pairs[i]).toLowerCase().includes(wanted)));
   });
-  const all = (label: string, wanted: (pair: UnitPair) => boolean) => {
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.className = 'quiet';
-    button.textContent = label;
-    button.addEventListener('click', () => {
+  const all = (label: string, wanted: (pair: UnitPair) => boolean) =>
+    button(label, 'quiet', () => {
       pairs.forEach((pair, i) => {
         boxes[i].checked = wanted(pair);
         if (boxes[i].checked) chosen.add(pair);
@@ -134,8 +124,6 @@ export function unitChooser(pairs: UnitPair[], chosen: Set<UnitPair>, changed: (
       tell();
       changed();
     });
-    return button;
-  };
   const first = new Set(chosen);
   const tools = document.createElement('p');
   tools.append(search, all('Those that move', (p) => first.has(p)), all('All', () => true), all('None', () => false));

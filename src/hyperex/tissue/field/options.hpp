@@ -43,11 +43,12 @@ struct TissuePoint {
   bool operator==(const TissuePoint&) const = default;
 };
 
-/// A change within a part of the skin: by name, or a band about a line.
+/// A change within a part of the skin: by name, a band about a line, or painted.
 struct TissueRegion {
   std::string name = {};                                  ///< of facial_regions(); or
   std::vector<std::string> scar = {};                     ///< landmarks, two or more; or
-  std::vector<std::array<double, 3>> scar_points_m = {};  ///< scan frame, two or more
+  std::vector<std::array<double, 3>> scar_points_m = {};  ///< scan frame, two or more; or
+  std::filesystem::path painted = {};                     ///< shares a vertex of the scan
   double width_m = 0.004;                                 ///< of a scar
   double blend_m = 0.004;  ///< from nothing to the whole change, half of it on either side
   GivenParameters value{}, factor{};

@@ -16,4 +16,10 @@ using PerVertex = std::array<Eigen::VectorXd, parameter_count>;
 /// Throws InputError: another number of rows, none of the columns, a value out of range.
 PerVertex read_per_vertex(const std::filesystem::path& file, Eigen::Index scan_vertices);
 
+/// A region painted on the scan: a share from 0 to 1 a vertex, in the scan's order. A CSV with a
+/// column `weight`, a PLY whose vertices have it, or a mesh of the scan (PLY, OBJ, GLB) painted red
+/// on white, grey or black: the share is how much more red there is than green and blue.
+/// Throws InputError: another number of rows, neither weights nor colours, a share beyond 0 to 1.
+Eigen::VectorXd read_paint(const std::filesystem::path& file, Eigen::Index scan_vertices);
+
 }  // namespace hyperex::tissue

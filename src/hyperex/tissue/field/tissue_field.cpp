@@ -79,9 +79,9 @@ void check_region(const TissueFieldOptions& options, std::size_t index,
   const auto complain = [&](const std::string& below, const std::string& expected) {
     problems.push_back({key + below, expected});
   };
-  const int kinds =
-      int(!region.name.empty()) + int(!region.scar.empty()) + int(!region.scar_points_m.empty());
-  if (kinds != 1) complain("", "one of name, scar and scar_points_mm");
+  const int kinds = int(!region.name.empty()) + int(!region.scar.empty()) +
+                    int(!region.scar_points_m.empty()) + int(!region.painted.empty());
+  if (kinds != 1) complain("", "one of name, scar, scar_points_mm and painted");
   if (!any(region.value) && !any(region.factor))
     complain("", "a value or a factor, as young_kpa = 300 or young_factor = 5");
   for (int p = 0; p < parameter_count; ++p)
@@ -97,6 +97,8 @@ void check_region(const TissueFieldOptions& options, std::size_t index,
   if (!options.mirror) return;
   if (!region.scar_points_m.empty())
     complain(".scar_points_mm", "landmarks in its place (scar), as tissue.mirror is true");
+  if (!region.painted.empty())
+    complain(".painted", "tissue.mirror = false, as the paint says all of either side");
   for (std::size_t other = 0; other < index; ++other)
     if (!region.name.empty() && region.name != options.regions[other].name &&
         mirrored_landmark(region.name) == options.regions[other].name)
@@ -176,18 +178,23 @@ SkinField TissueFieldMaker::skin_field(const TissueFieldOptions& options) const 
     const PerVertex own = read_per_vertex(options.per_vertex, mesh_.scan_vertices);
     for (int p = 0; p < parameter_count; ++p) {
       if (own[p].size() == 0) continue;
-      const auto take = [&](Eigen::Index v, double value) {
-        if (!std::isnan(value)) field[p][v] = value;
-      };
-      for (Eigen::Index v = 0; v < mesh_.scan_vertices; ++v) take(v, own[p][v]);
-      for (std::size_t i = 0; i < mesh_.appended.size(); ++i) {
-        const EdgePoint& e = mesh_.appended[i];
-        take(mesh_.scan_vertices + Eigen::Index(i), (1 - e.t) * own[p][e.a] + e.t * own[p][e.b]);
-      }
+      const Eigen::VectorXd values = on_skin(own[p]);
+      field[p] = values.array().isNaN().select(field[p], values);
     }
   }
   for (std::size_t i = 0; i < options.regions.size(); ++i) apply_region(options, i, field);
   return field;
+}
+
+/// Values of the scan's vertices, and between them those of the vertices that the cut added.
+Eigen::VectorXd TissueFieldMaker::on_skin(const Eigen::VectorXd& of_scan) const {
+  Eigen::VectorXd out(mesh_.skin.points.rows());
+  out.head(mesh_.scan_vertices) = of_scan;
+  for (std::size_t i = 0; i < mesh_.appended.size(); ++i) {
+    const EdgePoint& e = mesh_.appended[i];
+    out[mesh_.scan_vertices + Eigen::Index(i)] = (1 - e.t) * of_scan[e.a] + e.t * of_scan[e.b];
+  }
+  return out;
 }
 
 void TissueFieldMaker::interpolate(const TissueFieldOptions& options, SkinField& field) const {
@@ -269,22 +276,35 @@ Eigen::VectorXd TissueFieldMaker::region_depth(const TissueFieldOptions& options
   return depth;
 }
 
+Eigen::VectorXd TissueFieldMaker::region_shares(const TissueFieldOptions& options,
+                                                std::size_t index) const {
+  const TissueRegion& region = options.regions[index];
+  Eigen::VectorXd shares;
+  if (region.painted.empty())
+    shares = region_depth(options, index).unaryExpr([&](double depth) {
+      return region_share(depth, region.blend_m);
+    });
+  else
+    shares = on_skin(read_paint(region.painted, mesh_.scan_vertices));
+  if (shares.maxCoeff() < 1e-6)
+    throw FieldError({fmt::format("region[{}].{}", index,
+                                  !region.painted.empty() ? "painted"
+                                  : !region.name.empty()  ? "name"
+                                  : !region.scar.empty()  ? "scar"
+                                                          : "scar_points_mm"),
+                      "a region that holds some of this scan's vertices; it is empty"});
+  return shares;
+}
+
 void TissueFieldMaker::apply_region(const TissueFieldOptions& options, std::size_t index,
                                     SkinField& field) const {
   const TissueRegion& region = options.regions[index];
-  const Eigen::VectorXd depth = region_depth(options, index);
+  const Eigen::VectorXd shares = region_shares(options, index);
   const std::string key = fmt::format("region[{}]", index);
-  double most = 0;
-  for (Eigen::Index v = 0; v < depth.size(); ++v)
-    most = std::max(most, region_share(depth[v], region.blend_m));
-  if (most < 1e-6)
-    throw FieldError(
-        {key + (region.name.empty() ? region.scar.empty() ? ".scar_points_mm" : ".scar" : ".name"),
-         "a region that holds some of this scan's vertices; it is empty"});
   for (int p = 0; p < parameter_count; ++p) {
     if (!region.value[p] && !region.factor[p]) continue;
-    for (Eigen::Index v = 0; v < depth.size(); ++v) {
-      const double share = region_share(depth[v], region.blend_m);
+    for (Eigen::Index v = 0; v < shares.size(); ++v) {
+      const double share = shares[v];
       double& u = field[p][v];
       if (region.factor[p])
         u *= 1 + share * (*region.factor[p] - 1);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/render/canvas.hpp"
+
+namespace hyperex::render {
+
+/// A curve of a plot; NaN is a gap.
+struct PlotCurve {
+  const std::vector<double>& values;
+  Colour colour;
+  std::string name;  ///< in the legend; left out of it where empty
+};
+
+/// Curves over time in a rectangle of a canvas.
+struct TimePlot {
+  double x, y, width_px, height_px;  ///< of the rectangle; ticks left of it and below
+  Range time, range;
+  std::string label;  ///< above it, on the left; the legend stands on the right
+};
+
+/// The interval of all values, widened by a twentieth; 0 to 1 where there are none.
+Range span_of(const std::vector<PlotCurve>& curves);
+
+/// Paper, grid, ticks and label.
+void draw_axes(Canvas& canvas, const TimePlot& plot);
+
+/// One value a time in each curve; the first is drawn last, over the others.
+void draw_curves(Canvas& canvas, const TimePlot& plot, const std::vector<double>& time,
+                 const std::vector<PlotCurve>& curves);
+
+/// Shades what lies under `values`: there curves tell nothing.
+void shade_under(Canvas& canvas, const TimePlot& plot, const std::vector<double>& time,
+                 const std::vector<double>& values);
+
+/// Colours for things of one kind that are told apart, the same in every picture and in the report
+/// (web/src/face_colour.ts): for colour-blind readers too, after M. Okabe and K. Ito.
+Colour category_colour(std::size_t index);
+
+}  // namespace hyperex::render

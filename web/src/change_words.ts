@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a variant changes, in words: {"tissue.young_kpa": 1000} is "Young's modulus 1,000 instead of 192.4 kPa".
+import { landmarkName, nameAndUnit, number, upper } from './format';
+
+type Json = Record<string, unknown>;
+const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
+
+const parameters: Record<string, string> = {
+  young: 'Young’s modulus', viscosity: 'viscosity', poisson: 'Poisson’s ratio', density: 'density',
+};
+
+function valueWords(value: unknown): string {
+  if (typeof value === 'number') return number(value);
+  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  if (value === '' || value === null) return 'none';
+  if (Array.isArray(value)) return value.length > 0 ? value.map(valueWords).join(', ') : 'none';
+  return typeof value === 'string' ? landmarkName(value) : JSON.stringify(value);
+}
+
+/** The last part of a key, with its unit. "young_kpa" is "Young's modulus" in "kPa". */
+function keyWords(key: string): { name: string; unit: string } {
+  const { name, unit } = nameAndUnit(key);
+  return { name: parameters[name] ?? name, unit };
+}
+
+const withUnit = (text: string, unit: string): string => (unit ? `${text} ${unit}` : text);
+
+/** One change of one part of the face: {"name": "cheek_R", "young_factor": 10} is "cheek R: Young's modulus × 10". */
+function placeWords(entry: Json): string {
+  const { name, landmark, point, side, scar, ...rest } = entry;
+  const place = Array.isArray(scar) && scar.length > 0
+    ? `scar ${scar.map((at) => landmarkName(String(at))).join(' to ')}`
+    : [name, landmark, point, side].filter((v) => typeof v === 'string' && v !== '').map((v) => landmarkName(String(v))).join(' ');
+  const what = Object.entries(rest).map(([key, value]) => {
+    const factor = /^(\w+)_factor$/.exec(key)?.[1];
+    if (factor && parameters[factor]) return `${parameters[factor]} × ${valueWords(value)}`;
+    const { name: word, unit } = keyWords(key);
+    return `${word} ${withUnit(valueWords(value), unit)}`;
+  });
+  return [upper(place), what.join(', ')].filter(Boolean).join(': ');
+}
+
+function baseValue(options: unknown, path: string[]): unknown {
+  return path.reduce<unknown>((at, key) => (isObject(at) ? at[key] : undefined), options);
+}
+
+/** A sentence each. `changes`: dotted key and new value; `options`: those of the scene itself, nested. */
+export function changeWords(changes: Json, options: unknown): string[] {
+  return Object.entries(changes).flatMap(([path, value]) => {
+    const parts = path.split('.');
+    const last = parts.pop()!;
+    if (Array.isArray(value) && value.some(isObject)) return value.filter(isObject).map(placeWords);
+    const { name, unit } = keyWords(last);
+    // The tissue's own parameters speak for themselves.
+    const room = parts[0] === 'tissue' ? '' : `${parts.join(' ')}: `;
+    const before = baseValue(options, [...parts, last]);
+    const instead = before === undefined || Array.isArray(before) ? '' : ` instead of ${valueWords(before)}`;
+    return [upper(`${room}${name} ${withUnit(valueWords(value) + instead, unit)}`)];
+  });
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elements of a page: found, made, and told when nothing else can be shown.
+
+export const at = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
+
+export function element<K extends keyof HTMLElementTagNameMap>(tag: K, text = '', className = ''): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  made.textContent = text;
+  made.className = className;
+  return made;
+}
+
+export function button(text: string, className: string, press: () => void): HTMLButtonElement {
+  const made = element('button', text, className);
+  made.type = 'button';
+  made.addEventListener('click', press);
+  return made;
+}
+
+/** A box that puts `item` into `chosen` and takes it out; `changed` is told after each change. */
+export function memberBox<T>(chosen: Set<T>, item: T, changed: () => void): HTMLInputElement {
+  const box = document.createElement('input');
+  box.type = 'checkbox';
+  box.checked = chosen.has(item);
+  box.addEventListener('change', () => {
+    if (box.checked) chosen.add(item);
+    else chosen.delete(item);
+    changed();
+  });
+  return box;
+}
+
+/** The page's title tells why there is no page. */
+export function startPage(start: () => void): void {
+  try {
+    start();
+  } catch (error) {
+    at('title').textContent = error instanceof Error ? error.message : String(error);
+  }
+}

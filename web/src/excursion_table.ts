@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far, how fast and how much alike each pair of points moves (summary.symmetry.excursions), in
+// the words of docs/symmetry.md.
+import type { Replay } from './data';
+import { button, element } from './dom';
+import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
+import { faceWords, landmarkName } from './format';
+import type { Shown } from './shown';
+import { variantsOf } from './variants';
+
+interface Sides {
+  L: number | null;
+  R: number | null;
+}
+interface Excursion {
+  point: string;
+  excursion_mm: Sides;
+  path_mm: Sides;
+  peak_speed_mm_s: Sides;
+  speed_correlation: number | null;
+  undecided: boolean;
+  [ratio: string]: unknown;
+}
+
+const groups: { key: 'excursion' | 'path' | 'peak_speed'; unit: string; head: string; digits: number; says: string }[] = [
+  { key: 'excursion', unit: 'mm', head: 'Excursion', digits: 2, says: 'largest distance from the place in the first sample.' },
+  { key: 'path', unit: 'mm', head: 'Path', digits: 2, says: 'length of the whole way, from sample to sample; jitter lengthens it.' },
+  { key: 'peak_speed', unit: 'mm/s', head: 'Peak speed', digits: 1, says: 'largest speed on the way.' },
+];
+const ratio = {
+  head: 'R/L',
+  says: 'right over left, the subject’s own sides; which side is affected the program does not know.',
+};
+const correlation: Column = {
+  key: 'speed_correlation', head: 'Correlation', unit: 'of speeds', digits: 3,
+  says: 'Pearson’s, of both speeds over time: 1 where they rise and fall together, however far they go.',
+};
+const undecided = {
+  head: 'Undecided',
+  says: 'both excursions differ by less than jitter of the points alone makes of two places a side, in 95 of 100.',
+};
+
+const unitKey = { excursion: 'excursion_mm', path: 'path_mm', peak_speed: 'peak_speed_mm_s' } as const;
+
+/** Of face i: the scene's own stand in summary.symmetry, a variant's in its row of the comparison. */
+export function excursionsOf(replay: Replay, face: number): Excursion[] {
+  const holder = face === 0
+    ? replay.summary.symmetry
+    : variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
+  const given = (holder as { excursions?: unknown } | null | undefined)?.excursions;
+  return Array.isArray(given) ? (given as Excursion[]).filter((e) => typeof e?.point === 'string' && e.excursion_mm) : [];
+}
+
+const largest = ({ excursion_mm: { L, R } }: Excursion): number => Math.max(L ?? 0, R ?? 0);
+
+/** "ibug68_48/54" is "iBUG 48/54". */
+const isNumbered = ({ point }: Excursion): boolean => point.startsWith('ibug68_');
+
+function headOf(table: HTMLTableElement): void {
+  const [upper, lower] = [table.createTHead().insertRow(), table.tHead!.insertRow()];
+  const cell = (text: string, scope: 'col' | 'colgroup', span: [number, number], title: string) => {
+    const th = element('th', text);
+    [th.scope, th.title, th.colSpan, th.rowSpan] = [scope, title, ...span];
+    return th;
+  };
+  upper.append(cell('Point', 'col', [1, 2], ''));
+  upper.append(cell('Left | right', 'col', [1, 2], 'Excursion of either side, to one scale'));
+  for (const group of groups) {
+    upper.append(cell(`${group.head} (${group.unit})`, 'colgroup', [3, 1], group.says));
+    lower.append(cell('left', 'col', [1, 1], ''), cell('right', 'col', [1, 1], ''), cell(ratio.head, 'col', [1, 1], ratio.says));
+  }
+  const last = headCell(correlation);
+  last.rowSpan = 2;
+  upper.append(last);
+}
+
+/** A bar to either side, to the table's scale. */
+function balance({ L, R }: Sides): HTMLElement {
+  const cell = element('td');
+  const bars = element('span', '', 'balance');
+  bars.setAttribute('aria-hidden', 'true');
+  for (const side of [L, R]) {
+    const bar = element('i');
+    bar.style.setProperty('--mm', String(side ?? 0));
+    bars.append(bar);
+  }
+  cell.append(bars);
+  return cell;
+}
+
+function addRow(body: HTMLTableSectionElement, pair: Excursion): void {
+  const row = body.insertRow();
+  const name = element('th', landmarkName(pair.point));
+  name.scope = 'row';
+  if (pair.undecided) {
+    const mark = element('span', ' undecided', 'undecided');
+    mark.title = undecided.says;
+    name.append(mark);
+  }
+  row.append(name, balance(pair.excursion_mm));
+  for (const { key, unit, head, digits, says } of groups) {
+    const column = { key, head, unit, digits, says };
+    const sides = pair[unitKey[key]];
+    row.append(figureCell(sides.L, column), figureCell(sides.R, column));
+    row.append(figureCell(pair[`${key}_ratio_R_L`], { ...column, unit: '', digits: 3 }));
+  }
+  row.append(figureCell(pair.speed_correlation, correlation));
+}
+
+const csvRows = (pairs: Excursion[]): (string | number | null)[][] => [
+  ['point', ...groups.flatMap(({ head, unit }) => [`${head} left (${unit})`, `${head} right (${unit})`, `${head} R/L`]),
+    'correlation of speeds', 'undecided'],
+  ...pairs.map((pair) => [
+    pair.point,
+    ...groups.flatMap(({ key }) => {
+      const over = pair[`${key}_ratio_R_L`];
+      return [pair[unitKey[key]].L, pair[unitKey[key]].R, isNumber(over) ? over : null];
+    }),
+    pair.speed_correlation, pair.undecided ? 'yes' : 'no',
+  ]),
+];
+
+/** Null where the run measured none. Named points first, numbered ones on demand; of the face that is
+ * shown, of two the second, which the first is compared with. */
+export function excursionTable(replay: Replay, shown: Shown): HTMLElement | null {
+  if (excursionsOf(replay, 0).length === 0) return null;
+  const table = element('table');
+  headOf(table);
+  const body = table.createTBody();
+  const hidden = table.createTBody();
+  hidden.hidden = true;
+  let pairs: Excursion[] = [];
+  let first: Excursion[] = [];
+  const whose = element('p', '', 'whose');
+  const fold = button('', 'quiet more', () => {
+    hidden.hidden = !hidden.hidden;
+    label();
+  });
+  const label = () => {
+    fold.hidden = first.length === pairs.length;
+    fold.textContent = hidden.hidden ? `Show ${pairs.length - first.length} numbered points too` : 'Named points only';
+    fold.setAttribute('aria-expanded', String(!hidden.hidden));
+    const scale = Math.max(...(hidden.hidden ? first : pairs).map(largest), 1e-9);
+    table.style.setProperty('--most', String(scale));
+  };
+  const fill = () => {
+    const face = shown.visible[shown.visible.length - 1];
+    pairs = excursionsOf(replay, face).sort((a, b) => largest(b) - largest(a));
+    const named = pairs.filter((pair) => !isNumbered(pair));
+    first = named.length > 0 ? named : pairs;
+    body.replaceChildren();
+    hidden.replaceChildren();
+    for (const pair of pairs) addRow(first.includes(pair) ? body : hidden, pair);
+    whose.textContent = replay.faces.length > 1 ? `Of ${faceWords(replay.faces, face)}.` : '';
+    label();
+  };
+  fill();
+  shown.onChange(fill);
+  const card = figureCard('Excursion of either side', [
+    'Each point against that of the other side, those that move farthest first. The figures describe a motion and diagnose nothing.',
+  ], table, () => csvRows(pairs));
+  card.classList.add('excursions');
+  card.querySelector('.scroller')!.before(whose);
+  const anyUndecided = replay.faces.some((_, i) => excursionsOf(replay, i).some((pair) => pair.undecided));
+  card.append(fold, columnNotes([...groups, ratio, correlation, ...(anyUndecided ? [undecided] : [])]));
+  return card;
+}

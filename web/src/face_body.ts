@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One face to draw: its skin, coloured, and what is shown over it.
+import {
+  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Group, LinearFilter, Mesh, MeshLambertMaterial,
+  MeshStandardMaterial, RGBAFormat, SRGBColorSpace, Texture,
+} from 'three';
+import { linearOf, rampBytes, type RampName } from './colour';
+import type { Colouring } from './colouring';
+import type { Face, Replay } from './data';
+import { FaceShape, type SceneMotion } from './deform';
+import { overlaysOf, type Overlay, type OverlayName } from './overlays';
+
+const rampSize = 256;
+
+/** What all faces are drawn with. */
+export class FaceMaterials {
+  /** Colours of a map, looked up for every pixel. */
+  readonly mapped = new MeshLambertMaterial({ side: DoubleSide });
+  /** The skin's own. */
+  readonly plain = new MeshStandardMaterial({
+    color: '#dba58c', roughness: 0.55, metalness: 0, side: DoubleSide,
+  });
+  private readonly ramps = new Map<RampName, Texture>();
+
+  constructor(replay: Replay) {
+    this.useRamp('viridis');
+    if (!replay.colour) return;
+    this.plain.vertexColors = true;
+    this.plain.color.set('#ffffff');
+  }
+
+  useRamp(name: RampName): void {
+    let ramp = this.ramps.get(name);
+    if (!ramp) {
+      ramp = new DataTexture(rampBytes(name, rampSize), rampSize, 1, RGBAFormat);
+      ramp.colorSpace = SRGBColorSpace;
+      ramp.magFilter = ramp.minFilter = LinearFilter;
+      ramp.channel = 1;
+      ramp.needsUpdate = true;
+      this.ramps.set(name, ramp);
+    }
+    this.mapped.map = ramp;
+  }
+
+  useTexture(texture: Texture): void {
+    this.plain.map = texture;
+    this.plain.color.set('#ffffff');
+    this.plain.needsUpdate = true;
+  }
+}
+
+export class FaceBody {
+  readonly object = new Group();
+  readonly overlays: Overlay[];
+  readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>;
+  private readonly shape: FaceShape;
+  private readonly shares: Float32Array;
+  /** Vertices drawn, where the picture's seams split those of the skin. */
+  private readonly split: Int32Array | null;
+  private readonly position: BufferAttribute;
+  private readonly normal: BufferAttribute;
+  private readonly ramp: BufferAttribute;
+
+  constructor(replay: Replay, scene: SceneMotion, face: Face, private readonly materials: FaceMaterials) {
+    this.shape = new FaceShape(replay, scene, face);
+    this.overlays = overlaysOf(replay);
+    this.split = replay.texture?.skinVertex ?? null;
+    const skinCount = replay.points.length / 3;
+    const count = this.split?.length ?? skinCount;
+    this.shares = new Float32Array(skinCount);
+    const geometry = new BufferGeometry();
+    const attribute = (name: string, array: Float32Array, itemSize: number) => {
+      const made = new BufferAttribute(array, itemSize);
+      geometry.setAttribute(name, made);
+      return made;
+    };
+    this.position = attribute('position', this.split ? new Float32Array(3 * count) : this.shape.position, 3);
+    this.normal = attribute('normal', this.split ? new Float32Array(3 * count) : this.shape.normal, 3);
+    this.ramp = attribute('uv1', new Float32Array(2 * count).fill(0.5), 2);
+    if (replay.texture) attribute('uv', replay.texture.uv, 2);
+    if (replay.colour) attribute('color', linearColours(replay.colour), 3);
+    geometry.setIndex(new BufferAttribute(new Uint32Array(replay.texture?.triangles ?? replay.triangles), 1));
+    this.mesh = new Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>(geometry, materials.mapped);
+    this.mesh.frustumCulled = false;
+    this.object.add(this.mesh, ...this.overlays.map((o) => o.object));
+    for (const overlay of this.overlays) overlay.object.visible = false;
+  }
+
+  get face(): Face {
+    return this.shape.face;
+  }
+
+  moveTo(face: Face, frame: number): void {
+    this.shape.face = face;
+    this.shape.moveTo(frame);
+    this.copyOut(this.shape.position, this.position);
+    this.copyOut(this.shape.normal, this.normal);
+    for (const overlay of this.overlays)
+      if (overlay.object.visible) overlay.follow(this.shape.displacement);
+  }
+
+  paint(colouring: Colouring): void {
+    this.mesh.material = colouring.scale ? this.materials.mapped : this.materials.plain;
+    if (!colouring.scale) return;
+    colouring.fill(this.shape, this.shares);
+    const out = this.ramp.array as Float32Array;
+    const { split, shares } = this;
+    // Half a colour in at either end: the middles of the first and the last.
+    const span = 1 - 1 / rampSize;
+    const start = 0.5 / rampSize;
+    for (let i = 0; i < this.ramp.count; ++i) out[2 * i] = start + span * shares[split ? split[i] : i];
+    this.ramp.needsUpdate = true;
+  }
+
+  showOverlay(name: OverlayName, visible: boolean): void {
+    for (const overlay of this.overlays) {
+      if (overlay.name !== name) continue;
+      overlay.object.visible = visible;
+      if (visible) overlay.follow(this.shape.displacement);
+    }
+  }
+
+  private copyOut(from: Float32Array, attribute: BufferAttribute): void {
+    attribute.needsUpdate = true;
+    const { split } = this;
+    if (!split) return; // drawn from the very array
+    const out = attribute.array as Float32Array;
+    for (let i = 0, to = 0; i < split.length; ++i) {
+      const at = 3 * split[i];
+      out[to++] = from[at];
+      out[to++] = from[at + 1];
+      out[to++] = from[at + 2];
+    }
+  }
+}
+
+function linearColours(rgba: Uint8Array): Float32Array {
+  const out = new Float32Array((3 * rgba.length) / 4);
+  for (let v = 0; v < rgba.length / 4; ++v)
+    for (let k = 0; k < 3; ++k) out[3 * v + k] = linearOf(rgba[4 * v + k]);
+  return out;
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A table of figures in its card: heading, lines above it, a way to take it along, notes on its columns.
+import './tables.css';
+import { element } from './dom';
+import { signed } from './format';
+import { csvFile, fileName, save, saveButton } from './save';
+
+export interface Column {
+  key: string;
+  head: string;
+  unit: string;
+  /** After the point: alike in a column, so that its figures stand under each other. */
+  digits: number;
+  /** Shown = value * factor. */
+  factor?: number;
+  /** What it is, a short sentence. */
+  says: string;
+}
+
+export const isNumber = (v: unknown): v is number => typeof v === 'number' && Number.isFinite(v);
+
+/** An en dash where there is none. */
+export function figureText(value: unknown, { digits, factor = 1 }: Column): string {
+  if (!isNumber(value)) return '–';
+  const text = (value * factor).toFixed(digits);
+  return Number(text) === 0 ? text.replace('-', '') : signed(text);
+}
+
+export function figureCell(value: unknown, column: Column): HTMLTableCellElement {
+  const cell = element('td', figureText(value, column));
+  if (isNumber(value)) cell.title = signed(`${Number((value * (column.factor ?? 1)).toPrecision(6))} ${column.unit}`.trim());
+  else cell.title = 'not defined';
+  return cell;
+}
+
+export function headCell({ head, unit, says }: Column): HTMLTableCellElement {
+  const cell = element('th', head);
+  cell.scope = 'col';
+  cell.title = says;
+  if (unit) cell.append(element('small', unit));
+  return cell;
+}
+
+/** What each column is, under the table. */
+export function columnNotes(columns: Pick<Column, 'head' | 'says'>[]): HTMLElement {
+  const list = element('dl', '', 'column-notes');
+  for (const { head, says } of columns) {
+    const pair = element('div');
+    pair.append(element('dt', head), element('dd', says));
+    list.append(pair);
+  }
+  return list;
+}
+
+/** The card; `rows` gives all figures, not rounded, with their names and units in the first row. */
+export function figureCard(
+  title: string, lines: string[], table: HTMLTableElement, rows: () => (string | number | null)[][],
+): HTMLElement {
+  const card = element('article', '', 'figures');
+  const head = element('div', '', 'figures-head');
+  const tools = element('span', '', 'table-tools');
+  const saveTable = () => save(csvFile(rows()), fileName(document.title, title, 'csv'));
+  tools.append(saveButton('CSV', 'Save the table, figures not rounded', title, saveTable));
+  head.append(element('h2', title), tools);
+  card.append(head, ...lines.map((line) => element('p', line)));
+  const caption = table.createCaption();
+  caption.textContent = title;
+  caption.className = 'unseen'; // the heading says the same
+  // Wider than a telephone: it is scrolled in its card, also by keys.
+  const scroller = element('div', '', 'scroller');
+  scroller.tabIndex = 0;
+  scroller.setAttribute('role', 'region');
+  scroller.setAttribute('aria-label', title);
+  scroller.append(table);
+  card.append(scroller);
+  return card;
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the stage shows as a picture to take along: with title, names, time and the bar of colours, on the
+// page's own background.
+import { rampStops } from './colour';
+import { ticksOf, type Scale } from './colouring';
+
+export interface PictureParts {
+  /** The faces as drawn, `scale` times the size of the stage. */
+  stage: HTMLCanvasElement;
+  scale: number;
+  title: string;
+  time: string;
+  /** One or two faces, left one first. */
+  faces: { name: string; changes: string; colour: string }[];
+  /** Where two faces are divided, from 0 to 1. */
+  divided: number | null;
+  colours: Scale | null;
+}
+
+const margin = 18;
+const headHeight = 58;
+const footHeight = 76;
+const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
+
+/** A pen that counts in the page's pixels. */
+class Pen {
+  readonly canvas = document.createElement('canvas');
+  readonly on: CanvasRenderingContext2D;
+  private readonly style = getComputedStyle(document.documentElement);
+
+  constructor(readonly width: number, readonly height: number, scale: number) {
+    this.canvas.width = Math.round(width * scale);
+    this.canvas.height = Math.round(height * scale);
+    this.on = this.canvas.getContext('2d')!;
+    this.on.scale(scale, scale);
+    this.on.textBaseline = 'middle';
+  }
+
+  colour(name: string): string {
+    return this.style.getPropertyValue(name).trim();
+  }
+
+  fill(colour: string | CanvasGradient, x: number, y: number, width: number, height: number, radius = 0): void {
+    this.on.fillStyle = colour;
+    this.on.beginPath();
+    this.on.roundRect(x, y, width, height, radius);
+    this.on.fill();
+  }
+
+  /** Shortened to `most` pixels; returns where it ends. */
+  text(what: string, x: number, y: number, px: number, colour: string, options: {
+    weight?: number; align?: CanvasTextAlign; most?: number;
+  } = {}): number {
+    const { on } = this;
+    on.font = `${options.weight ?? 400} ${px}px ${family}`;
+    on.textAlign = options.align ?? 'left';
+    on.fillStyle = colour;
+    const most = options.most ?? Infinity;
+    let shown = what;
+    while (shown.length > 1 && on.measureText(shown).width > most) shown = `${shown.slice(0, -2).trimEnd()}…`;
+    on.fillText(shown, x, y);
+    return x + on.measureText(shown).width;
+  }
+}
+
+/** As the stage of the page: lighter behind the face. */
+function drawBackground(pen: Pen, stageHeight: number): void {
+  const { width, height, on } = pen;
+  pen.fill(pen.colour('--card'), 0, 0, width, height);
+  on.save();
+  on.beginPath();
+  on.rect(0, headHeight, width, stageHeight);
+  on.clip();
+  // To the farthest corner, as style sheets do it.
+  const [x, y] = [0.5 * width, 0.38 * stageHeight];
+  const [rx, ry] = [0.5 * width * Math.SQRT2, 0.62 * stageHeight * Math.SQRT2];
+  on.translate(x, headHeight + y);
+  on.scale(1, ry / rx);
+  const fade = on.createRadialGradient(0, 0, 0, 0, 0, rx);
+  fade.addColorStop(0, pen.colour('--stage-top'));
+  fade.addColorStop(1, pen.colour('--stage-bottom'));
+  on.fillStyle = fade;
+  on.fillRect(-2 * width, -2 * height * (rx / ry), 4 * width, 4 * height * (rx / ry));
+  on.restore();
+}
+
+function drawName(pen: Pen, face: PictureParts['faces'][number], x: number, most: number, right: boolean): void {
+  const { on } = pen;
+  const y = headHeight + 12;
+  const small = most < 220; // no room for what differs
+  const px = small ? 12 : 14;
+  const changes = small ? '' : face.changes;
+  on.font = `600 ${px}px ${family}`;
+  const nameWidth = on.measureText(face.name).width + 19;
+  on.font = `400 12px ${family}`;
+  const inner = Math.min(Math.max(nameWidth, on.measureText(changes).width), most - 20);
+  const left = right ? x + most - inner - 20 : x;
+  on.globalAlpha = 0.85;
+  pen.fill(pen.colour('--card'), left, y, inner + 20, changes ? 46 : 29, 8);
+  on.globalAlpha = 1;
+  pen.fill(face.colour, left + 10, y + 9, 11, 11, 5.5);
+  pen.text(face.name, left + 29, y + 15, px, pen.colour('--ink'), { weight: 600, most: inner - 18 });
+  if (changes) pen.text(changes, left + 10, y + 34, 12, pen.colour('--ink-soft'), { most: inner + 1 });
+}
+
+function drawScale(pen: Pen, scale: Scale, top: number): void {
+  const { on, width } = pen;
+  const barWidth = Math.min(340, width - 2 * margin);
+  const x = width - margin - barWidth;
+  const fade = on.createLinearGradient(x, 0, x + barWidth, 0);
+  const stops = rampStops(scale.ramp);
+  stops.forEach((stop, i) => fade.addColorStop(i / (stops.length - 1), stop));
+  pen.text(`${scale.title}, ${scale.unit}`, x, top + 15, 13, pen.colour('--ink'), { weight: 600, most: barWidth });
+  pen.fill(fade, x, top + 27, barWidth, 11, 3);
+  ticksOf(scale).forEach(({ text, share }) => {
+    const align = share === 0 ? 'left' : share === 1 ? 'right' : 'center';
+    pen.text(text, x + share * barWidth, top + 50, 12, pen.colour('--ink-soft'), { align });
+  });
+}
+
+export function drawPicture(parts: PictureParts): HTMLCanvasElement {
+  const { stage, scale, faces, divided } = parts;
+  const width = stage.width / scale;
+  const stageHeight = stage.height / scale;
+  // Beside the bar there is no room for words in a narrow picture.
+  const narrow = width < 620;
+  const foot = footHeight + (narrow && parts.colours ? 30 : 0);
+  const pen = new Pen(width, headHeight + stageHeight + foot, scale);
+  drawBackground(pen, stageHeight);
+  pen.on.drawImage(stage, 0, headHeight, width, stageHeight);
+
+  const ink = pen.colour('--ink');
+  const soft = pen.colour('--ink-soft');
+  pen.on.font = `400 14px ${family}`;
+  const timeWidth = pen.on.measureText(parts.time).width;
+  pen.text(parts.title, margin, headHeight / 2, narrow ? 16 : 19, ink, { weight: 650, most: width - 3 * margin - timeWidth });
+  pen.text(parts.time, width - margin, headHeight / 2, 14, soft, { align: 'right' });
+
+  if (divided !== null) {
+    const x = Math.min(Math.max(divided * width, 1), width - 1);
+    pen.fill(pen.colour('--ink'), x - 0.75, headHeight, 1.5, stageHeight);
+  }
+  const room = (faces.length > 1 ? width / 2 : width) - 24;
+  faces.forEach((face, i) => drawName(pen, face, i === 0 ? 12 : width / 2 + 12, room, i > 0));
+
+  const top = headHeight + stageHeight;
+  if (parts.colours) drawScale(pen, parts.colours, top);
+  const words = narrow && parts.colours ? top + foot - 18 : top + 24;
+  if (narrow) {
+    pen.text('Made by Hyperex, a research tool and no medical device.', margin, words, 11, soft, { most: width - 2 * margin });
+  } else {
+    pen.text('Made by Hyperex', margin, words, 12, soft);
+    pen.text('A research tool and no medical device.', margin, words + 20, 12, soft);
+  }
+  return pen.canvas;
+}
+
+export const pngOf = (canvas: HTMLCanvasElement): Promise<Blob> =>
+  new Promise((done, fail) =>
+    canvas.toBlob((blob) => (blob ? done(blob) : fail(new Error('the browser makes no picture'))), 'image/png'));

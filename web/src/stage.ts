@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stage: the face in 3D and the controls around it.
+import { drawColourBar } from './colour_bar';
+import { colouringsOf, type Colouring } from './colouring';
+import type { Face, Replay } from './data';
+import { at } from './dom';
+import { changeMode, chooseFace, wireFaces } from './face_chooser';
+import { faceHue } from './face_colour';
+import { faceWords } from './format';
+import type { Key } from './keys';
+import { drawPicture, pngOf } from './picture';
+import { fileName, save } from './save';
+import type { Shown } from './shown';
+import { theme } from './theme';
+import { changesOf } from './variants';
+import { FaceViewer, type View } from './viewer';
+import { WipeHandle } from './wipe_handle';
+
+const pictureScale = 2;
+
+export class Stage {
+  private viewer: FaceViewer | null = null;
+  private wipe: WipeHandle | null = null;
+  private readonly colourings: Colouring[];
+  private colouring: Colouring;
+  private readonly sayOfFaces: (note: (face: Face) => string) => void;
+  private timeS = 0;
+
+  constructor(private readonly replay: Replay, private readonly shown: Shown) {
+    this.colourings = colouringsOf(replay);
+    this.colouring = this.colourings[0];
+    this.sayOfFaces = wireFaces(replay, shown, at);
+    try {
+      this.viewer = new FaceViewer(at<HTMLCanvasElement>('face'), at('canvas-host'), replay, shown, this.colouring);
+    } catch {
+      this.goWithout();
+      return;
+    }
+    this.wireViews();
+    this.wireColourings();
+    this.wireOverlays();
+    this.wireWipe();
+    shown.onChange(() => this.say());
+    at('save-picture').addEventListener('click', () => void this.savePicture());
+  }
+
+  moveTo(frame: number, timeS: number): void {
+    this.timeS = timeS;
+    this.viewer?.moveTo(frame);
+  }
+
+  /** What the keyboard does here. */
+  keys(): Key[] {
+    const { replay, shown, viewer } = this;
+    if (!viewer) return [];
+    const keys: Key[] = [];
+    if (replay.faces.length > 1) {
+      const digit = (event: KeyboardEvent) => Number(/^(?:Digit|Numpad)([1-9])$/.exec(event.code)?.[1] ?? 0);
+      const either = (mode: 'side-by-side' | 'wipe') => () => changeMode(shown, shown.mode === mode ? 'single' : mode);
+      keys.push(
+        {
+          shown: '1 to 9', does: 'face; of two faces the right one, with Shift the left one',
+          when: (event) => digit(event) > 0,
+          act(event) {
+            if (event.shiftKey) shown.set({ first: digit(event) - 1 });
+            else chooseFace(shown, digit(event) - 1);
+          },
+        },
+        { shown: 's', does: 'two faces side by side, and back', when: ['s'], act: either('side-by-side') },
+        { shown: 'w', does: 'wipe between two faces, and back', when: ['w'], act: either('wipe') },
+        { shown: 'x', does: 'left and right face change places', when: ['x'], act: () => at('swap').click() },
+      );
+    }
+    const turn = (key: string, yaw: number, pitch: number): [string, () => void] => [key, () => viewer.turn(yaw, pitch)];
+    const turns = new Map([
+      turn('ArrowLeft', -10, 0), turn('ArrowRight', 10, 0), turn('ArrowUp', 0, 10), turn('ArrowDown', 0, -10),
+    ]);
+    keys.push(
+      { shown: 'm', does: 'next colouring', when: ['m'], act: () => this.nextColouring() },
+      {
+        shown: 'Shift and arrows', does: 'turn the face',
+        when: (event) => event.shiftKey && turns.has(event.key), act: (event) => turns.get(event.key)!(),
+      },
+      { shown: '+ or -', does: 'nearer, farther', when: ['+', '=', '-'], act: ({ key }) => viewer.zoom(key === '-' ? 1 / 1.15 : 1.15) },
+      { shown: 'f', does: 'from the front', when: ['f'], act: () => at('views').querySelector('button')!.click() },
+      { shown: 'e', does: 'save the picture', when: ['e'], act: () => void this.savePicture() },
+    );
+    return keys;
+  }
+
+  private goWithout(): void {
+    at('no-webgl').hidden = false;
+    for (const id of ['face', 'view-tools', 'faces', 'first-label', 'second-label', 'save-picture', 'colour-key']) at(id).hidden = true;
+  }
+
+  private wireViews(): void {
+    const buttons = [...at('views').querySelectorAll('button')];
+    for (const button of buttons)
+      button.addEventListener('click', () => {
+        for (const other of buttons) other.setAttribute('aria-pressed', String(other === button));
+        this.viewer!.lookFrom(button.dataset.view as View);
+      });
+  }
+
+  private wireColourings(): void {
+    for (const colouring of this.colourings) {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.dataset.colouring = colouring.key;
+      button.textContent = colouring.label;
+      button.addEventListener('click', () => this.setColouring(colouring));
+      at('colouring').append(button);
+    }
+    this.setColouring(this.colouring);
+  }
+
+  private setColouring(colouring: Colouring): void {
+    this.colouring = colouring;
+    for (const button of at('colouring').querySelectorAll('button'))
+      button.setAttribute('aria-pressed', String(button.dataset.colouring === colouring.key));
+    this.viewer!.setColouring(colouring);
+    drawColourBar(at('colour-bar'), colouring);
+    this.sayOfFaces((face) => colouring.note(face));
+  }
+
+  private nextColouring(): void {
+    const { colourings } = this;
+    this.setColouring(colourings[(colourings.indexOf(this.colouring) + 1) % colourings.length]);
+    this.say();
+  }
+
+  /** For those who hear the page and chose by a key. */
+  private say(): void {
+    const { replay, shown, colouring } = this;
+    const faces = shown.visible.map((i) => faceWords(replay.faces, i));
+    const named = replay.faces.length > 1 ? `${faces.join(', right ')}; ` : '';
+    at('said').textContent = `${faces.length > 1 ? 'left ' : ''}${named}${colouring.scale?.title ?? colouring.label}`;
+  }
+
+  private wireOverlays(): void {
+    for (const overlay of this.viewer!.overlays) {
+      const label = document.createElement('label');
+      const box = document.createElement('input');
+      box.type = 'checkbox';
+      box.dataset.overlay = overlay.name;
+      box.addEventListener('change', () => this.viewer!.showOverlay(overlay.name, box.checked));
+      const swatch = document.createElement('i');
+      swatch.style.background = overlay.colour;
+      label.append(box, swatch, overlay.label);
+      at('overlays').append(label);
+    }
+  }
+
+  private wireWipe(): void {
+    const { shown, replay, viewer } = this;
+    const names = (): [string, string] =>
+      [faceWords(replay.faces, shown.first), faceWords(replay.faces, shown.second)];
+    const wipe = new WipeHandle(at('wipe'), at('canvas-host'), names, (share) => viewer!.setWipe(share));
+    const show = () => wipe.show(shown.mode === 'wipe');
+    shown.onChange(show);
+    show();
+    this.wipe = wipe;
+  }
+
+  private async savePicture(): Promise<void> {
+    const { replay, shown, timeS, wipe } = this;
+    const { palette } = theme();
+    const named = replay.faces.length > 1 ? shown.visible : [];
+    const picture = drawPicture({
+      stage: this.viewer!.snapshot(pictureScale),
+      scale: pictureScale,
+      title: document.title,
+      time: `${timeS.toFixed(3)} s`,
+      faces: named.map((i) => ({
+        name: faceWords(replay.faces, i),
+        changes: changesOf(replay, i).join(', '),
+        colour: palette[faceHue(i)],
+      })),
+      divided: shown.mode === 'single' ? null : shown.mode === 'wipe' ? wipe!.at : 0.5,
+      colours: this.colouring.scale,
+    });
+    const faces = named.map((i) => replay.faces[i].name);
+    save(await pngOf(picture), fileName(document.title, ...faces, `${timeS.toFixed(3)} s`, 'png'));
+  }
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The curves of symmetry, in the words of docs/symmetry.md: S(t) of all faces, and the stretch of
+// either side of those that are shown.
+import type { Chart, Curve } from './chart_options';
+import type { Replay } from './data';
+import { faceWords, number, signed } from './format';
+import type { SymmetryCurve } from './manifest';
+import type { Shown } from './shown';
+
+type Part = Omit<Chart, 'title'>;
+
+/** "10⁻⁶", "2.5 · 10⁻³" */
+function power(value: number): string {
+  const [digits, exponent] = value.toExponential().split('e');
+  const raised = [...exponent.replace('+', '')].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('');
+  return `${digits === '1' ? '' : `${digits} · `}10${raised}`;
+}
+
+/** The faces whose curve is known at the same times as the scene's own. */
+const facesWithCurve = (replay: Replay): { i: number; curve: SymmetryCurve }[] =>
+  replay.faces.flatMap(({ symmetry }, i) =>
+    symmetry && symmetry.time_s.length === replay.symmetry?.time_s.length ? [{ i, curve: symmetry }] : []);
+
+/** Where the jitter is known its noise floor; else where S stops. */
+function floorOf(curve: SymmetryCurve): { curve: Curve; caption: string } {
+  const { noise = [], floor, jitter_mm = 0 } = curve;
+  if (noise.length === curve.time_s.length)
+    return {
+      curve: {
+        label: 'noise floor', column: 'noise floor of S (ln)', dashed: true, under: 'undecided',
+        values: noise.map((n) => (n === null || !(n > 0) ? null : Math.log(Math.max(n, floor)))),
+      },
+      caption:
+        'Hatched, undecided: under the noise floor, which a symmetric motion seen with the jitter of these points ' +
+        `(${number(Number(jitter_mm.toPrecision(2)))} mm) stays under in 95 of 100 samples; values there are not told apart.`,
+    };
+  const least = Math.log(floor);
+  return {
+    curve: {
+      label: 'floor', column: 'floor of S (ln)', dashed: true, under: 'undecided', values: curve.time_s.map(() => least),
+    },
+    caption: `Hatched, undecided: S stops at the floor, ln ${power(floor)} = ${signed(least.toFixed(2))}; values there are not told apart.`,
+  };
+}
+
+/** Where jitter is known S has its noise floor to be seen against; samples at which it stops, as at rest, do not count. */
+function rangeOf(own: SymmetryCurve, curves: (number | null)[][]): [number, number] | undefined {
+  if ((own.noise ?? []).length === 0) return undefined;
+  const least = Math.log(own.floor) + 1e-6;
+  const all = curves.flat().filter((v) => v !== null && v > least) as number[];
+  if (all.length < 2) return undefined;
+  const [low, high] = all.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
+  return [low - 0.2 * (high - low), high + 0.06 * (high - low)];
+}
+
+/** Empty where the run has no such curves. */
+export function symmetryCurves(replay: Replay, shown: Shown): Part[] {
+  const own = replay.symmetry;
+  if (!own || own.time_s.length < 2) return [];
+  const several = replay.faces.length > 1;
+  const floor = floorOf(replay.faces[shown.first].symmetry ?? own);
+  const faces = facesWithCurve(replay);
+  return [{
+    caption: `S = ln |ξL − ξR|: smaller is more symmetric; it does not say which side moves more. ${floor.caption}`,
+    unit: '', digits: 2, timeS: own.time_s, yLabel: 'S (natural logarithm)', heightPx: several ? 250 : 200,
+    range: rangeOf(own, [floor.curve.values, ...faces.map(({ curve }) => curve.s)]),
+    curves: [
+      floor.curve,
+      ...faces.map(({ i, curve }) => ({
+        label: several ? faceWords(replay.faces, i) : 'S',
+        column: several ? `S (ln) of ${replay.faces[i].name}` : 'S (ln)',
+        values: curve.s, hue: i, strong: several && shown.visible.includes(i),
+      })),
+    ],
+  }];
+}
+
+export function stretchCurves(replay: Replay, shown: Shown): Part[] {
+  const own = replay.symmetry;
+  if (!own || own.time_s.length < 2) return [];
+  const faces = facesWithCurve(replay).filter(({ i }) => shown.visible.includes(i));
+  const several = replay.faces.length > 1;
+  const one = faces.length < 2;
+  return [{
+    caption:
+      'Relative change of the distances from the mouth corner to eye, lid, nose and lip, summed. ' +
+      `Solid: left, dashed: right, the subject’s own${several && one ? `; of ${faceWords(replay.faces, shown.first)}` : ''}.`,
+    unit: '', digits: 4, timeS: own.time_s, yLabel: 'ξ (relative change)', heightPx: 200,
+    curves: faces.flatMap(({ i, curve }) => {
+      const of = one ? '' : ` of ${faceWords(replay.faces, i)}`;
+      const file = several ? ` of ${replay.faces[i].name} (1)` : ' (1)';
+      return [
+        { label: `ξL${of}`, column: `ξL${file}`, values: curve.xi_left, hue: i },
+        { label: `ξR${of}`, column: `ξR${file}`, values: curve.xi_right, hue: several ? i : 1, broken: true },
+      ];
+    }),
+  }];
+}

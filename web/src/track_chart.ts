@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far points on the skin are from where they began, of the faces that are shown.
+import type { Chart, Curve } from './chart_options';
+import type { Replay } from './data';
+import { element, memberBox } from './dom';
+import { faceWords, landmarkName } from './format';
+import type { Shown } from './shown';
+import { variantsOf } from './variants';
+
+type Track = (number | null)[];
+
+/** Distance of each landmark from its first sample, mm: one array a landmark, null where unknown. */
+export function tracksMm(replay: Replay, face: number): Track[] {
+  const { names, timeS } = replay.landmarks;
+  const positions = replay.faces[face].landmarkPositions;
+  const stride = 3 * names.length;
+  return names.map((_, p) =>
+    timeS.map((_t, f) => {
+      const a = 3 * p;
+      const b = f * stride + 3 * p;
+      const d = Math.hypot(
+        positions[b] - positions[a],
+        positions[b + 1] - positions[a + 1],
+        positions[b + 2] - positions[a + 2],
+      );
+      return Number.isFinite(d) ? 1e3 * d : null;
+    }),
+  );
+}
+
+/** By how much a point's track differs from the scene's own in any variant, mm. */
+const spread = (own: Track, others: Track[]): number =>
+  Math.max(0, ...others.flatMap((other) => other.map((v, f) => Math.abs((v ?? 0) - (own[f] ?? v ?? 0)))));
+
+/** Points to show first. Of variants: their input and response, and where they differ most; driven points move alike
+ *  in all. Else those that drive, or those that move most. */
+function firstTracks(replay: Replay, of: (face: number) => Track[]): Set<number> {
+  const { names } = replay.landmarks;
+  const tracks = of(0);
+  const variants = variantsOf(replay);
+  if (variants) {
+    const others = replay.faces.slice(1).map((_, i) => of(i + 1));
+    const apart = tracks.map((track, p) => spread(track, others.map((other) => other[p])));
+    const pair = [variants.driven_point, variants.response_point].map((name) => names.indexOf(name ?? '')).filter((i) => i >= 0);
+    const order = names.map((_, i) => i).sort((a, b) => apart[b] - apart[a]);
+    return new Set([...pair, ...order.slice(0, 3)]);
+  }
+  const driven = replay.driven.names.map((name) => names.indexOf(name)).filter((i) => i >= 0);
+  if (driven.length > 0) return new Set(driven.slice(0, 7));
+  const most = tracks.map((track) => Math.max(0, ...track.map((v) => v ?? 0)));
+  const order = names.map((_, i) => i).sort((a, b) => most[b] - most[a]);
+  return new Set(order.slice(0, 5));
+}
+
+/** The tracks of chosen points; where two faces are shown, of both. */
+export class TrackCurves {
+  readonly chosen: Set<number>;
+  private readonly tracks = new Map<number, Track[]>();
+
+  constructor(private readonly replay: Replay, private readonly shown: Shown) {
+    this.chosen = firstTracks(replay, (face) => this.of(face));
+  }
+
+  get now(): Omit<Chart, 'title'> {
+    const { faces } = this.replay;
+    const [first, second] = this.shown.visible;
+    const which =
+      second !== undefined && second !== first
+        ? ` Solid: ${faceWords(faces, first)}; dashed: ${faceWords(faces, second)}.`
+        : faces.length > 1 ? ` Of ${faceWords(faces, first)}.` : '';
+    const curves = this.curvesOf(first, '', false);
+    if (second !== undefined && second !== first)
+      curves.push(...this.curvesOf(second, `, ${faceWords(faces, second)}`, true));
+    return {
+      caption: `Distance of points on the skin from where they were in the first frame.${which}`,
+      unit: ' mm', digits: 2, yLabel: 'distance (mm)', heightPx: 210, timeS: this.replay.landmarks.timeS, curves,
+    };
+  }
+
+  private of(face: number): Track[] {
+    const known = this.tracks.get(face) ?? tracksMm(this.replay, face);
+    this.tracks.set(face, known);
+    return known;
+  }
+
+  private curvesOf(face: number, ending: string, broken: boolean): Curve[] {
+    const { faces, landmarks } = this.replay;
+    const tracks = this.of(face);
+    const file = faces.length > 1 ? ` of ${faces[face].name} (mm)` : ' (mm)';
+    return [...this.chosen].map((point, hue) => {
+      const name = landmarkName(landmarks.names[point]);
+      return { label: name + ending, column: name + file, values: tracks[point], hue, broken };
+    });
+  }
+}
+
+/** Check boxes; `changed` is told after each change of `chosen`. */
+export function trackChooser(names: string[], chosen: Set<number>, changed: () => void): HTMLElement {
+  const details = element('details', '', 'chooser');
+  const list = element('div');
+  names.forEach((name, i) => {
+    const label = element('label');
+    label.append(memberBox(chosen, i, changed), landmarkName(name));
+    list.append(label);
+  });
+  details.append(element('summary', `Choose points (${names.length})`), list);
+  return details;
+}

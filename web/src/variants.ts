@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The comparison of the variants as the run's summary holds it (summary.variants).
+import { changeWords } from './change_words';
+import type { Replay } from './data';
+
+export interface VariantRow {
+  name: string;
+  changes?: Record<string, unknown> | string[];
+  inverted_tets?: number;
+  [figure: string]: unknown;
+}
+
+export interface Variants {
+  driven_point?: string;
+  response_point?: string;
+  table: VariantRow[];
+}
+
+const isVariants = (v: unknown): v is Variants =>
+  typeof v === 'object' && v !== null && Array.isArray((v as Variants).table);
+
+/** Of the scene itself and its variants, as `Replay.faces`; null where the run has none. */
+export function variantsOf(replay: Replay): Variants | null {
+  const { variants } = replay.summary;
+  return isVariants(variants) && variants.table.length > 1 ? variants : null;
+}
+
+/** What differs in a face, a sentence each; from the summary, which keeps numbers and names apart. */
+export function changesOf(replay: Replay, i: number): string[] {
+  const row = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[i].name);
+  if (Array.isArray(row?.changes)) return row.changes;
+  if (!row?.changes) return replay.faces[i].changes;
+  return changeWords(row.changes, replay.summary.options);
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The variants side by side in figures (summary.variants); pressing a name shows that face.
+import type { Replay } from './data';
+import { button, element } from './dom';
+import { chooseFace } from './face_chooser';
+import { faceColour } from './face_colour';
+import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
+import { landmarkName, number } from './format';
+import type { Shown } from './shown';
+import { changesOf, variantsOf, type VariantRow, type Variants } from './variants';
+
+const columns: Column[] = [
+  {
+    key: 'greatest_displacement_mm', head: 'Greatest displacement', unit: 'mm', digits: 2,
+    says: 'how far the skin goes from rest at most, anywhere and at any time.',
+  },
+  {
+    key: 'greatest_distance_mm', head: 'Greatest distance', unit: 'mm', digits: 2,
+    says: 'from the scene itself: how far apart the same point of the skin is in both at the same time, at most.',
+  },
+  {
+    key: 'rms_distance_at_peak_mm', head: 'Distance at peak', unit: 'mm, rms', digits: 3,
+    says: 'root mean square of that distance over the skin, in the frame of the peak.',
+  },
+  {
+    key: 'mean_change_at_peak_mm', head: 'Change at peak', unit: 'mm, mean', digits: 3,
+    says: 'by how much farther than in the scene itself the skin has moved in that frame, on average; below zero: less far.',
+  },
+  {
+    key: 'share_within_25_mm_of_mouth', head: 'Near the mouth', unit: '%', digits: 1, factor: 100,
+    says: 'share of the summed squared distance, weighted by area, within 25 mm of the middle between the mouth corners.',
+  },
+  {
+    key: 'lag_ms', head: 'Lag', unit: 'ms', digits: 2,
+    says: 'time by which the response trails the input, where both correlate best; found to fractions of a step.',
+  },
+  {
+    key: 'hysteresis', head: 'Hysteresis', unit: '1', digits: 4,
+    says: 'area enclosed by the curve of response over input, over that of its bounding box; 0 where the response depends on the input alone.',
+  },
+  {
+    key: 'symmetry_integral_s', head: 'Symmetry integral', unit: 's', digits: 4,
+    says: '|ξL − ξR| summed over time; smaller is more symmetric.',
+  },
+];
+const insideOut: Column = {
+  key: 'inverted_tets', head: 'Inside out', unit: 'elements', digits: 0,
+  says: 'tetrahedra turned inside out in some frame: there the motion is too large for the model.',
+};
+
+function linesOf(replay: Replay, { driven_point, response_point }: Variants): string[] {
+  const points = driven_point && response_point
+    ? [`Input of lag and hysteresis: ${landmarkName(driven_point)}, the driven point that moves most; response: ` +
+       `${landmarkName(response_point)}, which moves most of those off the driven patches.`]
+    : [];
+  const { noise = [], jitter_mm = 0 } = replay.symmetry ?? {};
+  const decided = noise.length > 0
+    ? `The points are known to ${number(Number(jitter_mm.toPrecision(2)))} mm: changes of symmetry under the noise floor of S(t) are undecided.`
+    : 'The motion is exact, so that all variants follow the very same input; where S(t) of two is under the floor, their difference is undecided.';
+  return ['Each variant against the scene itself. Press a name to see that face.', ...points, decided];
+}
+
+/** Digits enough for the column's largest figure to show two that are not zero. */
+function fitted(column: Column, rows: VariantRow[]): Column {
+  const most = Math.max(...rows.map((row) => Math.abs(Number(row[column.key] ?? 0)) * (column.factor ?? 1)));
+  if (!(most > 0) || column.digits === 0) return column;
+  return { ...column, digits: Math.min(Math.max(column.digits, 1 - Math.floor(Math.log10(most))), 9) };
+}
+
+function nameCell(replay: Replay, i: number, press: () => void): { cell: HTMLElement; face: HTMLButtonElement } {
+  const cell = element('th');
+  cell.scope = 'row';
+  const face = button('', 'face', press);
+  face.title = 'Show this face';
+  face.append(element('i'), replay.faces[i].name);
+  const changes = i === 0 ? ['the scene itself'] : changesOf(replay, i);
+  cell.append(face, ...changes.map((change) => element('small', change)));
+  return { cell, face };
+}
+
+/** Null without variants. */
+export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null {
+  const variants = variantsOf(replay);
+  if (!variants) return null;
+  const rows: VariantRow[] = replay.faces.flatMap(({ name }, i) => {
+    const row = variants.table.find((r) => r.name === name);
+    return row ? [i === 0 ? { inverted_tets: replay.summary.inverted_tets as number, ...row } : row] : [];
+  });
+  if (rows.length < replay.faces.length) return null;
+  const turned = rows.some((row) => (row.inverted_tets ?? 0) > 0) ? [insideOut] : [];
+  const used = [...columns, ...turned].map((column) => fitted(column, rows));
+
+  const table = element('table');
+  const head = table.createTHead().insertRow();
+  head.append(headCell({ key: 'name', head: 'Face', unit: '', digits: 0, says: 'Press a name to see that face' }));
+  head.append(...used.map(headCell));
+  const body = table.createTBody();
+  const most = used.map(({ key }) => Math.max(...rows.map((row) => Math.abs(Number(row[key] ?? 0)))));
+  const buttons = rows.map((row, i) => {
+    const line = body.insertRow();
+    line.style.setProperty('--face', faceColour(i));
+    const { cell, face } = nameCell(replay, i, () => chooseFace(shown, i));
+    line.append(cell);
+    used.forEach((column, c) => {
+      const made = figureCell(row[column.key], column);
+      const value = row[column.key];
+      if (column !== insideOut) made.className = 'quantity';
+      if (isNumber(value) && most[c] > 0) made.style.setProperty('--share', String(Math.abs(value) / most[c]));
+      line.append(made);
+    });
+    return face;
+  });
+  const show = () => buttons.forEach((face, i) => {
+    const visible = shown.visible.includes(i);
+    face.setAttribute('aria-pressed', String(visible));
+    face.closest('tr')!.classList.toggle('shown', visible);
+  });
+  shown.onChange(show);
+  show();
+  const card = figureCard('Variants', linesOf(replay, variants), table, () => [
+    ['face', 'what differs', ...used.map(({ head: name, unit }) => `${name} (${unit})`)],
+    ...rows.map((row, i) => [
+      row.name, changesOf(replay, i).join('; '),
+      ...used.map(({ key, factor = 1 }) => (isNumber(row[key]) ? row[key] * factor : null)),
+    ]),
+  ]);
+  card.classList.add('variants');
+  card.append(columnNotes(used));
+  return card;
+}
