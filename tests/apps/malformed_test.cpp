@@ -281,6 +281,12 @@ void rename_columns(const In& in, const std::string& from, const std::string& to
 
 const std::vector<Fault> kMotions{
     {"Empty", [](const In& in) { put(in("motion.csv"), ""); }, {"motion.csv", "empty"}},
+    {"OfOpenFace",
+     [](const In& in) { put(in("motion.csv"), "frame,timestamp,AU12_r,AU26_r\n1,0,0,0\n"); },
+     {"motion.csv", "OpenFace", "motion.openface"}},
+    {"OfArKit",
+     [](const In& in) { put(in("motion.csv"), "time_s,jawOpen,mouthSmileLeft\n0,0,0\n"); },
+     {"motion.csv", "ARKit", "motion.arkit"}},
     {"HeaderAlone",
      [](const In& in) { write_rows(in, [](auto& rows) { rows.resize(1); }); },
      {"motion.csv", "sample"}},

@@ -116,6 +116,12 @@ void for_each_picture(const fs::path& folder, const std::function<void(const fs:
 
 const std::vector<Fault> kFaults = {
     {"NoSuchFolder", [](const In&) {}, {"gone", "no such folder"}, "track gone --out m.csv"},
+    {"FolderOfRecordings", [](const In&) {}, {"is no recording", "rec"}, "track . --out m.csv"},
+    {"NoRecordingNamed", [](const In&) {}, {"no recording is named"}, "track --out m.csv"},
+    {"AMesh",
+     [](const In& in) { put(in("me.PLY"), "ply\n"); },
+     {"me.PLY", "is a mesh", "hyperex landmarks"},
+     "track me.PLY --out m.csv"},
     {"ScoreWithoutTruth",
      [](const In& in) { fs::remove(in("rec/truth_pose.csv")); },
      {"truth_pose.csv"},

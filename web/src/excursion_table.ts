@@ -4,7 +4,9 @@
 import type { Replay } from './data';
 import { button, element } from './dom';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
-import { landmarkName } from './format';
+import { faceWords, landmarkName } from './format';
+import type { Shown } from './shown';
+import { variantsOf } from './variants';
 
 interface Sides {
   L: number | null;
@@ -40,9 +42,12 @@ const undecided = {
 
 const unitKey = { excursion: 'excursion_mm', path: 'path_mm', peak_speed: 'peak_speed_mm_s' } as const;
 
-export function excursionsOf(replay: Replay): Excursion[] {
-  const { symmetry } = replay.summary;
-  const given = (symmetry as { excursions?: unknown } | null | undefined)?.excursions;
+/** Of face i: the scene's own stand in summary.symmetry, a variant's in its row of the comparison. */
+export function excursionsOf(replay: Replay, face: number): Excursion[] {
+  const holder = face === 0
+    ? replay.summary.symmetry
+    : variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
+  const given = (holder as { excursions?: unknown } | null | undefined)?.excursions;
   return Array.isArray(given) ? (given as Excursion[]).filter((e) => typeof e?.point === 'string' && e.excursion_mm) : [];
 }
 
@@ -115,40 +120,48 @@ const csvRows = (pairs: Excursion[]): (string | number | null)[][] => [
   ]),
 ];
 
-/** Null where the run measured none. Named points first, numbered ones on demand. */
-export function excursionTable(replay: Replay): HTMLElement | null {
-  const pairs = excursionsOf(replay).sort((a, b) => largest(b) - largest(a));
-  if (pairs.length === 0) return null;
-  const named = pairs.filter((pair) => !isNumbered(pair));
-  const first = named.length > 0 ? named : pairs;
-  const more = pairs.filter((pair) => !first.includes(pair));
+/** Null where the run measured none. Named points first, numbered ones on demand; of the face that is
+ * shown, of two the second, which the first is compared with. */
+export function excursionTable(replay: Replay, shown: Shown): HTMLElement | null {
+  if (excursionsOf(replay, 0).length === 0) return null;
   const table = element('table');
   headOf(table);
   const body = table.createTBody();
-  for (const pair of first) addRow(body, pair);
-  const scaleTo = (shown: Excursion[]) => table.style.setProperty('--most', String(Math.max(...shown.map(largest), 1e-9)));
-  scaleTo(first);
   const hidden = table.createTBody();
   hidden.hidden = true;
-  for (const pair of more) addRow(hidden, pair);
-  const of = replay.faces.length > 1 ? ' Of the scene itself.' : '';
+  let pairs: Excursion[] = [];
+  let first: Excursion[] = [];
+  const whose = element('p', '', 'whose');
+  const fold = button('', 'quiet more', () => {
+    hidden.hidden = !hidden.hidden;
+    label();
+  });
+  const label = () => {
+    fold.hidden = first.length === pairs.length;
+    fold.textContent = hidden.hidden ? `Show ${pairs.length - first.length} numbered points too` : 'Named points only';
+    fold.setAttribute('aria-expanded', String(!hidden.hidden));
+    const scale = Math.max(...(hidden.hidden ? first : pairs).map(largest), 1e-9);
+    table.style.setProperty('--most', String(scale));
+  };
+  const fill = () => {
+    const face = shown.visible[shown.visible.length - 1];
+    pairs = excursionsOf(replay, face).sort((a, b) => largest(b) - largest(a));
+    const named = pairs.filter((pair) => !isNumbered(pair));
+    first = named.length > 0 ? named : pairs;
+    body.replaceChildren();
+    hidden.replaceChildren();
+    for (const pair of pairs) addRow(first.includes(pair) ? body : hidden, pair);
+    whose.textContent = replay.faces.length > 1 ? `Of ${faceWords(replay.faces, face)}.` : '';
+    label();
+  };
+  fill();
+  shown.onChange(fill);
   const card = figureCard('Excursion of either side', [
-    `Each point against that of the other side, those that move farthest first.${of} The figures describe a motion and diagnose nothing.`,
+    'Each point against that of the other side, those that move farthest first. The figures describe a motion and diagnose nothing.',
   ], table, () => csvRows(pairs));
   card.classList.add('excursions');
-  if (more.length > 0) {
-    const fold = button('', 'quiet more', () => {
-      hidden.hidden = !hidden.hidden;
-      scaleTo(hidden.hidden ? first : pairs);
-      show();
-    });
-    const show = () => {
-      fold.textContent = hidden.hidden ? `Show ${more.length} numbered points too` : 'Named points only';
-      fold.setAttribute('aria-expanded', String(!hidden.hidden));
-    };
-    show();
-    card.append(fold);
-  }
-  card.append(columnNotes([...groups, ratio, correlation, ...(pairs.some((p) => p.undecided) ? [undecided] : [])]));
+  card.querySelector('.scroller')!.before(whose);
+  const anyUndecided = replay.faces.some((_, i) => excursionsOf(replay, i).some((pair) => pair.undecided));
+  card.append(fold, columnNotes([...groups, ratio, correlation, ...(anyUndecided ? [undecided] : [])]));
   return card;
 }

@@ -7,7 +7,7 @@ import { variantsTable } from './variants_table';
 
 /** `into` stays hidden where there are none. */
 export function fillTables(replay: Replay, shown: Shown, into: HTMLElement): void {
-  const tables = [variantsTable(replay, shown), excursionTable(replay)].filter((card) => card !== null);
+  const tables = [variantsTable(replay, shown), excursionTable(replay, shown)].filter((card) => card !== null);
   into.append(...tables);
   into.hidden = tables.length === 0;
 }

@@ -75,7 +75,21 @@ export class TimeChart {
     const { min, max } = plot.scales.x;
     this.now.hidden = min != null && max != null && (t < min || t > max);
     this.now.style.transform = `translateX(${plot.valToPos(t, 'x')}px)`;
-    if (!plot.over.matches(':hover')) plot.setLegend({ idx: plot.valToIdx(t) }, false);
+    this.tell(plot, false);
+  }
+
+  /** The figures in the legend, unless the pointer asks for others or they stand there already. */
+  private tell(plot: uPlot, anew: boolean): void {
+    const idx = plot.valToIdx(this.timeS);
+    if (!plot.over.matches(':hover') && (anew || plot.legend.idx !== idx)) plot.setLegend({ idx }, false);
+  }
+
+  /** Once drawn the plot knows where a time lies, and has emptied its legend. */
+  private afterDrawing(): void {
+    const { plot, timeS } = this;
+    if (!plot || Number.isNaN(timeS)) return;
+    this.mark(timeS);
+    this.tell(plot, true);
   }
 
   /** Shows this stretch of time; null: all. */
@@ -101,8 +115,7 @@ export class TimeChart {
   private options(): uPlot.Options {
     const size = { widthPx: Math.max(this.host.clientWidth, 200), heightPx: this.heightPx, scale: 1 };
     const options = chartOptions(this.chart, size, this.hidden);
-    // Only once drawn does the plot know where a time lies; then it empties its legend.
-    options.hooks!.draw!.push(() => queueMicrotask(() => this.mark(this.timeS)));
+    options.hooks!.draw!.push(() => queueMicrotask(() => this.afterDrawing()));
     options.hooks!.setSeries = [(plot) => this.remember(plot)];
     return options;
   }

@@ -5,6 +5,7 @@ import type { Replay } from './data';
 import { element, memberBox } from './dom';
 import { faceWords, landmarkName } from './format';
 import type { Shown } from './shown';
+import { variantsOf } from './variants';
 
 type Track = (number | null)[];
 
@@ -27,9 +28,23 @@ export function tracksMm(replay: Replay, face: number): Track[] {
   );
 }
 
-/** Points to show first: those that drive, else those that move most; at most seven. */
-function firstTracks(replay: Replay, tracks: Track[]): Set<number> {
+/** By how much a point's track differs from the scene's own in any variant, mm. */
+const spread = (own: Track, others: Track[]): number =>
+  Math.max(0, ...others.flatMap((other) => other.map((v, f) => Math.abs((v ?? 0) - (own[f] ?? v ?? 0)))));
+
+/** Points to show first. Of variants: their input and response, and where they differ most; driven points move alike
+ *  in all. Else those that drive, or those that move most. */
+function firstTracks(replay: Replay, of: (face: number) => Track[]): Set<number> {
   const { names } = replay.landmarks;
+  const tracks = of(0);
+  const variants = variantsOf(replay);
+  if (variants) {
+    const others = replay.faces.slice(1).map((_, i) => of(i + 1));
+    const apart = tracks.map((track, p) => spread(track, others.map((other) => other[p])));
+    const pair = [variants.driven_point, variants.response_point].map((name) => names.indexOf(name ?? '')).filter((i) => i >= 0);
+    const order = names.map((_, i) => i).sort((a, b) => apart[b] - apart[a]);
+    return new Set([...pair, ...order.slice(0, 3)]);
+  }
   const driven = replay.driven.names.map((name) => names.indexOf(name)).filter((i) => i >= 0);
   if (driven.length > 0) return new Set(driven.slice(0, 7));
   const most = tracks.map((track) => Math.max(0, ...track.map((v) => v ?? 0)));
@@ -43,7 +58,7 @@ export class TrackCurves {
   private readonly tracks = new Map<number, Track[]>();
 
   constructor(private readonly replay: Replay, private readonly shown: Shown) {
-    this.chosen = firstTracks(replay, this.of(0));
+    this.chosen = firstTracks(replay, (face) => this.of(face));
   }
 
   get now(): Omit<Chart, 'title'> {

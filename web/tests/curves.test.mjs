@@ -168,7 +168,7 @@ describe(`curves of ${basename(report)}`, () => {
       const at = (f) => [0, 1, 2].map((k) => positions[(f * points.length + point) * 3 + k]);
       return 1e3 * Math.hypot(...at(frame).map((v, k) => v - at(0)[k]));
     };
-    const point = points.indexOf(data.driven.names[0]);
+    const point = points.indexOf(data.summary.variants.response_point);
     const label = points[point].replace(/^ibug68_/, 'iBUG ').replaceAll('_', ' ');
     const { name, landmarks } = data.variants[0];
     await showFace(1);
@@ -328,6 +328,13 @@ describe('figures that are rare', () => {
     const { names, rows: lines } = csv((await saved(page, page.locator('.excursions').getByRole('button', { name: /^CSV/ }))).bytes);
     assert.equal(lines.length, 4);
     assert.equal(lines.find(([p]) => p === 'cheilion')[names.indexOf('Excursion right (mm)')], '4.2');
+    const whose = page.locator('.excursions .whose');
+    assert.equal(await whose.textContent(), 'Of the scene itself.');
+    await page.keyboard.press('3');
+    assert.deepEqual((await texts()).map(([name, , L, R]) => [name, L, R]), [['alare', '6.00', '0.25'], ['cheilion', '5.00', '3.00']]);
+    assert.notEqual(await whose.textContent(), 'Of the scene itself.');
+    await page.keyboard.press('1');
+    assert.equal((await texts()).length, 4);
   });
 
   test('the summary has a row for each figure of a list, and no second table of variants', async () => {

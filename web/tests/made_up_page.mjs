@@ -31,6 +31,7 @@ export async function rarePage() {
     jitter_mm: 0,
     excursions: [pair('alare', 0.5, 0.6, true), pair('cheilion', 6.78, 4.2), pair('ibug68_7/9', 12, 11), pair('cheek', 0, 1)],
   };
+  table[2].excursions = [pair('cheilion', 5, 3), pair('alare', 6, 0.25)];
   const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'rare.html');
   await writeFile(file, withData(html, data));
   return file;

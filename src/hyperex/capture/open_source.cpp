@@ -2,6 +2,7 @@
 #include "hyperex/capture/open_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "hyperex/capture/buffered.hpp"
@@ -22,11 +23,16 @@ std::unique_ptr<FrameSource> latest(std::unique_ptr<FrameSource> source) {
   return std::make_unique<LatestFrame>(std::move(source));
 }
 
-bool is_oni(const fs::path& file) {
+std::string extension_of(const fs::path& file) {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return std::tolower(c); });
-  return extension == ".oni";
+  return extension;
+}
+
+bool is_mesh(const fs::path& file) {
+  static constexpr std::array meshes{".ply", ".obj", ".stl", ".glb", ".gltf"};
+  return std::ranges::find(meshes, extension_of(file)) != meshes.end();
 }
 
 int webcam_number(const std::string& spec) {
@@ -85,11 +91,18 @@ std::unique_ptr<FrameSource> open(SourceKind kind, const std::string& spec,
 
 SourceKind source_kind(const std::string& spec) {
   std::error_code ignored;
+  if (spec.empty())
+    throw InputError(
+        "no recording is named: expected a recording (folder, video file, .oni, photograph) or a "
+        "camera (kinect, openni, webcam:N)");
   if (fs::is_directory(spec, ignored)) return SourceKind::folder;
-  if (fs::exists(spec, ignored))
-    return is_oni(spec)       ? SourceKind::oni
-           : is_picture(spec) ? SourceKind::still
-                              : SourceKind::video;
+  if (fs::exists(spec, ignored)) {
+    if (is_mesh(spec))
+      throw InputError(spec, "is a mesh, not a recording: hyperex landmarks finds landmarks on it");
+    return extension_of(spec) == ".oni" ? SourceKind::oni
+           : is_picture(spec)           ? SourceKind::still
+                                        : SourceKind::video;
+  }
   if (const auto kind = device_kind(spec)) return *kind;
   throw InputError(
       io::quotable(spec) +

@@ -16,6 +16,17 @@ namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 
+/// The first folder in `folder` that is a recording; empty where there is none.
+std::string recording_inside(const fs::path& folder) {
+  std::string first;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (fs::exists(entry.path() / "rgb.txt", ignored) &&
+        (first.empty() || entry.path().string() < first))
+      first = entry.path().string();
+  return first;
+}
+
 class TumFolder : public FrameSource {
  public:
   TumFolder(fs::path folder, const SourceOptions& options)
@@ -49,10 +60,13 @@ class TumFolder : public FrameSource {
     const fs::path file =
         options.camera_file.empty() ? folder_ / "camera.toml" : options.camera_file;
     if (!fs::exists(file) && !fs::exists(folder_ / "rgb.txt") &&
-        !fs::exists(folder_ / "associations.txt"))
+        !fs::exists(folder_ / "associations.txt")) {
+      const std::string inside = recording_inside(folder_);
       throw InputError(folder_,
                        "is no recording: expected rgb/, depth/, rgb.txt, depth.txt and camera.toml "
-                       "(docs/tracking.md)");
+                       "(docs/tracking.md)" +
+                           (inside.empty() ? "" : "; it holds one: " + inside));
+    }
     if (!fs::exists(file))
       throw InputError(file,
                        "missing: expected the camera's width, height, fx, fy, cx, cy (pixels) and "

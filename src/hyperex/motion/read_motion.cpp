@@ -89,7 +89,23 @@ void add_coordinate(const io::CsvTable& table, Columns& columns, int column) {
   point->column[std::size_t(axis)] = column;
 }
 
+/// Other tables that people have, told by their columns, and where those go.
+void refuse_other_tables(const io::CsvTable& table) {
+  const auto has = [&](const char* wanted) {
+    return std::any_of(table.names.begin(), table.names.end(),
+                       [&](const std::string& name) { return lower(name) == wanted; });
+  };
+  if (has("au12_r"))
+    throw InputError(table.file,
+                     "a table of action units by OpenFace, not of points: expected it as "
+                     "motion.openface");
+  if (has("jawopen"))
+    throw InputError(table.file,
+                     "a table of ARKit's blend shapes, not of points: expected it as motion.arkit");
+}
+
 Columns find_columns(const io::CsvTable& table) {
+  refuse_other_tables(table);
   static const std::set<std::string> time_names = {"time_s", "time", "timestamp", "timestamp_s"};
   Columns columns;
   for (int c = 0; c < int(table.names.size()); ++c) {

@@ -218,6 +218,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
     Json one = json_of(compared[i]);
     one["changes"] = base.scene.variants[i].changes;
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
+    one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");
     json["table"].push_back(one);
   }
   return json;

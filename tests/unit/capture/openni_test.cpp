@@ -109,7 +109,12 @@ TEST(OpenniDevice, OpensByNameAndFindsTheOnlyOne) {
 
 TEST(OniFile, GivesEveryFrameAsRecorded) {
   const Folder folder;
-  record(folder / "a.oni");
+  // On a busy machine OpenNI2's recorder starts late or drops frames: that file is no measure.
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    fs::remove(folder / "a.oni");
+    record(folder / "a.oni");
+    if (read_all(*open_oni(folder / "a.oni", {.read_ahead_frames = 0})).size() == 16) break;
+  }
   for (const std::size_t ahead : {0, 4}) {
     const auto source = open_oni(folder / "a.oni", {.read_ahead_frames = ahead});
     EXPECT_FALSE(source->live());
