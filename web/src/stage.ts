@@ -29,7 +29,7 @@ export class Stage {
   constructor(private readonly replay: Replay, private readonly shown: Shown) {
     this.colourings = colouringsOf(replay);
     this.colouring = this.colourings[0];
-    this.sayOfFaces = wireFaces(replay, shown, at);
+    this.sayOfFaces = wireFaces(replay, shown);
     try {
       this.viewer = new FaceViewer(at<HTMLCanvasElement>('face'), at('canvas-host'), replay, shown, this.colouring);
     } catch {
