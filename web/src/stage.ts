@@ -9,6 +9,7 @@ import { faceHue } from './face_colour';
 import { faceWords } from './format';
 import type { Key } from './keys';
 import { drawPicture, pngOf } from './picture';
+import type { Playback } from './playback';
 import { fileName, save } from './save';
 import type { Shown } from './shown';
 import { theme } from './theme';
@@ -44,9 +45,9 @@ export class Stage {
     at('save-picture').addEventListener('click', () => void this.savePicture());
   }
 
-  moveTo(frame: number, timeS: number): void {
+  moveTo(frame: number, { timeS, playing }: Playback): void {
     this.timeS = timeS;
-    this.viewer?.moveTo(frame);
+    this.viewer?.moveTo(frame, playing);
   }
 
   /** What the keyboard does here. */
