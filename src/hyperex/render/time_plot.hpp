@@ -38,7 +38,7 @@ void shade_under(Canvas& canvas, const TimePlot& plot, const std::vector<double>
                  const std::vector<double>& values);
 
 /// Colours for things of one kind that are told apart, the same in every picture and in the report
-/// (web/src/face_colour.ts): for colour-blind readers too, after M. Okabe and K. Ito.
+/// (web/src/page/face_colour.ts): for colour-blind readers too, after M. Okabe and K. Ito.
 Colour category_colour(std::size_t index);
 
 }  // namespace hyperex::render

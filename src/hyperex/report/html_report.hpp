@@ -49,7 +49,7 @@ struct ReportInput {
 };
 
 /// Writes one HTML file that replays the performance in a browser without any network: the page
-/// built from web/ with a JSON manifest (see web/src/manifest.ts) and one base64 block of
+/// built from web/ with a JSON manifest (see web/src/replay/manifest.ts) and one base64 block of
 /// little-endian arrays put into it. Throws InputError where the file cannot be written,
 /// std::invalid_argument where performance, scan and modes do not belong together.
 void write_html_report(const std::filesystem::path& file, const ReportInput& input);

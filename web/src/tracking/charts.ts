@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The charts besides those of units: what is drawn in each, and what it says.
-import type { Chart, Curve } from '../chart_options';
-import { signed, upper } from '../format';
+import type { Chart, Curve } from '../charts/chart_options';
+import { signed, upper } from '../page/format';
 import type { Channel, Group, Tracking } from './data';
 
 export interface Section {

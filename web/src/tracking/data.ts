@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The tracking as the other parts use it: curves of plain numbers, and what to know of them.
-import { readPageData } from '../page_data';
+import { readPageData } from '../page/page_data';
 import type { Manifest } from './manifest';
 
 export type Group = Manifest['channels'][number]['group'];

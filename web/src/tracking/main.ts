@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ties the parts together: data, cursor, charts and the page's controls.
-import '../style.css';
+import '../page/style.css';
 import './tracking.css';
-import type { Chart } from '../chart_options';
-import { at, button, element, startPage } from '../dom';
-import { number } from '../format';
-import { dark, setPrinting } from '../theme';
-import { TimeChart } from '../time_chart';
+import type { Chart } from '../charts/chart_options';
+import { at, button, element, startPage } from '../page/dom';
+import { number } from '../page/format';
+import { dark, setPrinting } from '../page/theme';
+import { TimeChart } from '../charts/time_chart';
 import { headAndDistances, residuals, type Section } from './charts';
 import { Cursor, listenToKeys } from './cursor';
 import { faultAt, faultSpans, readTracking, type Tracking } from './data';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the program writes into the page (src/hyperex/report/tracking_page.cpp). N frames, in the
 // order of time.
-import type { Stretch } from '../page_data';
+import type { Stretch } from '../page/page_data';
 
 export interface Manifest {
   version: 1;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The action units, a chart each, left and right of one in the same: those that move, strongest
 // first, and the rest on demand.
-import type { Chart } from '../chart_options';
-import { button, element, memberBox } from '../dom';
-import { upper, words } from '../format';
+import type { Chart } from '../charts/chart_options';
+import { button, element, memberBox } from '../page/dom';
+import { upper, words } from '../page/format';
 import type { Channel, Tracking } from './data';
 import { facsName } from './facs';
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far, how fast and how much alike each pair of points moves (summary.symmetry.excursions), in
 // the words of docs/symmetry.md.
-import type { Replay } from './data';
-import { button, element } from './dom';
+import type { Replay } from '../data';
+import { button, element } from '../../page/dom';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
-import { faceWords, landmarkName } from './format';
-import type { Shown } from './shown';
-import { variantsOf } from './variants';
+import { faceWords, landmarkName } from '../../page/format';
+import type { Shown } from '../shown';
+import { variantsOf } from '../variants';
 
 interface Sides {
   L: number | null;

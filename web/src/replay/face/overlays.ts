@@ -6,7 +6,7 @@ import {
 import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
-import type { Replay, Vec3 } from './data';
+import type { Replay, Vec3 } from '../data';
 import { nearestVertex } from './deform';
 
 export type OverlayName = 'cut' | 'driven' | 'held';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The skin at any time: modes times weights, and the normals that go with it.
-import type { Face, Mode, Replay } from './data';
+import type { Face, Mode, Replay } from '../data';
 
 /** The frame (with its fraction) at time t, clamped to the recording. */
 export function frameAt(timeS: number[], t: number): number {

@@ -2,9 +2,9 @@
 // What the colours of the face can tell. Ranges are those of all faces together, so that colours of two
 // faces compare.
 import { niceCeiling, type RampName } from './colour';
-import type { Face, Replay } from './data';
+import type { Face, Replay } from '../data';
 import type { FaceShape } from './deform';
-import { number } from './format';
+import { number } from '../../page/format';
 
 /** What the colours stand for: `least` is the first of the ramp, `greatest` the last. */
 export interface Scale {

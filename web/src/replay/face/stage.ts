@@ -2,18 +2,18 @@
 // The stage: the face in 3D and the controls around it.
 import { drawColourBar } from './colour_bar';
 import { colouringsOf, type Colouring } from './colouring';
-import type { Face, Replay } from './data';
-import { at } from './dom';
+import type { Face, Replay } from '../data';
+import { at } from '../../page/dom';
 import { changeMode, chooseFace, wireFaces } from './face_chooser';
-import { faceHue } from './face_colour';
-import { faceWords } from './format';
-import type { Key } from './keys';
+import { faceHue } from '../../page/face_colour';
+import { faceWords } from '../../page/format';
+import type { Key } from '../keys';
 import { drawPicture, pngOf } from './picture';
-import type { Playback } from './playback';
-import { fileName, save } from './save';
-import type { Shown } from './shown';
-import { theme } from './theme';
-import { changesOf } from './variants';
+import type { Playback } from '../playback';
+import { fileName, save } from '../../page/save';
+import type { Shown } from '../shown';
+import { theme } from '../../page/theme';
+import { changesOf } from '../variants';
 import { FaceViewer, type View } from './viewer';
 import { WipeHandle } from './wipe_handle';
 

@@ -2,8 +2,8 @@
 // A chart to take along: its values as CSV, and a picture of it with title and legend.
 import uPlot from 'uplot';
 import { chartOptions, lineOf, type Chart } from './chart_options';
-import { csvFile } from './save';
-import { theme } from './theme';
+import { csvFile } from '../page/save';
+import { theme } from '../page/theme';
 
 /** A row a time; values are whole, not rounded as in the legend. */
 export function csvOf(chart: Chart): Blob {

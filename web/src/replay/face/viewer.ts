@@ -7,13 +7,13 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Colouring } from './colouring';
-import type { Replay } from './data';
+import type { Replay } from '../data';
 import { SceneMotion } from './deform';
 import { FaceBody, FaceMaterials } from './face_body';
 import { uprightFromScan } from './face_frame';
 import type { Overlay, OverlayName } from './overlays';
-import type { Shown } from './shown';
-import { drawsInSoftware } from './software_gl';
+import type { Shown } from '../shown';
+import { drawsInSoftware } from '../software_gl';
 
 export type View = 'front' | 'three-quarter' | 'left' | 'right';
 

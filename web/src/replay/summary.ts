@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The run's summary (any JSON object) as tables: single values first, a table a nested object.
-import { element } from './dom';
-import { nameAndUnit, number } from './format';
+import { element } from '../page/dom';
+import { nameAndUnit, number } from '../page/format';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);

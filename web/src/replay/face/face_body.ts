@@ -6,7 +6,7 @@ import {
 } from 'three';
 import { linearOf, rampBytes, type RampName } from './colour';
 import type { Colouring } from './colouring';
-import type { Face, Replay } from './data';
+import type { Face, Replay } from '../data';
 import { FaceShape, type SceneMotion } from './deform';
 import { overlaysOf, type Overlay, type OverlayName } from './overlays';
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The curves over time, each with a cursor at the time shown; pressing on one seeks.
-import type { Chart } from './chart_options';
-import type { Replay } from './data';
-import { element } from './dom';
-import type { Shown } from './shown';
+import type { Chart } from '../../charts/chart_options';
+import type { Replay } from '../data';
+import { element } from '../../page/dom';
+import type { Shown } from '../shown';
 import { stretchCurves, symmetryCurves } from './symmetry_charts';
-import { dark } from './theme';
-import { TimeChart } from './time_chart';
+import { dark } from '../../page/theme';
+import { TimeChart } from '../../charts/time_chart';
 import { TrackCurves, trackChooser } from './track_chart';
 
 export class Plots {

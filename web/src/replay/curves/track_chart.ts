@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far points on the skin are from where they began, of the faces that are shown.
-import type { Chart, Curve } from './chart_options';
-import type { Replay } from './data';
-import { element, memberBox } from './dom';
-import { faceWords, landmarkName } from './format';
-import type { Shown } from './shown';
-import { variantsOf } from './variants';
+import type { Chart, Curve } from '../../charts/chart_options';
+import type { Replay } from '../data';
+import { element, memberBox } from '../../page/dom';
+import { faceWords, landmarkName } from '../../page/format';
+import type { Shown } from '../shown';
+import { variantsOf } from '../variants';
 
 type Track = (number | null)[];
 

@@ -2,7 +2,7 @@
 // What the program writes into the page (src/hyperex/report/html_report.cpp). Lengths are metres and
 // times seconds unless a name says otherwise; vectors are x, y, z after each other.
 
-import type { Stretch } from './page_data';
+import type { Stretch } from '../page/page_data';
 
 /** Displacements of all vertices: step_m * values. */
 export interface ModeData {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The curves of symmetry, in the words of docs/symmetry.md: S(t) of all faces, and the stretch of
 // either side of those that are shown.
-import type { Chart, Curve } from './chart_options';
-import type { Replay } from './data';
-import { faceWords, number, signed } from './format';
-import type { SymmetryCurve } from './manifest';
-import type { Shown } from './shown';
+import type { Chart, Curve } from '../../charts/chart_options';
+import type { Replay } from '../data';
+import { faceWords, number, signed } from '../../page/format';
+import type { SymmetryCurve } from '../manifest';
+import type { Shown } from '../shown';
 
 type Part = Omit<Chart, 'title'>;
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ties the parts together: data, clock, stage, plots, and the keyboard.
-import './style.css';
+import '../page/style.css';
 import { readReplay, type Replay } from './data';
-import { frameAt } from './deform';
-import { at, startPage } from './dom';
-import { defineFaceColours } from './face_colour';
-import { number } from './format';
+import { frameAt } from './face/deform';
+import { at, startPage } from '../page/dom';
+import { defineFaceColours } from '../page/face_colour';
+import { number } from '../page/format';
 import { wireKeys, type Key } from './keys';
 import { Playback } from './playback';
-import { Plots } from './plots';
+import { Plots } from './curves/plots';
 import { Shown } from './shown';
-import { Stage } from './stage';
+import { Stage } from './face/stage';
 import { fillSummary } from './summary';
-import { fillTables } from './tables';
+import { fillTables } from './tables/tables';
 
 function fillPage(replay: Replay): void {
   const title = replay.title || 'A face in motion';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which way a face looks: scans come in any pose, cameras should not.
 import { Matrix4, Quaternion, Vector3 } from 'three';
-import type { Replay } from './data';
+import type { Replay } from '../data';
 
 function landmark(replay: Replay, ...names: string[]): Vector3 | null {
   for (const name of names) {

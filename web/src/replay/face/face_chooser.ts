@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which face is looked at, or which two: a button each in the face's colour, and their names over the picture.
-import type { Face, Replay } from './data';
-import { at } from './dom';
-import { faceColour } from './face_colour';
-import { faceWords } from './format';
-import type { Mode, Shown } from './shown';
-import { changesOf } from './variants';
+import type { Face, Replay } from '../data';
+import { at } from '../../page/dom';
+import { faceColour } from '../../page/face_colour';
+import { faceWords } from '../../page/format';
+import type { Mode, Shown } from '../shown';
+import { changesOf } from '../variants';
 
 const swatch = (i: number): HTMLElement => {
   const dot = document.createElement('i');

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A table of figures in its card: heading, lines above it, a way to take it along, notes on its columns.
 import './tables.css';
-import { element } from './dom';
-import { signed } from './format';
-import { csvFile, fileName, save, saveButton } from './save';
+import { element } from '../../page/dom';
+import { signed } from '../../page/format';
+import { csvFile, fileName, save, saveButton } from '../../page/save';
 
 export interface Column {
   key: string;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All tables of figures that a run has.
-import type { Replay } from './data';
+import type { Replay } from '../data';
 import { excursionTable } from './excursion_table';
-import type { Shown } from './shown';
+import type { Shown } from '../shown';
 import { variantsTable } from './variants_table';
 
 /** `into` stays hidden where there are none. */

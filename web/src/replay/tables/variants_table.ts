@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The variants side by side in figures (summary.variants); pressing a name shows that face.
-import type { Replay } from './data';
-import { button, element } from './dom';
-import { chooseFace } from './face_chooser';
-import { faceColour } from './face_colour';
+import type { Replay } from '../data';
+import { button, element } from '../../page/dom';
+import { chooseFace } from '../face/face_chooser';
+import { faceColour } from '../../page/face_colour';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
-import { landmarkName, number } from './format';
-import type { Shown } from './shown';
-import { changesOf, variantsOf, type VariantRow, type Variants } from './variants';
+import { landmarkName, number } from '../../page/format';
+import type { Shown } from '../shown';
+import { changesOf, variantsOf, type VariantRow, type Variants } from '../variants';
 
 const columns: Column[] = [
   {

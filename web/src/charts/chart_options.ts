@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a chart is, and how uPlot is to draw it.
 import type uPlot from 'uplot';
-import { signed } from './format';
-import { theme } from './theme';
+import { signed } from '../page/format';
+import { theme } from '../page/theme';
 
 export interface Curve {
   label: string;

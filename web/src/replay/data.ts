@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The replay's data as the other parts use them.
 import type { Manifest, ModeData, SymmetryCurve, TissueMapData } from './manifest';
-import { readPageData, type Block } from './page_data';
+import { readPageData, type Block } from '../page/page_data';
 
 export type Vec3 = [number, number, number];
 

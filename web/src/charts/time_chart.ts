@@ -5,8 +5,8 @@ import 'uplot/dist/uPlot.min.css';
 import './charts.css';
 import { csvOf, pictureOf } from './chart_export';
 import { chartOptions, type Chart } from './chart_options';
-import { button, element } from './dom';
-import { fileName, save, saveButton } from './save';
+import { button, element } from '../page/dom';
+import { fileName, save, saveButton } from '../page/save';
 
 /** One chart in its card. Made anew when its curves or the colours of the page change. */
 export class TimeChart {

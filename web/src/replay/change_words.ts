@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a variant changes, in words: {"tissue.young_kpa": 1000} is "Young's modulus 1,000 instead of 192.4 kPa".
-import { landmarkName, nameAndUnit, number, upper } from './format';
+import { landmarkName, nameAndUnit, number, upper } from '../page/format';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
