@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/render/canvas.hpp"
+#include "hyperex/render/time_plot.hpp"
 
 namespace hyperex::bench {
 
@@ -27,8 +27,5 @@ render::Image draw_curves(const std::vector<CurvePanel>& panels, int columns);
 
 /// Least and greatest value of all curves, a little wider.
 render::Range range_of(const std::vector<Curve>& curves);
-
-/// Of the n-th of some curves: told apart without colour vision (M. Okabe and K. Ito).
-render::Colour curve_colour(int n);
 
 }  // namespace hyperex::bench

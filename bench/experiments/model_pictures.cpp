@@ -69,15 +69,15 @@ void add_model_panels(const std::string& face, const std::array<metrics::Symmetr
                     .marked = window};
   const auto own = metrics::signed_difference(curves[0]);
   for (std::size_t m = 0; m < 3; ++m) {
-    s.curves.push_back({names[m], curves[m].time_s, curves[m].s, curve_colour(int(m))});
+    s.curves.push_back({names[m], curves[m].time_s, curves[m].s, render::category_colour(m)});
     std::vector<double> change = metrics::signed_difference(curves[m]), apart(own.size());
     for (std::size_t k = 0; k < own.size(); ++k) {  // near zero S is decided by rounding
       const bool clear = std::min(std::abs(own[k]), std::abs(change[k])) > 10 * curves[m].floor;
       apart[k] = clear ? std::log(std::abs(change[k] / own[k])) : std::nan("");
     }
-    parted.curves.push_back({"", curves[m].time_s, apart, curve_colour(int(m))});
+    parted.curves.push_back({"", curves[m].time_s, apart, render::category_colour(m)});
     for (std::size_t k = 0; k < change.size(); ++k) change[k] = 1e3 * (change[k] - own[k]);
-    tissue.curves.push_back({names[m], curves[m].time_s, change, curve_colour(int(m))});
+    tissue.curves.push_back({names[m], curves[m].time_s, change, render::category_colour(m)});
   }
   // Off the source's axis, where these curves lie there.
   s.range = {-10, std::max(-4.0, std::ceil(range_of(s.curves).high))};

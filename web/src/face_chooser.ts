@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which face is looked at, or which two: a button each in the face's colour, and their names over the picture.
 import type { Face, Replay } from './data';
+import { at } from './dom';
 import { faceColour } from './face_colour';
 import { faceWords } from './format';
 import type { Mode, Shown } from './shown';
@@ -61,7 +62,7 @@ class FaceLabel {
 export function changeMode(shown: Shown, mode: Mode): void {
   if (mode === shown.mode) return;
   if (mode === 'single') shown.set({ mode, first: shown.second });
-  else if (shown.mode === 'single' && shown.first > 0) shown.set({ mode, first: 0, second: shown.first });
+  else if (shown.mode === 'single') shown.set({ mode, first: 0, second: shown.first || shown.second || 1 });
   else shown.set({ mode });
 }
 
@@ -71,7 +72,7 @@ export const chooseFace = (shown: Shown, face: number): void =>
 
 /** Wires the controls around the stage; without variants they stay hidden. Returns what says a word on each of
  *  the faces shown. */
-export function wireFaces(replay: Replay, shown: Shown, at: <T extends HTMLElement>(id: string) => T): (note: (face: Face) => string) => void {
+export function wireFaces(replay: Replay, shown: Shown): (note: (face: Face) => string) => void {
   if (replay.faces.length < 2) return () => {};
   at('faces').hidden = false;
   const chips = fillChips(replay, at('chips'), (face) => chooseFace(shown, face));

@@ -102,7 +102,7 @@ function start(): void {
   fillTables(replay, shown, at('tables'));
   const showTransport = wireTransport(replay, playback);
   const show = () => {
-    stage.moveTo(frameAt(timeS, playback.timeS), playback.timeS);
+    stage.moveTo(frameAt(timeS, playback.timeS), playback);
     plots.mark(playback.timeS);
     showTransport();
   };

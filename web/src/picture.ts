@@ -137,8 +137,11 @@ export function drawPicture(parts: PictureParts): HTMLCanvasElement {
   pen.text(parts.time, width - margin, headHeight / 2, 14, soft, { align: 'right' });
 
   if (divided !== null) {
-    const x = Math.min(Math.max(divided * width, 1), width - 1);
-    pen.fill(pen.colour('--ink'), x - 0.75, headHeight, 1.5, stageHeight);
+    const x = Math.min(Math.max(divided * width, 2), width - 2);
+    pen.on.globalAlpha = 0.65;
+    pen.fill(pen.colour('--card'), x - 1.75, headHeight, 3.5, stageHeight);
+    pen.on.globalAlpha = 1;
+    pen.fill(ink, x - 0.75, headHeight, 1.5, stageHeight);
   }
   const room = (faces.length > 1 ? width / 2 : width) - 24;
   faces.forEach((face, i) => drawName(pen, face, i === 0 ? 12 : width / 2 + 12, room, i > 0));

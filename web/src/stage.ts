@@ -9,6 +9,7 @@ import { faceHue } from './face_colour';
 import { faceWords } from './format';
 import type { Key } from './keys';
 import { drawPicture, pngOf } from './picture';
+import type { Playback } from './playback';
 import { fileName, save } from './save';
 import type { Shown } from './shown';
 import { theme } from './theme';
@@ -29,7 +30,7 @@ export class Stage {
   constructor(private readonly replay: Replay, private readonly shown: Shown) {
     this.colourings = colouringsOf(replay);
     this.colouring = this.colourings[0];
-    this.sayOfFaces = wireFaces(replay, shown, at);
+    this.sayOfFaces = wireFaces(replay, shown);
     try {
       this.viewer = new FaceViewer(at<HTMLCanvasElement>('face'), at('canvas-host'), replay, shown, this.colouring);
     } catch {
@@ -44,9 +45,9 @@ export class Stage {
     at('save-picture').addEventListener('click', () => void this.savePicture());
   }
 
-  moveTo(frame: number, timeS: number): void {
+  moveTo(frame: number, { timeS, playing }: Playback): void {
     this.timeS = timeS;
-    this.viewer?.moveTo(frame);
+    this.viewer?.moveTo(frame, playing);
   }
 
   /** What the keyboard does here. */

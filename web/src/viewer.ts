@@ -45,6 +45,7 @@ export class FaceViewer {
   private readonly size = new Vector3();
   private readonly visibleOverlays = new Set<OverlayName>();
   private frame = 0;
+  private playing = false;
   private wipe = 0.5;
   private stale = true; // shapes are not those of `frame` and `shown`
   private queued = false;
@@ -90,8 +91,10 @@ export class FaceViewer {
     return this.body(0).overlays;
   }
 
-  moveTo(frame: number): void {
+  /** `playing`: another frame is to follow at once. */
+  moveTo(frame: number, playing: boolean): void {
     this.frame = frame;
+    this.playing = playing;
     this.touch();
   }
 
@@ -305,17 +308,18 @@ export class FaceViewer {
     return this.slow < 3 ? 1 : 0.7;
   }
 
-  /** `gap`: since the picture before, ms. Three such without another picture is rest. */
+  /** `gap`: since the picture before, ms. */
   private refineAtRest(gap: number): void {
     this.drawnAt += gap;
     // Once they come late, pictures in motion stay coarse: going back and forth would show.
-    if (this.slow < 3) this.slow = gap > 50 && gap < 1500 ? this.slow + 1 : 0;
+    if (this.slow < 3) this.slow = this.playing && gap > 50 ? this.slow + 1 : 0;
     clearTimeout(this.rest);
+    if (this.playing) return;
     this.rest = window.setTimeout(() => {
       if (this.queued) return;
       this.renderer.setPixelRatio(2);
       this.draw();
       this.canvas.dataset.atRest = 'true';
-    }, gap > 1500 ? 250 : Math.max(250, 3 * gap));
+    }, 150);
   }
 }

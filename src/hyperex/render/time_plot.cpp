@@ -38,6 +38,10 @@ void draw_axes(Canvas& canvas, const TimePlot& plot) {
   const TextStyle right{.size_px = 12, .colour = palette::faint_ink, .align = Align::right};
   const TextStyle centred{.size_px = 12, .colour = palette::faint_ink, .align = Align::centre};
   canvas.rectangle(plot.x, plot.y, plot.width_px, plot.height_px, {1, 1, 1});
+  if (plot.marked.high > plot.marked.low)
+    canvas.rectangle(place_x(plot, plot.marked.low), plot.y,
+                     place_x(plot, plot.marked.high) - place_x(plot, plot.marked.low),
+                     plot.height_px, {0.93, 0.93, 0.89});
   for (const double value : ticks(plot.range, 5)) {
     const double y = place_y(plot, value);
     canvas.line(plot.x, y, plot.x + plot.width_px, y, grid);
@@ -57,7 +61,8 @@ void draw_curves(Canvas& canvas, const TimePlot& plot, const std::vector<double>
   for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) {
     for (std::size_t i = 1; i < time.size(); ++i) {
       const double from = curve->values[i - 1], to = curve->values[i];
-      if (std::isnan(from) || std::isnan(to)) continue;
+      const auto shown = [&](double v) { return v >= plot.range.low && v <= plot.range.high; };
+      if (!shown(from) || !shown(to)) continue;  // nor a gap
       canvas.line(place_x(plot, time[i - 1]), place_y(plot, from), place_x(plot, time[i]),
                   place_y(plot, to), curve->colour, 2);
     }

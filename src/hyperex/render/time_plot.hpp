@@ -18,7 +18,8 @@ struct PlotCurve {
 struct TimePlot {
   double x, y, width_px, height_px;  ///< of the rectangle; ticks left of it and below
   Range time, range;
-  std::string label;  ///< above it, on the left; the legend stands on the right
+  std::string label;   ///< above it, on the left; the legend stands on the right
+  Range marked{0, 0};  ///< a stretch of time that is shaded; none where empty
 };
 
 /// The interval of all values, widened by a twentieth; 0 to 1 where there are none.
@@ -27,7 +28,8 @@ Range span_of(const std::vector<PlotCurve>& curves);
 /// Paper, grid, ticks and label.
 void draw_axes(Canvas& canvas, const TimePlot& plot);
 
-/// One value a time in each curve; the first is drawn last, over the others.
+/// One value a time in each curve; the first is drawn last, over the others. What leaves the plot's
+/// range is not drawn.
 void draw_curves(Canvas& canvas, const TimePlot& plot, const std::vector<double>& time,
                  const std::vector<PlotCurve>& curves);
 
