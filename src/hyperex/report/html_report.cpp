@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "hyperex/report/page_data.hpp"
@@ -38,18 +39,26 @@ json skin_section(const ReportInput& input, BinaryBlock& block) {
   return skin;
 }
 
-/// {"modes": a mode its int16 values and their step, "weights": frames x modes}.
+/// In steps of which the mode's largest component has as many as T can count.
+template <typename T>
+json quantised(const PointsF& mode, float largest, const char* type, BinaryBlock& block) {
+  const float step_m = largest > 0 ? largest / std::numeric_limits<T>::max() : 1;
+  std::vector<T> steps(static_cast<std::size_t>(mode.size()));
+  std::transform(mode.data(), mode.data() + mode.size(), steps.begin(),
+                 [&](float value) { return static_cast<T>(std::lround(value / step_m)); });
+  return {{"step_m", step_m}, {"values", block.add(type, steps.data(), steps.size())}};
+}
+
+/// {"modes": a mode its values and their step, "weights": frames x modes}. Small modes, of which a
+/// noisy recording has many, take a byte a component: their step stays under 2 micrometres.
 json modes_section(const DisplacementModes& motion, BinaryBlock& block) {
+  constexpr float kByteStep_m = 2e-6F;
   json modes = json::array();
   for (const auto& mode : motion.modes) {
     const float largest = mode.cwiseAbs().maxCoeff();
-    const float step_m = largest > 0 ? largest / 32767 : 1;
-    std::vector<std::int16_t> steps(mode.size());
-    std::transform(mode.data(), mode.data() + mode.size(), steps.begin(), [&](float value) {
-      return static_cast<std::int16_t>(std::lround(value / step_m));
-    });
-    modes.push_back(
-        {{"step_m", step_m}, {"values", block.add("int16", steps.data(), steps.size())}});
+    modes.push_back(largest <= kByteStep_m * std::numeric_limits<std::int8_t>::max()
+                        ? quantised<std::int8_t>(mode, largest, "int8", block)
+                        : quantised<std::int16_t>(mode, largest, "int16", block));
   }
   using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const RowMajor weights = motion.weights;

@@ -36,8 +36,8 @@ struct ReportVariant {
 struct ReportInput {
   const reenact::Performance& performance;
   const io::Scan& scan;
-  /// Of performance.skin_displacement_m; its error and 1/65534 of each mode's largest component are
-  /// the accuracy of the replay.
+  /// Of performance.skin_displacement_m; its error and half a step of each mode (1/65534 of its
+  /// largest component, or at most a micrometre) are the accuracy of the replay.
   const DisplacementModes& modes;
   const metrics::SymmetryCurve* symmetry = nullptr;  ///< its plots are left out where null
   nlohmann::json summary = {};                       ///< an object; shown as tables

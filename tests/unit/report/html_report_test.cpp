@@ -35,6 +35,19 @@ std::string written(const MadeUpFace& face, const DisplacementModes& modes, std:
   return read_file(file);
 }
 
+/// A mode's values, of which small ones take a byte.
+std::vector<int> steps_of(const std::vector<std::uint8_t>& bytes, const json& at) {
+  std::vector<int> steps;
+  if (at.at("type") == "int8") {
+    const auto values = stretch<std::int8_t>(bytes, at);
+    steps.assign(values.begin(), values.end());
+  } else {
+    const auto values = stretch<std::int16_t>(bytes, at);
+    steps.assign(values.begin(), values.end());
+  }
+  return steps;
+}
+
 TEST(HtmlReport, HoldsTheMotionWithinToleranceAndQuantisation) {
   const auto face = made_up_face(Surface::plain);
   const auto modes = displacement_modes(face.performance.skin_displacement_m);
@@ -49,7 +62,7 @@ TEST(HtmlReport, HoldsTheMotionWithinToleranceAndQuantisation) {
   for (std::size_t f = 0; f < face.performance.frame_time_s.size(); ++f) {
     PointsF sum = PointsF::Zero(face.performance.skin_rest.points.rows(), 3);
     for (std::size_t k = 0; k < count; ++k) {
-      const auto values = stretch<std::int16_t>(bytes, motion["modes"][k].at("values"));
+      const auto values = steps_of(bytes, motion["modes"][k].at("values"));
       const float factor = weights[f * count + k] * motion["modes"][k].at("step_m").get<float>();
       for (Eigen::Index i = 0; i < sum.size(); ++i) sum.data()[i] += factor * values[i];
     }
@@ -57,6 +70,13 @@ TEST(HtmlReport, HoldsTheMotionWithinToleranceAndQuantisation) {
     worst = std::max<double>(worst, error.rowwise().norm().maxCoeff());
   }
   EXPECT_LT(worst, 2.2e-5);
+  // A mode of a tenth of a millimetre takes bytes.
+  PointsF small = modes.modes[0] * (1e-4F / modes.modes[0].cwiseAbs().maxCoeff());
+  DisplacementModes faint{{small}, modes.weights.leftCols(1), 0};
+  const json other = json::parse(element(written(face, faint), "hyperex-manifest")).at("motion");
+  EXPECT_EQ(other["modes"][0]["values"]["type"], "int8");
+  EXPECT_EQ(motion["modes"][0]["values"]["type"], "int16");
+  EXPECT_LT(other["modes"][0]["step_m"].get<double>(), 2e-6);
   EXPECT_NEAR(motion.at("max_displacement_mm").get<double>(),
               1e3 * face.performance.skin_displacement_m[15].rowwise().norm().maxCoeff(), 1e-6);
   const auto triangles = stretch<int>(bytes, manifest.at("skin").at("triangles"));
@@ -88,7 +108,7 @@ TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
     const std::size_t count = difference.at("modes").size(), f = 15;
     PointsF sum = face.performance.skin_displacement_m[f];
     for (std::size_t k = 0; k < count; ++k) {
-      const auto values = stretch<std::int16_t>(bytes, difference["modes"][k].at("values"));
+      const auto values = steps_of(bytes, difference["modes"][k].at("values"));
       const float factor =
           weights[f * count + k] * difference["modes"][k].at("step_m").get<float>();
       for (Eigen::Index j = 0; j < sum.size(); ++j) sum.data()[j] += factor * values[j];

@@ -4,7 +4,7 @@
 
 /** A stretch of the binary block: `count` little-endian numbers from byte `offset` on. */
 export interface Stretch {
-  type: 'float32' | 'int32' | 'int16' | 'uint8';
+  type: 'float32' | 'int32' | 'int16' | 'int8' | 'uint8';
   offset: number;
   count: number;
 }
@@ -14,6 +14,7 @@ export interface Block {
   float32: (at: Stretch) => Float32Array<ArrayBuffer>;
   int32: (at: Stretch) => Int32Array<ArrayBuffer>;
   int16: (at: Stretch) => Int16Array<ArrayBuffer>;
+  int8: (at: Stretch) => Int8Array<ArrayBuffer>;
   uint8: (at: Stretch) => Uint8Array<ArrayBuffer>;
 }
 
@@ -41,6 +42,7 @@ export function readPageData<M extends { version: number }>(): { manifest: M; bl
       float32: (s) => new Float32Array(binary, s.offset, s.count),
       int32: (s) => new Int32Array(binary, s.offset, s.count),
       int16: (s) => new Int16Array(binary, s.offset, s.count),
+      int8: (s) => new Int8Array(binary, s.offset, s.count),
       uint8: (s) => new Uint8Array(binary, s.offset, s.count),
     },
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The replay's data as the other parts use them.
 import type { Manifest, ModeData, SymmetryCurve, TissueMapData } from './manifest';
-import { readPageData, type Block } from '../page/page_data';
+import { readPageData, type Block, type Stretch } from '../page/page_data';
 
 export type Vec3 = [number, number, number];
 
@@ -60,8 +60,12 @@ export interface Replay {
   faces: Face[];
 }
 
+/** All of one type in memory: loops over several are slow. */
+const stepsOf = (values: Stretch, block: Block): Int16Array =>
+  values.type === 'int8' ? new Int16Array(block.int8(values)) : block.int16(values);
+
 const modesOf = (modes: ModeData[], block: Block): Mode[] =>
-  modes.map((m) => ({ stepM: m.step_m, values: block.int16(m.values) }));
+  modes.map((m) => ({ stepM: m.step_m, values: stepsOf(m.values, block) }));
 
 const tissueOf = (maps: TissueMapData[] | undefined, block: Block): TissueMap[] =>
   (maps ?? []).map(({ values, ...map }) => ({ ...map, bytes: block.uint8(values) }));

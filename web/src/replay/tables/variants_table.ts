@@ -32,7 +32,7 @@ const columns: Column[] = [
   },
   {
     key: 'lag_ms', head: 'Lag', unit: 'ms', digits: 2,
-    says: 'time by which the response trails the input, where both correlate best; found to fractions of a step.',
+    says: 'time by which the response trails the input, where both correlate best; found to fractions of a step. What the scene itself has comes from the way the skin takes; the tissue makes the difference between rows.',
   },
   {
     key: 'hysteresis', head: 'Hysteresis', unit: '1', digits: 4,
