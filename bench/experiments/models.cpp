@@ -231,6 +231,7 @@ ModelsFace face_of(const Setting& setting, bool subject_a, std::vector<CurvePane
   face.jitter_mm = 1e3 * study.inputs().jitter_m;
   const double error = simulate_all(study, conditions);
   for (const Condition& condition : conditions) face.rows.push_back(row_of(condition));
+  face.meshes = models_on_meshes(setting.scene(3, subject_a));
 
   std::array<SimulationResult, 3> runs;
   study.simulate_all({conditions[0].trials.begin(), conditions[0].trials.end()},

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/meshes.hpp"
 #include "experiments/setting.hpp"
 
 namespace hyperex::bench {
@@ -43,6 +44,7 @@ struct ModelsFace {
   double area_share_mouth = 0;
   std::vector<ModelPair> pairs;
   std::vector<SpreadRow> rows;
+  std::vector<MeshRow> meshes;
   double s_least = 0, s_most = 0;       ///< of the three curves from 0.1 s on
   double difference_at_end[3] = {};     ///< xi_L - xi_R of models 1 to 3
   double own_mesh = 0, own_motion = 0;  ///< parts of model 1's at the end

@@ -138,7 +138,8 @@ std::string models_section(const std::vector<ModelsFace>& faces, const std::stri
       "With D = xi_L - xi_R, S = ln |D|. What the tissue does is D_2 - D_1 and D_3 - D_1; D_1 is "
       "the face's and the\nmotion's own. The motion mirrored tells these two apart: what keeps its "
       "sign is of the face (scan, landmarks, mesh),\nwhat changes it is of the motion.\n\n"
-      "| face | D_1, D_2, D_3 at the end, x 1000 | D_1: of the face | of the motion | least size "
+      "| face | D_1, D_2, D_3 at the end, x 1000 | D_1: of face and mesh | of the motion | least "
+      "size "
       "of D_1 "
       "from 0.1 s on | S from 0.1 s on | noise floor at the end | jitter at which models 2 and 3 "
       "are told apart |\n|---|---|---|---|---|---|---|---|\n",
@@ -153,6 +154,28 @@ std::string models_section(const std::vector<ModelsFace>& faces, const std::stri
         f.jitter_mm > 0 ? fmt::format("{:.1f} ({:.2f} mm of jitter)", f.noise_floor, f.jitter_mm)
                         : fmt::format("none, exact input ({:.1f} for 0.3 mm)", f.noise_floor),
         1e3 * f.jitter_to_tell_mm);
+  page +=
+      "\n**Of the mesh or of the tissue?** The same on other meshes. The embedded face and its "
+      "motion "
+      "are symmetric, so all of\nits D_1 is the mesh's: patches of driven nodes end elsewhere on "
+      "either side, and some of the four distances end\nbeside them. " +
+      of_each(faces,
+              [](const ModelsFace& f) {
+                return std::string(by_mesh(f.meshes) ? "D_1 changes by more than its size"
+                                                     : "D_1 keeps its size") +
+                       (tissue_stays(f.meshes)
+                            ? ", what the tissue adds keeps its sign and, to a factor of two, its "
+                              "size"
+                            : ", and so does what the tissue adds: S(t) tells nothing of such "
+                              "small changes there");
+              }) +
+      ".\n\n"
+      "| face | element size, mm | tetrahedra | D_1 at the end, x 1000 | D_2 - D_1, x 1000 | D_3 - "
+      "D_1, x 1000 |\n|---|---|---|---|---|---|\n";
+  for (const ModelsFace& f : faces)
+    for (const MeshRow& r : f.meshes)
+      page += fmt::format("| {} | {:.1f} | {} | {:.3f} | {:.4f} | {:.4f} |\n", f.name, r.element_mm,
+                          r.tets, 1e3 * r.own, 1e3 * r.added_2, 1e3 * r.added_3);
   page += fmt::format(
       "\n**What parts the curves**, tried: the spread is the greatest S of the three less the "
       "least. "

@@ -242,10 +242,14 @@ void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector
                               return fmt::format("{:.1f} to {:.1f} from 0.1 s on", f.s_least,
                                                  f.s_most);
                             }),
-                    verdict(faces, on_axis, "yes", "no, higher"),
-                    "where S lies is the asymmetry of the face and its motion, not of the tissue: "
-                    "see D_1 below; a "
-                    "tracked person's lies higher, at the noise floor of the tracking"});
+                    of_each(faces,
+                            [&](const ModelsFace& f) {
+                              if (!on_axis(f)) return "no, higher";
+                              return by_mesh(f.meshes) ? "yes, by chance of its mesh" : "yes";
+                            }),
+                    "where S lies is the asymmetry of the face, of its motion and of its mesh, not "
+                    "of the tissue: see D_1 below; a tracked person's lies higher, at the noise "
+                    "floor of the tracking"});
   points.push_back(
       {"S(t) of the three differ",
        of_each(faces,
@@ -319,9 +323,11 @@ void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector
        all_of(faces, [](const ModelsFace& f) { return f.jitter_to_tell_mm > 0.05; })
            ? "perhaps"
            : "not from such measurements",
-       "one run against another, exact ones: yes. In recordings jitter is a tenth of a millimetre "
-       "and "
-       "more"});
+       "one run against another on the same mesh: yes. In recordings jitter is a tenth of a "
+       "millimetre and more" +
+           std::string(all_of(faces, [](const ModelsFace& f) { return tissue_stays(f.meshes); })
+                           ? ""
+                           : ", and another mesh changes what the tissue adds: see below")});
 }
 
 /// The answers at a glance, from the same figures.
