@@ -119,6 +119,23 @@ json tissue_section(const std::vector<TissueMap>& maps, BinaryBlock& block) {
   return section;
 }
 
+/// "vertices" (-1 where there is none) and "weights" (bytes) of each vertex's counterpart.
+json mirror_section(const metrics::RestAsymmetry& at_rest, BinaryBlock& block) {
+  const metrics::Counterparts& pairs = at_rest.pairs;
+  std::vector<int> vertices;
+  std::vector<std::uint8_t> weights;
+  for (std::size_t i = 0; i < pairs.found.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      vertices.push_back(pairs.found[i] ? pairs.vertices[i][k] : -1);
+      const double weight = std::clamp(pairs.weights[i][Index(k)], 0., 1.);
+      weights.push_back(static_cast<std::uint8_t>(std::lround(255 * weight)));
+    }
+  const Vec3& n = at_rest.plane.normal;
+  return {{"normal", {n.x(), n.y(), n.z()}},
+          {"vertices", block.add(vertices)},
+          {"weights", block.add(weights)}};
+}
+
 json variants_section(const ReportInput& input, BinaryBlock& block) {
   const auto& own = input.performance.skin_displacement_m;
   json section = json::array();
@@ -171,6 +188,7 @@ json manifest_of(const ReportInput& input, BinaryBlock& block) {
                    {"symmetry", symmetry_section(input.symmetry)},
                    {"tissue", tissue_section(input.tissue, block)},
                    {"variants", variants_section(input, block)}};
+  if (input.mirror) manifest["mirror"] = mirror_section(*input.mirror, block);
   return manifest;
 }
 
@@ -188,6 +206,8 @@ void check(const ReportInput& input) {
   if (!fits(performance, input.modes))
     throw std::invalid_argument("write_html_report: performance and modes do not belong together");
   const auto map_fits = [&](const TissueMap& map) { return map.values.size() == vertices; };
+  if (input.mirror && Index(input.mirror->pairs.found.size()) != vertices)
+    throw std::invalid_argument("write_html_report: counterparts of another surface");
   bool all = std::all_of(input.tissue.begin(), input.tissue.end(), map_fits);
   for (const ReportVariant& variant : input.variants)
     all = all && fits(variant.performance, variant.difference) &&

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hyperex/io/scan.hpp"
+#include "hyperex/metrics/asymmetry.hpp"
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/report/displacement_modes.hpp"
@@ -46,6 +47,8 @@ struct ReportInput {
   /// Parameters that differ from place to place in any of the faces.
   std::vector<TissueMap> tissue = {};
   std::vector<ReportVariant> variants = {};
+  /// Where each vertex has its counterpart on the other side; no asymmetry is shown where null.
+  const metrics::RestAsymmetry* mirror = nullptr;
 };
 
 /// Writes one HTML file that replays the performance in a browser without any network: the page

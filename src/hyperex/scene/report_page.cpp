@@ -100,7 +100,8 @@ void write_report(const Results& r, const std::vector<VariantRun>& variants,
                             .notes = r.notes,
                             .title = r.scene.title,
                             .tissue = std::move(tissue.front()),
-                            .variants = {}};
+                            .variants = {},
+                            .mirror = &*r.symmetry.map};
   std::vector<report::DisplacementModes> differences(variants.size());
   tbb::parallel_for(std::size_t(0), variants.size(), [&](std::size_t i) {
     differences[i] = difference_of(variants[i].simulation.performance, p);

@@ -95,6 +95,8 @@ TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
   ReportInput input{face.performance, face.scan, modes, &face.symmetry};
   input.tissue = testing::made_up_tissue(face);
   for (const auto& variant : made) input.variants.push_back(reported(face, variant));
+  const auto mirror = testing::made_up_mirror(face);
+  input.mirror = &mirror;
   const auto file = std::filesystem::path(::testing::TempDir()) / "report_variants_test.html";
   write_html_report(file, input);
   const std::string page = read_file(file);
@@ -123,6 +125,13 @@ TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
       ASSERT_NEAR(map["least"].get<double>() + step * steps[v],
                   made[i].tissue[0].values[Eigen::Index(v)], 0.51 * step);
   }
+  const json counterparts = json::parse(element(page, "hyperex-manifest")).at("mirror");
+  const auto twin = stretch<int>(bytes, counterparts.at("vertices"));
+  const auto share = stretch<std::uint8_t>(bytes, counterparts.at("weights"));
+  EXPECT_EQ(twin.at(0), 40);
+  EXPECT_EQ(share.at(0), 255);
+  EXPECT_EQ(share.at(1), 0);
+  EXPECT_EQ(twin.back(), -1) << "what the cut added has none";
   EXPECT_TRUE(variants[4].at("difference").at("modes").empty());
   EXPECT_EQ(variants[4].at("max_difference_mm"), 0);
   input.variants[0].tissue.clear();

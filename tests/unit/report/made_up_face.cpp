@@ -220,6 +220,23 @@ MadeUpVariant made_up_variant(const MadeUpFace& face, int which) {
   return variant;
 }
 
+metrics::RestAsymmetry made_up_mirror(const MadeUpFace& face) {
+  const auto count = static_cast<std::size_t>(face.performance.skin_rest.points.rows());
+  const auto grid = static_cast<std::size_t>(face.performance.scan_vertices);
+  const auto side = static_cast<std::size_t>(std::lround(std::sqrt(double(grid))));
+  metrics::RestAsymmetry mirror;
+  mirror.plane.normal = Vec3::UnitX();
+  mirror.pairs = {std::vector<std::array<int, 3>>(count, {0, 0, 0}),
+                  std::vector<Vec3>(count, Vec3::UnitX()),
+                  Eigen::VectorXd::Zero(Eigen::Index(count)), std::vector<char>(count, 0)};
+  for (std::size_t i = 0; i < grid; ++i) {
+    const auto twin = int(i / side * side + (side - 1 - i % side));
+    mirror.pairs.vertices[i] = {twin, twin, twin};
+    mirror.pairs.found[i] = 1;
+  }
+  return mirror;
+}
+
 ReportVariant reported(const MadeUpFace& face, const MadeUpVariant& variant) {
   std::vector<PointsF> difference = variant.face.performance.skin_displacement_m;
   for (std::size_t f = 0; f < difference.size(); ++f)

@@ -33,6 +33,9 @@ MadeUpVariant made_up_variant(const MadeUpFace& face, int which);
 /// Uniform: the tissue of the face itself.
 std::vector<TissueMap> made_up_tissue(const MadeUpFace& face);
 
+/// Each vertex of the grid with that at -x; those that the cut added have none.
+hyperex::metrics::RestAsymmetry made_up_mirror(const MadeUpFace& face);
+
 /// The variant for a page; it must outlive the page's input.
 ReportVariant reported(const MadeUpFace& face, const MadeUpVariant& variant);
 

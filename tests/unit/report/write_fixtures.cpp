@@ -24,6 +24,8 @@ void write_variants_page(const std::filesystem::path& folder) {
   ReportInput input{face.performance, face.scan, modes, &face.symmetry};
   input.title = "A made-up face, variants";
   input.tissue = testing::made_up_tissue(face);
+  const auto mirror = testing::made_up_mirror(face);
+  input.mirror = &mirror;
   nlohmann::json table = nlohmann::json::array();
   const auto row = [&](const std::string& name, double share) {
     table.push_back({{"name", name},
