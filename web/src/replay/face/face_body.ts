@@ -5,7 +5,7 @@ import {
   MeshStandardMaterial, RGBAFormat, SRGBColorSpace, Texture,
 } from 'three';
 import { linearOf, rampBytes, type RampName } from './colour';
-import type { Colouring } from './colouring';
+import type { Painting } from './colouring';
 import type { Face, Replay } from '../data';
 import { FaceShape, type SceneMotion } from './deform';
 import { overlaysOf, type Overlay, type OverlayName } from './overlays';
@@ -32,7 +32,7 @@ export class FaceMaterials {
   useRamp(name: RampName): void {
     let ramp = this.ramps.get(name);
     if (!ramp) {
-      ramp = new DataTexture(rampBytes(name, rampSize), rampSize, 1, RGBAFormat);
+      ramp = new DataTexture(rampBytes(name, rampSize), rampSize, 2, RGBAFormat);
       ramp.colorSpace = SRGBColorSpace;
       ramp.magFilter = ramp.minFilter = LinearFilter;
       ramp.channel = 1;
@@ -53,7 +53,7 @@ export class FaceBody {
   readonly object = new Group();
   readonly overlays: Overlay[];
   readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>;
-  private readonly shape: FaceShape;
+  readonly shape: FaceShape;
   private readonly shares: Float32Array;
   /** Vertices drawn, where the picture's seams split those of the skin. */
   private readonly split: Int32Array | null;
@@ -99,16 +99,22 @@ export class FaceBody {
       if (overlay.object.visible) overlay.follow(this.shape.displacement);
   }
 
-  paint(colouring: Colouring): void {
-    this.mesh.material = colouring.scale ? this.materials.mapped : this.materials.plain;
-    if (!colouring.scale) return;
-    colouring.fill(this.shape, this.shares);
+  /** `other`: the other face of two. */
+  paint(painting: Painting, other: FaceBody | null): void {
+    this.mesh.material = painting.scale ? this.materials.mapped : this.materials.plain;
+    if (!painting.scale) return;
+    painting.fill(this.shape, this.shares, other?.shape ?? null);
     const out = this.ramp.array as Float32Array;
     const { split, shares } = this;
     // Half a colour in at either end: the middles of the first and the last.
     const span = 1 - 1 / rampSize;
     const start = 0.5 / rampSize;
-    for (let i = 0; i < this.ramp.count; ++i) out[2 * i] = start + span * shares[split ? split[i] : i];
+    for (let i = 0; i < this.ramp.count; ++i) {
+      const share = shares[split ? split[i] : i];
+      const known = share === share; // not NaN; faster than to ask for it
+      out[2 * i] = known ? start + span * share : start;
+      out[2 * i + 1] = known ? 0.25 : 0.75; // the middles of the map's rows
+    }
     this.ramp.needsUpdate = true;
   }
 

@@ -6,7 +6,7 @@ import {
   SRGBColorSpace, Texture, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import type { Colouring } from './colouring';
+import type { Painting } from './colouring';
 import type { Replay } from '../data';
 import { SceneMotion } from './deform';
 import { FaceBody, FaceMaterials } from './face_body';
@@ -61,7 +61,7 @@ export class FaceViewer {
     private readonly host: HTMLElement,
     private readonly replay: Replay,
     private readonly shown: Shown,
-    private colouring: Colouring,
+    private painting: Painting,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: true });
     this.renderer.toneMapping = NoToneMapping;
@@ -77,7 +77,7 @@ export class FaceViewer {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener('change', () => this.queue());
-    this.setColouring(colouring);
+    this.paintAs(painting);
     this.lookFrom('front');
     shown.onChange(() => {
       this.refit();
@@ -98,13 +98,14 @@ export class FaceViewer {
     this.touch();
   }
 
-  setColouring(colouring: Colouring): void {
-    this.colouring = colouring;
-    if (colouring.scale) this.materials.useRamp(colouring.scale.ramp);
+  paintAs(painting: Painting): void {
+    this.painting = painting;
+    const { scale } = painting;
+    if (scale) this.materials.useRamp(scale.ramp);
     // A map is read by its colour: less shading, more light from everywhere.
-    this.sky.intensity = colouring.scale ? 2.35 : 1.0;
-    this.sky.groundColor.set(colouring.scale ? '#cdc8c2' : '#8a7f78');
-    for (const { light, onSkin, onMap } of this.lights) light.intensity = colouring.scale ? onMap : onSkin;
+    this.sky.intensity = scale ? 2.35 : 1.0;
+    this.sky.groundColor.set(scale ? '#cdc8c2' : '#8a7f78');
+    for (const { light, onSkin, onMap } of this.lights) light.intensity = scale ? onMap : onSkin;
     this.touch();
   }
 
@@ -263,10 +264,9 @@ export class FaceViewer {
     if (this.stale) {
       this.stale = false;
       const { faces } = this.replay;
-      this.shown.visible.forEach((face, i) => {
-        passes[i].body.moveTo(faces[face], this.frame);
-        passes[i].body.paint(this.colouring);
-      });
+      const bodies = passes.map(({ body }) => body);
+      this.shown.visible.forEach((face, i) => bodies[i].moveTo(faces[face], this.frame));
+      bodies.forEach((body, i) => body.paint(this.painting, bodies[1 - i] ?? null));
     }
     this.renderer.setScissorTest(false);
     this.renderer.clear();
