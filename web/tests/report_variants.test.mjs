@@ -270,6 +270,42 @@ describe('a report with variants', () => {
     await page.keyboard.press('p');
   });
 
+  test('pressing the face tells figures at a place, resting on it too, and Escape clears them', async () => {
+    const readout = page.locator('.readout');
+    const figures = () => readout.locator('tbody tr').evaluateAll((rows) =>
+      rows.map((row) => [...row.querySelectorAll('td')].map((cell) => Number.parseFloat(cell.textContent))));
+    await page.getByRole('button', { name: 'Difference', exact: true }).click();
+    await page.keyboard.press('2');
+    await page.keyboard.press('s');
+    await drawn(page, '0 1');
+    const box = await page.locator('#face').boundingBox();
+    const cheek = [box.x + 0.83 * box.width, box.y + 0.7 * box.height]; // of the right face
+    await page.mouse.click(...cheek);
+    await readout.waitFor();
+    assert.match(await readout.locator('p').textContent(), /^\d+ mm from \w/);
+    const [[own, apart], [other, same]] = await figures();
+    assert.equal(apart, same, 'the distance between two faces is one');
+    assert.ok(own > 1 && apart > 0.05 && apart <= data.variants[0].max_difference_mm, `${own} mm, ${apart} mm apart`);
+    assert.ok(apart >= Math.abs(own - other) - 0.02 && apart <= own + other + 0.02, `${apart} between ${own} and ${other}`);
+    assert.match(await page.locator('#said').textContent(), new RegExp(`the scene itself: displacement ${own.toFixed(2)} mm, Difference`));
+    if (pictures) await page.screenshot({ path: join(pictures, 'readout.png') });
+    await page.keyboard.press('Home');
+    await drawn(page, '0 1');
+    assert.deepEqual(await figures(), [[0, 0], [0, 0]], 'the figures go along with the time');
+    await page.keyboard.press('Escape');
+    assert.equal(await readout.isVisible(), false);
+    await page.mouse.move(cheek[0] + 3, cheek[1]);
+    await readout.waitFor();
+    await page.mouse.down();
+    await page.mouse.move(cheek[0] - 30, cheek[1], { steps: 3 });
+    await page.mouse.up();
+    assert.equal(await readout.isVisible(), false, 'turning the face tells no figures');
+    await page.mouse.click(box.x + 20, box.y + 0.5 * box.height);
+    assert.equal(await readout.isVisible(), false, 'beside the face there is none');
+    await page.mouse.move(0, 0);
+    await page.keyboard.press('f');
+  });
+
   test('saves the picture, with twice the pixels, named after what it shows', async () => {
     await page.keyboard.press('2');
     await page.keyboard.press('w');

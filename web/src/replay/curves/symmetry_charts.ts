@@ -107,8 +107,8 @@ export function addedCurves(replay: Replay, shown: Shown): Part[] {
   const itself = apart(own);
   return [{
     caption:
-      'ξL − ξR of each face less that of the scene itself, which is the line at 0; above it the left side gains. This is what ' +
-      'tissue changes; S(t) of a simulated face also holds what its mesh makes uneven (docs/symmetry.md).',
+      'ξL − ξR of each face less that of the scene itself, the line at 0; above it the left side stretches more than there. ' +
+      'This is what tissue changes; S(t) of a simulated face also holds what its mesh makes uneven (docs/symmetry.md).',
     unit: '', digits: 4, timeS: own.time_s, yLabel: 'Δ(ξL − ξR) (relative change)', heightPx: 210,
     curves: faces.map(({ i, curve }) => ({
       label: faceWords(replay.faces, i), column: `Delta(xi_L - xi_R) of ${replay.faces[i].name} (1)`,

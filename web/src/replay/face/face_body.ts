@@ -2,7 +2,7 @@
 // One face to draw: its skin, coloured, and what is shown over it.
 import {
   BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Group, LinearFilter, Mesh, MeshLambertMaterial,
-  MeshStandardMaterial, RGBAFormat, SRGBColorSpace, Texture,
+  MeshStandardMaterial, Raycaster, RGBAFormat, SRGBColorSpace, Texture, Vector3,
 } from 'three';
 import { linearOf, rampBytes, type RampName } from './colour';
 import type { Painting } from './colouring';
@@ -124,6 +124,28 @@ export class FaceBody {
       overlay.object.visible = visible;
       if (visible) overlay.follow(this.shape.displacement);
     }
+  }
+
+  /** The skin's vertex next to where a ray first meets this face. */
+  vertexAt(ray: Raycaster): number | null {
+    this.mesh.geometry.boundingSphere = null; // it was that of another frame
+    const [first] = ray.intersectObject(this.mesh, false);
+    if (!first?.face) return null;
+    const { a, b, c } = first.face;
+    const at = this.mesh.worldToLocal(first.point.clone());
+    const far = (vertex: number) => at.distanceToSquared(this.positionOf(vertex));
+    return [a, b, c].map((i) => (this.split ? this.split[i] : i)).reduce((p, q) => (far(q) < far(p) ? q : p));
+  }
+
+  /** Metres, in the scan's own axes. */
+  positionOf(vertex: number): Vector3 {
+    return new Vector3().fromArray(this.shape.position, 3 * vertex);
+  }
+
+  /** `share`: as the colours have it, of 0 to 1; NaN where a vertex has no value. */
+  figuresOf(vertex: number): { displacementMm: number; share: number } {
+    const [x, y, z] = this.shape.displacement.subarray(3 * vertex, 3 * vertex + 3);
+    return { displacementMm: 1e3 * Math.hypot(x, y, z), share: this.shares[vertex] };
   }
 
   private copyOut(from: Float32Array, attribute: BufferAttribute): void {

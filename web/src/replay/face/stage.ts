@@ -13,6 +13,7 @@ import type { Playback } from '../playback';
 import { fileName, save } from '../../page/save';
 import type { Shown } from '../shown';
 import { theme } from '../../page/theme';
+import { Readout } from './readout';
 import { changesOf } from '../variants';
 import { FaceViewer, type View } from './viewer';
 import { WipeHandle } from './wipe_handle';
@@ -22,6 +23,7 @@ const pictureScale = 2;
 export class Stage {
   private viewer: FaceViewer | null = null;
   private wipe: WipeHandle | null = null;
+  private readout: Readout | null = null;
   private readonly colourings: Colouring[];
   private colouring: Colouring;
   private painting: Painting;
@@ -43,6 +45,7 @@ export class Stage {
     this.wireColourings();
     this.wireOverlays();
     this.wireWipe();
+    this.wireReadout();
     shown.onChange(() => {
       this.paint();
       this.say();
@@ -89,6 +92,10 @@ export class Stage {
       },
       { shown: '+ or -', does: 'nearer, farther', when: ['+', '=', '-'], act: ({ key }) => viewer.zoom(key === '-' ? 1 / 1.15 : 1.15) },
       { shown: 'f', does: 'from the front', when: ['f'], act: () => at('views').querySelector('button')!.click() },
+      {
+        shown: 'Escape', does: 'clear the figures at a place; a click on the face shows them',
+        when: ({ key }) => key === 'Escape' && this.readout!.visible, act: () => this.readout!.clear(),
+      },
       { shown: 'e', does: 'save the picture', when: ['e'], act: () => void this.savePicture() },
     );
     return keys;
@@ -173,6 +180,15 @@ export class Stage {
     shown.onChange(show);
     show();
     this.wipe = wipe;
+  }
+
+  private wireReadout(): void {
+    const { replay, shown, viewer } = this;
+    this.readout = new Readout(
+      at('canvas-host'), at('face'), viewer!, replay, shown,
+      () => ({ colouring: this.colouring, painting: this.painting }),
+      (text) => (at('said').textContent = text),
+    );
   }
 
   private async savePicture(): Promise<void> {

@@ -2,8 +2,8 @@
 // The face in 3D, or two of them: beside each other, or in one place and divided by an upright line.
 // One camera for both. Draws only when something changed, and deforms only what is drawn.
 import {
-  Box3, Color, DirectionalLight, Group, HemisphereLight, NoToneMapping, PerspectiveCamera, Scene, Spherical,
-  SRGBColorSpace, Texture, Vector3, WebGLRenderer,
+  Box3, Color, DirectionalLight, Group, HemisphereLight, NoToneMapping, PerspectiveCamera, Raycaster, Scene, Spherical,
+  SRGBColorSpace, Texture, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Painting } from './colouring';
@@ -27,6 +27,12 @@ interface Pass {
   width: number;
   from: number;
   to: number;
+}
+
+/** A vertex of the skin, pointed at on the first or the second face shown. */
+export interface Place {
+  vertex: number;
+  side: number;
 }
 
 export class FaceViewer {
@@ -54,6 +60,7 @@ export class FaceViewer {
   private drawnAt = 0;
   private slow = 0; // pictures in a row that came late
   private rest = 0;
+  private drawn = () => {};
 
   /** Throws where the browser has no WebGL. */
   constructor(
@@ -147,6 +154,40 @@ export class FaceViewer {
     this.camera.position.sub(target).divideScalar(factor).add(target);
     this.controls.update();
     this.queue();
+  }
+
+  /** After each picture; of one listener. */
+  onDraw(drawn: () => void): void {
+    this.drawn = drawn;
+  }
+
+  /** What of the skin is seen at a place in the window. */
+  placeAt(clientX: number, clientY: number): Place | null {
+    const box = this.host.getBoundingClientRect();
+    const x = clientX - box.left;
+    const passes = this.passes();
+    const side = passes.findIndex(({ from, to }) => x >= from && x < to);
+    if (side < 0) return null;
+    const pass = passes[side];
+    const ray = new Raycaster();
+    const at = new Vector2((2 * (x - pass.x)) / pass.width - 1, 1 - (2 * (clientY - box.top)) / box.height);
+    ray.setFromCamera(at, this.camera);
+    const vertex = pass.body.vertexAt(ray);
+    return vertex === null ? null : { vertex, side };
+  }
+
+  /** Where a vertex lies in the stage now, in its pixels; null outside its part. */
+  whereIs({ vertex, side }: Place): { x: number; y: number } | null {
+    const passes = this.passes();
+    const { body, x: left, width } = passes[side] ?? passes[0];
+    const at = body.mesh.localToWorld(body.positionOf(vertex)).project(this.camera);
+    if (Math.abs(at.x) > 1 || Math.abs(at.y) > 1) return null;
+    return { x: left + ((at.x + 1) / 2) * width, y: ((1 - at.y) / 2) * this.host.clientHeight };
+  }
+
+  /** Of the faces shown, left one first. */
+  figuresAt(vertex: number): { displacementMm: number; share: number }[] {
+    return this.passes().map(({ body }) => body.figuresOf(vertex));
   }
 
   /** What is shown, `scale` pixels for each of the page's. */
@@ -278,6 +319,7 @@ export class FaceViewer {
       this.renderer.setScissor(from, 0, to - from, height);
       this.renderer.render(this.scene, this.camera);
     }
+    this.drawn();
   }
 
   private touch(): void {
