@@ -17,7 +17,7 @@ class Variants : public ProgramTest {
   void run(const std::string& out, const std::string& more) {
     const Outcome outcome =
         call("run '" HYPEREX_SOURCE_DIR "/examples/variants.toml' --out " + out +
-             " --set time.end_s=0.7 --set mesh.element_size_mm=5 --set output.vtu=false"
+             " --set motion.time_scale=0.25 --set mesh.element_size_mm=5 --set output.vtu=false"
              " --set output.glb=false --set output.report=false"
              " --set 'output.contact_times_s=[0]' " +
              more);

@@ -214,12 +214,13 @@ describe(`curves of ${basename(report)}`, () => {
 
   test('the table tells what the data hold', async () => {
     const keys = [
-      'greatest_displacement_mm', 'greatest_distance_mm', 'rms_distance_at_peak_mm', 'mean_change_at_peak_mm',
+      'greatest_displacement_mm', 'greatest_distance_mm', 'rms_distance_at_peak_mm', 'mean_displacement_L_mm',
+      'mean_displacement_R_mm', 'asymmetry_rms_mm', 'added_xi_difference',
       'share_within_25_mm_of_mouth', 'lag_ms', 'hysteresis', 'symmetry_integral_s',
     ];
     const table = page.getByRole('table', { name: 'Variants' });
     const heads = await table.locator('thead th').allTextContents();
-    assert.deepEqual(heads.slice(1, 9).map((h) => /(mm|%|ms|1|s)(, \w+)?$/.test(h)), Array(8).fill(true), heads.join());
+    assert.deepEqual(heads.slice(1, 12).map((h) => /(mm|%|ms|1|s)(, \w+)?$/.test(h)), Array(11).fill(true), heads.join());
     const rows = await table.locator('tbody tr').evaluateAll((all) =>
       all.map((row) => ({ name: row.querySelector('.face').textContent, cells: [...row.cells].slice(1).map((c) => c.textContent) })));
     assert.deepEqual(rows.map((row) => row.name), ['base', ...names.slice(1)]);
@@ -309,9 +310,9 @@ describe('figures that are rare', () => {
 
   test('what is not defined is a dash, small figures keep two digits', async () => {
     const cell = (row, column) => page.locator('.variants tbody tr').nth(row).locator('td').nth(column).textContent();
-    assert.equal(await cell(0, 4), '–');
-    assert.equal(await cell(1, 5), '–');
-    assert.equal(await cell(0, 6), data.summary.variants.table[0].hysteresis.toFixed(4));
+    assert.equal(await cell(0, 7), '–');
+    assert.equal(await cell(1, 8), '–');
+    assert.equal(await cell(0, 9), data.summary.variants.table[0].hysteresis.toFixed(4));
     const { rows, names } = csv((await saved(page, page.locator('.variants').getByRole('button', { name: /^CSV/ }))).bytes);
     assert.equal(rows[2][names.indexOf('Hysteresis (1)')], '0.0000032');
     assert.equal(rows[1][names.indexOf('Lag (ms)')], '');
@@ -320,11 +321,12 @@ describe('figures that are rare', () => {
   test('changes are told in words', async () => {
     const told = await page.locator('.variants tbody tr').evaluateAll((rows) =>
       rows.map((row) => [...row.querySelectorAll('small')].map((s) => s.textContent)));
+    const place = 'differs most near cheilion R, which moves 16.00 instead of 20.00 mm';
     assert.deepEqual(told.slice(0, 4), [
       ['the scene itself'],
-      ['Young’s modulus 1,000 instead of 192.4 kPa', 'Solver: method direct instead of reduced'],
-      ['Scar cheilion R to alare R: width 8 mm, Young’s modulus × 20', 'Lips: viscosity 900 Pa s'],
-      ['Cheek L: Young’s modulus 80 kPa', 'Motion: gain 0.5 instead of 1'],
+      ['Young’s modulus 1,000 instead of 192.4 kPa', 'Solver: method direct instead of reduced', place],
+      ['Scar cheilion R to alare R: width 8 mm, Young’s modulus × 20', 'Lips: viscosity 900 Pa s', place],
+      ['Cheek L: Young’s modulus 80 kPa', 'Motion: gain 0.5 instead of 1', place],
     ]);
   });
 

@@ -49,6 +49,9 @@ reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& 
 }
 
 namespace {
+/// A share of the tetrahedra below which inverted ones are no warning.
+constexpr double kFewInverted = 1e-3;
+
 Json quality_json(const tissue::TissueMesh& mesh) {
   const tissue::MeshQuality& q = mesh.quality;
   Json shares = Json::object();
@@ -110,21 +113,37 @@ Json summary_of(const Results& r) {
   return s;
 }
 
-std::vector<std::string> all_notes(const Inputs& inputs, const tissue::TissueMesh& mesh,
-                                   const reenact::SimulationReport& report) {
-  std::vector<std::string> notes = inputs.notes;
-  notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
-  notes.insert(notes.end(), report.notes.begin(), report.notes.end());
+/// What the simulation has to say that a user should not overlook.
+std::vector<std::string> warnings_of(const reenact::SimulationReport& report, Eigen::Index tets) {
+  std::vector<std::string> notes = report.notes;
   if (report.lip_overlap_mm > 0.5)
     notes.push_back(fmt::format(
         "the lips pass through each other by up to {:.1f} mm: there is no contact in the model",
         report.lip_overlap_mm));
-  if (report.inverted_tets > 0)
+  if (report.inverted_tets > 0 && report.inverted_tets > kFewInverted * double(tets))
     notes.push_back(fmt::format(
-        "{} tetrahedra are turned inside out in some frame: the motion is too large for "
+        "{} of {} tetrahedra are turned inside out in some frame: the motion is too large for "
         "linear strain there",
-        report.inverted_tets));
+        report.inverted_tets, tets));
   return notes;
+}
+
+/// Variants that change nothing are a slip of the pen more often than a wish.
+std::vector<std::string> idle_variants(const Json& table) {
+  constexpr double kSame_mm = 1e-3;
+  std::vector<std::string> notes;
+  for (std::size_t i = 1; i < table.size(); ++i)
+    if (const Json& most = table[i]["greatest_distance_mm"];
+        most.is_number() && most.get<double>() < kSame_mm)
+      notes.push_back(
+          fmt::format("variant {} moves as the scene itself does: what it changes has no effect",
+                      table[i]["name"].get<std::string>()));
+  return notes;
+}
+
+void warn(const std::vector<std::string>& notes, std::vector<std::string>& all) {
+  for (const std::string& note : notes) spdlog::warn("{}", note);
+  all.insert(all.end(), notes.begin(), notes.end());
 }
 
 }  // namespace
@@ -233,15 +252,20 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
       mesh,
       simulation,
       symmetry_measures(scene, inputs, rest_asymmetry(mesh, inputs), simulation.performance),
-      all_notes(inputs, mesh, simulation.report),
+      inputs.notes,
       {},
       field ? &*field : nullptr};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
+  results.notes.insert(results.notes.end(), mesh.notes.begin(), mesh.notes.end());
+  const Eigen::Index tets = mesh.volume.tets.rows();
+  if (const int few = simulation.report.inverted_tets;
+      few > 0 && few <= kFewInverted * double(tets))
+    results.notes.push_back(fmt::format(
+        "{} of {} tetrahedra turned inside out in some frame, too few to matter", few, tets));
+  warn(warnings_of(simulation.report, tets), results.notes);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty())
-    results.notes.push_back(note);
-  for (std::size_t i = inputs.notes.size() + mesh.notes.size(); i < results.notes.size(); ++i)
-    spdlog::warn("{}", results.notes[i]);
+    warn({note}, results.notes);
   Json summary = summary_of(results);
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.
@@ -253,6 +277,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
                          seconds["variants"] = own.lap();
                          summary["variants"] = write_variants(results, variants, mesh, directory);
                        });
+  if (!variants.empty()) warn(idle_variants(summary["variants"]["table"]), results.notes);
   seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;

@@ -100,12 +100,16 @@ std::string variants_text() {
       "tissue = {{ young_kpa = 400 }}    # any key of {}or motion.gain\n```\n"
       "A run simulates the scene itself and all variants on one mesh, at once, and compares each "
       "with the scene itself: `report.html` shows them side by side, `variants_symmetry.png` S(t) "
-      "of "
-      "all, `variants.png` shows where and how far the skin differs (greatest "
-      "distance over time, mm), `variants.csv` has a row each: greatest displacement, greatest and "
-      "root mean square distance, mean change of the displacement's length at the peak (below 0: "
-      "moves less), share of the summed squared distance within 25 mm of the mouth's middle, lag "
-      "(ms) and hysteresis of a response point behind a driven one (docs/symmetry.md), and the "
+      "of all and what each adds to "
+      "xi_L - xi_R, `variants.png` where and how far the skin differs (greatest distance over "
+      "time, "
+      "mm). `variants.csv` has a row each: greatest displacement; greatest distance, the landmark "
+      "nearest to it, and how far that place has moved at the scene's peak, here and in the scene "
+      "itself; there too, by area, the root mean square distance, the mean change of the "
+      "displacement's length (below 0: moves less), the mean displacement of the face's left and "
+      "right and its asymmetry; what is added to xi_L - xi_R; share of the summed squared distance "
+      "within 25 mm of the mouth's middle; lag (ms) and hysteresis of a response point behind a "
+      "driven one (docs/symmetry.md), left out where the motion does not come back; and the "
       "integral of |xi_L - xi_R| over time.\n",
       may);
 }

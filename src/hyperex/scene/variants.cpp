@@ -70,20 +70,69 @@ Points driven_track(const Results& r, const std::string& name) {
   return track;
 }
 
+double mean(const Eigen::VectorXd& values, const Eigen::VectorXd& weight) {
+  return values.dot(weight) / weight.sum();
+}
+
+/// At the peak: how far either side of the face moves, in the mean over its area.
+void measure_sides(const metrics::Asymmetry& map, const TriMesh& rest, const PointsF& displacement,
+                   const Eigen::VectorXd& area, VariantComparison& c) {
+  double sum_mm[2] = {0, 0}, all[2] = {0, 0};
+  for (const int v : map.face) {
+    const Vec3 at = rest.points.row(v);
+    const int right = map.plane.normal.dot(at) < map.plane.offset_m;
+    sum_mm[right] += 1e3 * area[v] * double(displacement.row(v).norm());
+    all[right] += area[v];
+  }
+  c.mean_displacement_left_mm = sum_mm[0] / all[0];
+  c.mean_displacement_right_mm = sum_mm[1] / all[1];
+}
+
+/// The value of the greatest size.
+double added_xi_difference(const metrics::SymmetryCurve& own, const metrics::SymmetryCurve& run) {
+  double most = 0;
+  for (std::size_t k = 0; k < own.time_s.size(); ++k) {
+    const double added = (run.xi_left[k] - run.xi_right[k]) - (own.xi_left[k] - own.xi_right[k]);
+    if (std::abs(added) > std::abs(most)) most = added;  // NaN is no more
+  }
+  return most;
+}
+
+bool comes_back(const std::vector<double>& input) {
+  double most = 0;
+  for (const double value : input) most = std::max(most, std::abs(value));
+  return std::abs(input.back()) < 0.5 * most;
+}
+
+/// The figures of a row, each under the name that it has in variants.csv and summary.json.
+std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& c) {
+  return {{"greatest_displacement_mm", c.greatest_displacement_mm},
+          {"greatest_distance_mm", c.greatest_distance_mm},
+          {"displacement_there_mm", c.displacement_there_mm},
+          {"scene_displacement_there_mm", c.scene_displacement_there_mm},
+          {"rms_distance_at_peak_mm", c.rms_distance_mm},
+          {"mean_change_at_peak_mm", c.mean_change_mm},
+          {"mean_displacement_L_mm", c.mean_displacement_left_mm},
+          {"mean_displacement_R_mm", c.mean_displacement_right_mm},
+          {"asymmetry_rms_mm", c.asymmetry_mm},
+          {"added_xi_difference", c.added_xi_difference},
+          {"share_within_25_mm_of_mouth", c.share_near_mouth},
+          {"lag_ms", 1e3 * c.lag.lag_s},
+          {"lag_correlation", c.lag.correlation},
+          {"hysteresis", c.hysteresis},
+          {"symmetry_integral_s", c.symmetry_integral_s}};
+}
+
 void write_table(const fs::path& file, const VariantComparison& base,
                  const std::vector<VariantComparison>& compared, const ResponsePair& pair) {
   write_file_atomically(file, [&](std::ostream& out) {
-    out << "variant,greatest_displacement_mm,greatest_distance_mm,rms_distance_at_peak_mm,"
-           "mean_change_at_peak_mm,share_within_25_mm_of_mouth,driven_point,response_point,"
-           "lag_ms,lag_correlation,hysteresis,symmetry_integral_s\n";
+    out << "variant";
+    for (const auto& figure : figures_of(base)) out << ',' << figure.first;
+    out << ",farthest_near,driven_point,response_point\n";
     const auto row = [&](const VariantComparison& c) {
-      const auto& d = c.difference;
-      fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{},{}\n", c.name,
-                 field(c.greatest_displacement_mm), field(1e3 * d.greatest_m.maxCoeff()),
-                 field(1e3 * std::sqrt(d.at_peak_m.array().square().mean())),
-                 field(1e3 * d.change_at_peak_m.mean()), field(c.share_near_mouth), pair.driven,
-                 pair.response, field(1e3 * c.lag.lag_s), field(c.lag.correlation),
-                 field(c.hysteresis), field(c.symmetry_integral_s));
+      out << c.name;
+      for (const auto& figure : figures_of(c)) out << ',' << field(figure.second);
+      fmt::print(out, ",{},{},{}\n", c.farthest_near, pair.driven, pair.response);
     };
     row(base);
     for (const auto& one : compared) row(one);
@@ -91,17 +140,10 @@ void write_table(const fs::path& file, const VariantComparison& base,
 }
 
 Json json_of(const VariantComparison& c) {
-  const auto& d = c.difference;
   Json json;
   json["name"] = c.name;
-  json["greatest_displacement_mm"] = c.greatest_displacement_mm;
-  json["greatest_distance_mm"] = number(1e3 * d.greatest_m.maxCoeff());
-  json["rms_distance_at_peak_mm"] = number(1e3 * std::sqrt(d.at_peak_m.array().square().mean()));
-  json["mean_change_at_peak_mm"] = number(1e3 * d.change_at_peak_m.mean());
-  json["share_within_25_mm_of_mouth"] = number(c.share_near_mouth);
-  json["lag_ms"] = number(1e3 * c.lag.lag_s);
-  json["hysteresis"] = number(c.hysteresis);
-  json["symmetry_integral_s"] = number(c.symmetry_integral_s);
+  for (const auto& [name, value] : figures_of(c)) json[name] = number(value);
+  json["farthest_near"] = c.farthest_near;
   return json;
 }
 
@@ -177,17 +219,41 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
   c.difference =
       metrics::variant_difference(own.skin_displacement_m, p.skin_displacement_m, own.peak_frame);
   const auto& landmarks = base.inputs.landmarks;
+  const auto peak = std::size_t(own.peak_frame);
+  const Eigen::VectorXd area = metrics::vertex_areas(own.skin_rest);
+  c.rms_distance_mm = 1e3 * std::sqrt(mean(c.difference.at_peak_m.cwiseAbs2(), area));
+  c.mean_change_mm = 1e3 * mean(c.difference.change_at_peak_m, area);
+  Eigen::Index there = 0;
+  c.greatest_distance_mm = 1e3 * c.difference.greatest_m.maxCoeff(&there);
+  c.displacement_there_mm = c.scene_displacement_there_mm = std::nan("");
+  if (c.greatest_distance_mm > 0) {
+    c.displacement_there_mm = 1e3 * double(p.skin_displacement_m[peak].row(there).norm());
+    c.scene_displacement_there_mm = 1e3 * double(own.skin_displacement_m[peak].row(there).norm());
+    double nearest_m = INFINITY;
+    for (const auto& [landmark, at] : landmarks)
+      if (const double d = (at.transpose() - own.skin_rest.points.row(there)).norm();
+          d < nearest_m) {
+        nearest_m = d;
+        c.farthest_near = landmark;
+      }
+  }
+  const metrics::Asymmetry& map = *run.symmetry.map;
+  measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);
+  c.asymmetry_mm = map.frames[peak].face_rms_mm;
+  const metrics::SymmetryCurve& s = run.symmetry.curve;
+  c.added_xi_difference = added_xi_difference(base.symmetry.curve, s);
   const Vec3 mouth = (landmarks.at(tissue::ibug(48)) + landmarks.at(tissue::ibug(54))) / 2;
   c.share_near_mouth = metrics::share_within(c.difference.greatest_m, own.skin_rest.points, mouth,
-                                             kNearMouth_m, metrics::vertex_areas(own.skin_rest));
+                                             kNearMouth_m, area);
   c.lag.lag_s = c.lag.correlation = c.hysteresis = std::nan("");
   if (!pair.driven.empty() && !pair.response.empty()) {
     const auto input = metrics::along_farthest(driven_track(base, pair.driven));
     const auto response = metrics::along_farthest(track_of(p.landmarks, pair.response));
-    c.lag = metrics::lag_of(p.frame_time_s, input, response);
-    c.hysteresis = metrics::hysteresis_of(input, response);
+    if (comes_back(input)) {
+      c.lag = metrics::lag_of(p.frame_time_s, input, response);
+      c.hysteresis = metrics::hysteresis_of(input, response);
+    }
   }
-  const metrics::SymmetryCurve& s = run.symmetry.curve;
   c.symmetry_integral_s = integral(s.time_s, s.xi_left, s.xi_right);
   return c;
 }

@@ -30,16 +30,28 @@ std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& input
 void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& mesh,
                        const metrics::RestAsymmetry& at_rest);
 
-/// A run against the scene's own.
+/// A run against the scene's own. "Peak" is the scene's own.
 struct VariantComparison {
   std::string name;
   double greatest_displacement_mm = 0;
   metrics::VariantDifference difference;  ///< to the scene itself; of the skin's vertices
+  double greatest_distance_mm = 0;        ///< of any vertex, over time
+  std::string farthest_near;  ///< the landmark nearest to that vertex; empty: no distance
+  /// At the peak, of that vertex: in this run and in the scene itself; NaN where there is none.
+  double displacement_there_mm = 0, scene_displacement_there_mm = 0;
+  double rms_distance_mm = 0, mean_change_mm = 0;  ///< at the peak, over the skin's area
+  /// At the peak, mean over the face's area on the subject's left and right; NaN without a plane.
+  double mean_displacement_left_mm = 0, mean_displacement_right_mm = 0;
+  double asymmetry_mm = 0;  ///< at the peak, root mean square over the face
+  /// What the variant adds to xi_L - xi_R, where it adds most.
+  double added_xi_difference = 0;
   /// Share of the summed squared distances (greatest over time, weighted with area) within 25 mm of
   /// the middle of the mouth; NaN where all are 0.
   double share_near_mouth = 0;
-  metrics::Lag lag;                ///< of the response point behind the driven point
-  double hysteresis = 0;           ///< of the same pair
+  /// Of the response point behind the driven point; NaN where the motion does not come back: a
+  /// shape that is still on its way tells no lag from a bent path.
+  metrics::Lag lag;
+  double hysteresis = 0;           ///< of the same pair; NaN as the lag
   double symmetry_integral_s = 0;  ///< of |xi_L - xi_R| over time
 };
 

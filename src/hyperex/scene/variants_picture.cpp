@@ -48,7 +48,14 @@ void draw_variants(const Results& base, const std::vector<VariantComparison>& co
     return TriMesh{std::move(points), p.skin_rest.triangles};
   };
   double top = 0;
-  for (const auto& one : compared) top = std::max(top, 1e3 * one.difference.greatest_m.maxCoeff());
+  for (const auto& one : compared) top = std::max(top, one.greatest_distance_mm);
+  // One variant that moves much more than the others must not make them all look alike.
+  std::vector<double> each;
+  for (const auto& one : compared) each.push_back(one.greatest_distance_mm);
+  std::sort(each.begin(), each.end());
+  const double middle = each[each.size() / 2 - (each.size() % 2 == 0 ? 1 : 0)];
+  const bool capped = top > 4 * middle && middle > 0.1;
+  if (capped) top = 2 * middle;
   top = std::max(top, 0.1);  // equal faces are of one colour, not of their noise
   const render::RenderOptions size{.width_px = 300, .height_px = 380};
   const double aspect = double(size.width_px) / size.height_px;
@@ -63,7 +70,7 @@ void draw_variants(const Results& base, const std::vector<VariantComparison>& co
       fmt::format("the face at {:.2f} s; colour: greatest distance over time from the scene itself",
                   p.frame_time_s[std::size_t(p.peak_frame)]);
   sheet.columns = int(runs.size()) + 1;
-  sheet.bar = render::ColourBar{{0, top}, "distance (mm)"};
+  sheet.bar = render::ColourBar{{0, top}, "distance (mm)", capped};
   Vec3 oblique = render::three_quarter_view();  // sees the left side
   double lean = 0;
   for (const auto& one : compared)
@@ -95,13 +102,14 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
     faces.push_back(&run.symmetry.curve);
     names.push_back(run.scene.title);
   }
-  std::vector<std::vector<double>> s, difference;
+  std::vector<std::vector<double>> s, difference;  // the latter less that of the scene itself
   for (const metrics::SymmetryCurve* face : faces) {
     s.push_back(face->s);
     s.back().front() = NAN;  // S(t0) is not defined
     difference.emplace_back();
     for (std::size_t k = 0; k < face->time_s.size(); ++k)
-      difference.back().push_back(face->xi_left[k] - face->xi_right[k]);
+      difference.back().push_back((face->xi_left[k] - face->xi_right[k]) -
+                                  (own.xi_left[k] - own.xi_right[k]));
   }
   std::vector<render::PlotCurve> s_curves, difference_curves;
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -131,13 +139,14 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
   if (!floor.empty()) render::shade_under(canvas, upper, own.time_s, floor);
   render::draw_curves(canvas, upper, own.time_s, s_curves);
   y += 18 + 260 + 50;
-  const render::TimePlot lower{70,
-                               y,
-                               800,
-                               190,
-                               time,
-                               render::span_of(difference_curves),
-                               "xi_L - xi_R, relative change of length (1)"};
+  const render::TimePlot lower{
+      70,
+      y,
+      800,
+      190,
+      time,
+      render::span_of(difference_curves),
+      "xi_L - xi_R less that of the scene itself (1): what the variant adds"};
   render::draw_axes(canvas, lower);
   render::draw_curves(canvas, lower, own.time_s, difference_curves);
   canvas.text(470, y + 190 + 36, "time (s)", {.size_px = 13, .align = render::Align::centre});

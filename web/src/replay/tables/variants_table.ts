@@ -23,8 +23,20 @@ const columns: Column[] = [
     says: 'root mean square of that distance over the skin, in the frame of the peak.',
   },
   {
-    key: 'mean_change_at_peak_mm', head: 'Change at peak', unit: 'mm, mean', digits: 3,
-    says: 'by how much farther than in the scene itself the skin has moved in that frame, on average; below zero: less far.',
+    key: 'mean_displacement_L_mm', head: 'Left side', unit: 'mm, mean', digits: 2,
+    says: 'how far the face left of the middle has moved in that frame, on average over its area; the subject’s own left.',
+  },
+  {
+    key: 'mean_displacement_R_mm', head: 'Right side', unit: 'mm, mean', digits: 2,
+    says: 'the same right of the middle.',
+  },
+  {
+    key: 'asymmetry_rms_mm', head: 'Asymmetry', unit: 'mm, rms', digits: 2,
+    says: 'the face against its own reflection in that frame, asymmetry at rest taken out, root mean square over the face.',
+  },
+  {
+    key: 'added_xi_difference', head: 'Added ξL − ξR', unit: '1', digits: 4,
+    says: 'what the variant adds to ξL − ξR where it adds most: the tissue alone, whatever the mesh makes uneven.',
   },
   {
     key: 'share_within_25_mm_of_mouth', head: 'Near the mouth', unit: '%', digits: 1, factor: 100,
@@ -67,13 +79,21 @@ function fitted(column: Column, rows: VariantRow[]): Column {
   return { ...column, digits: Math.min(Math.max(column.digits, 1 - Math.floor(Math.log10(most))), 9) };
 }
 
-function nameCell(replay: Replay, i: number, press: () => void): { cell: HTMLElement; face: HTMLButtonElement } {
+/** Where the face differs most, and what that place does at the peak here and in the scene itself. */
+function placeOf({ farthest_near: near, displacement_there_mm: here, scene_displacement_there_mm: there }: VariantRow): string[] {
+  if (typeof near !== 'string' || near === '' || !isNumber(here) || !isNumber(there)) return [];
+  return [`differs most near ${landmarkName(near)}, which moves ${here.toFixed(2)} instead of ${there.toFixed(2)} mm`];
+}
+
+function nameCell(
+  replay: Replay, row: VariantRow, i: number, press: () => void,
+): { cell: HTMLElement; face: HTMLButtonElement } {
   const cell = element('th');
   cell.scope = 'row';
   const face = button('', 'face', press);
   face.title = 'Show this face';
   face.append(element('i'), replay.faces[i].name);
-  const changes = i === 0 ? ['the scene itself'] : changesOf(replay, i);
+  const changes = i === 0 ? ['the scene itself'] : [...changesOf(replay, i), ...placeOf(row)];
   cell.append(face, ...changes.map((change) => element('small', change)));
   return { cell, face };
 }
@@ -99,7 +119,7 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
   const buttons = rows.map((row, i) => {
     const line = body.insertRow();
     line.style.setProperty('--face', faceColour(i));
-    const { cell, face } = nameCell(replay, i, () => chooseFace(shown, i));
+    const { cell, face } = nameCell(replay, row, i, () => chooseFace(shown, i));
     line.append(cell);
     used.forEach((column, c) => {
       const made = figureCell(row[column.key], column);
