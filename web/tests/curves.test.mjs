@@ -15,6 +15,7 @@ const report = process.env.REPORT ? resolve(process.env.REPORT) : fixture('varia
 const pictures = process.env.SCREENSHOTS;
 const symmetryTitle = 'Symmetry of motion, S(t)';
 const stretchTitle = 'Stretch of either side, ξ(t)';
+const addedTitle = 'What each variant adds, Δ(ξL − ξR)';
 const trackTitle = 'Point tracks';
 const itself = 'the scene itself';
 
@@ -158,6 +159,19 @@ describe(`curves of ${basename(report)}`, () => {
       assert.equal(await legend(page, stretchTitle, 'ξR'), rounded(symmetryOf(i).xi_right[frame], 4));
       assert.match(await card(page, trackTitle).locator('p').textContent(), new RegExp(`Of ${names[i]}\\.$`));
     }
+  });
+
+  test('what each variant adds is the difference of its sides less that of the scene itself', async () => {
+    const frame = Math.round(0.4 * data.symmetry.time_s.length);
+    await goTo(frame);
+    const apart = (i, f) => symmetryOf(i).xi_left[f] - symmetryOf(i).xi_right[f];
+    for (const [i, name] of names.entries())
+      assert.equal(await legend(page, addedTitle, name), rounded(apart(i, frame) - apart(0, frame), 4) + 0, name);
+    assert.match(await card(page, addedTitle).locator('p').textContent(), /what tissue changes.*docs\/symmetry\.md/);
+    const { names: columns, rows } = csv((await saved(page, card(page, addedTitle).getByRole('button', { name: /^CSV/ }))).bytes);
+    const last = names.length - 1;
+    assert.equal(columns[last + 1], `Delta(xi_L - xi_R) of ${names[last]} (1)`);
+    rows.forEach((row, f) => assert.ok(Math.abs(Number(row[last + 1]) - apart(last, f) + apart(0, f)) < 1e-12));
   });
 
   test('tracks are distances from the first frame, of two faces the second dashed', async () => {

@@ -53,13 +53,16 @@ export const distinctColours = (picture) =>
     return seen.size;
   });
 
-/** Share of pixels with a strong colour. */
-export const colourfulShare = (picture) =>
-  picture.evaluate(({ data }) => {
-    let strong = 0;
+/** Share of pixels with a strong colour, from `left` to `right` (0 to 1). */
+export const colourfulShare = (picture, part = {}) =>
+  picture.evaluate(({ width, data }, { left = 0, right = 1 }) => {
+    let [strong, all] = [0, 0];
     for (let i = 0; i < data.length; i += 4) {
+      const x = ((i / 4) % width) / width;
+      if (x < left || x >= right) continue;
+      ++all;
       const rgb = [data[i], data[i + 1], data[i + 2]];
       if (Math.max(...rgb) - Math.min(...rgb) > 60) ++strong;
     }
-    return strong / (data.length / 4);
-  });
+    return strong / all;
+  }, part);

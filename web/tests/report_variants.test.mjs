@@ -8,6 +8,7 @@ import { join, resolve } from 'node:path';
 import { after, before, beforeEach, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
 import { fixture } from './fixtures.mjs';
+import { readPage } from './page_data.mjs';
 import { changedShare, colourfulShare, decode, distinctColours, halvesDiffer, look } from './pixels.mjs';
 
 const report = process.env.REPORT ? resolve(process.env.REPORT) : fixture('variants.html');
@@ -34,9 +35,10 @@ async function open(options = {}) {
 }
 
 describe('a report with variants', () => {
-  let page, complaints, close, count;
+  let page, complaints, close, count, data;
   before(async () => {
     ({ page, complaints, close } = await open({ viewport: { width: 1360, height: 700 } }));
+    ({ data } = await readPage(report));
     count = await page.locator('#chips button').count();
     // Halves of the stage compare where what is behind the faces is the same.
     await page.addStyleTag({ content: '#canvas-host { background: #808080; }' });
@@ -185,7 +187,7 @@ describe('a report with variants', () => {
     await page.keyboard.press('w');
   });
 
-  test('colours tell displacement, difference and tissue, each with its bar', async () => {
+  test('colours tell displacement, difference, asymmetry and tissue, each with its bar', async () => {
     await page.keyboard.press('1');
     await drawn(page, '0');
     const buttons = page.locator('#colouring button');
@@ -203,7 +205,8 @@ describe('a report with variants', () => {
     }
     assert.equal(titles[0], 'Displacement from rest mm');
     assert.equal(titles[1], 'Distance from the scene itself mm');
-    assert.equal(titles[2], "Young's modulus kPa");
+    assert.equal(titles[2], 'Asymmetry of the motion mm');
+    assert.equal(titles[3], "Young's modulus kPa");
     const chosen = [];
     for (let i = 0; i < (await buttons.count()); ++i) {
       await page.keyboard.press('m');
@@ -212,22 +215,95 @@ describe('a report with variants', () => {
     assert.deepEqual(chosen, await buttons.allTextContents());
   });
 
-  test('the scene itself differs nowhere from itself; a variant does, on one scale for all', async () => {
+  test('the scene itself differs nowhere from itself; a variant does, on the scale of those shown', async () => {
+    const greatest = () => page.locator('#colour-bar .ticks span').last().textContent().then(Number);
+    const reaches = async (...shown) => {
+      const most = Math.max(...shown.map((i) => data.variants[i - 1].max_difference_mm));
+      const end = await greatest();
+      assert.ok(end >= most - 1e-6 && end <= 1.6 * most, `the scale ends at ${end}, the differences at ${most}`);
+      const remark = await page.locator('#colour-bar p').textContent();
+      for (const i of shown) assert.ok(remark.includes(data.variants[i - 1].name), remark);
+    };
     await page.getByRole('button', { name: 'Difference', exact: true }).click();
     await page.keyboard.press('1');
     await drawn(page, '0');
     assert.match(await page.locator('#first-label').textContent(), /0 mm everywhere/);
-    const ticks = await page.locator('#colour-bar .ticks').textContent();
     const plain = await colourfulShare(await look(page));
     assert.ok(plain < 1e-3, `${plain} of the picture is coloured`);
     await page.keyboard.press('2');
     await drawn(page, '1');
-    assert.equal(await page.locator('#colour-bar .ticks').textContent(), ticks);
+    await reaches(1);
     const coloured = await colourfulShare(await look(page));
     assert.ok(coloured > 0.01, `only ${coloured} of the picture is coloured`);
     await page.locator('#frame').fill('0');
     assert.ok(await colourfulShare(await look(page)) < 1e-3, 'faces at rest differ');
     await page.keyboard.press('p');
+    await page.keyboard.press('s');
+    await page.keyboard.press('Shift+Digit3');
+    await drawn(page, '2 1');
+    await reaches(1, 2);
+  });
+
+  test('beside the scene itself both faces are coloured by the distance between them', async () => {
+    await page.getByRole('button', { name: 'Difference', exact: true }).click();
+    await page.keyboard.press('2');
+    await page.keyboard.press('s');
+    await drawn(page, '0 1');
+    assert.equal(await page.locator('#colour-bar figcaption').textContent(), 'Distance between the faces mm');
+    assert.equal((await page.locator('#first-label').textContent()).includes('0 mm'), false);
+    const [left, right] = [await colourfulShare(await look(page), { right: 0.5 }), await colourfulShare(await look(page), { left: 0.5 })];
+    assert.ok(left > 0.01 && Math.abs(left - right) < 0.5 * right, `${left} left, ${right} right`);
+  });
+
+  test('asymmetry has a scale of its own for all faces, and says what is grey', async () => {
+    await page.getByRole('button', { name: 'Asymmetry', exact: true }).click();
+    const ticks = await page.locator('#colour-bar .ticks').textContent();
+    assert.match(await page.locator('#colour-bar p').textContent(), /range of all faces; grey: unpaired/);
+    const moved = await look(page);
+    await page.keyboard.press('2');
+    await drawn(page, '1');
+    assert.equal(await page.locator('#colour-bar .ticks').textContent(), ticks);
+    assert.ok(await changedShare(moved, await look(page), { top: 0.2 }) > 1e-3, 'the variant is coloured as the scene');
+    assert.ok(await colourfulShare(await look(page)) > 0.01, 'the variant moves evenly');
+    await page.locator('#frame').fill('0');
+    assert.ok(await colourfulShare(await look(page)) < 1e-3, 'a face at rest is uneven');
+    await page.keyboard.press('p');
+  });
+
+  test('pressing the face tells figures at a place, resting on it too, and Escape clears them', async () => {
+    const readout = page.locator('.readout');
+    const figures = () => readout.locator('tbody tr').evaluateAll((rows) =>
+      rows.map((row) => [...row.querySelectorAll('td')].map((cell) => Number.parseFloat(cell.textContent))));
+    await page.getByRole('button', { name: 'Difference', exact: true }).click();
+    await page.keyboard.press('2');
+    await page.keyboard.press('s');
+    await drawn(page, '0 1');
+    const box = await page.locator('#face').boundingBox();
+    const cheek = [box.x + 0.83 * box.width, box.y + 0.7 * box.height]; // of the right face
+    await page.mouse.click(...cheek);
+    await readout.waitFor();
+    assert.match(await readout.locator('p').textContent(), /^\d+ mm from \w/);
+    const [[own, apart], [other, same]] = await figures();
+    assert.equal(apart, same, 'the distance between two faces is one');
+    assert.ok(own > 1 && apart > 0.05 && apart <= data.variants[0].max_difference_mm, `${own} mm, ${apart} mm apart`);
+    assert.ok(apart >= Math.abs(own - other) - 0.02 && apart <= own + other + 0.02, `${apart} between ${own} and ${other}`);
+    assert.match(await page.locator('#said').textContent(), new RegExp(`the scene itself: displacement ${own.toFixed(2)} mm, Difference`));
+    if (pictures) await page.screenshot({ path: join(pictures, 'readout.png') });
+    await page.keyboard.press('Home');
+    await drawn(page, '0 1');
+    assert.deepEqual(await figures(), [[0, 0], [0, 0]], 'the figures go along with the time');
+    await page.keyboard.press('Escape');
+    assert.equal(await readout.isVisible(), false);
+    await page.mouse.move(cheek[0] + 3, cheek[1]);
+    await readout.waitFor();
+    await page.mouse.down();
+    await page.mouse.move(cheek[0] - 30, cheek[1], { steps: 3 });
+    await page.mouse.up();
+    assert.equal(await readout.isVisible(), false, 'turning the face tells no figures');
+    await page.mouse.click(box.x + 20, box.y + 0.5 * box.height);
+    assert.equal(await readout.isVisible(), false, 'beside the face there is none');
+    await page.mouse.move(0, 0);
+    await page.keyboard.press('f');
   });
 
   test('saves the picture, with twice the pixels, named after what it shows', async () => {
@@ -348,6 +424,8 @@ for (const [name, options] of [
     await page.keyboard.press('w');
     await colour('displacement');
     await shoot('wipe');
+    await colour('asymmetry');
+    await shoot('asymmetry');
     await colour('tissue:young_kpa');
     await page.keyboard.press('w');
     await shoot('tissue');

@@ -56,6 +56,9 @@ export interface Replay {
   held: Vec3[];
   lipCut: Vec3[];
   symmetry: SymmetryCurve | null;
+  /** Where each vertex's mirror image lies on the skin at rest: three vertices each, -1 where it has none, and
+   *  their weights of about 255 in all. */
+  mirror: { normal: Vec3; vertices: Int32Array; weights: Uint8Array } | null;
   /** The scene itself first, then its variants in their order. */
   faces: Face[];
 }
@@ -133,6 +136,13 @@ export function readReplay(): Replay {
     held: manifest.held,
     lipCut: manifest.lip_cut,
     symmetry: manifest.symmetry,
+    mirror: manifest.mirror
+      ? {
+          normal: manifest.mirror.normal,
+          vertices: int32(manifest.mirror.vertices),
+          weights: uint8(manifest.mirror.weights),
+        }
+      : null,
     faces: facesOf(manifest, block),
   };
 }

@@ -108,10 +108,13 @@ function start(): void {
   };
   const keys = [...transportKeys(replay, playback), ...stage.keys()];
   wireKeys(keys, at<HTMLDialogElement>('help'), at<HTMLButtonElement>('open-help'), at<HTMLInputElement>('keys-on'));
+  // What stands still shows most where most has moved.
+  const still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+  if (still) playback.seek(timeS[replay.peakFrame] ?? 0);
   playback.onChange(show);
   show();
   document.documentElement.dataset.ready = 'true';
-  if (!window.matchMedia('(prefers-reduced-motion: reduce)').matches) playback.play();
+  if (!still) playback.play();
 }
 
 startPage(start);

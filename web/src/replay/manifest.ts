@@ -83,6 +83,9 @@ export interface Manifest {
   held: [number, number, number][];
   lip_cut: [number, number, number][];
   symmetry: SymmetryCurve | null;
+  /** Where each vertex's mirror image lies on the skin at rest: three vertices each (-1: nowhere) and their
+   *  weights (they sum to about 255). The plane's normal is of unit length. */
+  mirror?: { normal: [number, number, number]; vertices: Stretch; weights: Stretch };
   variants?: VariantData[];
   /** What differs from place to place in the scene or a variant: the same keys for all of them. */
   tissue?: TissueMapData[];

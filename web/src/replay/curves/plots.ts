@@ -4,7 +4,7 @@ import type { Chart } from '../../charts/chart_options';
 import type { Replay } from '../data';
 import { element } from '../../page/dom';
 import type { Shown } from '../shown';
-import { stretchCurves, symmetryCurves } from './symmetry_charts';
+import { addedCurves, stretchCurves, symmetryCurves } from './symmetry_charts';
 import { dark } from '../../page/theme';
 import { TimeChart } from '../../charts/time_chart';
 import { TrackCurves, trackChooser } from './track_chart';
@@ -18,6 +18,7 @@ export class Plots {
   ) {
     this.add('Symmetry of motion, S(t)', () => symmetryCurves(replay, shown));
     this.add('Stretch of either side, ξ(t)', () => stretchCurves(replay, shown));
+    this.add('What each variant adds, Δ(ξL − ξR)', () => addedCurves(replay, shown));
     this.addTracks(replay);
     dark.addEventListener('change', () => this.plots.forEach((plot) => plot.draw()));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The curves of symmetry, in the words of docs/symmetry.md: S(t) of all faces, and the stretch of
-// either side of those that are shown.
+// The curves of symmetry, in the words of docs/symmetry.md: S(t) of all faces, the stretch of either side of
+// those that are shown, and what each variant adds to the difference of the sides.
 import type { Chart, Curve } from '../../charts/chart_options';
 import type { Replay } from '../data';
 import { faceWords, number, signed } from '../../page/format';
@@ -94,5 +94,26 @@ export function stretchCurves(replay: Replay, shown: Shown): Part[] {
         { label: `ξR${of}`, column: `ξR${file}`, values: curve.xi_right, hue: several ? i : 1, broken: true },
       ];
     }),
+  }];
+}
+
+/** ξL - ξR less that of the scene itself: what other tissue adds. Empty where there are no variants. */
+export function addedCurves(replay: Replay, shown: Shown): Part[] {
+  const own = replay.symmetry;
+  const faces = facesWithCurve(replay);
+  if (!own || own.time_s.length < 2 || faces.length < 2) return [];
+  const apart = ({ xi_left, xi_right }: SymmetryCurve) =>
+    xi_left.map((left, f) => (left === null || xi_right[f] === null ? null : left - xi_right[f]!));
+  const itself = apart(own);
+  return [{
+    caption:
+      'ξL − ξR of each face less that of the scene itself, the line at 0; above it the left side stretches more than there. ' +
+      'This is what tissue changes; S(t) of a simulated face also holds what its mesh makes uneven (docs/symmetry.md).',
+    unit: '', digits: 4, timeS: own.time_s, yLabel: 'Δ(ξL − ξR) (relative change)', heightPx: 210,
+    curves: faces.map(({ i, curve }) => ({
+      label: faceWords(replay.faces, i), column: `Delta(xi_L - xi_R) of ${replay.faces[i].name} (1)`,
+      values: apart(curve).map((d, f) => (d === null || itself[f] === null ? null : d - itself[f]!)),
+      hue: i, strong: i > 0 && shown.visible.includes(i),
+    })),
   }];
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The colour maps and the bar that explains them. Even steps of a map look evenly far apart: viridis, and
-// two of equal steps along a curve in OKLab (Ottosson 2020, https://bottosson.github.io/posts/oklab).
+// three of equal steps along a curve in OKLab (Ottosson 2020, https://bottosson.github.io/posts/oklab).
 // Their lightness alone orders the values, so colour-blind readers and grey prints keep them.
 
-export type RampName = 'viridis' | 'embers' | 'sea';
+export type RampName = 'viridis' | 'embers' | 'sea' | 'plum';
 
 type Rgb = [number, number, number];
 
@@ -22,7 +22,15 @@ const ramps: Record<RampName, Rgb[]> = {
     [219, 228, 220], [184, 216, 204], [146, 203, 198], [113, 187, 192], [82, 169, 188], [58, 150, 183],
     [44, 130, 175], [38, 110, 166], [41, 89, 151], [44, 69, 133], [44, 50, 114],
   ],
+  // OKLCH lightness 0.91 to 0.33, hue 350 to 300 degrees.
+  plum: [
+    [230, 221, 225], [232, 195, 214], [228, 169, 206], [220, 145, 201], [206, 121, 196], [187, 99, 189],
+    [164, 80, 180], [138, 66, 165], [113, 52, 148], [89, 39, 131], [66, 26, 113],
+  ],
 };
+
+/** Of what has no value: none of the ramps comes near it. */
+const noValue: Rgb = [128, 128, 128];
 
 function colourAt(stops: Rgb[], share: number): Rgb {
   const x = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
@@ -30,9 +38,11 @@ function colourAt(stops: Rgb[], share: number): Rgb {
   return stops[i].map((c, k) => c + (x - i) * (stops[i + 1][k] - c)) as Rgb;
 }
 
-/** `size` colours from the map's first to its last, sRGB and opaque, four bytes each. */
+/** `size` colours from the map's first to its last, sRGB and opaque, four bytes each; then as many of what has
+ *  no value. */
 export function rampBytes(name: RampName, size: number): Uint8Array<ArrayBuffer> {
-  const out = new Uint8Array(4 * size);
+  const out = new Uint8Array(8 * size);
+  for (let i = size; i < 2 * size; ++i) out.set([...noValue, 255], 4 * i);
   for (let i = 0; i < size; ++i)
     out.set([...colourAt(ramps[name], i / (size - 1)).map(Math.round), 255], 4 * i);
   return out;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The strip under the face that says what its colours mean.
 import { rampStops } from './colour';
-import { ticksOf, type Colouring } from './colouring';
+import { ticksOf, type Scale } from './colouring';
 
 /** Fills the figure with title, unit, bar and ticks; hidden where the colours are the skin's own. */
-export function drawColourBar(figure: HTMLElement, { scale }: Colouring): void {
+export function drawColourBar(figure: HTMLElement, scale: Scale | null): void {
   figure.hidden = !scale;
   if (!scale) return;
   const caption = document.createElement('figcaption');
@@ -31,5 +31,7 @@ export function drawColourBar(figure: HTMLElement, { scale }: Colouring): void {
   scaled.setAttribute('role', 'img');
   scaled.setAttribute('aria-label', `Colours from ${values[0].text} to ${values.at(-1)!.text} ${scale.unit}`);
   scaled.append(bar, ticks);
-  figure.replaceChildren(caption, scaled);
+  const remark = document.createElement('p');
+  remark.textContent = remark.title = scale.remark;
+  figure.replaceChildren(caption, scaled, ...(scale.remark ? [remark] : []));
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the colours of the face can tell. Ranges are those of all faces together, so that colours of two
-// faces compare.
+// What the colours of the face can tell. But for the difference, whose size is not alike in any two variants,
+// ranges are those of all faces together, so that colours of any faces compare.
+import { asymmetry, usualAsymmetryMm } from './asymmetry';
 import { niceCeiling, type RampName } from './colour';
 import type { Face, Replay } from '../data';
 import type { FaceShape } from './deform';
-import { number } from '../../page/format';
+import { faceWords, number } from '../../page/format';
 
 /** What the colours stand for: `least` is the first of the ramp, `greatest` the last. */
 export interface Scale {
@@ -13,28 +14,36 @@ export interface Scale {
   unit: string;
   least: number;
   greatest: number;
+  /** Whose range it is, and what has no colour. */
+  remark: string;
+}
+
+/** How the faces that are shown are coloured. */
+export interface Painting {
+  /** Null where the face has its own colours. */
+  scale: Scale | null;
+  /** Writes a number from 0 (least) to 1 (greatest) a vertex; may leave that range; NaN: no value. `other`: the
+   *  other face of two. */
+  fill(shape: FaceShape, out: Float32Array, other: FaceShape | null): void;
+  /** A word on what a face shows, where the colours alone would not say. */
+  note(face: Face): string;
 }
 
 export interface Colouring {
   key: string;
   /** On its button. */
   label: string;
-  /** Null where the face has its own colours. */
-  scale: Scale | null;
-  /** Writes a number from 0 (least) to 1 (greatest) a vertex; may leave that range. */
-  fill(shape: FaceShape, out: Float32Array): void;
-  /** A word on what a face shows, where the colours alone would not say. */
-  note(face: Face): string;
+  /** Of one face or two, as places in `Replay.faces`. */
+  of(shown: number[]): Painting;
 }
 
 const without = () => '';
+const ofAll = (replay: Replay) => (replay.faces.length > 1 ? 'range of all faces' : '');
 
 function displacement(replay: Replay): Colouring {
   const greatest = niceCeiling(Math.max(...replay.faces.map((f) => f.maxDisplacementMm)));
-  return {
-    key: 'displacement',
-    label: 'Displacement',
-    scale: { ramp: 'viridis', title: 'Displacement from rest', unit: 'mm', least: 0, greatest },
+  const painting: Painting = {
+    scale: { ramp: 'viridis', title: 'Displacement from rest', unit: 'mm', least: 0, greatest, remark: ofAll(replay) },
     fill(shape, out) {
       const d = shape.displacement;
       const factor = 1e3 / greatest;
@@ -43,40 +52,60 @@ function displacement(replay: Replay): Colouring {
     },
     note: without,
   };
+  return { key: 'displacement', label: 'Displacement', of: () => painting };
 }
 
+function distances(a: Float32Array, b: Float32Array, factor: number, out: Float32Array): void {
+  for (let i = 0, v = 0; i < out.length; ++i, v += 3) {
+    const x = a[v] - b[v];
+    const y = a[v + 1] - b[v + 1];
+    const z = a[v + 2] - b[v + 2];
+    out[i] = factor * Math.sqrt(x * x + y * y + z * z);
+  }
+}
+
+/** From the scene itself. Beside the scene both faces have the colours of what differs between them: one that is
+ *  nothing everywhere would hide the half of the other. */
 function difference(replay: Replay): Colouring {
-  const greatest = niceCeiling(Math.max(...replay.faces.map((f) => f.maxDifferenceMm)));
-  return {
-    key: 'difference',
-    label: 'Difference',
-    scale: { ramp: 'embers', title: 'Distance from the scene itself', unit: 'mm', least: 0, greatest },
-    fill(shape, out) {
-      if (!shape.face.difference) {
-        out.fill(0);
-        return;
-      }
-      const d = shape.displacement;
-      const own = shape.scene.displacement;
-      const factor = 1e3 / greatest;
-      for (let i = 0, v = 0; i < out.length; ++i, v += 3) {
-        const x = d[v] - own[v];
-        const y = d[v + 1] - own[v + 1];
-        const z = d[v + 2] - own[v + 2];
-        out[i] = factor * Math.sqrt(x * x + y * y + z * z);
-      }
-    },
-    note: (face) => (face.difference ? '' : '0 mm everywhere by definition'),
+  const { faces } = replay;
+  const of = (shown: number[]): Painting => {
+    const variants = [...new Set(shown)].filter((i) => faces[i].difference);
+    const between = shown.length > 1 && shown.includes(0) && variants.length > 0;
+    const greatest = niceCeiling(Math.max(0, ...variants.map((i) => faces[i].maxDifferenceMm)));
+    const names = variants.map((i) => faceWords(faces, i)).join(' and ');
+    const title = between ? 'Distance between the faces' : 'Distance from the scene itself';
+    return {
+      scale: { ramp: 'embers', title, unit: 'mm', least: 0, greatest, remark: names && `range of ${names} alone` },
+      fill(shape, out, other) {
+        const from = between && other ? other.displacement : shape.scene.displacement;
+        distances(shape.displacement, from, 1e3 / greatest, out);
+      },
+      note: (face) => (face.difference || between ? '' : '0 mm everywhere by definition'),
+    };
   };
+  return { key: 'difference', label: 'Difference', of };
+}
+
+function asymmetryOfMotion(replay: Replay, mirror: NonNullable<Replay['mirror']>): Colouring {
+  let painting: Painting | null = null;
+  const made = (): Painting => {
+    const greatest = niceCeiling(usualAsymmetryMm(replay, mirror));
+    const some = mirror.vertices.some((v) => v < 0) ? 'grey: unpaired' : '';
+    const remark = [ofAll(replay), some].filter((text) => text).join('; ');
+    return {
+      scale: { ramp: 'plum', title: 'Asymmetry of the motion', unit: 'mm', least: 0, greatest, remark },
+      fill: (shape, out) => asymmetry(mirror, shape.displacement, 1e3 / greatest, out),
+      note: without,
+    };
+  };
+  return { key: 'asymmetry', label: 'Asymmetry', of: () => (painting ??= made()) };
 }
 
 function tissue(replay: Replay, key: string): Colouring {
   const { name, unit, least, greatest } = replay.faces[0].tissue.find((map) => map.key === key)!;
   const bytesOf = (face: Face) => face.tissue.find((map) => map.key === key)?.bytes;
-  return {
-    key: `tissue:${key}`,
-    label: name,
-    scale: { ramp: 'sea', title: name, unit, least, greatest },
+  const painting: Painting = {
+    scale: { ramp: 'sea', title: name, unit, least, greatest, remark: ofAll(replay) },
     fill(shape, out) {
       const bytes = bytesOf(shape.face);
       if (!bytes) out.fill(0);
@@ -88,20 +117,17 @@ function tissue(replay: Replay, key: string): Colouring {
       return 'the same everywhere';
     },
   };
+  return { key: `tissue:${key}`, label: name, of: () => painting };
 }
 
-const skin: Colouring = {
-  key: 'skin',
-  label: 'Skin',
-  scale: null,
-  fill: (_shape, out) => void out.fill(0),
-  note: without,
-};
+const plain: Painting = { scale: null, fill: (_shape, out) => void out.fill(0), note: without };
+const skin: Colouring = { key: 'skin', label: 'Skin', of: () => plain };
 
 export function colouringsOf(replay: Replay): Colouring[] {
   return [
     displacement(replay),
     ...(replay.faces.length > 1 ? [difference(replay)] : []),
+    ...(replay.mirror ? [asymmetryOfMotion(replay, replay.mirror)] : []),
     ...replay.faces[0].tissue.map((map) => tissue(replay, map.key)),
     skin,
   ];

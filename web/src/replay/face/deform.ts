@@ -66,6 +66,14 @@ export class SceneMotion {
   }
 }
 
+/** Displacements of a face in a frame, metres, into `out`. */
+export function displace(replay: Replay, scene: SceneMotion, face: Face, frame: number, out: Float32Array): void {
+  scene.moveTo(frame);
+  out.set(scene.displacement);
+  if (!face.difference) return;
+  addModes(face.difference.modes, face.difference.weights, frame, replay.timeS.length, out);
+}
+
 /** One face's skin at any time. */
 export class FaceShape {
   readonly displacement: Float32Array; // metres
@@ -79,14 +87,9 @@ export class FaceShape {
   }
 
   moveTo(frame: number): void {
-    const { displacement, position, scene, face } = this;
-    const { points, timeS } = this.replay;
-    scene.moveTo(frame);
-    displacement.set(scene.displacement);
-    if (face.difference) {
-      const { modes, weights } = face.difference;
-      addModes(modes, weights, frame, timeS.length, displacement);
-    }
+    const { displacement, position } = this;
+    const { points } = this.replay;
+    displace(this.replay, this.scene, this.face, frame, displacement);
     for (let i = 0; i < position.length; ++i) position[i] = points[i] + displacement[i];
     this.updateNormals();
   }

@@ -2,10 +2,10 @@
 // One face to draw: its skin, coloured, and what is shown over it.
 import {
   BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Group, LinearFilter, Mesh, MeshLambertMaterial,
-  MeshStandardMaterial, RGBAFormat, SRGBColorSpace, Texture,
+  MeshStandardMaterial, Raycaster, RGBAFormat, SRGBColorSpace, Texture, Vector3,
 } from 'three';
 import { linearOf, rampBytes, type RampName } from './colour';
-import type { Colouring } from './colouring';
+import type { Painting } from './colouring';
 import type { Face, Replay } from '../data';
 import { FaceShape, type SceneMotion } from './deform';
 import { overlaysOf, type Overlay, type OverlayName } from './overlays';
@@ -32,7 +32,7 @@ export class FaceMaterials {
   useRamp(name: RampName): void {
     let ramp = this.ramps.get(name);
     if (!ramp) {
-      ramp = new DataTexture(rampBytes(name, rampSize), rampSize, 1, RGBAFormat);
+      ramp = new DataTexture(rampBytes(name, rampSize), rampSize, 2, RGBAFormat);
       ramp.colorSpace = SRGBColorSpace;
       ramp.magFilter = ramp.minFilter = LinearFilter;
       ramp.channel = 1;
@@ -53,7 +53,7 @@ export class FaceBody {
   readonly object = new Group();
   readonly overlays: Overlay[];
   readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>;
-  private readonly shape: FaceShape;
+  readonly shape: FaceShape;
   private readonly shares: Float32Array;
   /** Vertices drawn, where the picture's seams split those of the skin. */
   private readonly split: Int32Array | null;
@@ -99,16 +99,22 @@ export class FaceBody {
       if (overlay.object.visible) overlay.follow(this.shape.displacement);
   }
 
-  paint(colouring: Colouring): void {
-    this.mesh.material = colouring.scale ? this.materials.mapped : this.materials.plain;
-    if (!colouring.scale) return;
-    colouring.fill(this.shape, this.shares);
+  /** `other`: the other face of two. */
+  paint(painting: Painting, other: FaceBody | null): void {
+    this.mesh.material = painting.scale ? this.materials.mapped : this.materials.plain;
+    if (!painting.scale) return;
+    painting.fill(this.shape, this.shares, other?.shape ?? null);
     const out = this.ramp.array as Float32Array;
     const { split, shares } = this;
     // Half a colour in at either end: the middles of the first and the last.
     const span = 1 - 1 / rampSize;
     const start = 0.5 / rampSize;
-    for (let i = 0; i < this.ramp.count; ++i) out[2 * i] = start + span * shares[split ? split[i] : i];
+    for (let i = 0; i < this.ramp.count; ++i) {
+      const share = shares[split ? split[i] : i];
+      const known = share === share; // not NaN; faster than to ask for it
+      out[2 * i] = known ? start + span * share : start;
+      out[2 * i + 1] = known ? 0.25 : 0.75; // the middles of the map's rows
+    }
     this.ramp.needsUpdate = true;
   }
 
@@ -118,6 +124,28 @@ export class FaceBody {
       overlay.object.visible = visible;
       if (visible) overlay.follow(this.shape.displacement);
     }
+  }
+
+  /** The skin's vertex next to where a ray first meets this face. */
+  vertexAt(ray: Raycaster): number | null {
+    this.mesh.geometry.boundingSphere = null; // it was that of another frame
+    const [first] = ray.intersectObject(this.mesh, false);
+    if (!first?.face) return null;
+    const { a, b, c } = first.face;
+    const at = this.mesh.worldToLocal(first.point.clone());
+    const far = (vertex: number) => at.distanceToSquared(this.positionOf(vertex));
+    return [a, b, c].map((i) => (this.split ? this.split[i] : i)).reduce((p, q) => (far(q) < far(p) ? q : p));
+  }
+
+  /** Metres, in the scan's own axes. */
+  positionOf(vertex: number): Vector3 {
+    return new Vector3().fromArray(this.shape.position, 3 * vertex);
+  }
+
+  /** `share`: as the colours have it, of 0 to 1; NaN where a vertex has no value. */
+  figuresOf(vertex: number): { displacementMm: number; share: number } {
+    const [x, y, z] = this.shape.displacement.subarray(3 * vertex, 3 * vertex + 3);
+    return { displacementMm: 1e3 * Math.hypot(x, y, z), share: this.shares[vertex] };
   }
 
   private copyOut(from: Float32Array, attribute: BufferAttribute): void {

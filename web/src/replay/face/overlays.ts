@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be shown over the skin: the cut along the lips, driven and held points.
+// What can be shown over the skin: the cut along the lips, driven points and those on bone and border.
 import {
   Color, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Object3D, SphereGeometry,
 } from 'three';
@@ -52,7 +52,7 @@ function drivenOverlay(replay: Replay): Overlay {
 function heldOverlay(replay: Replay): Overlay {
   const colour = '#3b82d6';
   const mesh = spheres(replay.held, 0.0008, colour, 0.6);
-  return { name: 'held', label: 'Held points', colour, object: mesh, follow() {} };
+  return { name: 'held', label: 'On bone and border', colour, object: mesh, follow() {} };
 }
 
 /** Both lips of the cut: the scan's own vertices along it, and those that the cut appended. */

@@ -20,6 +20,7 @@ export interface PictureParts {
 const margin = 18;
 const headHeight = 58;
 const footHeight = 76;
+const remarkHeight = 16;
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
 /** A pen that counts in the page's pixels. */
@@ -116,6 +117,7 @@ function drawScale(pen: Pen, scale: Scale, top: number): void {
     const align = share === 0 ? 'left' : share === 1 ? 'right' : 'center';
     pen.text(text, x + share * barWidth, top + 50, 12, pen.colour('--ink-soft'), { align });
   });
+  pen.text(scale.remark, x, top + 68, 12, pen.colour('--ink-soft'), { most: barWidth });
 }
 
 export function drawPicture(parts: PictureParts): HTMLCanvasElement {
@@ -124,7 +126,7 @@ export function drawPicture(parts: PictureParts): HTMLCanvasElement {
   const stageHeight = stage.height / scale;
   // Beside the bar there is no room for words in a narrow picture.
   const narrow = width < 620;
-  const foot = footHeight + (narrow && parts.colours ? 30 : 0);
+  const foot = footHeight + (narrow && parts.colours ? 30 : 0) + (parts.colours?.remark ? remarkHeight : 0);
   const pen = new Pen(width, headHeight + stageHeight + foot, scale);
   drawBackground(pen, stageHeight);
   pen.on.drawImage(stage, 0, headHeight, width, stageHeight);

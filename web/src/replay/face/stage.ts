@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stage: the face in 3D and the controls around it.
 import { drawColourBar } from './colour_bar';
-import { colouringsOf, type Colouring } from './colouring';
+import { colouringsOf, type Colouring, type Painting } from './colouring';
 import type { Face, Replay } from '../data';
 import { at } from '../../page/dom';
 import { changeMode, chooseFace, wireFaces } from './face_chooser';
@@ -13,6 +13,7 @@ import type { Playback } from '../playback';
 import { fileName, save } from '../../page/save';
 import type { Shown } from '../shown';
 import { theme } from '../../page/theme';
+import { Readout } from './readout';
 import { changesOf } from '../variants';
 import { FaceViewer, type View } from './viewer';
 import { WipeHandle } from './wipe_handle';
@@ -22,17 +23,20 @@ const pictureScale = 2;
 export class Stage {
   private viewer: FaceViewer | null = null;
   private wipe: WipeHandle | null = null;
+  private readout: Readout | null = null;
   private readonly colourings: Colouring[];
   private colouring: Colouring;
+  private painting: Painting;
   private readonly sayOfFaces: (note: (face: Face) => string) => void;
   private timeS = 0;
 
   constructor(private readonly replay: Replay, private readonly shown: Shown) {
     this.colourings = colouringsOf(replay);
     this.colouring = this.colourings[0];
+    this.painting = this.colouring.of(shown.visible);
     this.sayOfFaces = wireFaces(replay, shown);
     try {
-      this.viewer = new FaceViewer(at<HTMLCanvasElement>('face'), at('canvas-host'), replay, shown, this.colouring);
+      this.viewer = new FaceViewer(at<HTMLCanvasElement>('face'), at('canvas-host'), replay, shown, this.painting);
     } catch {
       this.goWithout();
       return;
@@ -41,7 +45,11 @@ export class Stage {
     this.wireColourings();
     this.wireOverlays();
     this.wireWipe();
-    shown.onChange(() => this.say());
+    this.wireReadout();
+    shown.onChange(() => {
+      this.paint();
+      this.say();
+    });
     at('save-picture').addEventListener('click', () => void this.savePicture());
   }
 
@@ -84,6 +92,10 @@ export class Stage {
       },
       { shown: '+ or -', does: 'nearer, farther', when: ['+', '=', '-'], act: ({ key }) => viewer.zoom(key === '-' ? 1 / 1.15 : 1.15) },
       { shown: 'f', does: 'from the front', when: ['f'], act: () => at('views').querySelector('button')!.click() },
+      {
+        shown: 'Escape', does: 'clear the figures at a place; a click on the face shows them',
+        when: ({ key }) => key === 'Escape' && this.readout!.visible, act: () => this.readout!.clear(),
+      },
       { shown: 'e', does: 'save the picture', when: ['e'], act: () => void this.savePicture() },
     );
     return keys;
@@ -119,9 +131,16 @@ export class Stage {
     this.colouring = colouring;
     for (const button of at('colouring').querySelectorAll('button'))
       button.setAttribute('aria-pressed', String(button.dataset.colouring === colouring.key));
-    this.viewer!.setColouring(colouring);
-    drawColourBar(at('colour-bar'), colouring);
-    this.sayOfFaces((face) => colouring.note(face));
+    this.paint();
+  }
+
+  /** What colours tell may depend on the faces shown. */
+  private paint(): void {
+    const painting = this.colouring.of(this.shown.visible);
+    this.painting = painting;
+    this.viewer!.paintAs(painting);
+    drawColourBar(at('colour-bar'), painting.scale);
+    this.sayOfFaces((face) => painting.note(face));
   }
 
   private nextColouring(): void {
@@ -132,10 +151,10 @@ export class Stage {
 
   /** For those who hear the page and chose by a key. */
   private say(): void {
-    const { replay, shown, colouring } = this;
+    const { replay, shown, colouring, painting } = this;
     const faces = shown.visible.map((i) => faceWords(replay.faces, i));
     const named = replay.faces.length > 1 ? `${faces.join(', right ')}; ` : '';
-    at('said').textContent = `${faces.length > 1 ? 'left ' : ''}${named}${colouring.scale?.title ?? colouring.label}`;
+    at('said').textContent = `${faces.length > 1 ? 'left ' : ''}${named}${painting.scale?.title ?? colouring.label}`;
   }
 
   private wireOverlays(): void {
@@ -163,6 +182,15 @@ export class Stage {
     this.wipe = wipe;
   }
 
+  private wireReadout(): void {
+    const { replay, shown, viewer } = this;
+    this.readout = new Readout(
+      at('canvas-host'), at('face'), viewer!, replay, shown,
+      () => ({ colouring: this.colouring, painting: this.painting }),
+      (text) => (at('said').textContent = text),
+    );
+  }
+
   private async savePicture(): Promise<void> {
     const { replay, shown, timeS, wipe } = this;
     const { palette } = theme();
@@ -178,7 +206,7 @@ export class Stage {
         colour: palette[faceHue(i)],
       })),
       divided: shown.mode === 'single' ? null : shown.mode === 'wipe' ? wipe!.at : 0.5,
-      colours: this.colouring.scale,
+      colours: this.painting.scale,
     });
     const faces = named.map((i) => replay.faces[i].name);
     save(await pngOf(picture), fileName(document.title, ...faces, `${timeS.toFixed(3)} s`, 'png'));

@@ -2,11 +2,11 @@
 // The face in 3D, or two of them: beside each other, or in one place and divided by an upright line.
 // One camera for both. Draws only when something changed, and deforms only what is drawn.
 import {
-  Box3, Color, DirectionalLight, Group, HemisphereLight, NoToneMapping, PerspectiveCamera, Scene, Spherical,
-  SRGBColorSpace, Texture, Vector3, WebGLRenderer,
+  Box3, Color, DirectionalLight, Group, HemisphereLight, NoToneMapping, PerspectiveCamera, Raycaster, Scene, Spherical,
+  SRGBColorSpace, Texture, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import type { Colouring } from './colouring';
+import type { Painting } from './colouring';
 import type { Replay } from '../data';
 import { SceneMotion } from './deform';
 import { FaceBody, FaceMaterials } from './face_body';
@@ -27,6 +27,12 @@ interface Pass {
   width: number;
   from: number;
   to: number;
+}
+
+/** A vertex of the skin, pointed at on the first or the second face shown. */
+export interface Place {
+  vertex: number;
+  side: number;
 }
 
 export class FaceViewer {
@@ -54,6 +60,7 @@ export class FaceViewer {
   private drawnAt = 0;
   private slow = 0; // pictures in a row that came late
   private rest = 0;
+  private drawn = () => {};
 
   /** Throws where the browser has no WebGL. */
   constructor(
@@ -61,7 +68,7 @@ export class FaceViewer {
     private readonly host: HTMLElement,
     private readonly replay: Replay,
     private readonly shown: Shown,
-    private colouring: Colouring,
+    private painting: Painting,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: true });
     this.renderer.toneMapping = NoToneMapping;
@@ -77,7 +84,7 @@ export class FaceViewer {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener('change', () => this.queue());
-    this.setColouring(colouring);
+    this.paintAs(painting);
     this.lookFrom('front');
     shown.onChange(() => {
       this.refit();
@@ -98,13 +105,14 @@ export class FaceViewer {
     this.touch();
   }
 
-  setColouring(colouring: Colouring): void {
-    this.colouring = colouring;
-    if (colouring.scale) this.materials.useRamp(colouring.scale.ramp);
+  paintAs(painting: Painting): void {
+    this.painting = painting;
+    const { scale } = painting;
+    if (scale) this.materials.useRamp(scale.ramp);
     // A map is read by its colour: less shading, more light from everywhere.
-    this.sky.intensity = colouring.scale ? 2.35 : 1.0;
-    this.sky.groundColor.set(colouring.scale ? '#cdc8c2' : '#8a7f78');
-    for (const { light, onSkin, onMap } of this.lights) light.intensity = colouring.scale ? onMap : onSkin;
+    this.sky.intensity = scale ? 2.35 : 1.0;
+    this.sky.groundColor.set(scale ? '#cdc8c2' : '#8a7f78');
+    for (const { light, onSkin, onMap } of this.lights) light.intensity = scale ? onMap : onSkin;
     this.touch();
   }
 
@@ -146,6 +154,40 @@ export class FaceViewer {
     this.camera.position.sub(target).divideScalar(factor).add(target);
     this.controls.update();
     this.queue();
+  }
+
+  /** After each picture; of one listener. */
+  onDraw(drawn: () => void): void {
+    this.drawn = drawn;
+  }
+
+  /** What of the skin is seen at a place in the window. */
+  placeAt(clientX: number, clientY: number): Place | null {
+    const box = this.host.getBoundingClientRect();
+    const x = clientX - box.left;
+    const passes = this.passes();
+    const side = passes.findIndex(({ from, to }) => x >= from && x < to);
+    if (side < 0) return null;
+    const pass = passes[side];
+    const ray = new Raycaster();
+    const at = new Vector2((2 * (x - pass.x)) / pass.width - 1, 1 - (2 * (clientY - box.top)) / box.height);
+    ray.setFromCamera(at, this.camera);
+    const vertex = pass.body.vertexAt(ray);
+    return vertex === null ? null : { vertex, side };
+  }
+
+  /** Where a vertex lies in the stage now, in its pixels; null outside its part. */
+  whereIs({ vertex, side }: Place): { x: number; y: number } | null {
+    const passes = this.passes();
+    const { body, x: left, width } = passes[side] ?? passes[0];
+    const at = body.mesh.localToWorld(body.positionOf(vertex)).project(this.camera);
+    if (Math.abs(at.x) > 1 || Math.abs(at.y) > 1) return null;
+    return { x: left + ((at.x + 1) / 2) * width, y: ((1 - at.y) / 2) * this.host.clientHeight };
+  }
+
+  /** Of the faces shown, left one first. */
+  figuresAt(vertex: number): { displacementMm: number; share: number }[] {
+    return this.passes().map(({ body }) => body.figuresOf(vertex));
   }
 
   /** What is shown, `scale` pixels for each of the page's. */
@@ -263,10 +305,9 @@ export class FaceViewer {
     if (this.stale) {
       this.stale = false;
       const { faces } = this.replay;
-      this.shown.visible.forEach((face, i) => {
-        passes[i].body.moveTo(faces[face], this.frame);
-        passes[i].body.paint(this.colouring);
-      });
+      const bodies = passes.map(({ body }) => body);
+      this.shown.visible.forEach((face, i) => bodies[i].moveTo(faces[face], this.frame));
+      bodies.forEach((body, i) => body.paint(this.painting, bodies[1 - i] ?? null));
     }
     this.renderer.setScissorTest(false);
     this.renderer.clear();
@@ -278,6 +319,7 @@ export class FaceViewer {
       this.renderer.setScissor(from, 0, to - from, height);
       this.renderer.render(this.scene, this.camera);
     }
+    this.drawn();
   }
 
   private touch(): void {
