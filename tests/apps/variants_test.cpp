@@ -78,7 +78,14 @@ INSTANTIATE_TEST_SUITE_P(
               "drive.points = [\"nobody\"]: expected names of points in the recording (nobody is "
               "none)"},
         Fault{"Region", "tissue = { region = [{ name = \"cheek_Q\", young_factor = 2 }] }\n",
-              "tissue.region[0].name = \"cheek_Q\": expected the name of a region"},
+              "tissue.region[0].name = \"cheek_Q\": expected the name of a region (hyperex presets "
+              "lists "
+              "them); did you mean cheek?"},
+        Fault{"SideOfARegion",
+              "tissue = { region = [{ name = \"right_cheek\", young_factor = 2 }] }\n",
+              "tissue.region[0].name = \"right_cheek\": expected the name of a region (hyperex "
+              "presets "
+              "lists them); did you mean cheek_R?"},
         Fault{"Side",
               "tissue = { point = [{ landmark = \"cheek_R\", side = \"L\", young_kpa = 5 }] }\n",
               "tissue.point[0].side = \"L\": expected \"R\" or none"},

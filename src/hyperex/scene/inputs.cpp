@@ -15,9 +15,11 @@
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
+#include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/tissue/field/regions.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "hyperex/tissue/landmarks.hpp"
 #include "hyperex/tracking/expression/blend_shapes.hpp"
@@ -198,6 +200,26 @@ void exaggerate(const Scene& scene, Look look, motion::Motion& m, Inputs& in) {
   m = motion::time_scaled(m, scene.motion.time_scale);
 }
 
+/// `shown` as problems show it, in quotes; for "right_cheek" and "cheek_r" it is cheek_R. Empty
+/// where it is a region, and where none is alike.
+std::string nearest_region(std::string shown) {
+  std::erase(shown, '"');
+  if (tissue::is_region(shown)) return "";
+  for (const auto& [word, side] : {std::pair{"right_", "_R"}, {"left_", "_L"}})
+    if (shown.starts_with(word)) shown = shown.substr(std::string(word).size()) + side;
+  // A side is never guessed: the whole part is alike to either.
+  const bool sided = shown.size() > 2 && shown[shown.size() - 2] == '_';
+  const std::string side = sided ? shown.substr(shown.size() - 2) : "";
+  const std::string part = shown.substr(0, shown.size() - side.size());
+  std::vector<std::string> parts;
+  for (const auto& region : tissue::facial_regions()) parts.push_back(region.name);
+  const bool known = std::find(parts.begin(), parts.end(), part) != parts.end();
+  const std::string near = known ? part : nearest(part, parts);
+  if (near.empty() || side.empty()) return near;
+  const bool left = side == "_L" || side == "_l", right = side == "_R" || side == "_r";
+  return near + (left ? "_L" : right ? "_R" : "");
+}
+
 /// Names that do not exist, and tissue that cannot be. `of` precedes the keys: "variant[0].".
 void check_names(const Scene& scene, const Inputs& in, const std::string& of = "") {
   const auto check = [&](const std::vector<std::string>& names, const char* key, bool in_motion) {
@@ -223,7 +245,13 @@ void check_names(const Scene& scene, const Inputs& in, const std::string& of = "
   add(check(thick, "mesh.thickness_point", false));
   for (const auto& problem : tissue::problems_of(tissue_field_options(scene), in.landmarks))
     all.push_back(problem_at(scene, "tissue." + problem.key, problem.expected));
-  for (InputProblem& problem : all) problem.key = of + problem.key;
+  for (InputProblem& problem : all) {
+    const bool of_region =
+        problem.key.starts_with("tissue.region[") && problem.key.ends_with("].name");
+    if (const std::string near = of_region ? nearest_region(problem.value) : ""; !near.empty())
+      problem.expected += "; did you mean " + near + "?";
+    problem.key = of + problem.key;
+  }
   if (!all.empty()) throw InputError(all);
 }
 
