@@ -34,8 +34,9 @@ template <typename T>
 std::vector<T> stretch(const std::vector<std::uint8_t>& bytes, const nlohmann::json& at) {
   std::vector<T> out(at.at("count").get<std::size_t>());
   EXPECT_LE(at.at("offset").get<std::size_t>() + out.size() * sizeof(T), bytes.size());
-  std::memcpy(out.data(), bytes.data() + at.at("offset").get<std::size_t>(),
-              out.size() * sizeof(T));
+  if (!out.empty())  // memcpy takes no null
+    std::memcpy(out.data(), bytes.data() + at.at("offset").get<std::size_t>(),
+                out.size() * sizeof(T));
   return out;
 }
 
