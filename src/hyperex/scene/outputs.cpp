@@ -17,6 +17,7 @@
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
 #include "hyperex/scene/asymmetry_picture.hpp"
+#include "hyperex/scene/face_box.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
@@ -124,30 +125,15 @@ std::vector<Still> stills_of(const Results& r) {
   return stills;
 }
 
-Points in_face_frame(const tissue::FaceFrame& frame, const Points& points) {
-  Points out(points.rows(), 3);
-  for (Eigen::Index v = 0; v < points.rows(); ++v)
-    out.row(v) = frame.local(points.row(v)).transpose();
-  return out;
-}
-
-/// What the pictures must hold: the skin about the landmarks, the ears with it, in all its shapes;
-/// not the shoulders and the back of the head, where a scan has them.
+/// The skin in the face's box, in all its shapes.
 Points framed_points(const Results& r, const std::vector<Still>& stills,
                      const tissue::FaceFrame& frame) {
-  const Vec3 beyond_low_m(0.04, 0.045, 0.06), beyond_high_m(0.04, 0.075, 0.02);
-  Vec3 low = Vec3::Constant(1e9), high = -low;
-  for (const auto& entry : r.inputs.landmarks) {
-    low = low.cwiseMin(frame.local(entry.second));
-    high = high.cwiseMax(frame.local(entry.second));
-  }
-  low -= beyond_low_m;
-  high += beyond_high_m;
+  const FaceBox box = face_box(r.inputs.landmarks, frame);
   const Performance& p = r.simulation.performance;
   std::vector<Vec3> kept;
   for (Eigen::Index v = 0; v < p.skin_rest.points.rows(); ++v) {
     const Vec3 rest = p.skin_rest.points.row(v), local = frame.local(rest);
-    if ((local.array() < low.array()).any() || (local.array() > high.array()).any()) continue;
+    if (!box.holds(local)) continue;
     kept.push_back(local);
     for (const Still& still : stills)
       kept.push_back(
@@ -234,14 +220,13 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   for (const Vec3& view : views) {
     render::Camera camera = render::framing(framed, view, aspect);
     camera.height_m = height_m;
-    const TriMesh rest{in_face_frame(frame, p.skin_rest.points), p.skin_rest.triangles};
+    const TriMesh rest{frame.local_points(p.skin_rest.points), p.skin_rest.triangles};
     std::vector<render::Polyline> lines;
-    if (p.lip_cut_rest.rows() > 0) lines.push_back({in_face_frame(frame, p.lip_cut_rest)});
+    if (p.lip_cut_rest.rows() > 0) lines.push_back({frame.local_points(p.lip_cut_rest)});
     sheet.pictures.push_back(
         {render::render({{.mesh = rest}}, camera, options, markers(p, frame), lines), "rest"});
     for (const Still& still : stills) {
-      const TriMesh mesh{in_face_frame(frame, moved(p, *still.displacement)),
-                         p.skin_rest.triangles};
+      const TriMesh mesh{frame.local_points(moved(p, *still.displacement)), p.skin_rest.triangles};
       const render::Surface surface{
           .mesh = mesh, .scalar = 1e3F * still.displacement->rowwise().norm(), .range = {0, top}};
       sheet.pictures.push_back(

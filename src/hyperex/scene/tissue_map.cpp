@@ -5,6 +5,7 @@
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
+#include "hyperex/scene/face_box.hpp"
 #include "hyperex/scene/outputs.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/tissue/face_frame.hpp"
@@ -13,23 +14,14 @@
 namespace hyperex::scene {
 namespace {
 
-/// The skin near the landmarks: ears with it, the back of the head not.
-Points near_face(const TriMesh& skin, const io::Landmarks& landmarks,
+/// The skin at rest in the face's box.
+Points near_face(const Points& local, const io::Landmarks& landmarks,
                  const tissue::FaceFrame& frame) {
-  const Vec3 beyond_low_m(0.04, 0.045, 0.06), beyond_high_m(0.04, 0.075, 0.02);
-  Vec3 low = Vec3::Constant(1e9), high = -low;
-  for (const auto& entry : landmarks) {
-    low = low.cwiseMin(frame.local(entry.second));
-    high = high.cwiseMax(frame.local(entry.second));
-  }
-  low -= beyond_low_m;
-  high += beyond_high_m;
-  Points kept(skin.points.rows(), 3);
+  const FaceBox box = face_box(landmarks, frame);
+  Points kept(local.rows(), 3);
   Eigen::Index count = 0;
-  for (Eigen::Index v = 0; v < skin.points.rows(); ++v)
-    if (const Vec3 p = skin.points.row(v);
-        (p.array() >= low.array()).all() && (p.array() <= high.array()).all())
-      kept.row(count++) = p.transpose();
+  for (Eigen::Index v = 0; v < local.rows(); ++v)
+    if (box.holds(local.row(v))) kept.row(count++) = local.row(v);
   return kept.topRows(count);
 }
 
@@ -38,13 +30,7 @@ render::Image sheet_of(const Results& r, int parameter) {
   const tissue::FaceFrame frame = tissue::face_frame(r.inputs.landmarks);
   const Eigen::VectorXf values = (r.tissue->skin[parameter] / info.si).cast<float>();
   const render::Range range{values.minCoeff(), values.maxCoeff()};
-  TriMesh local = r.mesh.skin;
-  const auto to_local = [&](Points points) {
-    for (Eigen::Index v = 0; v < points.rows(); ++v)
-      points.row(v) = frame.local(points.row(v)).transpose();
-    return points;
-  };
-  local.points = to_local(local.points);
+  const TriMesh local{frame.local_points(r.mesh.skin.points), r.mesh.skin.triangles};
   std::vector<tissue::FieldProblem> problems;
   std::vector<render::Marker> markers;
   for (const auto& point :
@@ -57,7 +43,7 @@ render::Image sheet_of(const Results& r, int parameter) {
   options.width_px = 320;
   options.height_px = 400;
   const double aspect = double(options.width_px) / options.height_px;
-  const Points framed = to_local(near_face(r.mesh.skin, r.inputs.landmarks, frame));
+  const Points framed = near_face(local.points, r.inputs.landmarks, frame);
   const Vec3 left = render::three_quarter_view(), right(-left.x(), left.y(), left.z());
   const std::array<std::pair<Vec3, const char*>, 3> views{
       {{right, "right side"}, {render::front_view(), "from in front"}, {left, "left side"}}};

@@ -22,6 +22,11 @@ struct FaceFrame {
     const Vec3 q = p - origin;
     return {q.dot(x), q.dot(y), q.dot(z)};
   }
+  Points local_points(const Points& points) const {
+    Points out(points.rows(), 3);
+    for (Eigen::Index v = 0; v < points.rows(); ++v) out.row(v) = local(points.row(v)).transpose();
+    return out;
+  }
   Vec3 world(const Vec3& q) const { return origin + q.x() * x + q.y() * y + q.z() * z; }
 };
 /// Needs ibug68_8, 27, 36, 45, 48, 54 (std::out_of_range otherwise: complete the landmarks first).
