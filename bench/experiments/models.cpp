@@ -84,12 +84,6 @@ double simulate_all(const Study& study, std::vector<Condition>& conditions) {
   return *std::max_element(errors.begin(), errors.end());
 }
 
-std::vector<double> less(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> difference(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) difference[k] = a[k] - b[k];
-  return difference;
-}
-
 double at_greatest(const std::vector<double>& values) {
   const int at = metrics::greatest_sample(values);
   return at < 0 ? std::nan("") : values[std::size_t(at)];
@@ -97,14 +91,13 @@ double at_greatest(const std::vector<double>& values) {
 
 SpreadRow row_of(const Condition& c) {
   const std::vector<double>& time_s = c.curves[0].time_s;
-  const auto own = metrics::signed_difference(c.curves[0]);
   const std::vector<double> spread = metrics::spread_of({c.curves.begin(), c.curves.end()});
   SpreadRow row;
   row.condition = c.name;
   row.element = fem::to_string(c.trials[0].element);
   row.form = c.trials[0].form == fem::ViscousForm::printed ? "printed" : "isotropic";
-  row.tissue_2 = at_greatest(less(metrics::signed_difference(c.curves[1]), own));
-  row.tissue_3 = at_greatest(less(metrics::signed_difference(c.curves[2]), own));
+  row.tissue_2 = at_greatest(metrics::added_difference(c.curves[1], c.curves[0]));
+  row.tissue_3 = at_greatest(metrics::added_difference(c.curves[2], c.curves[0]));
   row.spread = at_greatest(spread);
   const int at = metrics::greatest_sample(spread);
   row.spread_at_s = at < 0 ? std::nan("") : time_s[std::size_t(at)];
@@ -276,7 +269,7 @@ ModelsFace face_of(const Setting& setting, bool subject_a, std::vector<CurvePane
   const auto least = std::size_t(metrics::greatest_sample(own_size));
   face.own_least = std::abs(d[0][least]);
   face.own_least_s = curves[0].time_s[least];
-  const std::vector<double> parted = less(d[1], d[2]);
+  const std::vector<double> parted = metrics::added_difference(curves[1], curves[2]);
   face.parted_most_s = curves[0].time_s[std::size_t(metrics::greatest_sample(parted))];
   face.parted_window_share =
       metrics::share_between(curves[0].time_s, parted, kSourceWindow_s[0], kSourceWindow_s[1]);

@@ -15,6 +15,15 @@ std::vector<double> signed_difference(const SymmetryCurve& curve) {
   return difference;
 }
 
+std::vector<double> added_difference(const SymmetryCurve& curve, const SymmetryCurve& own) {
+  std::vector<double> added = signed_difference(curve);
+  const std::vector<double> before = signed_difference(own);
+  if (added.size() != before.size())
+    throw std::invalid_argument("curves of different numbers of samples");
+  for (std::size_t k = 0; k < added.size(); ++k) added[k] -= before[k];
+  return added;
+}
+
 std::vector<double> spread_of(const std::vector<SymmetryCurve>& curves, double clear) {
   if (curves.empty()) throw std::invalid_argument("spread of no curves");
   std::vector<double> spread(curves.front().time_s.size());

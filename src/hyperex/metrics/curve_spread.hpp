@@ -9,6 +9,10 @@ namespace hyperex::metrics {
 /// xi_L - xi_R, a value a sample, with its sign (S is the logarithm of its size).
 std::vector<double> signed_difference(const SymmetryCurve& curve);
 
+/// What `curve` adds to the signed difference of `own`, a value a sample. Throws
+/// std::invalid_argument where their numbers of samples differ.
+std::vector<double> added_difference(const SymmetryCurve& curve, const SymmetryCurve& own);
+
 /// How far curves S(t) of one motion part: the greatest S less the least, a value a sample; by what
 /// factor |xi_L - xi_R| differs, as a logarithm. Where one of the curves is not measured, or its
 /// |xi_L - xi_R| is under `clear` times its floor, NaN: near zero S is decided by rounding. Throws

@@ -34,6 +34,13 @@ VariantDifference variant_difference(const std::vector<PointsF>& a, const std::v
   return out;
 }
 
+double greatest_displacement_m(const std::vector<PointsF>& frames) {
+  float most = 0;
+  for (const PointsF& frame : frames)
+    if (frame.rows() > 0) most = std::max(most, frame.rowwise().norm().maxCoeff());
+  return double(most);
+}
+
 double share_within(const Eigen::VectorXd& distance, const Points& rest, const Vec3& centre,
                     double radius_m, const Eigen::VectorXd& weight) {
   if (distance.size() != rest.rows() || (weight.size() != 0 && weight.size() != rest.rows()))

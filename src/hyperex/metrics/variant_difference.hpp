@@ -22,6 +22,9 @@ struct VariantDifference {
 VariantDifference variant_difference(const std::vector<PointsF>& a, const std::vector<PointsF>& b,
                                      int peak_frame);
 
+/// Of any vertex in any frame, m; 0 where there is none.
+double greatest_displacement_m(const std::vector<PointsF>& frames);
+
 /// Share of the summed squared distance that lies within `radius_m` (straight, at rest) of
 /// `centre`:  sum_near w d^2 / sum w d^2. `weight`: a value a vertex, such as vertex_areas(), so
 /// that the share does not depend on where the mesh is fine; empty: all vertices alike. NaN where

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
 #include "hyperex/report/skin_view.hpp"
@@ -67,18 +68,12 @@ json modes_section(const DisplacementModes& motion, BinaryBlock& block) {
           {"max_error_mm", 1e3 * motion.max_error_m}};
 }
 
-double largest_mm(const std::vector<PointsF>& displacement) {
-  double largest_m = 0;
-  for (const auto& frame : displacement)
-    largest_m = std::max<double>(largest_m, frame.rows() ? frame.rowwise().norm().maxCoeff() : 0);
-  return 1e3 * largest_m;
-}
-
 json motion_section(const ReportInput& input, BinaryBlock& block) {
   json motion = modes_section(input.modes, block);
   motion["time_s"] = input.performance.frame_time_s;
   motion["peak_frame"] = input.performance.peak_frame;
-  motion["max_displacement_mm"] = largest_mm(input.performance.skin_displacement_m);
+  motion["max_displacement_mm"] =
+      1e3 * metrics::greatest_displacement_m(input.performance.skin_displacement_m);
   return motion;
 }
 
@@ -145,14 +140,15 @@ json variants_section(const ReportInput& input, BinaryBlock& block) {
     for (std::size_t f = 0; f < own.size(); ++f)
       difference_m = std::max<double>(
           difference_m, own[f].rows() ? (displacement[f] - own[f]).rowwise().norm().maxCoeff() : 0);
-    section.push_back({{"name", variant.name},
-                       {"changes", variant.changes},
-                       {"difference", modes_section(variant.difference, block)},
-                       {"max_displacement_mm", largest_mm(displacement)},
-                       {"max_difference_mm", 1e3 * difference_m},
-                       {"symmetry", symmetry_section(variant.symmetry)},
-                       {"landmarks", positions_of(variant.performance.landmarks, block)},
-                       {"tissue", tissue_section(variant.tissue, block)}});
+    section.push_back(
+        {{"name", variant.name},
+         {"changes", variant.changes},
+         {"difference", modes_section(variant.difference, block)},
+         {"max_displacement_mm", 1e3 * metrics::greatest_displacement_m(displacement)},
+         {"max_difference_mm", 1e3 * difference_m},
+         {"symmetry", symmetry_section(variant.symmetry)},
+         {"landmarks", positions_of(variant.performance.landmarks, block)},
+         {"tissue", tissue_section(variant.tissue, block)}});
   }
   return section;
 }

@@ -11,6 +11,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/scene/outputs.hpp"
 #include "hyperex/scene/report_page.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
@@ -68,13 +69,6 @@ Json quality_json(const tissue::TissueMesh& mesh) {
           {"skin_to_scan_max_mm", mesh.max_distance_mm}};
 }
 
-double max_displacement_mm(const reenact::Performance& p) {
-  float most = 0;
-  for (const auto& frame : p.skin_displacement_m)
-    if (frame.rows() > 0) most = std::max(most, frame.rowwise().norm().maxCoeff());
-  return 1e3 * double(most);
-}
-
 Json summary_of(const Results& r) {
   const auto& report = r.simulation.report;
   const auto& p = r.simulation.performance;
@@ -102,7 +96,7 @@ Json summary_of(const Results& r) {
   s["skull_nodes"] = report.skull_nodes;
   s["mandible_nodes"] = report.mandible_nodes;
   s["peak_time_s"] = p.frame_time_s[p.peak_frame];
-  s["max_displacement_mm"] = max_displacement_mm(p);
+  s["max_displacement_mm"] = 1e3 * metrics::greatest_displacement_m(p.skin_displacement_m);
   s["lip_opening_mm"] = report.lip_gap_mm;
   s["lip_overlap_mm"] = report.lip_overlap_mm;
   s["jaw_opening_deg"] = report.greatest_opening_deg;

@@ -12,6 +12,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/scene/variants_picture.hpp"
@@ -23,10 +24,6 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr double kNearMouth_m = 0.025;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 std::string field(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
@@ -88,14 +85,10 @@ void measure_sides(const metrics::Asymmetry& map, const TriMesh& rest, const Poi
   c.mean_displacement_right_mm = sum_mm[1] / all[1];
 }
 
-/// The value of the greatest size.
-double added_xi_difference(const metrics::SymmetryCurve& own, const metrics::SymmetryCurve& run) {
-  double most = 0;
-  for (std::size_t k = 0; k < own.time_s.size(); ++k) {
-    const double added = (run.xi_left[k] - run.xi_right[k]) - (own.xi_left[k] - own.xi_right[k]);
-    if (std::abs(added) > std::abs(most)) most = added;  // NaN is no more
-  }
-  return most;
+/// The value of the greatest size; 0 where there is none.
+double at_greatest(const std::vector<double>& values) {
+  const int at = metrics::greatest_sample(values);
+  return at < 0 ? 0 : values[std::size_t(at)];
 }
 
 bool comes_back(const std::vector<double>& input) {
@@ -142,7 +135,7 @@ void write_table(const fs::path& file, const VariantComparison& base,
 Json json_of(const VariantComparison& c) {
   Json json;
   json["name"] = c.name;
-  for (const auto& [name, value] : figures_of(c)) json[name] = number(value);
+  for (const auto& [name, value] : figures_of(c)) json[name] = value;  // NaN is written as null
   json["farthest_near"] = c.farthest_near;
   return json;
 }
@@ -213,9 +206,7 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
   const reenact::Performance &own = base.simulation.performance, &p = run.simulation.performance;
   VariantComparison c;
   c.name = name;
-  for (const PointsF& d : p.skin_displacement_m)
-    c.greatest_displacement_mm =
-        std::max(c.greatest_displacement_mm, 1e3 * double(d.rowwise().norm().maxCoeff()));
+  c.greatest_displacement_mm = 1e3 * metrics::greatest_displacement_m(p.skin_displacement_m);
   c.difference =
       metrics::variant_difference(own.skin_displacement_m, p.skin_displacement_m, own.peak_frame);
   const auto& landmarks = base.inputs.landmarks;
@@ -241,7 +232,7 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
   measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);
   c.asymmetry_mm = map.frames[peak].face_rms_mm;
   const metrics::SymmetryCurve& s = run.symmetry.curve;
-  c.added_xi_difference = added_xi_difference(base.symmetry.curve, s);
+  c.added_xi_difference = at_greatest(metrics::added_difference(s, base.symmetry.curve));
   const Vec3 mouth = (landmarks.at(tissue::ibug(48)) + landmarks.at(tissue::ibug(54))) / 2;
   c.share_near_mouth = metrics::share_within(c.difference.greatest_m, own.skin_rest.points, mouth,
                                              kNearMouth_m, area);

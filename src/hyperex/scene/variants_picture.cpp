@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
@@ -42,10 +43,8 @@ void draw_variants(const Results& base, const std::vector<VariantComparison>& co
   const reenact::Performance& p = base.simulation.performance;
   const auto skin_at_peak = [&](const reenact::Performance& of) {
     const PointsF& d = of.skin_displacement_m[std::size_t(p.peak_frame)];
-    Points points = p.skin_rest.points + d.cast<double>();
-    for (Eigen::Index v = 0; v < points.rows(); ++v)
-      points.row(v) = frame.local(points.row(v)).transpose();
-    return TriMesh{std::move(points), p.skin_rest.triangles};
+    return TriMesh{frame.local_points(p.skin_rest.points + d.cast<double>()),
+                   p.skin_rest.triangles};
   };
   double top = 0;
   for (const auto& one : compared) top = std::max(top, one.greatest_distance_mm);
@@ -106,10 +105,7 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
   for (const metrics::SymmetryCurve* face : faces) {
     s.push_back(face->s);
     s.back().front() = NAN;  // S(t0) is not defined
-    difference.emplace_back();
-    for (std::size_t k = 0; k < face->time_s.size(); ++k)
-      difference.back().push_back((face->xi_left[k] - face->xi_right[k]) -
-                                  (own.xi_left[k] - own.xi_right[k]));
+    difference.push_back(metrics::added_difference(*face, own));
   }
   std::vector<render::PlotCurve> s_curves, difference_curves;
   for (std::size_t i = 0; i < faces.size(); ++i) {
