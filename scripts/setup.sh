@@ -49,7 +49,8 @@ command -v dpkg-query > /dev/null && command -v apt-get > /dev/null ||
   die "this needs Debian's apt-get; elsewhere install by hand: ${packages[*]}; then run npm ci in web/"
 
 # One call for all packages; those that are not installed have no "installed" behind their name.
-installed=" $(dpkg-query -W -f '${binary:Package} ${db:Status-Status}\n' "${packages[@]}" 2> /dev/null |
+# dpkg-query ends with 1 as soon as it does not know one of them: on a fresh machine that is the rule.
+installed=" $({ dpkg-query -W -f '${binary:Package} ${db:Status-Status}\n' "${packages[@]}" 2> /dev/null || true; } |
   sed -n 's/^\([^ :]*\)[^ ]* installed$/\1/p' | tr '\n' ' ') "
 missing=()
 for package in "${packages[@]}"; do
