@@ -255,6 +255,18 @@ void check_names(const Scene& scene, const Inputs& in, const std::string& of = "
   if (!all.empty()) throw InputError(all);
 }
 
+/// Files of tissue a vertex, of the scene and of its variants, each told of once.
+void note_tissue_files(const Scene& scene, Inputs& in) {
+  const auto add = [&](const Scene& s) {
+    for (auto& note : tissue::notes_on_files(tissue_field_options(s), in.scan.mesh))
+      if (std::find(in.notes.begin(), in.notes.end(), note) == in.notes.end())
+        in.notes.push_back(std::move(note));
+  };
+  add(scene);
+  for (const Variant& variant : scene.variants)
+    if (!(tissue_field_options(variant.scene) == tissue_field_options(scene))) add(variant.scene);
+}
+
 /// Labels that nothing asked for: a name that the recording or the scene has serves there.
 void note_unknown_landmarks(const Scene& scene, const io::Landmarks& given, Inputs& in) {
   std::vector<std::string> unknown = tissue::unknown_landmarks(given);
@@ -320,6 +332,7 @@ Inputs read_inputs(const Scene& scene, Look look) {
     read_scan(scene, in);
     scan_read = true;
   });
+  if (scan_read) problems.attempt([&] { note_tissue_files(scene, in); });
   problems.attempt([&] {
     if (!scene.scan.landmarks.empty())
       given = io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);

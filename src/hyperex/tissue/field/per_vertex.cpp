@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/csv.hpp"
+#include "hyperex/io/raw_mesh.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/tissue/field/vertex_match.hpp"
 
 namespace hyperex::tissue {
 namespace {
@@ -21,16 +24,33 @@ bool has_extension(const std::filesystem::path& file, const char* wanted) {
   return extension == wanted;
 }
 
-/// The CSV's column or the PLY's vertex property; empty where there is none.
-Eigen::VectorXd weight_column(const std::filesystem::path& file) {
+struct Column {
+  std::string name;
+  Eigen::VectorXd values;
+};
+
+/// Values a row, and the mesh that they lie on where the file has one.
+struct Table {
+  std::vector<Column> columns;
+  std::optional<TriMesh> mesh;
+};
+
+/// The CSV's columns or the PLY's vertex properties; of other files nothing.
+Table read_table(const std::filesystem::path& file) {
+  Table table;
   if (has_extension(file, ".csv")) {
-    const io::CsvTable table = io::read_csv(file);
-    if (const auto column = table.find("weight")) return table.values.col(*column);
+    const io::CsvTable csv = io::read_csv(file);
+    for (std::size_t c = 0; c < csv.names.size(); ++c)
+      table.columns.push_back({csv.names[c], csv.values.col(Eigen::Index(c))});
   } else if (has_extension(file, ".ply")) {
-    for (const auto& scalar : io::read_ply_scalars(file))
-      if (scalar.name == "weight") return scalar.values.cast<double>();
+    io::RawMesh raw = io::read_ply(file);
+    for (const auto& scalar : raw.vertex_scalars)
+      table.columns.push_back({scalar.name, scalar.values.cast<double>()});
+    raw.vertex_colour.resize(0, 4);
+    table.mesh = raw.face_end.empty() ? TriMesh{std::move(raw.points), {}}
+                                      : io::triangulated(file, std::move(raw)).mesh;
   }
-  return {};
+  return table;
 }
 
 Eigen::VectorXd redness(const io::VertexColours& colours) {
@@ -40,66 +60,93 @@ Eigen::VectorXd redness(const io::VertexColours& colours) {
   return share;
 }
 
-/// In the units of the columns' names.
-PerVertex read_columns(const std::filesystem::path& file) {
-  PerVertex columns;
-  if (has_extension(file, ".ply")) {
-    for (const auto& scalar : io::read_ply_scalars(file))
-      for (int p = 0; p < parameter_count; ++p)
-        if (scalar.name == parameter_info(p).key) columns[p] = scalar.values.cast<double>();
-    return columns;
+/// Brings values of a file's vertices onto the scan's. `own`: the file's mesh, if it has one.
+class OnScan {
+ public:
+  OnScan(const std::filesystem::path& file, const std::optional<TriMesh>& own, const TriMesh& scan,
+         std::vector<std::string>& notes)
+      : file_(file), notes_(notes) {
+    if (own) match_.emplace(file, *own, scan);
+    if (match_ && !match_->same_order())
+      notes_.push_back(fmt::format(
+          "{}: its {} vertices do not stand in the scan's order; they were matched by place",
+          file.string(), own->points.rows()));
   }
-  const io::CsvTable table = io::read_csv(file);
-  for (int p = 0; p < parameter_count; ++p)
-    if (const auto column = table.find(parameter_info(p).key))
-      columns[p] = table.values.col(*column);
-  return columns;
-}
+
+  Eigen::VectorXd operator()(const Eigen::VectorXd& values, double otherwise) const {
+    if (!match_) return values;
+    if (const auto count = match_->disagreements(values); count > 0)
+      notes_.push_back(
+          fmt::format("{}: at {} of the scan's vertices several of its vertices lie, "
+                      "of different values; their mean was taken",
+                      file_.string(), count));
+    return match_->on_scan(values, otherwise);
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  std::vector<std::string>& notes_;
+  std::optional<VertexMatch> match_;
+};
 
 }  // namespace
 
-PerVertex read_per_vertex(const std::filesystem::path& file, Eigen::Index scan_vertices) {
-  PerVertex columns = read_columns(file);
-  bool any = false;
+PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan,
+                          std::vector<std::string>& notes) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Table table = read_table(file);
+  PerVertex columns;
+  std::optional<OnScan> on_scan;
   for (int p = 0; p < parameter_count; ++p) {
-    if (columns[p].size() == 0) continue;
-    any = true;
     const ParameterInfo& info = parameter_info(p);
-    if (columns[p].size() != scan_vertices)
+    const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                     [&](const auto& c) { return c.name == info.key; });
+    if (column == table.columns.end()) continue;
+    Eigen::VectorXd values = column->values;
+    if (!table.mesh && values.size() != scan.points.rows())
       throw InputError(file, fmt::format("{} rows of {}: expected {}, one a vertex of the scan",
-                                         columns[p].size(), info.key, scan_vertices));
-    for (Eigen::Index v = 0; v < scan_vertices; ++v) {
-      const double value = columns[p][v] * info.si;
+                                         values.size(), info.key, scan.points.rows()));
+    for (Eigen::Index v = 0; v < values.size(); ++v) {
+      const double value = values[v] * info.si;
       if (!std::isnan(value) && !is_allowed(p, value))
         throw InputError(file, fmt::format("{} = {:g} at vertex {} (counted from 0): expected {}",
-                                           info.key, columns[p][v], v, info.allowed));
-      columns[p][v] = value;
+                                           info.key, values[v], v, info.allowed));
+      values[v] = value;
     }
+    if (!on_scan) on_scan.emplace(file, table.mesh, scan, notes);
+    columns[p] = (*on_scan)(values, nan);
   }
-  if (!any)
+  if (!on_scan)
     throw InputError(file,
                      "no values a vertex: expected columns (CSV) or vertex properties (PLY) of the "
                      "names young_kpa, viscosity_pa_s, poisson or density_kg_m3");
   return columns;
 }
 
-Eigen::VectorXd read_paint(const std::filesystem::path& file, Eigen::Index scan_vertices) {
-  Eigen::VectorXd share = weight_column(file);
-  if (share.size() == 0 && !has_extension(file, ".csv"))
-    share = redness(io::read_scan(file).vertex_colour);
+Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& scan,
+                           std::vector<std::string>& notes) {
+  Table table = read_table(file);
+  Eigen::VectorXd share;
+  for (const auto& column : table.columns)
+    if (column.name == "weight") share = column.values;
+  if (share.size() == 0 && !has_extension(file, ".csv")) {
+    io::Scan painted = io::read_scan(file);
+    share = redness(painted.vertex_colour);
+    table.mesh = std::move(painted.mesh);
+  }
   if (share.size() == 0)
     throw InputError(file,
                      "nothing painted: expected weights a vertex (column or property `weight`) or "
                      "a mesh with vertex colours");
-  if (share.size() != scan_vertices)
+  if (!table.mesh && share.size() != scan.points.rows())
     throw InputError(file, fmt::format("{} painted vertices: expected {}, those of the scan",
-                                       share.size(), scan_vertices));
-  for (Eigen::Index v = 0; v < scan_vertices; ++v)
+                                       share.size(), scan.points.rows()));
+  for (Eigen::Index v = 0; v < share.size(); ++v)
     if (!(share[v] >= 0 && share[v] <= 1))
       throw InputError(file, fmt::format("weight = {:g} at vertex {} (counted from 0): expected a "
                                          "number from 0 to 1",
                                          share[v], v));
-  return share;
+  return OnScan(file, table.mesh, scan, notes)(share, 0);
 }
 
 }  // namespace hyperex::tissue

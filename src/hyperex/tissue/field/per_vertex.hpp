@@ -12,14 +12,18 @@ namespace hyperex::tissue {
 using PerVertex = std::array<Eigen::VectorXd, parameter_count>;
 
 /// A CSV with columns young_kpa, viscosity_pa_s, poisson, density_kg_m3 (one or more; others are
-/// passed over), a row a vertex of the scan in its order; or a PLY whose vertices have them.
-/// Throws InputError: another number of rows, none of the columns, a value out of range.
-PerVertex read_per_vertex(const std::filesystem::path& file, Eigen::Index scan_vertices);
+/// passed over), a row a vertex of the scan in its order; or a PLY of the scan whose vertices have
+/// them, in any order (vertex_match.hpp). What was done to match them is added to `notes`.
+/// Throws InputError: another number of rows, vertices that are not the scan's, none of the
+/// columns, a value out of range.
+PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan,
+                          std::vector<std::string>& notes);
 
 /// A region painted on the scan: a share from 0 to 1 a vertex, in the scan's order. A CSV with a
-/// column `weight`, a PLY whose vertices have it, or a mesh of the scan (PLY, OBJ, GLB) painted red
-/// on white, grey or black: the share is how much more red there is than green and blue.
-/// Throws InputError: another number of rows, neither weights nor colours, a share beyond 0 to 1.
-Eigen::VectorXd read_paint(const std::filesystem::path& file, Eigen::Index scan_vertices);
+/// column `weight` in that order; or a PLY whose vertices have it, or a mesh of the scan (PLY, OBJ,
+/// GLB) painted red on white, grey or black, either in any order: the share is how much more red
+/// there is than green and blue. Notes and errors as above; also neither weights nor colours.
+Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& scan,
+                           std::vector<std::string>& notes);
 
 }  // namespace hyperex::tissue

@@ -145,6 +145,14 @@ bool is_graded(const TissueFieldOptions& options) {
          (preset && !preset->points.empty());
 }
 
+std::vector<std::string> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan) {
+  std::vector<std::string> notes;
+  if (!options.per_vertex.empty()) read_per_vertex(options.per_vertex, scan, notes);
+  for (const TissueRegion& region : options.regions)
+    if (!region.painted.empty()) read_paint(region.painted, scan, notes);
+  return notes;
+}
+
 TissueFieldMaker::TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& landmarks,
                                    const RegisteredFace* face)
     : mesh_(mesh),
@@ -175,7 +183,8 @@ SkinField TissueFieldMaker::skin_field(const TissueFieldOptions& options) const 
     field[p] = Eigen::VectorXd::Constant(vertices, uniform[p]);
   interpolate(options, field);
   if (!options.per_vertex.empty()) {
-    const PerVertex own = read_per_vertex(options.per_vertex, mesh_.scan_vertices);
+    std::vector<std::string> noted;  // when the inputs were read
+    const PerVertex own = read_per_vertex(options.per_vertex, scan(), noted);
     for (int p = 0; p < parameter_count; ++p) {
       if (own[p].size() == 0) continue;
       const Eigen::VectorXd values = on_skin(own[p]);
@@ -184,6 +193,10 @@ SkinField TissueFieldMaker::skin_field(const TissueFieldOptions& options) const 
   }
   for (std::size_t i = 0; i < options.regions.size(); ++i) apply_region(options, i, field);
   return field;
+}
+
+TriMesh TissueFieldMaker::scan() const {
+  return {mesh_.skin.points.topRows(mesh_.scan_vertices), mesh_.skin.triangles};
 }
 
 /// Values of the scan's vertices, and between them those of the vertices that the cut added.
@@ -280,12 +293,13 @@ Eigen::VectorXd TissueFieldMaker::region_shares(const TissueFieldOptions& option
                                                 std::size_t index) const {
   const TissueRegion& region = options.regions[index];
   Eigen::VectorXd shares;
+  std::vector<std::string> noted;  // when the inputs were read
   if (region.painted.empty())
     shares = region_depth(options, index).unaryExpr([&](double depth) {
       return region_share(depth, region.blend_m);
     });
   else
-    shares = on_skin(read_paint(region.painted, mesh_.scan_vertices));
+    shares = on_skin(read_paint(region.painted, scan(), noted));
   if (shares.maxCoeff() < 1e-6)
     throw FieldError({fmt::format("region[{}].{}", index,
                                   !region.painted.empty() ? "painted"

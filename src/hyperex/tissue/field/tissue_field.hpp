@@ -43,6 +43,10 @@ struct FieldError : std::runtime_error {
   FieldProblem problem;
 };
 
+/// Reads the files of values a vertex that the options name, as make() will: what was done to match
+/// them with the scan. Throws InputError where they cannot serve.
+std::vector<std::string> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan);
+
 /// Fields on one mesh: what does not depend on the options is found once, so that variants cost
 /// their own solve alone.
 ///   1. Each parameter is uniform, or where points give it interpolated between them. E itself is
@@ -72,6 +76,7 @@ class TissueFieldMaker {
                     std::array<Eigen::VectorXd, parameter_count>& field) const;
   Eigen::VectorXd region_depth(const TissueFieldOptions& options, std::size_t index) const;
   Eigen::VectorXd region_shares(const TissueFieldOptions& options, std::size_t index) const;
+  TriMesh scan() const;
   Eigen::VectorXd on_skin(const Eigen::VectorXd& of_scan) const;
 
   const TissueMesh& mesh_;
