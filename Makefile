@@ -5,7 +5,14 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build asan bench experiments clean setup
+.PHONY: help demo test build asan tsan coverage lint fresh bench experiments clean setup
+
+# Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
+ifneq ($(shell test -w "$$HOME" && echo yes),yes)
+export CCACHE_DIR ?= $(CURDIR)/build/ccache
+endif
+# Handed to cmake: CI sets -DHYPEREX_WERROR=ON.
+CMAKE_OPTIONS ?=
 
 help: ## this list
 	@echo "make TARGET, where TARGET is one of"
@@ -20,12 +27,12 @@ demo: build ## re-enact a mouth opening on the face that comes with the program
 	@echo "Your own face next: see 'Your own data' in README.md."
 
 build: setup ## the program alone: build/release/bin/hyperex
-	cmake --preset release
+	cmake --preset release $(CMAKE_OPTIONS)
 	cmake --build --preset release --parallel $(JOBS) --target hyperex
 
 test: ## everything: unit tests, verification, the demo twice, its replay in a browser
 	scripts/setup.sh --tests
-	cmake --preset release
+	cmake --preset release -DHYPEREX_TESTS=ON $(CMAKE_OPTIONS)
 	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset release --parallel $(JOBS)
 
@@ -34,6 +41,9 @@ asan: ## the tests again under the address and undefined-behaviour sanitizers
 	cmake --preset asan
 	cmake --build --preset asan --parallel $(JOBS)
 	ctest --preset asan --parallel $(JOBS)
+
+fresh: ## all this on an empty Debian 12, as root and as a user with sudo (needs root; COLD=1: no caches)
+	scripts/fresh.sh $(if $(COLD),--cold)
 
 bench: ## measure everything, beside CalculiX, and write docs/performance.md (QUICK=1: a look)
 	scripts/setup.sh --bench

@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # GCC 12's -Wrestrict misfires on std::string + in every optimised build (GCC bug 105651).
 set(HYPEREX_WARNINGS -Wall -Wextra -Wshadow -Wno-restrict)
+option(HYPEREX_WERROR "Warnings are errors: for CI, as newer compilers warn of other things" OFF)
+if(HYPEREX_WERROR)
+  list(APPEND HYPEREX_WARNINGS -Werror)
+endif()
 
 # One room of the house: a static library hx_NAME from the sources listed by hand.
 #   hx_room(io SOURCES ply.cpp stl.cpp LINKS hx_core hx_geometry)
@@ -23,6 +27,7 @@ endfunction()
 # The tests of one room: an executable test_NAME, each of its cases one CTest.
 #   hx_test(io SOURCES ply_test.cpp LINKS hx_io)
 # Cases may read real data under ${CMAKE_SOURCE_DIR}/../shared and must skip where it is absent.
+# Each bears its folder under tests/ as label: ctest -L unit/io, and the time by room at ctest's end.
 function(hx_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${T_SOURCES})
@@ -32,7 +37,8 @@ function(hx_test name)
     HYPEREX_SOURCE_DIR="${CMAKE_SOURCE_DIR}" HYPEREX_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared"
     HYPEREX_PROGRAM="${CMAKE_BINARY_DIR}/bin/hyperex")
   target_link_libraries(test_${name} PRIVATE ${T_LINKS} GTest::gtest_main GTest::gmock)
+  file(RELATIVE_PATH room ${CMAKE_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
   include(GoogleTest)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 600)
+                       PROPERTIES TIMEOUT 600 LABELS ${room})
 endfunction()

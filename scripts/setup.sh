@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what building Hyperex takes on Debian 12: Debian packages, then the npm packages of web/.
 #   scripts/setup.sh           to build and run
-#   scripts/setup.sh --tests   also a browser for the browser tests and CalculiX to compare with
+#   scripts/setup.sh --video   also to read video files and webcams and to write --preview videos
+#   scripts/setup.sh --tests   also what the tests take (--video, a browser, CalculiX)
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
-# Says first what it will install, installs only what is missing, and is quick when nothing is.
+#   scripts/setup.sh --lint    also clang-format, clang-tidy and gcovr (with --tests)
+# Says first what it will install and how large it is, installs only what is missing, and is quick
+# when nothing is.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -20,33 +23,74 @@ packages=(
   libopencv-dnn-dev libflatbuffers-dev flatbuffers-compiler  # the landmark networks
   libcairo2-dev fonts-dejavu-core  # pictures with words on them
   libopencv-core-dev libopencv-imgproc-dev libturbojpeg0-dev libpng-dev  # pictures of recordings
-  libopencv-videoio-dev libopencv-imgcodecs-dev  # video files and webcams; pictures of tests
   libfreenect-dev libopenni2-dev   # depth cameras
-  libgtest-dev libgmock-dev
 )
+video=(libopencv-videoio-dev)  # FFmpeg, GStreamer and GDAL: 150 packages
+tests=(libgtest-dev libgmock-dev libopencv-imgcodecs-dev calculix-ccx)
 
 say() { printf 'setup: %s\n' "$*"; }
 die() { printf 'setup: %s\n' "$*" >&2; exit 1; }
 
 case "${1:-}" in
   '') ;;
-  --tests)
-    packages+=(calculix-ccx)
+  --video) packages+=("${video[@]}") ;;
+  --tests | --lint)
+    packages+=("${video[@]}" "${tests[@]}")
     [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
+    [[ "$1" == --tests ]] || packages+=(clang-format clang-tidy gcovr)
     ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
-  -h | --help) sed -n '3,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) die "unknown option $1 (there are --tests and --bench)" ;;
+  -h | --help) sed -n '3,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) die "unknown option $1 (there are --video, --tests, --bench and --lint)" ;;
 esac
 
 node_is_enough() {
-  command -v node > /dev/null && command -v npm > /dev/null &&
+  command -v node > /dev/null &&
     [[ "$(node -p 'process.versions.node.split(".")[0]' 2> /dev/null || echo 0)" -ge 18 ]]
 }
-node_is_enough || packages+=(nodejs npm)
+# Debian's npm is 360 packages (18 MB to download, 130 MB of disk); without it npm comes from its
+# registry (fetch_npm.mjs).
+node_is_enough || packages+=(nodejs)
 
 command -v dpkg-query > /dev/null && command -v apt-get > /dev/null ||
   die "this needs Debian's apt-get; elsewhere install by hand: ${packages[*]}; then run npm ci in web/"
+
+as_root() {
+  if [[ "$(id -u)" == 0 ]]; then "$@"; else sudo "$@"; fi
+}
+
+# What apt would load and take, in its own figures; what was measured on an empty Debian 12 where it
+# does not say. Needs neither root nor a lock.
+sizes_of() {
+  local told
+  told=$(LC_ALL=C apt-get --assume-no -o Debug::NoLocking=1 install --no-install-recommends "$@" \
+    2> /dev/null || true)
+  local count load disk
+  count=$(sed -n 's/.* \([0-9]*\) newly installed.*/\1/p' <<< "$told")
+  load=$(sed -n 's/^Need to get \(.*\) of archives.*/\1/p' <<< "$told")
+  disk=$(sed -n 's/^After this operation, \(.*\) of additional disk space.*/\1/p' <<< "$told")
+  if [[ -n "$count" && -n "$load" && -n "$disk" ]]; then
+    echo "$count Debian packages with all that they need: $load to download, $disk of disk"
+  else
+    echo "at most 500 Debian packages: about 240 MB to download, 1.2 GB of disk (tests: 470 MB, 2 GB)"
+  fi
+}
+
+install_debian_packages() {
+  if [[ "$(id -u)" != 0 ]] && ! command -v sudo > /dev/null; then
+    die "these Debian packages are missing: $*. You are not root and there is no sudo: ask an administrator to run apt-get install --no-install-recommends $*"
+  fi
+  local how=""
+  [[ "$(id -u)" == 0 ]] || how=" with sudo"
+  say "will install these Debian packages$how: $*"
+  say "first the current package lists (about 16 MB)"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get update ||
+    die "apt-get could not load the package lists (its message is above)"
+  say "now $(sizes_of "$@")"
+  as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install --yes --no-install-recommends "$@" ||
+    die "apt-get could not install them (its message is above)"
+}
 
 # One call for all packages; those that are not installed have no "installed" behind their name.
 # dpkg-query ends with 1 as soon as it does not know one of them: on a fresh machine that is the rule.
@@ -56,28 +100,35 @@ missing=()
 for package in "${packages[@]}"; do
   [[ "$installed" == *" $package "* ]] || missing+=("$package")
 done
+((${#missing[@]} == 0)) || install_debian_packages "${missing[@]}"
+node_is_enough || die "Node 18 or later is needed; found $(node --version 2> /dev/null || echo none)"
 
-if ((${#missing[@]})); then
-  as_root=()
-  if ((EUID != 0)); then
-    command -v sudo > /dev/null ||
-      die "these Debian packages are missing: ${missing[*]}. You are not root and there is no sudo: ask an administrator to run apt-get install --no-install-recommends ${missing[*]}"
-    as_root=(sudo)
-  fi
-  say "will install these Debian packages${as_root[*]:+ with sudo}: ${missing[*]}"
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install --yes --no-install-recommends "${missing[@]}" ||
-    die "apt-get could not install them (its message is above)"
+# npm writes its cache and its log into HOME, which a service or a container may not have.
+if [[ ! -w "${HOME:-/nowhere}" && -z "${NPM_CONFIG_CACHE:-}${npm_config_cache:-}" ]]; then
+  export NPM_CONFIG_CACHE=$PWD/build/npm-cache
 fi
-node_is_enough || die "Node 18 or later and npm are needed; found $(node --version 2> /dev/null || echo none)"
+
+run_npm() {
+  if command -v npm > /dev/null; then
+    npm "$@"
+    return
+  fi
+  local own=$PWD/../build/npm/package/bin/npm-cli.js
+  if [[ ! -f "$own" ]] && ! node ../scripts/fetch_npm.mjs ../build/npm; then
+    say "npm's registry gives no npm; Debian's is taken"
+    install_debian_packages npm
+    npm "$@"
+    return
+  fi
+  node "$own" "$@"
+}
 
 # npm ci begins by deleting node_modules: only when the wanted versions have changed.
 lock=web/package-lock.json
 stamp=web/node_modules/.installed-package-lock.json
 if ! cmp -s "$lock" "$stamp"; then
-  say "will install the npm packages of web/ into web/node_modules"
-  (cd web && npm ci --no-audit --no-fund)
+  say "will install the npm packages of web/ into web/node_modules (about 65 MB to download, 110 MB of disk)"
+  (cd web && run_npm ci --no-audit --no-fund)
   cp "$lock" "$stamp"
 fi
 say "everything is installed"

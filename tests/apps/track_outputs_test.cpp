@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "apps/program.hpp"
+#include "support/video.hpp"
 
 namespace hyperex {
 namespace {
@@ -45,12 +46,14 @@ TEST_F(TrackOutputs, AVideosMirrorIsTakenAsNone) {
 }
 
 TEST_F(TrackOutputs, APreviewsNameIsLookedAtFirst) {
+  SKIP_WITHOUT_VIDEO();
   if (!fs::exists(recording)) GTEST_SKIP() << "no " << recording;
   expect_refused("track '" + recording.string() + "' --preview p.avi",
                  "p.avi: expected the name of a video that ends in .mp4");
 }
 
 TEST_F(TrackOutputs, WritesEveryFileThatIsAskedFor) {
+  SKIP_WITHOUT_VIDEO();
   if (!fs::exists(recording)) GTEST_SKIP() << "no " << recording;
   const Outcome outcome = call("track '" + recording.string() +
                                "' --out m.csv --trc m.trc --preview p.mp4 --glb f.glb");

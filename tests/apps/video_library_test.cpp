@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "apps/program.hpp"
+#include "support/video.hpp"
 
 namespace hyperex {
 namespace {
@@ -32,6 +33,7 @@ TEST_F(VideoLibrary, TheProgramStartsWithoutIt) {
 }
 
 TEST_F(VideoLibrary, IsSoughtBesideTheProgramAndMissedInWords) {
+  SKIP_WITHOUT_VIDEO();
   std::ofstream(in("film.avi")) << "no film";
   const Outcome outcome = call("track film.avi --out m.csv");
   EXPECT_EQ(outcome.status, 2);
@@ -42,7 +44,13 @@ TEST_F(VideoLibrary, IsSoughtBesideTheProgramAndMissedInWords) {
   const fs::path library = in("elsewhere/lib/hyperex/hx_video.so");
   fs::copy_file(HYPEREX_PROGRAM, program);
   const std::string command = program + " track " + in("film.avi").string() + " --out m.csv";
-  EXPECT_THAT(printed(command), HasSubstr("elsewhere/lib/hyperex/hx_video.so: missing"));
+  const std::string missing = printed(command);
+  EXPECT_THAT(missing, HasSubstr("elsewhere/lib/hyperex/hx_video.so: missing"));
+  EXPECT_THAT(missing, HasSubstr("install libopencv-videoio-dev"));
+  EXPECT_EQ(std::count(missing.begin(), missing.end(), '\n'), 1) << missing;
+  // Told before the recording is tracked.
+  EXPECT_THAT(printed(program + " track x.toml --out m.csv --preview p.mp4"),
+              HasSubstr("install libopencv-videoio-dev"));
   std::ofstream(library) << "not a library";
   EXPECT_THAT(printed(command), HasSubstr("hx_video.so: cannot be loaded"));
   fs::remove(library);

@@ -46,8 +46,8 @@ class VideoLibrary {
 };
 
 /// Loads hx_video.so from ../lib/hyperex, seen from the program's folder, in the build tree as
-/// installed. It stays loaded. Throws InputError naming the file where it is missing or what it
-/// needs is.
+/// installed. It stays loaded. Throws InputError naming the file where it is missing (it is built
+/// only where OpenCV's videoio is installed) or what it needs is, and says what to install.
 const VideoLibrary& video_library();
 
 }  // namespace hyperex::capture

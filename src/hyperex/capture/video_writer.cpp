@@ -46,6 +46,7 @@ struct VideoWriter::Impl {
 void VideoWriter::check_name(const fs::path& file) {
   if (file.extension() != ".mp4")
     throw InputError(file, "expected the name of a video that ends in .mp4");
+  video_library();
 }
 
 VideoWriter::VideoWriter(const fs::path& file, int width_px, int height_px,
@@ -55,14 +56,13 @@ VideoWriter::VideoWriter(const fs::path& file, int width_px, int height_px,
     throw std::invalid_argument("VideoWriter: width and height must be even");
   if (!(frames_a_second > 0) || !std::isfinite(frames_a_second))
     throw std::invalid_argument("VideoWriter: the rate must be above 0");
-  const VideoLibrary& library = video_library();
   impl_ = std::make_unique<Impl>(file, width_px, height_px);
   // The encoder does not tell a file that cannot be written from a codec that is not there.
   errno = 0;
   if (!std::ofstream(impl_->temporary.path(), std::ios::binary))
     throw InputError(file, std::string("cannot be written (") + std::strerror(errno) + ")");
-  impl_->encoder =
-      library.create_file(impl_->temporary.path().string(), width_px, height_px, frames_a_second);
+  impl_->encoder = video_library().create_file(impl_->temporary.path().string(), width_px,
+                                               height_px, frames_a_second);
   if (!impl_->encoder)
     throw InputError(file, "no video: FFmpeg has no H.264 encoder (libx264) on this system");
 }

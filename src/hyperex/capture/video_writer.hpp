@@ -26,8 +26,8 @@ class VideoWriter {
   /// InputError where it could not be written whole. Once, at the end.
   void finish();
 
-  /// Throws InputError as the constructor does for a name that it would refuse: to say so before
-  /// long work.
+  /// Throws InputError as the constructor does for a name that it would refuse, and where this
+  /// program was built without videos: to say so before long work.
   static void check_name(const std::filesystem::path& file);
 
  private:

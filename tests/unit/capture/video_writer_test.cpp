@@ -10,6 +10,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "recording.hpp"
+#include "support/video.hpp"
 
 namespace hyperex::capture {
 namespace {
@@ -26,6 +27,7 @@ cv::Mat grey(int level) {
 }
 
 TEST(VideoWriter, WritesH264ThatComesBackPictureForPicture) {
+  SKIP_WITHOUT_VIDEO();
   const Folder folder;
   const fs::path file = folder / "film.mp4";
   VideoWriter writer(file, 64, 48, 25);
@@ -44,6 +46,7 @@ TEST(VideoWriter, WritesH264ThatComesBackPictureForPicture) {
 }
 
 TEST(VideoWriter, LeavesNothingWhereItIsNotFinished) {
+  SKIP_WITHOUT_VIDEO();
   const Folder folder;
   {
     VideoWriter writer(folder / "film.mp4", 64, 48, 25);
@@ -53,6 +56,7 @@ TEST(VideoWriter, LeavesNothingWhereItIsNotFinished) {
 }
 
 TEST(VideoWriter, RefusesOtherNamesPlacesAndPictures) {
+  SKIP_WITHOUT_VIDEO();
   const Folder folder;
   EXPECT_THROW(VideoWriter(folder / "film.avi", 64, 48, 25), InputError);
   EXPECT_THROW(VideoWriter("/nowhere/film.mp4", 64, 48, 25), InputError);

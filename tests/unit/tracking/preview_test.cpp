@@ -8,6 +8,7 @@
 #include "hyperex/capture/video.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/tracking/output/preview_movie.hpp"
+#include "support/video.hpp"
 
 namespace hyperex::tracking {
 namespace {
@@ -133,6 +134,7 @@ TEST(FrameRate, IsTheMiddleStepOfTimesThatRise) {
 }
 
 TEST(PreviewMovie, KeepsTheRecordingsTime) {
+  SKIP_WITHOUT_VIDEO();
   const auto file = std::filesystem::path(::testing::TempDir()) / "preview.mp4";
   PreviewMovie movie(file, canonical_model(), kCamera);
   // At 10 Hz, with 5 frames missing after 0.9 s and one whose time stands still.
@@ -152,6 +154,7 @@ TEST(PreviewMovie, KeepsTheRecordingsTime) {
 }
 
 TEST(PreviewMovie, AShortRecordingIsWrittenTooAndNoneWithoutFrames) {
+  SKIP_WITHOUT_VIDEO();
   const auto folder = std::filesystem::path(::testing::TempDir());
   PreviewMovie movie(folder / "short.mp4", canonical_model(), kCamera);
   movie.add(face_frame(), grey());
