@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build asan tsan coverage lint fresh bench experiments clean setup
+.PHONY: help demo test build asan tsan coverage lint fresh bench experiments fidelity mutations clean setup
 
 # Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
 ifneq ($(shell test -w "$$HOME" && echo yes),yes)
@@ -55,6 +55,13 @@ bench: ## measure everything, beside CalculiX, and write docs/performance.md (QU
 experiments: build ## the source's three experiments, as reports and docs/experiments.md (subject A too where ../shared is)
 	cmake --build --preset release --parallel $(JOBS) --target experiments_study
 	bench/experiments/run.sh build/release
+
+fidelity: build ## errors against true faces, into the table of docs/fidelity.md (needs the data in ../shared)
+	cmake --build --preset release --parallel $(JOBS) --target test_fidelity
+	HYPEREX_FIDELITY_PAGE=$(CURDIR)/docs/fidelity.md build/release/bin/test_fidelity --gtest_filter=Fidelity.TableIsWritten
+
+mutations: ## perturb formulas one at a time and show that a test fails for each (ONLY=name: some)
+	tests/mutations/run.sh $(ONLY)
 
 setup: ## install what building takes (asks for sudo where you are not root)
 	scripts/setup.sh

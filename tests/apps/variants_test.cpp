@@ -7,6 +7,7 @@
 
 #include "apps/program.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/io/csv.hpp"
 #include "hyperex/io/scan.hpp"
 
 namespace hyperex {
@@ -48,6 +49,38 @@ TEST_F(Variants, AreAsIfRunAlone) {
   // More viscous tissue trails: by milliseconds, against next to nothing.
   EXPECT_GT(table[2]["lag_ms"].get<double>(), table[0]["lag_ms"].get<double>() + 3);
   EXPECT_GT(table[2]["hysteresis"].get<double>(), table[0]["hysteresis"].get<double>());
+}
+
+/// A stiff cheek changes its own side of the face, in columns that carry that side's name.
+TEST_F(Variants, ColumnsOfASideHoldThatSide) {
+  std::ofstream(in("cheeks.toml"))
+      << "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\", time_scale = 0.25 }\n"
+         "mesh = { element_size_mm = 5 }\n"
+         "output = { vtu = false, glb = false, report = false, contact_times_s = [0] }\n"
+         "[[variant]]\nname = \"right\"\n"
+         "tissue = { region = [{ name = \"cheek_R\", young_factor = 10 }] }\n"
+         "[[variant]]\nname = \"left\"\n"
+         "tissue = { region = [{ name = \"cheek_L\", young_factor = 10 }] }\n";
+  const Outcome outcome = call("run cheeks.toml --out out");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
+  const auto& table = summary["variants"]["table"];
+  ASSERT_EQ(table.size(), 3u);
+  const auto change_mm = [&](int row, const char* side) {
+    const std::string column = std::string("mean_displacement_") + side + "_mm";
+    return std::abs(table[row][column].get<double>() - table[0][column].get<double>());
+  };
+  EXPECT_GT(change_mm(1, "R"), 4 * change_mm(1, "L"));
+  EXPECT_GT(change_mm(2, "L"), 4 * change_mm(2, "R"));
+  EXPECT_GT(change_mm(1, "R"), 0.005);
+  // Rows of variants.csv hold the same figures.
+  const io::CsvTable csv = io::read_csv(in("out/variants.csv"),
+                                        [](const std::string&, std::string_view) { return 0.0; });
+  for (const char* side : {"L", "R"}) {
+    const std::string column = std::string("mean_displacement_") + side + "_mm";
+    for (int row = 0; row < 3; ++row)
+      EXPECT_NEAR(csv.values(row, csv.column(column)), table[row][column].get<double>(), 1e-6);
+  }
 }
 
 struct Fault {

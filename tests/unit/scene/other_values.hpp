@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// For tests that walk through the table of keys: another value for each, and a scene that sets it.
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "hyperex/scene/keys.hpp"
+
+namespace hyperex::scene {
+
+/// Another value than the default, as JSON, which is TOML too for these (but for tables).
+inline nlohmann::json other_value(const Key& key) {
+  const nlohmann::json standard = key.get(Scene{});
+  switch (key.kind) {
+    case Kind::flag:
+      return !standard.get<bool>();
+    case Kind::integer:
+      return standard.get<int>() + 1;
+    case Kind::number: {
+      const double low = key.range.low, high = key.range.high;
+      return standard == low + (high - low) * 0.5 ? low + (high - low) * 0.25
+                                                  : low + (high - low) * 0.5;
+    }
+    case Kind::numbers:
+      return {key.range.low, key.range.low + 0.125, key.range.high};
+    case Kind::text:
+      return "other \"text\" \u00e4";
+    case Kind::choice:
+      for (const auto& word : key.choices)
+        if (word != standard) return word;
+      return standard;  // a choice of one
+    case Kind::path:
+      return "face.ply";
+    case Kind::names:
+      return {"one", "two", "three"};
+    case Kind::places:
+      return {{1.5, 2, 3}};
+    case Kind::rows:
+      break;
+  }
+  if (key.name == "tissue.region") return {{{"name", "nose"}, {"young_factor", 2.5}}};
+  if (key.name == "tissue.point")
+    return {{{"landmark", "cheek"}, {"side", "R"}, {"young_kpa", 12.5}}};
+  nlohmann::json row;
+  for (const KeyInfo& column : key.columns)
+    if (column.kind == Kind::number)
+      row[column.name] = (column.range.low + column.range.high) / 2;
+    else
+      row[column.name] = "chin";
+  return nlohmann::json::array({row});
+}
+
+inline std::string toml(const nlohmann::json& value) {
+  if (value.is_object()) {
+    std::string text;
+    for (const auto& [name, item] : value.items())
+      text += (text.empty() ? "" : ", ") + name + " = " + toml(item);
+    return "{" + text + "}";
+  }
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const auto& item : value) text += (text.empty() ? "" : ", ") + toml(item);
+  return "[" + text + "]";
+}
+
+/// A scene file with `key` = `value`, everything else as small as can be.
+inline std::string scene_with(const std::string& key, const std::string& value) {
+  std::string text = key + " = " + value + "\n";
+  if (key != "scan.file") text += "scan.file = \"embedded\"\n";
+  if (key != "motion.file" && key != "motion.recording" && key != "motion.openface" &&
+      key != "motion.arkit")
+    text += "motion.file = \"embedded\"\n";
+  if (key == "solver.newmark_gamma") text += "solver.newmark_beta = 0.5\n";  // at least half of it
+  if (key == "scan.file") text += "scan.landmarks = \"points.json\"\n";
+  return text;
+}
+
+}  // namespace hyperex::scene
