@@ -89,6 +89,13 @@ std::string section(const char* name, const std::vector<VtuArray>& arrays, Eigen
   for (const auto& array : arrays) {
     if (array.values.rows() != rows || array.values.cols() == 0)
       throw std::invalid_argument(fmt::format("write_vtu: \"{}\" needs {} rows", array.name, rows));
+    if (array.flags) {
+      const Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> bytes =
+          array.values.cast<std::uint8_t>();
+      xml += data.add("UInt8", array.name, bytes.cols(), bytes.data(),
+                      static_cast<std::size_t>(bytes.size()));
+      continue;
+    }
     xml += data.add("Float32", array.name, array.values.cols(), array.values.data(),
                     sizeof(float) * static_cast<std::size_t>(array.values.size()));
   }
@@ -138,6 +145,9 @@ void write_vtu(const std::filesystem::path& file, const Points& points,
 
 void write_pvd(const std::filesystem::path& file,
                const std::vector<std::pair<double, std::filesystem::path>>& frames) {
+  for (const auto& frame : frames)
+    if (frame.second.is_absolute())
+      throw std::invalid_argument("write_pvd: an absolute path: " + frame.second.string());
   write_file_atomically(file, [&](std::ostream& stream) {
     stream << "<?xml version=\"1.0\"?>\n"
               "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"

@@ -14,6 +14,7 @@ namespace hyperex::io {
 struct VtuArray {
   std::string name;  ///< with its unit, e.g. "von Mises stress (kPa)"
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values;
+  bool flags = false;  ///< the values are whole numbers from 0 to 255, written as UInt8
 };
 
 /// An unstructured grid of linear tetrahedra for ParaView: VTK's XML format (version 1.0),
@@ -24,7 +25,9 @@ void write_vtu(const std::filesystem::path& file, const Points& points,
                const Tetrahedra& tetrahedra, const std::vector<VtuArray>& point_arrays = {},
                const std::vector<VtuArray>& cell_arrays = {});
 
-/// A time series for ParaView: the time of each file in s; the files as paths relative to `file`.
+/// A time series for ParaView: the time of each file in s, and its path relative to `file`'s
+/// folder, so that the series opens wherever it is moved to (std::invalid_argument for an absolute
+/// one). Throws InputError where the file cannot be written.
 void write_pvd(const std::filesystem::path& file,
                const std::vector<std::pair<double, std::filesystem::path>>& frames);
 

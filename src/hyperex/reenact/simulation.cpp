@@ -10,6 +10,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/fem/form/inverted.hpp"
 #include "hyperex/fem/form/system.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/geodesic.hpp"
@@ -89,16 +90,6 @@ class SkinCarrier {
   const tissue::TissueMesh& mesh_;
   const MeasuredRegion& region_;
 };
-
-int inverted_count(const Points& nodes, const Tetrahedra& tets, const Points& d) {
-  int count = 0;
-  for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    Vec3 x[4];
-    for (int k = 0; k < 4; ++k) x[k] = nodes.row(tets(t, k)) + d.row(tets(t, k));
-    count += !((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) > 0);
-  }
-  return count;
-}
 
 /// Skin vertices that carry the landmarks, each on its own lip.
 std::vector<Match> landmark_matches(const tissue::TissueMesh& mesh,
@@ -237,9 +228,11 @@ class Run {
     p.held_points_rest.resize(held.size(), 3);
     for (std::size_t i = 0; i < held.size(); ++i)
       p.held_points_rest.row(i) = mesh_.volume.nodes.row(held[i]);
-    for (const PointsF& d : p.node_displacement_m)
-      report.inverted_tets =
-          std::max(report.inverted_tets, inverted_count(p.nodes, p.tets, d.cast<double>()));
+    for (const PointsF& d : p.node_displacement_m) {
+      const auto inverted = fem::inverted_tets(p.nodes, p.tets, d.cast<double>());
+      report.inverted_tets = std::max(
+          report.inverted_tets, static_cast<int>(std::count(inverted.begin(), inverted.end(), 1)));
+    }
   }
 
   void store(const Shot& shot, const Points& nodes) {

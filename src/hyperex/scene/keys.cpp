@@ -309,9 +309,29 @@ std::vector<Key> run_keys() {
       number<Scene>("output.peak_time_s", seconds, AT(output.peak_time_s), {-1, 600},
                     "Time of skin_peak.ply. Below 0: where the driven points have moved most in "
                     "the mean."),
-      flag<Scene>("output.vtu", AT(output.vtu), "Write frames.pvd and a .vtu a frame."),
-      flag<Scene>("output.glb", AT(output.glb), "Write performance.glb."),
+      flag<Scene>(
+          "output.vtu", AT(output.vtu),
+          "Write frames.pvd and frames/: the tissue over time, for ParaView. The points are "
+          "at rest in every frame; the filter Warp By Vector moves them."),
+      integer<Scene>("output.vtu_every", AT(output.vtu_every), {1, 10000},
+                     "Write only every so many frames there: 3 takes a third of the space."),
+      flag<Scene>("output.vtu_strain", AT(output.vtu_strain), "Write the strain tensor there."),
+      flag<Scene>("output.variants_vtu", AT(output.variants_vtu),
+                  "Write the same for each variant, into its folder."),
+      flag<Scene>("output.glb", AT(output.glb),
+                  "Write performance.glb, of each variant too: the moving skin for Blender and "
+                  "other programs that read glTF."),
+      number<Scene>("output.glb_tolerance_mm", millimetres, AT(output.glb_tolerance_m), {0.01, 10},
+                    "How far any vertex of performance.glb may be from its computed place in any "
+                    "frame. A larger tolerance takes fewer shape keys and a smaller file."),
+      number<Scene>("output.glb_max_mb", {"MB"}, AT(output.glb_max_mb), {0.1, 10000},
+                    "The largest performance.glb. Where output.glb_tolerance_mm needs more, keys "
+                    "are left out, and a warning tells the error that remains."),
       flag<Scene>("output.report", AT(output.report), "Write report.html."),
+      flag<Scene>("output.full_paths", AT(output.full_paths),
+                  "Write whole paths of the input files into summary.json and report.html. Names "
+                  "of folders may tell a patient's name, so that only file names are written "
+                  "otherwise."),
       number<Scene>("output.symmetry_floor", none, AT(output.symmetry_floor), {0, 1, true},
                     "The least difference of xi that S(t) tells apart; perfect symmetry would be "
                     "minus infinity."),

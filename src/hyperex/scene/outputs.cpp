@@ -7,8 +7,6 @@
 #include <array>
 
 #include "hyperex/core/progress.hpp"
-#include "hyperex/fem/form/system.hpp"
-#include "hyperex/io/vtu.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/canvas.hpp"
@@ -18,6 +16,7 @@
 #include "hyperex/report/glb.hpp"
 #include "hyperex/scene/asymmetry_picture.hpp"
 #include "hyperex/scene/face_box.hpp"
+#include "hyperex/scene/frames.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
@@ -46,52 +45,6 @@ void write_peak(const Results& r, const std::filesystem::path& directory) {
   render::write_png(
       directory / "asymmetry.png",
       draw_asymmetry(skin, map_mm, asymmetry, r.inputs.landmarks, "Asymmetry of the motion", note));
-}
-
-/// Strain as ParaView's tensor: xx yy zz xy yz xz, its own shear half the engineering one.
-io::VtuArray strain_array(const Points& nodes, const Tetrahedra& tets, const Points& d) {
-  const auto strain = fem::element_strain(nodes, tets, d);
-  io::VtuArray array{"strain (1)", {}};
-  array.values.resize(strain.rows(), 6);
-  for (Eigen::Index t = 0; t < strain.rows(); ++t) {
-    const auto e = strain.row(t).cast<float>().eval();
-    array.values.row(t) << e[0], e[1], e[2], e[3] / 2, e[4] / 2, e[5] / 2;
-  }
-  return array;
-}
-
-void write_frames(const Results& r, const std::filesystem::path& directory) {
-  const Performance& p = r.simulation.performance;
-  if (p.nodes.rows() == 0) return;
-  fem::Material material;
-  const auto count = static_cast<std::size_t>(p.tets.rows());
-  material.young_pa.assign(p.tet_young_pa.begin(), p.tet_young_pa.end());
-  material.viscosity_pa_s.assign(p.tet_viscosity_pa_s.begin(), p.tet_viscosity_pa_s.end());
-  material.poisson.assign(p.tet_poisson.begin(), p.tet_poisson.end());
-  material.density_kg_m3.assign(count, r.scene.tissue.density_kg_m3);
-  std::vector<io::VtuArray> graded;
-  for (int q = 0; r.tissue && q < tissue::parameter_count; ++q)
-    if (r.tissue->varies(q))
-      graded.push_back(
-          {tissue::parameter_info(q).title,
-           (Eigen::Map<const Eigen::VectorXd>(r.tissue->element[q].data(), p.tets.rows()) /
-            tissue::parameter_info(q).si)
-               .cast<float>()});
-  std::filesystem::create_directory(directory / "frames");
-  std::vector<std::pair<double, std::filesystem::path>> frames;
-  Progress progress("writing frames for ParaView", static_cast<long>(p.frame_time_s.size()));
-  for (std::size_t f = 0; f < p.frame_time_s.size(); ++f) {
-    const Points d = p.node_displacement_m[f].cast<double>();
-    const auto file = directory / "frames" / fmt::format("frame_{:04}.vtu", f);
-    std::vector<io::VtuArray> cells = {
-        strain_array(p.nodes, p.tets, d),
-        {"von Mises stress (Pa)", fem::von_mises_pa(p.nodes, p.tets, material, d).cast<float>()}};
-    cells.insert(cells.end(), graded.begin(), graded.end());
-    io::write_vtu(file, p.nodes, p.tets, {{"displacement (m)", d.cast<float>()}}, cells);
-    frames.emplace_back(p.frame_time_s[f], file);
-    progress.update(static_cast<long>(f + 1));
-  }
-  io::write_pvd(directory / "frames.pvd", frames);
 }
 
 double longest_mm(const PointsF& d) {

@@ -12,6 +12,8 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
+#include "hyperex/scene/file_names.hpp"
+#include "hyperex/scene/frames.hpp"
 #include "hyperex/scene/outputs.hpp"
 #include "hyperex/scene/report_page.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
@@ -101,6 +103,7 @@ Json summary_of(const Results& r) {
   s["lip_overlap_mm"] = report.lip_overlap_mm;
   s["jaw_opening_deg"] = report.greatest_opening_deg;
   s["inverted_tets"] = report.inverted_tets;
+  s["at_peak"] = stress_summary(p);
   s["rigid_points_rms_mm"] = r.inputs.rigid_rms_mm;
   s["mesh_quality"] = quality_json(r.mesh);
   s["symmetry"] = metrics::summary_of(r.symmetry);
@@ -275,8 +278,9 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;
+  for (std::string& note : results.notes) note = with_file_names(scene, note);
   summary["notes"] = results.notes;
-  summary["options"] = options_json(scene);
+  summary["options"] = echoed_options(scene);
   if (scene.output.report) {
     write_report(results, variants, summary, directory);
     seconds["export"] = seconds["export"].get<double>() + stage.lap();

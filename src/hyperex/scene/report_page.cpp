@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "hyperex/report/html_report.hpp"
+#include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/pipeline.hpp"
 
 namespace hyperex::scene {
@@ -107,12 +108,13 @@ void write_report(const Results& r, const std::vector<VariantRun>& variants,
     differences[i] = difference_of(variants[i].simulation.performance, p);
   });
   for (std::size_t i = 0; i < variants.size(); ++i)
-    input.variants.push_back({.name = variants[i].scene.title,
-                              .changes = change_texts(r.scene.variants[i].changes),
-                              .performance = variants[i].simulation.performance,
-                              .difference = std::move(differences[i]),
-                              .symmetry = &variants[i].symmetry.curve,
-                              .tissue = std::move(tissue[i + 1])});
+    input.variants.push_back(
+        {.name = variants[i].scene.title,
+         .changes = change_texts(echoed_changes(r.scene, r.scene.variants[i].changes)),
+         .performance = variants[i].simulation.performance,
+         .difference = std::move(differences[i]),
+         .symmetry = &variants[i].symmetry.curve,
+         .tissue = std::move(tissue[i + 1])});
   report::write_html_report(directory / "report.html", input);
 }
 

@@ -128,7 +128,13 @@ struct TimeOptions {
 struct OutputOptions {
   double peak_time_s = -1;  ///< below 0: where the driven points moved most in the mean; to 600
   bool vtu = true, glb = true, report = true;
-  double symmetry_floor = 1e-6;  ///< > 0, to 1
+  int vtu_every = 1;              ///< every so many frames; 1 to 10000
+  bool vtu_strain = true;         ///< the strain tensor in them
+  bool variants_vtu = false;      ///< frames of each variant too
+  double glb_tolerance_m = 1e-4;  ///< of any vertex in any frame; 0.01 to 10 mm
+  double glb_max_mb = 20;         ///< of performance.glb; 0.1 to 10000
+  bool full_paths = false;        ///< of input files, in summary.json and report.html
+  double symmetry_floor = 1e-6;   ///< > 0, to 1
   double jitter_m = -1e-3;  ///< of the recorded points; below 0: from tracking, else none; to 20 mm
   std::vector<double> contact_times_s;  ///< up to 12, rising, 0 to 600; empty: spread_frames()
 };

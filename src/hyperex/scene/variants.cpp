@@ -14,6 +14,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/motion/resample.hpp"
+#include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/scene/variants_picture.hpp"
 #include "hyperex/tissue/face_frame.hpp"
@@ -149,7 +150,8 @@ std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& input
     VariantRun run;
     run.scene = variant.scene;
     run.scene.title = variant.name;
-    run.scene.output.vtu = run.scene.output.glb = run.scene.output.report = false;
+    run.scene.output.vtu = run.scene.output.vtu && run.scene.output.variants_vtu;
+    run.scene.output.glb = run.scene.output.report = false;
     run.inputs = inputs_of_variant(variant.scene, inputs);
     run.field = fields.of(variant.scene, fmt::format("variant[{}].", runs.size()));
     runs.push_back(std::move(run));
@@ -273,7 +275,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
   json["table"] = Json::array({json_of(own)});
   for (std::size_t i = 0; i < compared.size(); ++i) {
     Json one = json_of(compared[i]);
-    one["changes"] = base.scene.variants[i].changes;
+    one["changes"] = echoed_changes(base.scene, base.scene.variants[i].changes);
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");
     json["table"].push_back(one);

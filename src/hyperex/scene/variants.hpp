@@ -14,7 +14,7 @@ namespace hyperex::scene {
 
 /// One variant's run on the mesh and motion of the scene itself.
 struct VariantRun {
-  Scene scene;                               ///< the variant's, without ParaView's frames and glTF
+  Scene scene;                               ///< the variant's; output.* says what its folder holds
   Inputs inputs;                             ///< the scene's, with the variant's driven points
   std::optional<tissue::TissueField> field;  ///< where the tissue differs from place to place
   reenact::SimulationResult simulation;

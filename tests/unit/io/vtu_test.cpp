@@ -1,47 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/io/vtu.hpp"
 
-#include <zlib.h>
-
-#include <cstring>
-#include <regex>
-
+#include "support/vtu_reader.hpp"
 #include "unit/io/io_testing.hpp"
 
 namespace hyperex::io {
 namespace {
+using test::unpacked;
 using Vtu = testing::FileTest;
-
-/// The bytes of the array named so, unpacked as VTK does: by its declared offset and block table.
-template <class T>
-std::vector<T> unpacked(const std::string& file, const std::string& name) {
-  std::smatch match;
-  const std::regex line("Name=\"" + name + "\"[^>]*offset=\"([0-9]+)\"");
-  if (!std::regex_search(file, match, line)) return {};
-  const std::string marker = "<AppendedData encoding=\"raw\">\n_";
-  const std::size_t at = file.find(marker) + marker.size() + std::stoul(match[1]);
-  const auto word = [&](std::size_t k) {
-    std::uint64_t value;
-    std::memcpy(&value, file.data() + at + 8 * k, 8);
-    return value;
-  };
-  const std::uint64_t blocks = word(0);
-  std::size_t from = at + 8 * (3 + blocks);
-  std::string bytes;
-  for (std::uint64_t b = 0; b < blocks; ++b) {
-    uLongf length = b + 1 == blocks && word(2) ? word(2) : word(1);
-    std::string block(length, '\0');
-    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(block.data()), &length,
-                         reinterpret_cast<const Bytef*>(file.data()) + from, word(3 + b)),
-              Z_OK);
-    EXPECT_EQ(length, block.size());
-    bytes += block;
-    from += word(3 + b);
-  }
-  std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), bytes.size());
-  return values;
-}
 
 TEST_F(Vtu, ArraysComeBackFromTheFile) {
   const int n = 50000;  // more than one block of points
@@ -87,6 +53,21 @@ TEST_F(Vtu, SeriesNamesItsFilesWithTimes) {
   const std::string file = testing::file_bytes(path("frames.pvd"));
   EXPECT_THAT(file, ::testing::HasSubstr("timestep=\"0.5\" group=\"\" part=\"0\" "
                                          "file=\"frames/a&amp;b.vtu\""));
+}
+
+TEST_F(Vtu, SeriesIsNotBoundToAPlace) {
+  EXPECT_THROW(write_pvd(path("frames.pvd"), {{0, path("frames/0000.vtu")}}),
+               std::invalid_argument);
+}
+
+TEST_F(Vtu, FlagsAreBytes) {
+  Tetrahedra tets(3, 4);
+  tets << 0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5;
+  write_vtu(path("a.vtu"), Points::Random(6, 3), tets, {},
+            {{"inverted", Eigen::Vector3f(0, 1, 0), true}});
+  const std::string file = testing::file_bytes(path("a.vtu"));
+  EXPECT_THAT(file, ::testing::HasSubstr("type=\"UInt8\" Name=\"inverted\""));
+  EXPECT_THAT(unpacked<std::uint8_t>(file, "inverted"), ::testing::ElementsAre(0, 1, 0));
 }
 
 }  // namespace

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/core/progress.hpp"
+#include "hyperex/core/quantile.hpp"
+#include "hyperex/fem/form/inverted.hpp"
+#include "hyperex/fem/form/system.hpp"
+
+namespace hyperex::scene {
+namespace {
+using reenact::Performance;
+
+/// The shear of a tensor is half the engineering shear.
+io::VtuArray strain_array(const fem::VoigtRows& strain) {
+  io::VtuArray array{"strain (1)", strain.cast<float>()};
+  array.values.rightCols<3>() /= 2;
+  return array;
+}
+
+/// Von Mises stress takes Young's modulus and Poisson's ratio alone.
+Eigen::VectorXd von_mises_kpa(const Performance& p, const Points& d) {
+  fem::Material material;
+  material.young_pa.assign(p.tet_young_pa.begin(), p.tet_young_pa.end());
+  material.poisson.assign(p.tet_poisson.begin(), p.tet_poisson.end());
+  return 1e-3 * fem::von_mises_pa(p.nodes, p.tets, material, d);
+}
+
+Eigen::VectorXd greatest_principal(const fem::VoigtRows& strain) {
+  Eigen::VectorXd greatest(strain.rows());
+  for (Eigen::Index t = 0; t < strain.rows(); ++t) {
+    const auto e = strain.row(t);
+    Eigen::Matrix3d tensor;
+    tensor << e[0], e[3] / 2, e[5] / 2,  //
+        e[3] / 2, e[1], e[4] / 2,        //
+        e[5] / 2, e[4] / 2, e[2];
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(tensor, Eigen::EigenvaluesOnly);
+    greatest[t] = eigen.eigenvalues().maxCoeff();
+  }
+  return greatest;
+}
+
+nlohmann::ordered_json spread_of(const Eigen::VectorXd& values,
+                                 const std::vector<std::uint8_t>& inverted) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  double sound = 0;
+  for (std::size_t t = 0; t < inverted.size(); ++t)
+    if (!inverted[t]) sound = std::max(sound, values[static_cast<Eigen::Index>(t)]);
+  return {{"median", quantile_of_sorted(sorted, 0.5)},
+          {"p95", quantile_of_sorted(sorted, 0.95)},
+          {"p99", quantile_of_sorted(sorted, 0.99)},
+          {"max", sorted.back()},
+          {"max_not_inverted", sound}};
+}
+
+/// Parameters of the tissue that differ from place to place.
+std::vector<io::VtuArray> graded_arrays(const Results& r) {
+  std::vector<io::VtuArray> graded;
+  const Eigen::Index tets = r.simulation.performance.tets.rows();
+  for (int q = 0; r.tissue && q < tissue::parameter_count; ++q)
+    if (r.tissue->varies(q))
+      graded.push_back({tissue::parameter_info(q).title,
+                        (Eigen::Map<const Eigen::VectorXd>(r.tissue->element[q].data(), tets) /
+                         tissue::parameter_info(q).si)
+                            .cast<float>()});
+  return graded;
+}
+
+}  // namespace
+
+std::vector<io::VtuArray> frame_cells(const Performance& p, const Points& d, bool with_strain) {
+  std::vector<io::VtuArray> cells;
+  if (with_strain) cells.push_back(strain_array(fem::element_strain(p.nodes, p.tets, d)));
+  cells.push_back({"von Mises stress (kPa)", von_mises_kpa(p, d).cast<float>()});
+  const std::vector<std::uint8_t> inverted = fem::inverted_tets(p.nodes, p.tets, d);
+  cells.push_back({"inverted",
+                   Eigen::Map<const Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1>>(
+                       inverted.data(), static_cast<Eigen::Index>(inverted.size()))
+                       .cast<float>(),
+                   true});
+  return cells;
+}
+
+void write_frames(const Results& r, const std::filesystem::path& directory) {
+  const Performance& p = r.simulation.performance;
+  if (p.nodes.rows() == 0) return;
+  const std::vector<io::VtuArray> graded = graded_arrays(r);
+  std::filesystem::create_directory(directory / "frames");
+  std::vector<std::pair<double, std::filesystem::path>> frames;
+  Progress progress("writing frames for ParaView", static_cast<long>(p.frame_time_s.size()));
+  for (std::size_t f = 0; f < p.frame_time_s.size();
+       f += static_cast<std::size_t>(r.scene.output.vtu_every)) {
+    const Points d = p.node_displacement_m[f].cast<double>();
+    const auto file = std::filesystem::path("frames") / fmt::format("frame_{:04}.vtu", f);
+    std::vector<io::VtuArray> cells = frame_cells(p, d, r.scene.output.vtu_strain);
+    cells.insert(cells.end(), graded.begin(), graded.end());
+    io::write_vtu(directory / file, p.nodes, p.tets, {{"displacement (m)", d.cast<float>()}},
+                  cells);
+    frames.emplace_back(p.frame_time_s[f], file);
+    progress.update(static_cast<long>(f + 1));
+  }
+  io::write_pvd(directory / "frames.pvd", frames);
+}
+
+nlohmann::ordered_json stress_summary(const Performance& p) {
+  if (p.tets.rows() == 0) return nullptr;
+  const Points d = p.node_displacement_m[static_cast<std::size_t>(p.peak_frame)].cast<double>();
+  const auto inverted = fem::inverted_tets(p.nodes, p.tets, d);
+  return {{"von_mises_stress_kpa", spread_of(von_mises_kpa(p, d), inverted)},
+          {"greatest_principal_strain",
+           spread_of(greatest_principal(fem::element_strain(p.nodes, p.tets, d)), inverted)},
+          {"inverted_tets", std::count(inverted.begin(), inverted.end(), 1)}};
+}
+
+}  // namespace hyperex::scene

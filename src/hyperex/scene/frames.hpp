@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "hyperex/io/vtu.hpp"
+#include "hyperex/scene/outputs.hpp"
+
+namespace hyperex::scene {
+
+/// What ParaView shows of each tetrahedron at the displacement `d` (|nodes| x 3, metres):
+///   "strain (1)"              xx, yy, zz, xy, yz, xz of the tensor; only `with_strain`
+///   "von Mises stress (kPa)"
+///   "inverted"                1 where the element is turned inside out, else 0: strain and stress
+///                             mean nothing there
+std::vector<io::VtuArray> frame_cells(const reenact::Performance& performance, const Points& d,
+                                      bool with_strain);
+
+/// Writes frames.pvd and frames/frame_NNNN.vtu: the tissue in every frame that output.vtu_every
+/// asks for, at rest, its displacement an array ("Warp By Vector" moves it). Nothing where no
+/// tissue was simulated.
+void write_frames(const Results& results, const std::filesystem::path& directory);
+
+/// The spread of von Mises stress (kPa) and of the greatest principal strain over the elements at
+/// the peak: median, p95, p99, max, and max_not_inverted, the greatest in elements that are not
+/// turned inside out. Null where no tissue was simulated.
+nlohmann::ordered_json stress_summary(const reenact::Performance& performance);
+
+}  // namespace hyperex::scene

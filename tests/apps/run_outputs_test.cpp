@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run leaves: files that can be moved and passed on.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "apps/good_inputs.hpp"
+#include "apps/program.hpp"
+#include "hyperex/core/files.hpp"
+#include "support/vtu_reader.hpp"
+
+namespace hyperex {
+namespace {
+namespace fs = std::filesystem;
+
+/// A run with a variant, from a folder named after a patient.
+class RunOutputs : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    fs::create_directories(in("patients/Smith_John"));
+    write_good_inputs(in("patients/Smith_John"));
+  }
+  void run(const std::string& out, const std::string& more = "") {
+    const std::string scene = "'" + in("patients/Smith_John/scene.toml").string() + "'";
+    put(in("patients/Smith_John/weights.csv"), "weight\n" + weights());
+    std::string text = read_file(in("patients/Smith_John/scene.toml"));
+    put(in("patients/Smith_John/scene.toml"),
+        text +
+            "[[variant]]\nname = \"stiff\"\ntissue = { region = [{ painted = \"weights.csv\", "
+            "young_factor = 3 }] }\n");
+    const Outcome outcome = call("run " + scene + " --out " + out + " " + more);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+
+ private:
+  static std::string weights() {
+    std::string text;
+    const Points points = good_face().points;
+    for (Eigen::Index v = 0; v < points.rows(); ++v) text += points(v, 0) < -0.02 ? "1\n" : "0\n";
+    return text;
+  }
+};
+
+/// Every file below a folder.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  return files;
+}
+
+TEST_F(RunOutputs, NameNoFolderOfThisMachine) {
+  run("out");
+  const auto files = files_in(in("out"));
+  EXPECT_GT(files.size(), 10u);
+  for (const fs::path& file : files) {
+    const std::string bytes = read_file(file);
+    for (const std::string& betrayed :
+         {in("").string(), std::string("Smith_John"), std::string(".tmp")})
+      EXPECT_EQ(bytes.find(betrayed), std::string::npos) << file << " holds " << betrayed;
+  }
+}
+
+TEST_F(RunOutputs, FramesOpenAfterTheFolderWasMoved) {
+  run("out", "--set output.vtu_every=2 --set output.variants_vtu=true");
+  fs::rename(in("out"), in("elsewhere"));
+  for (const fs::path& folder : {in("elsewhere"), in("elsewhere/variants/stiff")}) {
+    const std::string series = read_file(folder / "frames.pvd");
+    const std::regex entry("timestep=\"([^\"]*)\"[^>]*file=\"([^\"]*)\"");
+    std::vector<std::string> times;
+    for (std::sregex_iterator it(series.begin(), series.end(), entry), end; it != end; ++it) {
+      times.push_back((*it)[1]);
+      const std::string vtu = read_file(folder / (*it)[2].str());
+      std::smatch size;
+      ASSERT_TRUE(std::regex_search(
+          vtu, size, std::regex("NumberOfPoints=\"([0-9]+)\" NumberOfCells=\"([0-9]+)\"")));
+      const std::size_t points = std::stoul(size[1]), cells = std::stoul(size[2]);
+      EXPECT_GT(cells, 1000u);
+      EXPECT_EQ(test::unpacked<float>(vtu, "Points").size(), 3 * points);
+      EXPECT_EQ(test::unpacked<float>(vtu, "displacement \\(m\\)").size(), 3 * points);
+      EXPECT_EQ(test::unpacked<float>(vtu, "von Mises stress \\(kPa\\)").size(), cells);
+      EXPECT_EQ(test::unpacked<std::uint8_t>(vtu, "inverted").size(), cells);
+      const auto corners = test::unpacked<std::int32_t>(vtu, "connectivity");
+      ASSERT_EQ(corners.size(), 4 * cells);
+      EXPECT_LT(*std::max_element(corners.begin(), corners.end()), std::int32_t(points));
+    }
+    EXPECT_THAT(times, ::testing::ElementsAre("0", "0.2"));
+    EXPECT_EQ(files_in(folder / "frames").size(), times.size());
+  }
+}
+
+}  // namespace
+}  // namespace hyperex
