@@ -65,7 +65,7 @@ TEST_F(RunOutputs, NameNoFolderOfThisMachine) {
 }
 
 TEST_F(RunOutputs, FramesOpenAfterTheFolderWasMoved) {
-  run("out", "--set output.vtu_every=2 --set output.variants_vtu=true");
+  run("out", "--set time.frame_rate_hz=20 --set output.vtu_every=2 --set output.variants_vtu=true");
   fs::rename(in("out"), in("elsewhere"));
   for (const fs::path& folder : {in("elsewhere"), in("elsewhere/variants/stiff")}) {
     const std::string series = read_file(folder / "frames.pvd");
@@ -87,7 +87,9 @@ TEST_F(RunOutputs, FramesOpenAfterTheFolderWasMoved) {
       ASSERT_EQ(corners.size(), 4 * cells);
       EXPECT_LT(*std::max_element(corners.begin(), corners.end()), std::int32_t(points));
     }
-    EXPECT_THAT(times, ::testing::ElementsAre("0", "0.2"));
+    ASSERT_GE(times.size(), 2u);
+    EXPECT_EQ(times[0], "0");
+    EXPECT_EQ(times[1], "0.1") << "every second frame";
     EXPECT_EQ(files_in(folder / "frames").size(), times.size());
   }
 }
