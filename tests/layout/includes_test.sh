@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Rooms include only rooms above them: their order is that of CMakeLists.txt. Linking alone does not
+# hold them to it, as all headers stand under one include folder.
+#   includes_test.sh SOURCE_FOLDER
+set -euo pipefail
+cd "$1"
+mapfile -t rooms < <(sed -n 's|^add_subdirectory(src/hyperex/\([a-z]*\))$|\1|p' CMakeLists.txt)
+((${#rooms[@]} > 10)) || { echo "the rooms are not found in CMakeLists.txt"; exit 1; }
+for folder in src/hyperex/*/; do
+  folder=${folder#src/hyperex/}
+  [[ " ${rooms[*]} " == *" ${folder%/} "* ]] || { echo "${folder%/} is no room of CMakeLists.txt"; exit 1; }
+done
+status=0
+for ((i = 0; i < ${#rooms[@]}; ++i)); do
+  below=$(IFS='|'; echo "${rooms[*]:i+1}")
+  [[ -n "$below" ]] || continue
+  if grep -rnE "#include [<\"]hyperex/($below)/" "src/hyperex/${rooms[i]}"; then
+    echo "${rooms[i]} may include only: ${rooms[*]:0:i+1}"
+    status=1
+  fi
+done
+exit $status

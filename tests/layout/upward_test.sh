@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# includes_test.sh on a copy in which one room includes one below it: it must say which.
+set -euo pipefail
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/src"
+cp "$1/CMakeLists.txt" "$work/"
+cp -r "$1/src/hyperex" "$work/src/"
+echo '#include "hyperex/scene/scene.hpp"' >> "$work/src/hyperex/io/scan.cpp"
+said=$("$1/tests/layout/includes_test.sh" "$work") && { echo "an upward include is not seen"; exit 1; }
+grep -q 'src/hyperex/io/scan.cpp' <<< "$said" && grep -q '^io may include only: core geometry io$' <<< "$said"
