@@ -1,19 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -DWEB=... -DPAGE=.../NAME.html -P build_page.cmake: type-checks and builds ${WEB}/NAME.html.
 cmake_minimum_required(VERSION 3.25)
-find_program(npm npm)
-if(NOT npm)
-  message(FATAL_ERROR "npm is missing: the pages in web/ are built with it (apt-get install npm)")
-endif()
+find_program(NODE node REQUIRED)
 if(NOT EXISTS ${WEB}/node_modules/vite)
-  message(FATAL_ERROR "${WEB}/node_modules is missing: run `npm ci` in ${WEB} once")
+  message(FATAL_ERROR "${WEB}/node_modules is missing: run scripts/setup.sh (or npm ci in ${WEB})")
 endif()
 get_filename_component(folder ${PAGE} DIRECTORY)
 get_filename_component(name ${PAGE} NAME)
+# What `npm run build` does, without npm: node alone is needed here.
+execute_process(
+  COMMAND ${NODE} node_modules/typescript/bin/tsc --noEmit
+  WORKING_DIRECTORY ${WEB} OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "the types of ${WEB} do not fit:\n${log}")
+endif()
 # --emptyOutDir false: the other page lies in the same folder.
 execute_process(
-  COMMAND ${CMAKE_COMMAND} -E env HYPEREX_PAGE=${name}
-          ${npm} run --silent build -- --outDir ${folder} --emptyOutDir false --logLevel warn
+  COMMAND ${CMAKE_COMMAND} -E env HYPEREX_PAGE=${name} ${NODE} node_modules/vite/bin/vite.js build
+          --outDir ${folder} --emptyOutDir false --logLevel warn
   WORKING_DIRECTORY ${WEB} OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed OR NOT EXISTS ${PAGE})
   message(FATAL_ERROR "building the page ${name} failed:\n${log}")
