@@ -42,6 +42,28 @@ asan: ## the tests again under the address and undefined-behaviour sanitizers
 	cmake --build --preset asan --parallel $(JOBS)
 	ctest --preset asan --parallel $(JOBS)
 
+tsan: ## capture, live tracking, variants and interrupts under the thread sanitizer
+	scripts/setup.sh --tests
+	cmake --preset tsan -DHYPEREX_TESTS=ON
+	cmake --build --preset tsan --parallel $(JOBS) --target \
+	  hyperex test_core test_capture test_capture_openni test_tracking_live test_apps
+	ctest --preset tsan --parallel $(JOBS) --no-tests=error \
+	  -R '^(core|capture|capture_openni|tracking_live)\.|^apps\.(Interrupted|TrackLive|Variants)'
+
+coverage: ## which lines the tests run: a table by room, build/coverage/report/index.html in full
+	scripts/setup.sh --lint
+	cmake --preset coverage -DHYPEREX_TESTS=ON
+	cmake --build --preset coverage --parallel $(JOBS)
+	find build/coverage -name '*.gcda' -delete
+	ctest --preset coverage --parallel $(JOBS) || true
+	scripts/coverage.sh
+
+lint: ## formatting and clang-tidy over everything (some 30 minutes of CPU)
+	scripts/setup.sh --lint
+	cmake --preset release -DHYPEREX_TESTS=ON
+	cmake --build --preset release --parallel $(JOBS)
+	scripts/lint.sh
+
 fresh: ## all this on an empty Debian 12, as root and as a user with sudo (needs root; COLD=1: no caches)
 	scripts/fresh.sh $(if $(COLD),--cold)
 

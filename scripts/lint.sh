@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Formatting (.clang-format) and a small set of checks (.clang-tidy) over the C++ of this repository.
+#   scripts/lint.sh                    both, over everything (the checks take some 30 minutes of CPU)
+#   scripts/lint.sh --format           formatting alone (seconds)
+#   scripts/lint.sh --tidy [FILE...]   the checks alone, over these .cpp files
+# The checks read build/release/compile_commands.json and need what a build generates: build first.
+# Both need version 14, Debian 12's: others format and warn differently.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+die() { printf 'lint: %s\n' "$*" >&2; exit 2; }
+
+is_fourteen() {
+  command -v "$1" > /dev/null || die "$1 is missing: scripts/setup.sh --lint"
+  "$1" --version | grep -q 'version 14\.' || die "expected $1 14; found $("$1" --version | grep version)"
+}
+
+format() {
+  is_fourteen clang-format
+  git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror ||
+    die "not formatted: clang-format -i on the files above"
+  echo "lint: $(git ls-files '*.cpp' '*.hpp' | wc -l) files are formatted"
+}
+
+tidy() {
+  is_fourteen clang-tidy
+  local database=build/release/compile_commands.json file files=()
+  [[ -f "$database" ]] || die "$database is missing: make test (or cmake --preset release, and build)"
+  (($#)) || set -- $(git ls-files '*.cpp')
+  for file; do  # what is not built here (for another sanitizer, say) has no command
+    grep -qF "/$file\"" "$database" && files+=("$file")
+  done
+  ((${#files[@]})) || { echo "lint: no file to check"; return; }
+  printf '%s\n' "${files[@]}" |
+    xargs -P "$(nproc)" -n 1 clang-tidy --quiet -p build/release 2> >(grep -v 'warnings generated' >&2 || true) ||
+    die "clang-tidy complains (above)"
+  echo "lint: ${#files[@]} files pass clang-tidy"
+}
+
+case "${1:-}" in
+  --format) format ;;
+  --tidy) shift; tidy "$@" ;;
+  '') format; tidy ;;
+  -h | --help) sed -n '3,8s/^# \{0,1\}//p' "$0" ;;
+  *) die "unknown option $1 (there are --format and --tidy)" ;;
+esac
