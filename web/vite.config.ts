@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One file: report.html, or the page that HYPEREX_PAGE names, with scripts and styles inside. The
 // program that writes it puts the data where the page says HYPEREX_DATA.
-import { defineConfig } from 'vite';
+import { defineConfig, type Plugin } from 'vite';
 import { viteSingleFile } from 'vite-plugin-singlefile';
 
+// The finished page may ask nothing of anyone: scripts and styles stand in it, pictures it makes itself. In the
+// finished page alone: while it is developed Vite serves its parts.
+const policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+const withPolicy: Plugin = {
+  name: 'content-security-policy',
+  apply: 'build',
+  transformIndexHtml: () => [
+    { tag: 'meta', attrs: { 'http-equiv': 'Content-Security-Policy', content: policy }, injectTo: 'head-prepend' },
+  ],
+};
+
 export default defineConfig({
-  plugins: [viteSingleFile({ removeViteModuleLoader: true })],
+  plugins: [withPolicy, viteSingleFile({ removeViteModuleLoader: true })],
   build: {
     target: 'es2022',
     reportCompressedSize: false,

@@ -10,6 +10,7 @@
 
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
@@ -48,13 +49,12 @@ void print_curve(const metrics::SymmetryCurve& curve) {
 }
 
 void print_excursions(const metrics::Excursions& excursions) {
-  std::cout << fmt::format(
-      "\n{:<26}{:>32} {:>10}{:>32}\n{:<26} {:>10} {:>10} {:>10} {:>10} {:>10} "
-      "{:>10} {:>10}\n",
-      "", "excursion (mm)  ", "", "peak speed (mm/s)  ", "point", "L", "R", "R/L", "L", "R", "R/L",
-      "likeness");
+  std::cout << fmt::format("\n{:<43}{:>32}{:>33}{:>13}\n", "", "excursion (mm)  ",
+                           "peak speed (mm/s)  ", "correlation");
+  std::cout << fmt::format("{:<43} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "point",
+                           "L", "R", "R/L", "L", "R", "R/L", "of speeds");
   for (const metrics::PairExcursion& p : excursions.pairs)
-    std::cout << fmt::format("{:<26} {} {} {} {} {} {} {}{}\n", p.name,
+    std::cout << fmt::format("{:<43} {} {} {} {} {} {}   {}{}\n", face::point_words(p.name),
                              cell(p.left_side.excursion_mm, 2), cell(p.right_side.excursion_mm, 2),
                              cell(p.excursion_ratio, 3), cell(p.left_side.peak_speed_mm_s, 1),
                              cell(p.right_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),

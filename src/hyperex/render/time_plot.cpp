@@ -85,11 +85,20 @@ void shade_under(Canvas& canvas, const TimePlot& plot, const std::vector<double>
   }
 }
 
-Colour category_colour(std::size_t index) {
-  static constexpr std::array<int, 8> colours = {0x0072b2, 0xd55e00, 0x009e73, 0xb0569b,
-                                                 0xb58900, 0x2f9bd0, 0x7a5230, 0x666666};
-  const int c = colours[index % colours.size()];
+Colour category_colour(std::size_t index, bool dark) {
+  static constexpr std::array<int, category_count> on_light = {
+      0x0072b2, 0xd55e00, 0x009e73, 0xb0569b, 0xb58900, 0x2f9bd0, 0x7a5230, 0x666666};
+  static constexpr std::array<int, category_count> on_dark = {
+      0x56b4e9, 0xff9248, 0x3ad6a4, 0xe497c9, 0xf0e442, 0x9ecbff, 0xd2a679, 0xb0b0b0};
+  const int c = (dark ? on_dark : on_light)[index % category_count];
   return {(c >> 16 & 0xff) / 255.0, (c >> 8 & 0xff) / 255.0, (c & 0xff) / 255.0};
+}
+
+std::size_t face_category(std::size_t face) {
+  // Base is grey; a seventh face and more take the sides' colours, for want of others.
+  static constexpr std::array<std::size_t, category_count> order = {
+      7, 2, 3, 4, 6, 5, left_category, right_category};
+  return order[face % category_count];
 }
 
 }  // namespace hyperex::render

@@ -37,8 +37,25 @@ void draw_curves(Canvas& canvas, const TimePlot& plot, const std::vector<double>
 void shade_under(Canvas& canvas, const TimePlot& plot, const std::vector<double>& time,
                  const std::vector<double>& values);
 
-/// Colours for things of one kind that are told apart, the same in every picture and in the report
-/// (web/src/page/face_colour.ts): for colour-blind readers too, after M. Okabe and K. Ito.
-Colour category_colour(std::size_t index);
+/// Colours for things of one kind that are told apart: for colour-blind readers too, after M. Okabe
+/// and K. Ito; `dark`: lighter ones, for dark paper. Written into the pages (report/page_data.cpp).
+Colour category_colour(std::size_t index, bool dark = false);
+inline constexpr std::size_t category_count = 8;
+
+/// Places of the subject's own sides among the categories, the same in every picture and page: blue
+/// and orange.
+inline constexpr std::size_t left_category = 0, right_category = 1;
+inline Colour left_colour() {
+  return category_colour(left_category);
+}
+inline Colour right_colour() {
+  return category_colour(right_category);
+}
+
+/// Of base (0) and its variants: the categories that are not a side's come first.
+std::size_t face_category(std::size_t face);
+inline Colour face_colour(std::size_t face) {
+  return category_colour(face_category(face));
+}
 
 }  // namespace hyperex::render

@@ -6,7 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
 #include "hyperex/report/skin_view.hpp"
@@ -166,12 +168,49 @@ json points_json(const Points& points) {
   return rows;
 }
 
+json triple(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// "openings" and "eyeballs" of the skin at rest.
+void add_backing(const reenact::Performance& performance, BinaryBlock& block, json& manifest) {
+  std::map<std::string, Vec3> landmarks;
+  const motion::Motion& tracks = performance.landmarks;
+  if (!tracks.positions.empty())
+    for (std::size_t i = 0; i < tracks.names.size(); ++i)
+      landmarks[tracks.names[i]] = tracks.positions.front().row(Index(i)).transpose();
+  const FaceBacking backing = face_backing(performance.skin_rest, landmarks);
+  manifest["openings"] = json::array();
+  for (const Opening& opening : backing.openings)
+    manifest["openings"].push_back({{"loop", block.add(opening.loop)},
+                                    {"inward", triple(opening.inward)},
+                                    {"depth_m", opening.depth_m}});
+  manifest["eyeballs"] = json::array();
+  for (const Eyeball& eyeball : backing.eyeballs)
+    manifest["eyeballs"].push_back({{"centre", triple(eyeball.centre)},
+                                    {"gaze", triple(eyeball.gaze)},
+                                    {"radius_m", eyeball.radius_m}});
+}
+
+/// What people call each point that the page names: landmarks, and pairs of the excursions.
+json point_words_of(const ReportInput& input) {
+  json words = json::object();
+  const auto add = [&](const std::string& name) { words[name] = face::point_words(name); };
+  for (const std::string& name : input.performance.landmarks.names) add(name);
+  for (const std::string& name : input.performance.driven_names) add(name);
+  const auto pairs = json::json_pointer("/symmetry/excursions");
+  if (input.summary.contains(pairs))
+    for (const json& pair : input.summary.at(pairs)) add(pair.value("point", std::string()));
+  return words;
+}
+
 json manifest_of(const ReportInput& input, BinaryBlock& block) {
   const auto& performance = input.performance;
   json manifest = {{"version", 1},
                    {"title", input.title},
                    {"notes", input.notes},
                    {"summary", input.summary.is_object() ? input.summary : json::object()},
+                   {"point_words", point_words_of(input)},
                    {"scan_vertices", performance.scan_vertices},
                    {"skin", skin_section(input, block)},
                    {"motion", motion_section(input, block)},
@@ -184,6 +223,7 @@ json manifest_of(const ReportInput& input, BinaryBlock& block) {
                    {"symmetry", symmetry_section(input.symmetry)},
                    {"tissue", tissue_section(input.tissue, block)},
                    {"variants", variants_section(input, block)}};
+  add_backing(performance, block, manifest);
   if (input.mirror) manifest["mirror"] = mirror_section(*input.mirror, block);
   return manifest;
 }

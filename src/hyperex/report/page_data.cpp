@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/report/page_data.hpp"
 
+#include <fmt/format.h>
+
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/render/time_plot.hpp"
 #include "hyperex/report/page_template.hpp"
 
 namespace hyperex::report {
@@ -44,10 +48,33 @@ std::string script_safe(const json& value) {
   return text;
 }
 
+/// Colours of categories on light and dark paper, and which of them are whose: pictures and pages
+/// have the same.
+json palette_json() {
+  const auto all = [](bool dark) {
+    json list = json::array();
+    for (std::size_t i = 0; i < render::category_count; ++i) {
+      const render::Colour c = render::category_colour(i, dark);
+      const auto byte = [](double share) { return int(std::lround(255 * share)); };
+      list.push_back(fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b)));
+    }
+    return list;
+  };
+  json faces = json::array();
+  for (std::size_t i = 0; i < render::category_count; ++i)
+    faces.push_back(render::face_category(i));
+  return {{"light", all(false)},
+          {"dark", all(true)},
+          {"left", render::left_category},
+          {"right", render::right_category},
+          {"faces", faces}};
+}
+
 }  // namespace
 
-void write_page(const std::filesystem::path& file, std::string_view page, const json& manifest,
+void write_page(const std::filesystem::path& file, std::string_view page, json manifest,
                 const BinaryBlock& block) {
+  manifest["palette"] = palette_json();
   const std::string text = script_safe(manifest);
   const auto at = page.find(data_mark);
   if (at == std::string_view::npos)

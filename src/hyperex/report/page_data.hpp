@@ -37,8 +37,10 @@ class BinaryBlock {
 
 /// Writes `page` (page_template.hpp) with its data put in: a JSON manifest in the element
 /// hyperex-manifest and the block as base64 in hyperex-binary. Text of the manifest cannot end the
-/// element. Throws InputError where the file cannot be written.
-void write_page(const std::filesystem::path& file, std::string_view page,
-                const nlohmann::json& manifest, const BinaryBlock& block);
+/// element. The palette of pictures (render/time_plot.hpp) is put in as "palette": light, dark, the
+/// places of left and right in them, and those of base and its variants. Throws InputError where
+/// the file cannot be written.
+void write_page(const std::filesystem::path& file, std::string_view page, nlohmann::json manifest,
+                const BinaryBlock& block);
 
 }  // namespace hyperex::report

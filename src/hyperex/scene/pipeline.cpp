@@ -133,7 +133,7 @@ std::vector<std::string> idle_variants(const Json& table) {
     if (const Json& most = table[i]["greatest_distance_mm"];
         most.is_number() && most.get<double>() < kSame_mm)
       notes.push_back(
-          fmt::format("variant {} moves as the scene itself does: what it changes has no effect",
+          fmt::format("variant {} moves as base does: what it changes has no effect",
                       table[i]["name"].get<std::string>()));
   return notes;
 }

@@ -39,7 +39,7 @@ Eigen::VectorXd values_of(const Scene& scene, const tissue::TissueField* field, 
 }
 
 /// Maps of the parameters that differ from place to place in any face: a list of the same keys for
-/// the scene itself, first, and for each variant.
+/// base, first, and for each variant.
 std::vector<std::vector<report::TissueMap>> tissue_maps(const Results& r,
                                                         const std::vector<VariantRun>& variants) {
   std::vector<std::vector<report::TissueMap>> faces(1 + variants.size());

@@ -103,7 +103,7 @@ std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& 
   return {{"greatest_displacement_mm", c.greatest_displacement_mm},
           {"greatest_distance_mm", c.greatest_distance_mm},
           {"displacement_there_mm", c.displacement_there_mm},
-          {"scene_displacement_there_mm", c.scene_displacement_there_mm},
+          {"base_displacement_there_mm", c.base_displacement_there_mm},
           {"rms_distance_at_peak_mm", c.rms_distance_mm},
           {"mean_change_at_peak_mm", c.mean_change_mm},
           {"mean_displacement_L_mm", c.mean_displacement_left_mm},
@@ -218,10 +218,10 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
   c.mean_change_mm = 1e3 * mean(c.difference.change_at_peak_m, area);
   Eigen::Index there = 0;
   c.greatest_distance_mm = 1e3 * c.difference.greatest_m.maxCoeff(&there);
-  c.displacement_there_mm = c.scene_displacement_there_mm = std::nan("");
+  c.displacement_there_mm = c.base_displacement_there_mm = std::nan("");
   if (c.greatest_distance_mm > 0) {
     c.displacement_there_mm = 1e3 * double(p.skin_displacement_m[peak].row(there).norm());
-    c.scene_displacement_there_mm = 1e3 * double(own.skin_displacement_m[peak].row(there).norm());
+    c.base_displacement_there_mm = 1e3 * double(own.skin_displacement_m[peak].row(there).norm());
     double nearest_m = INFINITY;
     for (const auto& [landmark, at] : landmarks)
       if (const double d = (at.transpose() - own.skin_rest.points.row(there)).norm();

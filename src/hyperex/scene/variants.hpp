@@ -12,7 +12,7 @@
 
 namespace hyperex::scene {
 
-/// One variant's run on the mesh and motion of the scene itself.
+/// One variant's run on the mesh and motion of base, the scene without a variant.
 struct VariantRun {
   Scene scene;                               ///< the variant's; output.* says what its folder holds
   Inputs inputs;                             ///< the scene's, with the variant's driven points
@@ -34,11 +34,11 @@ void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& 
 struct VariantComparison {
   std::string name;
   double greatest_displacement_mm = 0;
-  metrics::VariantDifference difference;  ///< to the scene itself; of the skin's vertices
+  metrics::VariantDifference difference;  ///< to base; of the skin's vertices
   double greatest_distance_mm = 0;        ///< of any vertex, over time
   std::string farthest_near;  ///< the landmark nearest to that vertex; empty: no distance
-  /// At the peak, of that vertex: in this run and in the scene itself; NaN where there is none.
-  double displacement_there_mm = 0, scene_displacement_there_mm = 0;
+  /// At the peak, of that vertex: in this run and in base; NaN where there is none.
+  double displacement_there_mm = 0, base_displacement_there_mm = 0;
   double rms_distance_mm = 0, mean_change_mm = 0;  ///< at the peak, over the skin's area
   /// At the peak, mean over the face's area on the subject's left and right; NaN without a plane.
   double mean_displacement_left_mm = 0, mean_displacement_right_mm = 0;
@@ -55,7 +55,7 @@ struct VariantComparison {
   double symmetry_integral_s = 0;  ///< of |xi_L - xi_R| over time
 };
 
-/// What lags and hysteresis are told of: the driven point that moves farthest in the scene itself,
+/// What lags and hysteresis are told of: the driven point that moves farthest in base,
 /// and the landmark that moves farthest of those off all driven patches.
 struct ResponsePair {
   std::string driven, response;  ///< empty where there is none

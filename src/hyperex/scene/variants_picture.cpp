@@ -65,9 +65,8 @@ void draw_variants(const Results& base, const std::vector<VariantComparison>& co
     framed.row(row++) = frame.local(at).transpose();
   render::ContactSheet sheet;
   sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
-  sheet.note =
-      fmt::format("the face at {:.2f} s; colour: greatest distance over time from the scene itself",
-                  p.frame_time_s[std::size_t(p.peak_frame)]);
+  sheet.note = fmt::format("the face at {:.2f} s; colour: greatest distance over time from base",
+                           p.frame_time_s[std::size_t(p.peak_frame)]);
   sheet.columns = int(runs.size()) + 1;
   sheet.bar = render::ColourBar{{0, top}, "distance (mm)", capped};
   Vec3 oblique = render::three_quarter_view();  // sees the left side
@@ -78,7 +77,7 @@ void draw_variants(const Results& base, const std::vector<VariantComparison>& co
   for (const Vec3& view : {render::front_view(), oblique}) {
     render::Camera camera = render::framing(framed, view, aspect);
     camera.height_m *= 1.15;
-    sheet.pictures.push_back({render::render({{.mesh = own}}, camera, size), "the scene itself"});
+    sheet.pictures.push_back({render::render({{.mesh = own}}, camera, size), "base"});
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const TriMesh skin = skin_at_peak(runs[i].simulation.performance);
       const render::Surface surface{
@@ -96,12 +95,12 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
   const metrics::SymmetryCurve& own = base.symmetry.curve;
   if (own.time_s.size() < 2) return;
   std::vector<const metrics::SymmetryCurve*> faces{&own};
-  std::vector<std::string> names{"the scene itself"};
+  std::vector<std::string> names{"base"};
   for (const VariantRun& run : runs) {
     faces.push_back(&run.symmetry.curve);
     names.push_back(run.scene.title);
   }
-  std::vector<std::vector<double>> s, difference;  // the latter less that of the scene itself
+  std::vector<std::vector<double>> s, difference;  // the latter less that of base
   for (const metrics::SymmetryCurve* face : faces) {
     s.push_back(face->s);
     s.back().front() = NAN;  // S(t0) is not defined
@@ -109,8 +108,8 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
   }
   std::vector<render::PlotCurve> s_curves, difference_curves;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    s_curves.push_back({s[i], render::category_colour(i), names[i]});
-    difference_curves.push_back({difference[i], render::category_colour(i), ""});
+    s_curves.push_back({s[i], render::face_colour(i), names[i]});
+    difference_curves.push_back({difference[i], render::face_colour(i), ""});
   }
   render::Canvas canvas(900, 700 + 20 * int(faces.size() / 3));
   const std::string title = base.scene.title.empty() ? "Variants" : base.scene.title;
@@ -135,14 +134,13 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
   if (!floor.empty()) render::shade_under(canvas, upper, own.time_s, floor);
   render::draw_curves(canvas, upper, own.time_s, s_curves);
   y += 18 + 260 + 50;
-  const render::TimePlot lower{
-      70,
-      y,
-      800,
-      190,
-      time,
-      render::span_of(difference_curves),
-      "xi_L - xi_R less that of the scene itself (1): what the variant adds"};
+  const render::TimePlot lower{70,
+                               y,
+                               800,
+                               190,
+                               time,
+                               render::span_of(difference_curves),
+                               "xi_L - xi_R less that of base (1): what the variant adds"};
   render::draw_axes(canvas, lower);
   render::draw_curves(canvas, lower, own.time_s, difference_curves);
   canvas.text(470, y + 190 + 36, "time (s)", {.size_px = 13, .align = render::Align::centre});

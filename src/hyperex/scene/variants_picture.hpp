@@ -8,7 +8,7 @@
 namespace hyperex::scene {
 
 /// The face of the scene and of each variant at the scene's peak, from the front and three-quarter,
-/// coloured by the greatest distance over time from the scene itself, to a scale on which none of
+/// coloured by the greatest distance over time from base, to a scale on which none of
 /// the others is lost beside one that moves much more. One comparison a run.
 void draw_variants(const Results& base, const std::vector<VariantComparison>& compared,
                    const std::vector<VariantRun>& runs, const std::filesystem::path& file);

@@ -33,7 +33,7 @@ void write_variants_page(const std::filesystem::path& folder) {
                      {"greatest_distance_mm", 25 * (1 - share)},
                      {"rms_distance_at_peak_mm", 12 * (1 - share)},
                      {"displacement_there_mm", 20 * share},
-                     {"scene_displacement_there_mm", 20},
+                     {"base_displacement_there_mm", 20},
                      {"farthest_near", share < 1 ? "cheilion_R" : ""},
                      {"mean_change_at_peak_mm", -10 * (1 - share)},
                      {"mean_displacement_L_mm", 5},

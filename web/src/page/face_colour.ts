@@ -1,24 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One colour a face (or curve), the same wherever it is named. After Okabe and Ito's palette, which
-// colour-blind readers can tell apart; darker on light paper, lighter on dark.
+// The colours of curves, sides and faces: those of the pictures that the program draws, which it writes into
+// the page (src/hyperex/render/time_plot.hpp). After Okabe and Ito's palette, which colour-blind readers can
+// tell apart; darker on light paper, lighter on dark.
 
-export const palettes = {
-  light: ['#0072b2', '#d55e00', '#009e73', '#b0569b', '#b58900', '#2f9bd0', '#7a5230', '#666666'],
-  dark: ['#56b4e9', '#ff9248', '#3ad6a4', '#e497c9', '#f0e442', '#9ecbff', '#d2a679', '#b0b0b0'],
-};
+export interface Palette {
+  light: string[];
+  dark: string[];
+  /** Places of the subject's own sides in both lists. */
+  left: number;
+  right: number;
+  /** Places of base and its variants. */
+  faces: number[];
+}
 
-/** Place in the palettes of face i. */
-export const faceHue = (i: number): number => i % palettes.light.length;
+let palette: Palette = { light: ['#000000'], dark: ['#ffffff'], left: 0, right: 0, faces: [0] };
+
+export const colours = (dark: boolean): string[] => (dark ? palette.dark : palette.light);
+
+/** Places in the palettes. */
+export const leftHue = (): number => palette.left;
+export const rightHue = (): number => palette.right;
+export const faceHue = (i: number): number => palette.faces[i % palette.faces.length];
+/** Of things that are neither sides nor faces. */
+export function otherHue(i: number): number {
+  const rest = palette.light.map((_, hue) => hue).filter((hue) => hue !== palette.left && hue !== palette.right);
+  const round = Math.floor(i / rest.length);
+  return rest[i % rest.length] + round * palette.light.length;
+}
 
 /** For style sheets: follows the page's light or dark. */
-export const faceColour = (i: number): string => `var(--face-${faceHue(i)})`;
+export const faceColour = (i: number): string => `var(--hue-${faceHue(i)})`;
 
-/** Defines the variables that faceColour names. Printed pages are light. */
-export function defineFaceColours(): void {
-  const rule = (colours: string[]) =>
-    `:root { ${colours.map((colour, i) => `--face-${i}: ${colour};`).join(' ')} }`;
+/** Takes the palette and defines the variables that style sheets name. Printed pages are light. */
+export function defineColours(given: Palette): void {
+  palette = given;
+  const rule = (list: string[]) =>
+    `:root { ${list.map((colour, i) => `--hue-${i}: ${colour};`).join(' ')} ` +
+    `--left: ${list[palette.left]}; --right: ${list[palette.right]}; }`;
   const style = document.createElement('style');
   style.textContent =
-    `${rule(palettes.light)} @media screen and (prefers-color-scheme: dark) { ${rule(palettes.dark)} }`;
+    `${rule(palette.light)} @media screen and (prefers-color-scheme: dark) { ${rule(palette.dark)} }`;
   document.head.append(style);
 }

@@ -27,11 +27,23 @@ export function nameAndUnit(key: string): { name: string; unit: string } {
 
 export const words = (key: string): string => key.replaceAll('_', ' ');
 
-/** "ibug68_48" is "iBUG 48", "cheilion_L" is "cheilion L". */
-export const landmarkName = (name: string): string => words(name.replace(/^ibug68_/, 'iBUG '));
+let pointWords: Record<string, string> = {};
+
+/** Takes the names of points as people say them (src/hyperex/face/point_words.hpp). */
+export function usePointWords(given: Record<string, string>): void {
+  pointWords = given;
+}
+
+/** "ibug68_54" is "corner of the mouth, left"; what the page was not told of keeps its name. */
+export const landmarkName = (name: string): string => pointWords[name] ?? words(name.replace(/^ibug68_/, 'iBUG '));
+
+/** The words of a known point; any other text as it is. */
+export const pointOrText = (text: string): string => pointWords[text] ?? text;
+
+/** Numbers in names count as numbers: 2 before 10. */
+export const naturally = new Intl.Collator('en', { numeric: true }).compare;
 
 export const upper = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** As people read it; the scene's own run is "base" in files. */
-export const faceWords = (faces: { name: string }[], i: number): string =>
-  i === 0 ? 'the scene itself' : faces[i].name;
+/** Base is the scene without a variant. */
+export const faceWords = (faces: { name: string }[], i: number): string => faces[i].name;

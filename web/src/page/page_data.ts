@@ -2,6 +2,8 @@
 // Where the data come from: the two script elements of the page, as src/hyperex/report/page_data.cpp
 // writes them. Nothing else knows of them.
 
+import { defineColours, type Palette } from './face_colour';
+
 /** A stretch of the binary block: `count` little-endian numbers from byte `offset` on. */
 export interface Stretch {
   type: 'float32' | 'int32' | 'int16' | 'int8' | 'uint8';
@@ -31,10 +33,11 @@ function textOf(id: string): string {
   return text;
 }
 
-/** Reads what the page holds; throws where it holds nothing or another version than 1. */
+/** Reads what the page holds and takes over its palette; throws where it holds nothing or another version than 1. */
 export function readPageData<M extends { version: number }>(): { manifest: M; block: Block } {
-  const manifest = JSON.parse(textOf('hyperex-manifest')) as M;
+  const manifest = JSON.parse(textOf('hyperex-manifest')) as M & { palette: Palette };
   if (manifest.version !== 1) throw new Error(`Unknown version of the data: ${manifest.version}`);
+  defineColours(manifest.palette);
   const binary = bytesOf(textOf('hyperex-binary').trim());
   return {
     manifest,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page's colours as canvases need them: resolved, light or dark.
-import { palettes } from './face_colour';
+import { colours } from './face_colour';
 
 export const dark = window.matchMedia('(prefers-color-scheme: dark)');
 
@@ -26,6 +26,6 @@ export function theme(): Theme {
   const of = (name: string) => style.getPropertyValue(name).trim();
   return {
     ink: of('--ink'), inkSoft: of('--ink-soft'), line: of('--line'), card: of('--card'), shading: of('--shading'),
-    palette: dark.matches && !printing ? palettes.dark : palettes.light,
+    palette: colours(dark.matches && !printing),
   };
 }

@@ -44,7 +44,7 @@ function baseValue(options: unknown, path: string[]): unknown {
   return path.reduce<unknown>((at, key) => (isObject(at) ? at[key] : undefined), options);
 }
 
-/** A sentence each. `changes`: dotted key and new value; `options`: those of the scene itself, nested. */
+/** A sentence each. `changes`: dotted key and new value; `options`: those of base, nested. */
 export function changeWords(changes: Json, options: unknown): string[] {
   return Object.entries(changes).flatMap(([path, value]) => {
     const parts = path.split('.');

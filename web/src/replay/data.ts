@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The replay's data as the other parts use them.
 import type { Manifest, ModeData, SymmetryCurve, TissueMapData } from './manifest';
+import { usePointWords } from '../page/format';
 import { readPageData, type Block, type Stretch } from '../page/page_data';
 
 export type Vec3 = [number, number, number];
@@ -20,15 +21,15 @@ export interface TissueMap {
   bytes: Uint8Array;
 }
 
-/** The scene itself or a variant of it: the same skin, moved otherwise. */
+/** Base (the scene without a variant) or a variant of it: the same skin, moved otherwise. */
 export interface Face {
   name: string;
-  /** What differs from the scene itself, a sentence each. */
+  /** What differs from base, a sentence each. */
   changes: string[];
   maxDisplacementMm: number;
-  /** From the scene itself, over all vertices and frames. */
+  /** From base, over all vertices and frames. */
   maxDifferenceMm: number;
-  /** What is added to the scene's own displacement; null for the scene itself. */
+  /** What is added to the scene's own displacement; null for base. */
   difference: { modes: Mode[]; weights: Float32Array; maxErrorMm: number } | null;
   symmetry: SymmetryCurve | null;
   /** Samples x names x 3, as in `Replay.landmarks`. */
@@ -59,7 +60,10 @@ export interface Replay {
   /** Where each vertex's mirror image lies on the skin at rest: three vertices each, -1 where it has none, and
    *  their weights of about 255 in all. */
   mirror: { normal: Vec3; vertices: Int32Array; weights: Uint8Array } | null;
-  /** The scene itself first, then its variants in their order. */
+  /** Holes of the skin: vertices around each, and the way into the head. */
+  openings: { loop: Int32Array; inward: Vec3; depthM: number }[];
+  eyeballs: { centre: Vec3; gaze: Vec3; radiusM: number }[];
+  /** Base first, then its variants in their order. */
   faces: Face[];
 }
 
@@ -103,6 +107,7 @@ function facesOf(manifest: Manifest, block: Block): Face[] {
 
 export function readReplay(): Replay {
   const { manifest, block } = readPageData<Manifest>();
+  usePointWords(manifest.point_words);
   const { float32, int32, uint8 } = block;
   const { skin, motion } = manifest;
   return {
@@ -143,6 +148,8 @@ export function readReplay(): Replay {
           weights: uint8(manifest.mirror.weights),
         }
       : null,
+    openings: manifest.openings.map(({ loop, inward, depth_m }) => ({ loop: int32(loop), inward, depthM: depth_m })),
+    eyeballs: manifest.eyeballs.map(({ centre, gaze, radius_m }) => ({ centre, gaze, radiusM: radius_m })),
     faces: facesOf(manifest, block),
   };
 }

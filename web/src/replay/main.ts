@@ -3,15 +3,14 @@
 import '../page/style.css';
 import { readReplay, type Replay } from './data';
 import { frameAt } from './face/deform';
-import { at, startPage } from '../page/dom';
-import { defineFaceColours } from '../page/face_colour';
+import { at, element, startPage } from '../page/dom';
 import { number } from '../page/format';
 import { wireKeys, type Key } from './keys';
 import { Playback } from './playback';
 import { Plots } from './curves/plots';
 import { Shown } from './shown';
 import { Stage } from './face/stage';
-import { fillSummary } from './summary';
+import { fillNotes, fillSummary } from './summary';
 import { fillTables } from './tables/tables';
 
 function fillPage(replay: Replay): void {
@@ -25,18 +24,10 @@ function fillPage(replay: Replay): void {
     `${number(replay.points.length / 3)} skin vertices`,
     `largest displacement ${replay.maxDisplacementMm.toFixed(1)} mm`,
   ].join('  ·  ');
-  if (replay.notes.length > 0) {
-    at('notes').hidden = false;
-    for (const note of replay.notes) {
-      const item = document.createElement('li');
-      item.textContent = note;
-      at('note-list').append(item);
-    }
-  }
-  if (Object.keys(replay.summary).length > 0) {
-    at('summary').hidden = false;
-    fillSummary(replay.summary, at('summary-tables'));
-  }
+  const { summary, notes } = replay;
+  at('summary').hidden = notes.length === 0 && Object.keys(summary).length === 0;
+  fillNotes(notes, summary.warnings, at('note-list'));
+  fillSummary(summary, at('summary-tables'));
   at('foot').textContent =
     `Replayed from ${replay.modes.length} displacement modes, exact to ` +
     `${number(Number(replay.maxErrorMm.toPrecision(2)))} mm. Made by Hyperex; needs no network.`;
@@ -57,8 +48,9 @@ function wireTransport(replay: Replay, playback: Playback): () => void {
   return () => {
     const frame = Math.round(frameAt(replay.timeS, playback.timeS));
     if (slider.value !== String(frame)) slider.value = String(frame);
-    const text = `frame ${frame} / ${last}  ·  ${playback.timeS.toFixed(3)} s`;
-    label.textContent = text;
+    const [where, when] = [`frame ${frame} / ${last}  ·  `, `${playback.timeS.toFixed(3)} s`];
+    if (label.textContent !== where + when) label.replaceChildren(element('span', where), when);
+    const text = where + when;
     slider.setAttribute('aria-valuetext', text);
     play.classList.toggle('playing', playback.playing);
     play.setAttribute('aria-label', playback.playing ? 'Pause' : 'Play');
@@ -92,7 +84,6 @@ function transportKeys(replay: Replay, playback: Playback): Key[] {
 
 function start(): void {
   const replay = readReplay();
-  defineFaceColours();
   fillPage(replay);
   const { timeS } = replay;
   const playback = new Playback(timeS[0] ?? 0, timeS[timeS.length - 1] ?? 0);

@@ -32,6 +32,8 @@ export interface SymmetryCurve {
   floor: number;
   /** What |xi_left - xi_right| of a symmetric motion stays under by jitter alone; [] of an exact motion. */
   noise?: (number | null)[];
+  /** The part of `noise` that is the mesh's own: what it makes of a symmetric motion; [] where not known. */
+  mesh_noise?: (number | null)[];
   /** Of the points, a standard deviation a coordinate; 0 of an exact motion. */
   jitter_mm?: number;
 }
@@ -39,7 +41,7 @@ export interface SymmetryCurve {
 /** Other tissue on the same mesh, moved by the same motion at the same times. */
 export interface VariantData {
   name: string;
-  /** What differs from the scene itself, a sentence each. */
+  /** What differs from base, a sentence each. */
   changes: string[];
   /** Displacement in frame f = the scene's own + sum over modes of weights[f, k] * step_m * values. */
   difference: { modes: ModeData[]; weights: Stretch; max_error_mm: number };
@@ -86,6 +88,11 @@ export interface Manifest {
   /** Where each vertex's mirror image lies on the skin at rest: three vertices each (-1: nowhere) and their
    *  weights (they sum to about 255). The plane's normal is of unit length. */
   mirror?: { normal: [number, number, number]; vertices: Stretch; weights: Stretch };
+  /** Names of points as people say them. */
+  point_words: Record<string, string>;
+  /** Holes of the skin, with the way into the head; what is put behind them hangs on their edge. */
+  openings: { loop: Stretch; inward: [number, number, number]; depth_m: number }[];
+  eyeballs: { centre: [number, number, number]; gaze: [number, number, number]; radius_m: number }[];
   variants?: VariantData[];
   /** What differs from place to place in the scene or a variant: the same keys for all of them. */
   tissue?: TissueMapData[];

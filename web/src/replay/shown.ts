@@ -15,7 +15,7 @@ export class Shown {
   private choice: Choice;
   private readonly listeners: (() => void)[] = [];
 
-  /** Begins with the scene itself alone, and the first variant ready beside it. */
+  /** Begins with base alone, and the first variant ready beside it. */
   constructor(private readonly count: number) {
     this.choice = { first: 0, second: count > 1 ? 1 : 0, mode: 'single' };
   }

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The run's summary (any JSON object) as tables: single values first, a table a nested object.
+// What the run says of itself: notes, warnings first; the figures that matter in groups; all others, and the
+// options, on demand. What is empty is left out.
 import { element } from '../page/dom';
-import { nameAndUnit, number } from '../page/format';
+import { landmarkName, nameAndUnit, number, pointOrText, upper } from '../page/format';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
-
-function textOf(value: unknown): string {
-  if (typeof value === 'number') return number(value);
-  if (typeof value === 'boolean') return value ? 'yes' : 'no';
-  if (value === null) return '–';
-  if (Array.isArray(value)) return value.map(textOf).join(', ');
-  return String(value);
-}
 
 interface Row {
   key: string;
@@ -21,28 +14,89 @@ interface Row {
   value: unknown;
 }
 
+/** Dotted keys of the figures that matter, with names where the key's own words do not say it. */
+const groups: [title: string, rows: [key: string, name: string, unit?: string][]][] = [
+  ['Motion', [
+    ['frames', 'Frames'],
+    ['peak_time_s', 'Peak (driven points moved most)', 's'],
+    ['max_displacement_mm', 'Largest displacement of the skin', 'mm'],
+    ['lip_opening_mm', 'Lips open by', 'mm'],
+    ['lip_overlap_mm', 'Lips pass through each other by', 'mm'],
+    ['jaw_opening_deg', 'Jaw opens by', '°'],
+    ['rigid_points_rms_mm', 'Points on bone, residual (rms)', 'mm'],
+  ]],
+  ['Symmetry', [
+    ['symmetry.verdict', 'Verdict on ξ'],
+    ['symmetry.S_most', 'Largest S'],
+    ['symmetry.S_most_at_s', 'at', 's'],
+    ['symmetry.undecided_samples', 'Undecided samples'],
+    ['symmetry.samples', 'of'],
+    ['symmetry.asymmetry_map.worst_face_rms_mm', 'Asymmetry of the face at most (rms)', 'mm'],
+    ['symmetry.asymmetry_map.mesh_floor_face_rms_mm', 'of which the mesh alone makes', 'mm'],
+    ['symmetry.asymmetry_map.rest_rms_mm', 'Asymmetry at rest, taken out (rms)', 'mm'],
+  ]],
+  ['Mesh', [
+    ['skin_vertices', 'Vertices of the skin'],
+    ['nodes', 'Nodes'],
+    ['tets', 'Tetrahedra'],
+    ['inverted_tets', 'of them turned inside out in some frame'],
+    ['mesh_quality.least_dihedral_deg', 'Least dihedral angle', '°'],
+    ['mesh_quality.skin_to_scan_mean_mm', 'Skin to scan, mean', 'mm'],
+    ['mesh_quality.skin_to_scan_max_mm', 'Skin to scan, largest', 'mm'],
+  ]],
+  ['Simulation', [
+    ['element', 'Element'],
+    ['solver', 'Solver'],
+    ['basis_size', 'Modes of the basis'],
+    ['estimated_error', 'Estimated error of the reduced model', '(relative)'],
+    ['verified_error', 'Verified error of the reduced model', '(relative)'],
+    ['steps', 'Steps'],
+    ['dt_s', 'Step', 's'],
+    ['seconds.total', 'Computing time', 's'],
+    ['version', 'Version of Hyperex'],
+  ]],
+];
+
+/** Shown elsewhere on the page. */
+const elsewhere = new Set(['program', 'title', 'variants', 'notes', 'warnings', 'symmetry.excursions', 'symmetry.commissure', 'symmetry.jitter_mm']);
+
+const isEmpty = (value: unknown): boolean =>
+  value === null || value === undefined || value === '' || (typeof value === 'number' && !Number.isFinite(value)) ||
+  (Array.isArray(value) && value.every(isEmpty)) || (isObject(value) && Object.values(value).every(isEmpty));
+
+function textOf(value: unknown): string {
+  if (typeof value === 'number') return number(value);
+  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  if (Array.isArray(value)) return value.map(textOf).join(', ');
+  return typeof value === 'string' ? pointOrText(value) : String(value);
+}
+
 /** A list of objects as one object: each under its name, or its place in the list. */
 const byName = (list: unknown[]): Json =>
   Object.fromEntries(list.map((item, i) => {
     if (!isObject(item)) return [String(i + 1), item];
     const { name, point, landmark, ...rest } = item;
     const called = [name, point, landmark].find((v) => typeof v === 'string' && v !== '');
-    return [`${i + 1}${called ? ` ${String(called)}` : ''}`, rest];
+    return [`${i + 1}${called ? ` ${landmarkName(String(called))}` : ''}`, rest];
   }));
 
 /** Nested objects row by row; a unit in an outer key ("distance_mm": {"mean": ...}) goes for the inner. */
-function rowsOf(object: Json, outer: Omit<Row, 'value'> = { key: '', name: '', unit: '' }): Row[] {
+function rowsOf(object: Json, skip: ReadonlySet<string>, outer: Omit<Row, 'value'> = { key: '', name: '', unit: '' }): Row[] {
   return Object.entries(object).flatMap(([key, value]) => {
     const own = nameAndUnit(key.replaceAll('.', ' · '));
     const row = {
       key: outer.key ? `${outer.key}.${key}` : key,
       name: outer.name ? `${outer.name} · ${own.name}` : own.name,
-      unit: own.unit || outer.unit,
+      unit: own.unit || outer.unit || (outer.key === 'seconds' ? 's' : ''),
     };
-    if (Array.isArray(value) && value.some(isObject)) return rowsOf(byName(value), row);
-    return isObject(value) ? rowsOf(value, row) : [{ ...row, value }];
+    if (isEmpty(value) || skip.has(row.key)) return [];
+    if (Array.isArray(value) && value.some(isObject)) return rowsOf(byName(value), skip, row);
+    return isObject(value) ? rowsOf(value, skip, row) : [{ ...row, value }];
   });
 }
+
+const at = (object: unknown, path: string): unknown =>
+  path.split('.').reduce<unknown>((inner, key) => (isObject(inner) ? inner[key] : undefined), object);
 
 function table(caption: string, rows: Row[]): HTMLElement {
   const card = element('div', '', 'table-card');
@@ -64,21 +118,47 @@ function table(caption: string, rows: Row[]): HTMLElement {
   return card;
 }
 
-/** What stands elsewhere on the page is left out. */
-function restOf({ variants: _variants, notes: _notes, ...summary }: Json): Json {
-  if (!isObject(summary.symmetry)) return summary;
-  const { excursions: _excursions, ...symmetry } = summary.symmetry;
-  return { ...summary, symmetry };
+function folded(title: string, tables: HTMLElement[]): HTMLElement {
+  const details = element('details', '', 'all-figures');
+  const box = element('div', '', 'table-cards');
+  box.append(...tables);
+  details.append(element('summary', title), box);
+  return details;
 }
 
-export function fillSummary(whole: Json, into: HTMLElement): void {
-  const summary = restOf(whole);
-  const single = Object.fromEntries(Object.entries(summary).filter(([, value]) => !isObject(value)));
-  if (Object.keys(single).length > 0) into.append(table('run', rowsOf(single)));
-  for (const [key, value] of Object.entries(summary)) {
-    if (!isObject(value)) continue;
-    const { name, unit } = nameAndUnit(key);
-    const outer = { key: '', name: '', unit: key === 'seconds' ? 's' : unit };
-    into.append(table(name, rowsOf(value, outer)));
+/** Warnings first, each once. */
+export function fillNotes(notes: string[], warnings: unknown, into: HTMLElement): void {
+  const first = Array.isArray(warnings) ? warnings.filter((w): w is string => typeof w === 'string') : [];
+  const all = [...new Set([...first, ...notes])];
+  into.hidden = all.length === 0;
+  for (const note of all) {
+    const item = element('li', '', first.includes(note) ? 'warning' : '');
+    if (first.includes(note)) item.append(element('strong', 'Warning: '));
+    item.append(upper(note));
+    into.append(item);
   }
+}
+
+export function fillSummary(summary: Json, into: HTMLElement): void {
+  const used = new Set(elsewhere);
+  const cards = groups.flatMap(([title, wanted]) => {
+    const rows = wanted.flatMap(([key, name, unit = '']) => {
+      const value = at(summary, key);
+      used.add(key);
+      return isEmpty(value) ? [] : [{ key, name, unit, value }];
+    });
+    return rows.length > 0 ? [table(title, rows)] : [];
+  });
+  const box = element('div', '', 'table-cards');
+  box.append(...cards);
+  into.append(box);
+  const { options, ...rest } = summary;
+  const others = rowsOf(rest, used);
+  if (others.length > 0) into.append(folded('All other figures', [table('Other figures', others)]));
+  if (!isObject(options) || isEmpty(options)) return;
+  const sections = Object.entries(options).filter(([, value]) => !isEmpty(value));
+  const single = Object.fromEntries(sections.filter(([, value]) => !isObject(value)));
+  const tables = sections.flatMap(([key, value]) => (isObject(value) ? [table(nameAndUnit(key).name, rowsOf(value, new Set()))] : []));
+  if (Object.keys(single).length > 0) tables.unshift(table('scene', rowsOf(single, new Set())));
+  into.append(folded('Options of the scene', tables));
 }

@@ -19,7 +19,7 @@ export interface Variants {
 const isVariants = (v: unknown): v is Variants =>
   typeof v === 'object' && v !== null && Array.isArray((v as Variants).table);
 
-/** Of the scene itself and its variants, as `Replay.faces`; null where the run has none. */
+/** Of base and its variants, as `Replay.faces`; null where the run has none. */
 export function variantsOf(replay: Replay): Variants | null {
   const { variants } = replay.summary;
   return isVariants(variants) && variants.table.length > 1 ? variants : null;

@@ -4,6 +4,7 @@ import type { Chart } from '../../charts/chart_options';
 import type { Replay } from '../data';
 import { element } from '../../page/dom';
 import type { Shown } from '../shown';
+import { cornerCurves, dressCornerCard } from './corner_card';
 import { addedCurves, stretchCurves, symmetryCurves } from './symmetry_charts';
 import { dark } from '../../page/theme';
 import { TimeChart } from '../../charts/time_chart';
@@ -16,8 +17,10 @@ export class Plots {
     replay: Replay, private readonly shown: Shown, private readonly into: HTMLElement,
     private readonly seek: (timeS: number) => void,
   ) {
-    this.add('Symmetry of motion, S(t)', () => symmetryCurves(replay, shown));
+    const corners = this.add('Corners of the mouth', () => cornerCurves(replay, shown));
+    if (corners) dressCornerCard(replay, shown, corners.card);
     this.add('Stretch of either side, ξ(t)', () => stretchCurves(replay, shown));
+    this.add('Symmetry of motion, S(t)', () => symmetryCurves(replay, shown));
     this.add('What each variant adds, Δ(ξL − ξR)', () => addedCurves(replay, shown));
     this.addTracks(replay);
     dark.addEventListener('change', () => this.plots.forEach((plot) => plot.draw()));

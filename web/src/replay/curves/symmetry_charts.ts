@@ -3,7 +3,8 @@
 // those that are shown, and what each variant adds to the difference of the sides.
 import type { Chart, Curve } from '../../charts/chart_options';
 import type { Replay } from '../data';
-import { faceWords, number, signed } from '../../page/format';
+import { faceHue, leftHue, rightHue } from '../../page/face_colour';
+import { faceWords, signed } from '../../page/format';
 import type { SymmetryCurve } from '../manifest';
 import type { Shown } from '../shown';
 
@@ -21,9 +22,17 @@ const facesWithCurve = (replay: Replay): { i: number; curve: SymmetryCurve }[] =
   replay.faces.flatMap(({ symmetry }, i) =>
     symmetry && symmetry.time_s.length === replay.symmetry?.time_s.length ? [{ i, curve: symmetry }] : []);
 
+/** What the noise floor is made of. */
+function floorWords({ jitter_mm = 0, mesh_noise = [] }: SymmetryCurve): string {
+  const jitter = 'which a symmetric motion seen with the jitter of the points stays under in 95 of 100 samples';
+  const mesh = 'which is what the mesh makes of a symmetric motion';
+  if (mesh_noise.length === 0) return jitter;
+  return jitter_mm > 0 ? `the larger of that ${jitter} and that ${mesh}` : mesh;
+}
+
 /** Where the jitter is known its noise floor; else where S stops. */
 function floorOf(curve: SymmetryCurve): { curve: Curve; caption: string } {
-  const { noise = [], floor, jitter_mm = 0 } = curve;
+  const { noise = [], floor } = curve;
   if (noise.length === curve.time_s.length)
     return {
       curve: {
@@ -31,8 +40,7 @@ function floorOf(curve: SymmetryCurve): { curve: Curve; caption: string } {
         values: noise.map((n) => (n === null || !(n > 0) ? null : Math.log(Math.max(n, floor)))),
       },
       caption:
-        'Hatched, undecided: under the noise floor, which a symmetric motion seen with the jitter of these points ' +
-        `(${number(Number(jitter_mm.toPrecision(2)))} mm) stays under in 95 of 100 samples; values there are not told apart.`,
+        `Hatched, undecided: under the noise floor, ${floorWords(curve)}; values there are not told apart.`,
     };
   const least = Math.log(floor);
   return {
@@ -69,7 +77,7 @@ export function symmetryCurves(replay: Replay, shown: Shown): Part[] {
       ...faces.map(({ i, curve }) => ({
         label: several ? faceWords(replay.faces, i) : 'S',
         column: several ? `S (ln) of ${replay.faces[i].name}` : 'S (ln)',
-        values: curve.s, hue: i, strong: several && shown.visible.includes(i),
+        values: curve.s, hue: faceHue(i), strong: several && shown.visible.includes(i),
       })),
     ],
   }];
@@ -84,20 +92,21 @@ export function stretchCurves(replay: Replay, shown: Shown): Part[] {
   return [{
     caption:
       'Relative change of the distances from the mouth corner to eye, lid, nose and lip, summed. ' +
-      `Solid: left, dashed: right, the subject’s own${several && one ? `; of ${faceWords(replay.faces, shown.first)}` : ''}.`,
+      `The subject’s own left and right${one ? (several ? `, of ${faceWords(replay.faces, shown.first)}` : '') : `; solid: ${faceWords(replay.faces, shown.first)}, dashed: ${faceWords(replay.faces, shown.second)}`}.`,
     unit: '', digits: 4, timeS: own.time_s, yLabel: 'ξ (relative change)', heightPx: 200,
     curves: faces.flatMap(({ i, curve }) => {
+      const broken = !one && i !== shown.first;
       const of = one ? '' : ` of ${faceWords(replay.faces, i)}`;
       const file = several ? ` of ${replay.faces[i].name} (1)` : ' (1)';
       return [
-        { label: `ξL${of}`, column: `ξL${file}`, values: curve.xi_left, hue: i },
-        { label: `ξR${of}`, column: `ξR${file}`, values: curve.xi_right, hue: several ? i : 1, broken: true },
+        { label: `ξL${of}`, column: `ξL${file}`, values: curve.xi_left, hue: leftHue(), broken },
+        { label: `ξR${of}`, column: `ξR${file}`, values: curve.xi_right, hue: rightHue(), broken },
       ];
     }),
   }];
 }
 
-/** ξL - ξR less that of the scene itself: what other tissue adds. Empty where there are no variants. */
+/** ξL - ξR less that of base: what other tissue adds. Empty where there are no variants. */
 export function addedCurves(replay: Replay, shown: Shown): Part[] {
   const own = replay.symmetry;
   const faces = facesWithCurve(replay);
@@ -107,13 +116,13 @@ export function addedCurves(replay: Replay, shown: Shown): Part[] {
   const itself = apart(own);
   return [{
     caption:
-      'ξL − ξR of each face less that of the scene itself, the line at 0; above it the left side stretches more than there. ' +
+      'ξL − ξR of each face less that of base, the line at 0; above it the left side stretches more than there. ' +
       'This is what tissue changes; S(t) of a simulated face also holds what its mesh makes uneven (docs/symmetry.md).',
     unit: '', digits: 4, timeS: own.time_s, yLabel: 'Δ(ξL − ξR) (relative change)', heightPx: 210,
     curves: faces.map(({ i, curve }) => ({
       label: faceWords(replay.faces, i), column: `Delta(xi_L - xi_R) of ${replay.faces[i].name} (1)`,
       values: apart(curve).map((d, f) => (d === null || itself[f] === null ? null : d - itself[f]!)),
-      hue: i, strong: i > 0 && shown.visible.includes(i),
+      hue: faceHue(i), strong: i > 0 && shown.visible.includes(i),
     })),
   }];
 }

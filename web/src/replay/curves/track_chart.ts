@@ -3,7 +3,8 @@
 import type { Chart, Curve } from '../../charts/chart_options';
 import type { Replay } from '../data';
 import { element, memberBox } from '../../page/dom';
-import { faceWords, landmarkName } from '../../page/format';
+import { leftHue, otherHue, rightHue } from '../../page/face_colour';
+import { faceWords, landmarkName, naturally, upper } from '../../page/format';
 import type { Shown } from '../shown';
 import { variantsOf } from '../variants';
 
@@ -31,6 +32,10 @@ export function tracksMm(replay: Replay, face: number): Track[] {
 /** By how much a point's track differs from the scene's own in any variant, mm. */
 const spread = (own: Track, others: Track[]): number =>
   Math.max(0, ...others.flatMap((other) => other.map((v, f) => Math.abs((v ?? 0) - (own[f] ?? v ?? 0)))));
+
+const corners: Record<string, 'L' | 'R'> = { cheilion_L: 'L', ibug68_54: 'L', cheilion_R: 'R', ibug68_48: 'R' };
+/** Whose corner of the mouth a point is: those have the colours of the sides everywhere. */
+const sideOfCorner = (name: string): 'L' | 'R' | undefined => corners[name];
 
 /** Points to show first. Of variants: their input and response, and where they differ most; driven points move alike
  *  in all. Else those that drive, or those that move most. */
@@ -87,9 +92,12 @@ export class TrackCurves {
     const { faces, landmarks } = this.replay;
     const tracks = this.of(face);
     const file = faces.length > 1 ? ` of ${faces[face].name} (mm)` : ' (mm)';
-    return [...this.chosen].map((point, hue) => {
-      const name = landmarkName(landmarks.names[point]);
-      return { label: name + ending, column: name + file, values: tracks[point], hue, broken };
+    let others = 0;
+    return [...this.chosen].map((point) => {
+      const name = landmarks.names[point];
+      const side = sideOfCorner(name);
+      const hue = side === 'L' ? leftHue() : side === 'R' ? rightHue() : otherHue(others++);
+      return { label: landmarkName(name) + ending, column: name + file, values: tracks[point], hue, broken };
     });
   }
 }
@@ -98,11 +106,13 @@ export class TrackCurves {
 export function trackChooser(names: string[], chosen: Set<number>, changed: () => void): HTMLElement {
   const details = element('details', '', 'chooser');
   const list = element('div');
-  names.forEach((name, i) => {
+  const order = names.map((_, i) => i).sort((a, b) => naturally(landmarkName(names[a]), landmarkName(names[b])));
+  for (const i of order) {
     const label = element('label');
-    label.append(memberBox(chosen, i, changed), landmarkName(name));
+    label.append(memberBox(chosen, i, changed), upper(landmarkName(names[i])));
+    label.title = names[i];
     list.append(label);
-  });
+  }
   details.append(element('summary', `Choose points (${names.length})`), list);
   return details;
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The colour maps and the bar that explains them. Even steps of a map look evenly far apart: viridis, and
-// three of equal steps along a curve in OKLab (Ottosson 2020, https://bottosson.github.io/posts/oklab).
-// Their lightness alone orders the values, so colour-blind readers and grey prints keep them.
+// The colour maps and the bar that explains them. Even steps of a map look evenly far apart: equal steps
+// of lightness along a curve in OKLab (Ottosson 2020, https://bottosson.github.io/posts/oklab).
+// Their lightness alone orders the values, so colour-blind readers and grey prints keep them. All begin pale:
+// a face that hardly moves must not look like a hole.
 
-export type RampName = 'viridis' | 'embers' | 'sea' | 'plum';
+export type RampName = 'moss' | 'embers' | 'sea' | 'plum';
 
 type Rgb = [number, number, number];
 
 const ramps: Record<RampName, Rgb[]> = {
-  viridis: [
-    [68, 1, 84], [72, 36, 117], [65, 68, 135], [53, 95, 141], [42, 120, 142], [33, 145, 140],
-    [34, 168, 132], [68, 191, 112], [122, 209, 81], [189, 223, 38], [253, 231, 37],
+  // From pale, where nothing moves, to dark green. OKLCH lightness 0.91 to 0.34, hue 100 to 165 degrees.
+  moss: [
+    [228, 226, 211], [210, 209, 172], [188, 194, 134], [163, 180, 102], [134, 166, 79], [106, 151, 67],
+    [79, 135, 63], [55, 119, 61], [32, 102, 57], [9, 85, 53], [0, 68, 46],
   ],
   // From pale, where nothing differs, to dark red. OKLCH lightness 0.90 to 0.33, hue 85 to 18 degrees.
   embers: [

@@ -43,7 +43,7 @@ const ofAll = (replay: Replay) => (replay.faces.length > 1 ? 'range of all faces
 function displacement(replay: Replay): Colouring {
   const greatest = niceCeiling(Math.max(...replay.faces.map((f) => f.maxDisplacementMm)));
   const painting: Painting = {
-    scale: { ramp: 'viridis', title: 'Displacement from rest', unit: 'mm', least: 0, greatest, remark: ofAll(replay) },
+    scale: { ramp: 'moss', title: 'Displacement from rest', unit: 'mm', least: 0, greatest, remark: ofAll(replay) },
     fill(shape, out) {
       const d = shape.displacement;
       const factor = 1e3 / greatest;
@@ -64,7 +64,7 @@ function distances(a: Float32Array, b: Float32Array, factor: number, out: Float3
   }
 }
 
-/** From the scene itself. Beside the scene both faces have the colours of what differs between them: one that is
+/** From base. Beside base both faces have the colours of what differs between them: one that is
  *  nothing everywhere would hide the half of the other. */
 function difference(replay: Replay): Colouring {
   const { faces } = replay;
@@ -73,7 +73,7 @@ function difference(replay: Replay): Colouring {
     const between = shown.length > 1 && shown.includes(0) && variants.length > 0;
     const greatest = niceCeiling(Math.max(0, ...variants.map((i) => faces[i].maxDifferenceMm)));
     const names = variants.map((i) => faceWords(faces, i)).join(' and ');
-    const title = between ? 'Distance between the faces' : 'Distance from the scene itself';
+    const title = between ? 'Distance between the faces' : 'Distance from base';
     return {
       scale: { ramp: 'embers', title, unit: 'mm', least: 0, greatest, remark: names && `range of ${names} alone` },
       fill(shape, out, other) {
@@ -86,10 +86,13 @@ function difference(replay: Replay): Colouring {
   return { key: 'difference', label: 'Difference', of };
 }
 
+/** On a smaller scale what a mesh makes uneven looks like a finding. */
+const leastAsymmetryRangeMm = 5;
+
 function asymmetryOfMotion(replay: Replay, mirror: NonNullable<Replay['mirror']>): Colouring {
   let painting: Painting | null = null;
   const made = (): Painting => {
-    const greatest = niceCeiling(usualAsymmetryMm(replay, mirror));
+    const greatest = niceCeiling(Math.max(usualAsymmetryMm(replay, mirror), leastAsymmetryRangeMm));
     const some = mirror.vertices.some((v) => v < 0) ? 'grey: unpaired' : '';
     const remark = [ofAll(replay), some].filter((text) => text).join('; ');
     return {
@@ -125,11 +128,11 @@ const skin: Colouring = { key: 'skin', label: 'Skin', of: () => plain };
 
 export function colouringsOf(replay: Replay): Colouring[] {
   return [
+    skin,
     displacement(replay),
     ...(replay.faces.length > 1 ? [difference(replay)] : []),
     ...(replay.mirror ? [asymmetryOfMotion(replay, replay.mirror)] : []),
     ...replay.faces[0].tissue.map((map) => tissue(replay, map.key)),
-    skin,
   ];
 }
 

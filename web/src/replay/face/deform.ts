@@ -48,7 +48,7 @@ function addModes(modes: Mode[], weights: Float32Array, frame: number, frames: n
   }
 }
 
-/** How the scene itself moves: worked out once a frame, whatever faces are made of it. */
+/** How base moves: worked out once a frame, whatever faces are made of it. */
 export class SceneMotion {
   readonly displacement: Float32Array; // metres
   private frame = NaN;

@@ -4,6 +4,7 @@ import {
   BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Group, LinearFilter, Mesh, MeshLambertMaterial,
   MeshStandardMaterial, Raycaster, RGBAFormat, SRGBColorSpace, Texture, Vector3,
 } from 'three';
+import { Backing } from './backing';
 import { linearOf, rampBytes, type RampName } from './colour';
 import type { Painting } from './colouring';
 import type { Face, Replay } from '../data';
@@ -23,7 +24,7 @@ export class FaceMaterials {
   private readonly ramps = new Map<RampName, Texture>();
 
   constructor(replay: Replay) {
-    this.useRamp('viridis');
+    this.useRamp('moss');
     if (!replay.colour) return;
     this.plain.vertexColors = true;
     this.plain.color.set('#ffffff');
@@ -54,6 +55,7 @@ export class FaceBody {
   readonly overlays: Overlay[];
   readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>;
   readonly shape: FaceShape;
+  private readonly backing: Backing;
   private readonly shares: Float32Array;
   /** Vertices drawn, where the picture's seams split those of the skin. */
   private readonly split: Int32Array | null;
@@ -82,7 +84,8 @@ export class FaceBody {
     geometry.setIndex(new BufferAttribute(new Uint32Array(replay.texture?.triangles ?? replay.triangles), 1));
     this.mesh = new Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>(geometry, materials.mapped);
     this.mesh.frustumCulled = false;
-    this.object.add(this.mesh, ...this.overlays.map((o) => o.object));
+    this.backing = new Backing(replay);
+    this.object.add(this.mesh, this.backing.object, ...this.overlays.map((o) => o.object));
     for (const overlay of this.overlays) overlay.object.visible = false;
   }
 
@@ -95,6 +98,7 @@ export class FaceBody {
     this.shape.moveTo(frame);
     this.copyOut(this.shape.position, this.position);
     this.copyOut(this.shape.normal, this.normal);
+    this.backing.follow(this.shape.position);
     for (const overlay of this.overlays)
       if (overlay.object.visible) overlay.follow(this.shape.displacement);
   }

@@ -58,7 +58,7 @@ class FaceLabel {
   }
 }
 
-/** Two faces: the one that was looked at, right, beside the scene itself. One again: the right one. */
+/** Two faces: the one that was looked at, right, beside base. One again: the right one. */
 export function changeMode(shown: Shown, mode: Mode): void {
   if (mode === shown.mode) return;
   if (mode === 'single') shown.set({ mode, first: shown.second });
@@ -74,7 +74,7 @@ export const chooseFace = (shown: Shown, face: number): void =>
  *  the faces shown. */
 export function wireFaces(replay: Replay, shown: Shown): (note: (face: Face) => string) => void {
   if (replay.faces.length < 2) return () => {};
-  at('faces').hidden = false;
+  for (const id of ['faces', 'modes', 'swap']) at(id).hidden = false;
   const chips = fillChips(replay, at('chips'), (face) => chooseFace(shown, face));
   const first = new FaceLabel(at('first-label'), replay, (face) => shown.set({ first: face }));
   const second = new FaceLabel(at('second-label'), replay, (face) => shown.set({ second: face }));

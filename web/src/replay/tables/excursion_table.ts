@@ -4,7 +4,7 @@
 import type { Replay } from '../data';
 import { button, element } from '../../page/dom';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
-import { faceWords, landmarkName } from '../../page/format';
+import { faceWords, landmarkName, upper } from '../../page/format';
 import type { Shown } from '../shown';
 import { variantsOf } from '../variants';
 
@@ -12,13 +12,15 @@ interface Sides {
   L: number | null;
   R: number | null;
 }
-interface Excursion {
+export interface Excursion {
   point: string;
   excursion_mm: Sides;
   path_mm: Sides;
   peak_speed_mm_s: Sides;
   speed_correlation: number | null;
   undecided: boolean;
+  /** What |L - R| of the excursions must exceed to be told from jitter and mesh. */
+  floor_mm?: number | null;
   [ratio: string]: unknown;
 }
 
@@ -37,7 +39,7 @@ const correlation: Column = {
 };
 const undecided = {
   head: 'Undecided',
-  says: 'both excursions differ by less than jitter of the points alone makes of two places a side, in 95 of 100.',
+  says: 'the sides differ by less than the jitter of the points, or the mesh alone, makes of a symmetric motion.',
 };
 
 const unitKey = { excursion: 'excursion_mm', path: 'path_mm', peak_speed: 'peak_speed_mm_s' } as const;
@@ -53,7 +55,7 @@ export function excursionsOf(replay: Replay, face: number): Excursion[] {
 
 const largest = ({ excursion_mm: { L, R } }: Excursion): number => Math.max(L ?? 0, R ?? 0);
 
-/** "ibug68_48/54" is "iBUG 48/54". */
+/** Points that have anatomical names come first. */
 const isNumbered = ({ point }: Excursion): boolean => point.startsWith('ibug68_');
 
 function headOf(table: HTMLTableElement): void {
@@ -88,23 +90,34 @@ function balance({ L, R }: Sides): HTMLElement {
   return cell;
 }
 
+const floorKey = { excursion: 'floor_mm', path: 'path_floor_mm', peak_speed: 'peak_speed_floor_mm_s' } as const;
+const floorOf = (pair: Excursion, key: keyof typeof floorKey): number => Number(pair[floorKey[key]] ?? NaN);
+const isUndecided = (pair: Excursion, key: keyof typeof floorKey): boolean =>
+  key === 'excursion' ? pair.undecided : pair[`${key}_undecided`] === true;
+
+/** In grey, with the word and the floor in the place of a figure that would be read as a finding. */
+function undecidedCell(cell: HTMLTableCellElement, floor: number, unit: string): HTMLTableCellElement {
+  const known = Number.isFinite(floor) && floor > 0;
+  const words = element('span', known ? `undecided (below ${floor.toFixed(1)} ${unit})` : 'undecided', 'undecided');
+  words.title = `${cell.textContent}: ${undecided.says}`;
+  cell.replaceChildren(words);
+  return cell;
+}
+
 function addRow(body: HTMLTableSectionElement, pair: Excursion): void {
   const row = body.insertRow();
-  const name = element('th', landmarkName(pair.point));
+  const name = element('th', upper(landmarkName(pair.point)));
   name.scope = 'row';
-  if (pair.undecided) {
-    const mark = element('span', ' undecided', 'undecided');
-    mark.title = undecided.says;
-    name.append(mark);
-  }
   row.append(name, balance(pair.excursion_mm));
   for (const { key, unit, head, digits, says } of groups) {
     const column = { key, head, unit, digits, says };
     const sides = pair[unitKey[key]];
     row.append(figureCell(sides.L, column), figureCell(sides.R, column));
-    row.append(figureCell(pair[`${key}_ratio_R_L`], { ...column, unit: '', digits: 3 }));
+    const over = figureCell(pair[`${key}_ratio_R_L`], { ...column, unit: '', digits: 3 });
+    row.append(isUndecided(pair, key) ? undecidedCell(over, floorOf(pair, key), unit) : over);
   }
-  row.append(figureCell(pair.speed_correlation, correlation));
+  const together = figureCell(pair.speed_correlation, correlation);
+  row.append(pair.speed_correlation_undecided === true ? undecidedCell(together, NaN, '') : together);
 }
 
 const csvRows = (pairs: Excursion[]): (string | number | null)[][] => [
@@ -138,7 +151,7 @@ export function excursionTable(replay: Replay, shown: Shown): HTMLElement | null
   });
   const label = () => {
     fold.hidden = first.length === pairs.length;
-    fold.textContent = hidden.hidden ? `Show ${pairs.length - first.length} numbered points too` : 'Named points only';
+    fold.textContent = hidden.hidden ? `Show ${pairs.length - first.length} more points` : 'Show fewer points';
     fold.setAttribute('aria-expanded', String(!hidden.hidden));
     const scale = Math.max(...(hidden.hidden ? first : pairs).map(largest), 1e-9);
     table.style.setProperty('--most', String(scale));
@@ -156,12 +169,13 @@ export function excursionTable(replay: Replay, shown: Shown): HTMLElement | null
   };
   fill();
   shown.onChange(fill);
-  const card = figureCard('Excursion of either side', [
+  const { card, body: folding } = figureCard('Excursion of either side', [
     'Each point against that of the other side, those that move farthest first. The figures describe a motion and diagnose nothing.',
   ], table, () => csvRows(pairs));
   card.classList.add('excursions');
   card.querySelector('.scroller')!.before(whose);
-  const anyUndecided = replay.faces.some((_, i) => excursionsOf(replay, i).some((pair) => pair.undecided));
-  card.append(fold, columnNotes([...groups, ratio, correlation, ...(anyUndecided ? [undecided] : [])]));
+  const anyUndecided = replay.faces.some((_, i) => excursionsOf(replay, i).some((pair) => Object.entries(pair)
+    .some(([key, value]) => key.endsWith('undecided') && value === true)));
+  folding.append(fold, columnNotes([...groups, ratio, correlation, ...(anyUndecided ? [undecided] : [])]));
   return card;
 }

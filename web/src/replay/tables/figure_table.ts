@@ -41,28 +41,35 @@ export function headCell({ head, unit, says }: Column): HTMLTableCellElement {
   return cell;
 }
 
-/** What each column is, under the table. */
+/** What each column is, on demand. */
 export function columnNotes(columns: Pick<Column, 'head' | 'says'>[]): HTMLElement {
+  const details = element('details', '', 'column-help');
   const list = element('dl', '', 'column-notes');
   for (const { head, says } of columns) {
     const pair = element('div');
     pair.append(element('dt', head), element('dd', says));
     list.append(pair);
   }
-  return list;
+  details.append(element('summary', 'What the columns mean'), list);
+  return details;
 }
 
-/** The card; `rows` gives all figures, not rounded, with their names and units in the first row. */
+/** Where there is little room tables open on demand. */
+const roomy = () => !window.matchMedia('(max-width: 700px)').matches;
+
+/** The card and what of it folds; `rows` gives all figures, not rounded, with their names and units in the first row. */
 export function figureCard(
   title: string, lines: string[], table: HTMLTableElement, rows: () => (string | number | null)[][],
-): HTMLElement {
+): { card: HTMLElement; body: HTMLElement } {
   const card = element('article', '', 'figures');
-  const head = element('div', '', 'figures-head');
+  const body = element('details');
+  body.open = roomy();
+  const head = element('summary');
   const tools = element('span', '', 'table-tools');
   const saveTable = () => save(csvFile(rows()), fileName(document.title, title, 'csv'));
   tools.append(saveButton('CSV', 'Save the table, figures not rounded', title, saveTable));
-  head.append(element('h2', title), tools);
-  card.append(head, ...lines.map((line) => element('p', line)));
+  head.append(element('h2', title));
+  body.append(head, ...lines.map((line) => element('p', line)));
   const caption = table.createCaption();
   caption.textContent = title;
   caption.className = 'unseen'; // the heading says the same
@@ -72,6 +79,7 @@ export function figureCard(
   scroller.setAttribute('role', 'region');
   scroller.setAttribute('aria-label', title);
   scroller.append(table);
-  card.append(scroller);
-  return card;
+  body.append(scroller);
+  card.append(body, tools);
+  return { card, body };
 }

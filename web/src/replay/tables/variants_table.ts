@@ -5,7 +5,7 @@ import { button, element } from '../../page/dom';
 import { chooseFace } from '../face/face_chooser';
 import { faceColour } from '../../page/face_colour';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
-import { landmarkName, number } from '../../page/format';
+import { landmarkName } from '../../page/format';
 import type { Shown } from '../shown';
 import { changesOf, variantsOf, type VariantRow, type Variants } from '../variants';
 
@@ -16,7 +16,7 @@ const columns: Column[] = [
   },
   {
     key: 'greatest_distance_mm', head: 'Greatest distance', unit: 'mm', digits: 2,
-    says: 'from the scene itself: how far apart the same point of the skin is in both at the same time, at most.',
+    says: 'from base: how far apart the same point of the skin is in both at the same time, at most.',
   },
   {
     key: 'rms_distance_at_peak_mm', head: 'Distance at peak', unit: 'mm, rms', digits: 3,
@@ -44,7 +44,7 @@ const columns: Column[] = [
   },
   {
     key: 'lag_ms', head: 'Lag', unit: 'ms', digits: 2,
-    says: 'time by which the response trails the input, where both correlate best; found to fractions of a step. What the scene itself has comes from the way the skin takes; the tissue makes the difference between rows.',
+    says: 'time by which the response trails the input, where both correlate best; found to fractions of a step. What base has comes from the way the skin takes; the tissue makes the difference between rows.',
   },
   {
     key: 'hysteresis', head: 'Hysteresis', unit: '1', digits: 4,
@@ -65,11 +65,11 @@ function linesOf(replay: Replay, { driven_point, response_point }: Variants): st
     ? [`Input of lag and hysteresis: ${landmarkName(driven_point)}, the driven point that moves most; response: ` +
        `${landmarkName(response_point)}, which moves most of those off the driven patches.`]
     : [];
-  const { noise = [], jitter_mm = 0 } = replay.symmetry ?? {};
+  const { noise = [] } = replay.symmetry ?? {};
   const decided = noise.length > 0
-    ? `The points are known to ${number(Number(jitter_mm.toPrecision(2)))} mm: changes of symmetry under the noise floor of S(t) are undecided.`
+    ? 'Changes of symmetry under the noise floor of S(t) are undecided.'
     : 'The motion is exact, so that all variants follow the very same input; where S(t) of two is under the floor, their difference is undecided.';
-  return ['Each variant against the scene itself. Press a name to see that face.', ...points, decided];
+  return ['Each variant against base. Press a name to see that face.', ...points, decided];
 }
 
 /** Digits enough for the column's largest figure to show two that are not zero. */
@@ -79,8 +79,8 @@ function fitted(column: Column, rows: VariantRow[]): Column {
   return { ...column, digits: Math.min(Math.max(column.digits, 1 - Math.floor(Math.log10(most))), 9) };
 }
 
-/** Where the face differs most, and what that place does at the peak here and in the scene itself. */
-function placeOf({ farthest_near: near, displacement_there_mm: here, scene_displacement_there_mm: there }: VariantRow): string[] {
+/** Where the face differs most, and what that place does at the peak here and in base. */
+function placeOf({ farthest_near: near, displacement_there_mm: here, base_displacement_there_mm: there }: VariantRow): string[] {
   if (typeof near !== 'string' || near === '' || !isNumber(here) || !isNumber(there)) return [];
   return [`differs most near ${landmarkName(near)}, which moves ${here.toFixed(2)} instead of ${there.toFixed(2)} mm`];
 }
@@ -93,7 +93,7 @@ function nameCell(
   const face = button('', 'face', press);
   face.title = 'Show this face';
   face.append(element('i'), replay.faces[i].name);
-  const changes = i === 0 ? ['the scene itself'] : [...changesOf(replay, i), ...placeOf(row)];
+  const changes = i === 0 ? ['the scene without a variant'] : [...changesOf(replay, i), ...placeOf(row)];
   cell.append(face, ...changes.map((change) => element('small', change)));
   return { cell, face };
 }
@@ -137,7 +137,7 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
   });
   shown.onChange(show);
   show();
-  const card = figureCard('Variants', linesOf(replay, variants), table, () => [
+  const { card, body: folding } = figureCard('Variants', linesOf(replay, variants), table, () => [
     ['face', 'what differs', ...used.map(({ head: name, unit }) => `${name} (${unit})`)],
     ...rows.map((row, i) => [
       row.name, changesOf(replay, i).join('; '),
@@ -145,6 +145,6 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
     ]),
   ]);
   card.classList.add('variants');
-  card.append(columnNotes(used));
+  folding.append(columnNotes(used));
   return card;
 }

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/face/point_words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <string_view>
+
+namespace hyperex::face {
+namespace {
+
+struct IbugWords {
+  std::string_view words;
+  char side = 'M';  ///< L, R, or M: on the midline
+};
+
+// Multi-PIE/iBUG order, 0-based: the jaw from the subject's right ear to the left, brows, nose,
+// eyes, outer lips, inner lips.
+constexpr std::array<IbugWords, 68> ibug_points = {{
+    {"outline of the jaw 1 (by the ear)", 'R'},
+    {"outline of the jaw 2", 'R'},
+    {"outline of the jaw 3", 'R'},
+    {"outline of the jaw 4", 'R'},
+    {"outline of the jaw 5 (by the angle)", 'R'},
+    {"outline of the jaw 6", 'R'},
+    {"outline of the jaw 7", 'R'},
+    {"outline of the jaw 8 (by the chin)", 'R'},
+    {"chin"},
+    {"outline of the jaw 8 (by the chin)", 'L'},
+    {"outline of the jaw 7", 'L'},
+    {"outline of the jaw 6", 'L'},
+    {"outline of the jaw 5 (by the angle)", 'L'},
+    {"outline of the jaw 4", 'L'},
+    {"outline of the jaw 3", 'L'},
+    {"outline of the jaw 2", 'L'},
+    {"outline of the jaw 1 (by the ear)", 'L'},
+    {"outer end of the brow", 'R'},
+    {"outer part of the brow", 'R'},
+    {"middle of the brow", 'R'},
+    {"inner part of the brow", 'R'},
+    {"inner end of the brow", 'R'},
+    {"inner end of the brow", 'L'},
+    {"inner part of the brow", 'L'},
+    {"middle of the brow", 'L'},
+    {"outer part of the brow", 'L'},
+    {"outer end of the brow", 'L'},
+    {"root of the nose"},
+    {"bridge of the nose, upper part"},
+    {"bridge of the nose, lower part"},
+    {"tip of the nose"},
+    {"outer edge of the nostril", 'R'},
+    {"inner edge of the nostril", 'R'},
+    {"base of the nose"},
+    {"inner edge of the nostril", 'L'},
+    {"outer edge of the nostril", 'L'},
+    {"outer corner of the eye", 'R'},
+    {"outer part of the upper eyelid", 'R'},
+    {"inner part of the upper eyelid", 'R'},
+    {"inner corner of the eye", 'R'},
+    {"inner part of the lower eyelid", 'R'},
+    {"outer part of the lower eyelid", 'R'},
+    {"inner corner of the eye", 'L'},
+    {"inner part of the upper eyelid", 'L'},
+    {"outer part of the upper eyelid", 'L'},
+    {"outer corner of the eye", 'L'},
+    {"outer part of the lower eyelid", 'L'},
+    {"inner part of the lower eyelid", 'L'},
+    {"corner of the mouth", 'R'},
+    {"outer part of the upper lip", 'R'},
+    {"peak of the upper lip", 'R'},
+    {"middle of the upper lip"},
+    {"peak of the upper lip", 'L'},
+    {"outer part of the upper lip", 'L'},
+    {"corner of the mouth", 'L'},
+    {"outer part of the lower lip", 'L'},
+    {"inner part of the lower lip", 'L'},
+    {"middle of the lower lip"},
+    {"inner part of the lower lip", 'R'},
+    {"outer part of the lower lip", 'R'},
+    {"inner corner of the mouth", 'R'},
+    {"edge of the upper lip", 'R'},
+    {"edge of the upper lip, middle"},
+    {"edge of the upper lip", 'L'},
+    {"inner corner of the mouth", 'L'},
+    {"edge of the lower lip", 'L'},
+    {"edge of the lower lip, middle"},
+    {"edge of the lower lip", 'R'},
+}};
+
+/// Anatomical landmarks without their side: what they are to those who do not know the term.
+const std::map<std::string_view, std::string_view> anatomical = {
+    {"exocanthion", "outer corner of the eye (exocanthion)"},
+    {"endocanthion", "inner corner of the eye (endocanthion)"},
+    {"palpebrale_inferius", "lower eyelid (palpebrale inferius)"},
+    {"alare", "wing of the nose (alare)"},
+    {"cheilion", "corner of the mouth (cheilion)"},
+    {"crista_philtri_superior", "philtrum ridge, upper end (crista philtri)"},
+    {"crista_philtri_inferior", "philtrum ridge, lower end (crista philtri)"},
+    {"cheek", "cheek"},
+    {"glabella", "between the brows (glabella)"},
+    {"nasion", "root of the nose (nasion)"},
+    {"pronasale", "tip of the nose (pronasale)"},
+    {"subnasale", "base of the nose (subnasale)"},
+    {"labiale_superius", "upper lip (labiale superius)"},
+    {"stomion", "between the lips (stomion)"},
+    {"labiale_inferius", "lower lip (labiale inferius)"},
+    {"pogonion", "chin (pogonion)"},
+};
+
+std::string plain(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string with_side(std::string_view words, char side) {
+  return std::string(words) + (side == 'L' ? ", left" : side == 'R' ? ", right" : "");
+}
+
+/// 0 to 67, or -1.
+int ibug_number(std::string_view digits) {
+  int k = -1;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), k);
+  return error == std::errc() && end == digits.data() + digits.size() && k >= 0 && k < 68 ? k : -1;
+}
+
+}  // namespace
+
+std::string point_words(const std::string& name) {
+  constexpr std::string_view prefix = "ibug68_";
+  const std::string_view view = name;
+  if (view.starts_with(prefix)) {
+    const std::string_view rest = view.substr(prefix.size());
+    const auto slash = rest.find('/');
+    const int k = ibug_number(rest.substr(0, slash));
+    if (k < 0) return plain(view);
+    const IbugWords& point = ibug_points[std::size_t(k)];
+    return with_side(point.words, slash == rest.npos ? point.side : 'M');
+  }
+  const bool sided = view.size() > 2 && (view.ends_with("_L") || view.ends_with("_R"));
+  const std::string_view stem = sided ? view.substr(0, view.size() - 2) : view;
+  const auto found = anatomical.find(stem);
+  if (found == anatomical.end()) return plain(view);
+  return with_side(found->second, sided ? view.back() : 'M');
+}
+
+}  // namespace hyperex::face

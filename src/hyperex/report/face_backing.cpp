@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/report/face_backing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "hyperex/geometry/surface_topology.hpp"
+
+namespace hyperex::report {
+namespace {
+
+using Eigen::Index;
+using Landmarks = std::map<std::string, Vec3>;
+
+std::optional<Vec3> first_of(const Landmarks& landmarks, std::initializer_list<const char*> names) {
+  for (const char* name : names)
+    if (const auto found = landmarks.find(name);
+        found != landmarks.end() && found->second.allFinite())
+      return found->second;
+  return std::nullopt;
+}
+
+struct Corners {
+  std::array<std::optional<Vec3>, 2> outer, inner;  ///< of the eyes, right and left
+  Vec3 forward;
+};
+
+/// Axes as the page has them (web/src/replay/face/face_frame.ts): a head held upright has its mouth
+/// corners before its outer eye corners, by some 12 degrees.
+std::optional<Corners> corners_of(const Landmarks& landmarks) {
+  const auto outer_r = first_of(landmarks, {"ibug68_36", "exocanthion_R"});
+  const auto outer_l = first_of(landmarks, {"ibug68_45", "exocanthion_L"});
+  const auto inner_r = first_of(landmarks, {"ibug68_39", "endocanthion_R"});
+  const auto inner_l = first_of(landmarks, {"ibug68_42", "endocanthion_L"});
+  const auto mouth_r = first_of(landmarks, {"ibug68_48", "cheilion_R"});
+  const auto mouth_l = first_of(landmarks, {"ibug68_54", "cheilion_L"});
+  if (!outer_r || !outer_l || !mouth_r || !mouth_l) return std::nullopt;
+  const Vec3 x = (*outer_l - *outer_r).normalized();
+  const Eigen::AngleAxisd lean(12 * std::numbers::pi / 180, x);
+  const Vec3 up = lean * (*outer_l + *outer_r - *mouth_l - *mouth_r);
+  return Corners{{outer_r, outer_l}, {inner_r, inner_l}, x.cross(up).normalized()};
+}
+
+double length_of(const std::vector<int>& loop, const Points& points) {
+  double sum = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    sum += (points.row(loop[(i + 1) % loop.size()]) - points.row(loop[i])).norm();
+  return sum;
+}
+
+std::vector<Opening> openings_of(const TriMesh& skin, const Vec3& forward) {
+  constexpr double longest_m = 0.25;
+  const std::vector<std::vector<int>> loops = boundary_loops(skin.triangles);
+  std::vector<double> length_m;
+  for (const auto& loop : loops) length_m.push_back(length_of(loop, skin.points));
+  const Points normals = vertex_normals(skin);
+  const auto border = std::max_element(length_m.begin(), length_m.end()) - length_m.begin();
+  std::vector<Opening> openings;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (std::ptrdiff_t(i) == border || length_m[i] > longest_m || loops[i].size() < 3) continue;
+    Vec3 outward = Vec3::Zero();
+    for (const int v : loops[i]) outward += normals.row(v).transpose();
+    outward /= double(loops[i].size());
+    // The edge of a lip is rolled in; the face's own direction keeps the pocket behind it.
+    openings.push_back(
+        {loops[i], -(forward + 0.5 * outward).normalized(), std::min(0.03, 0.25 * length_m[i])});
+  }
+  return openings;
+}
+
+Eyeball eyeball_between(const Vec3& outer, const Vec3& inner, const Vec3& forward,
+                        const Points& skin) {
+  constexpr double radius_per_width = 0.4, clearance_m = 4e-4, farthest_back_m = 8e-3;
+  const Vec3 middle = (outer + inner) / 2;
+  const double width_m = (outer - inner).norm();
+  Eyeball eye{Vec3::Zero(), forward, radius_per_width * width_m};
+  // The ball's front bulges before the line of the corners by a sixth of the width.
+  const Vec3 start = middle - (eye.radius_m - width_m / 6) * forward;
+  double back_m = 0;
+  for (Index v = 0; v < skin.rows(); ++v) {
+    const Vec3 off = skin.row(v).transpose() - start;
+    const double along = off.dot(forward), across = (off - along * forward).norm();
+    const double reach = eye.radius_m + clearance_m;
+    // Only what lies before the ball: the wall of an eye's socket may be as near as it will.
+    if (across >= reach || along < 0.35 * eye.radius_m) continue;
+    back_m = std::max(back_m, std::sqrt(reach * reach - across * across) - along);
+  }
+  eye.centre = start - std::min(back_m, farthest_back_m) * forward;
+  return eye;
+}
+
+/// The part of a sphere between two angles from its gaze, radians.
+TriMesh zone(const Eyeball& eye, double from, double to, int rings) {
+  constexpr int sectors = 32;
+  const Vec3 x = eye.gaze.unitOrthogonal(), y = eye.gaze.cross(x);
+  TriMesh mesh;
+  mesh.points.resize((rings + 1) * sectors, 3);
+  for (int i = 0; i <= rings; ++i)
+    for (int k = 0; k < sectors; ++k) {
+      const double polar = from + (to - from) * i / rings;
+      const double turn = 2 * std::numbers::pi * k / sectors;
+      const Vec3 out =
+          std::cos(polar) * eye.gaze + std::sin(polar) * (std::cos(turn) * x + std::sin(turn) * y);
+      mesh.points.row(i * sectors + k) = (eye.centre + eye.radius_m * out).transpose();
+    }
+  mesh.triangles.resize(2 * rings * sectors, 3);
+  Index row = 0;
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < sectors; ++k) {
+      const int a = i * sectors + k, b = i * sectors + (k + 1) % sectors;
+      mesh.triangles.row(row++) << a, a + sectors, b + sectors;
+      mesh.triangles.row(row++) << a, b + sectors, b;
+    }
+  return mesh;
+}
+
+}  // namespace
+
+FaceBacking face_backing(const TriMesh& skin, const Landmarks& landmarks) {
+  FaceBacking backing;
+  const auto corners = corners_of(landmarks);
+  if (!corners) return backing;
+  backing.openings = openings_of(skin, corners->forward);
+  for (std::size_t side = 0; side < 2; ++side)
+    if (corners->inner[0] && corners->inner[1])
+      backing.eyeballs.push_back(eyeball_between(*corners->outer[side], *corners->inner[side],
+                                                 corners->forward, skin.points));
+  return backing;
+}
+
+TriMesh pocket(const Opening& opening, const Points& points) {
+  const auto n = Index(opening.loop.size());
+  Vec3 centre = Vec3::Zero();
+  for (const int v : opening.loop) centre += points.row(v).transpose() / double(n);
+  TriMesh mesh;
+  mesh.points.resize(3 * n + 1, 3);
+  const auto ring = [&](Index which, double depth, double width) {
+    for (Index i = 0; i < n; ++i) {
+      const Vec3 edge = points.row(opening.loop[std::size_t(i)]);
+      mesh.points.row(which * n + i) =
+          (centre + width * (edge - centre) + depth * opening.depth_m * opening.inward).transpose();
+    }
+  };
+  ring(0, 0, 1);
+  ring(1, 0.35, 1.05);
+  ring(2, 0.9, 0.8);
+  mesh.points.row(3 * n) = (centre + opening.depth_m * opening.inward).transpose();
+  mesh.triangles.resize(5 * n, 3);
+  Index row = 0;
+  for (Index i = 0; i < n; ++i) {
+    const int a = int(i), b = int((i + 1) % n), m = int(n);
+    for (const int r : {0, m}) {
+      mesh.triangles.row(row++) << r + b, r + a, r + m + a;
+      mesh.triangles.row(row++) << r + b, r + m + a, r + m + b;
+    }
+    mesh.triangles.row(row++) << 2 * m + b, 2 * m + a, 3 * m;
+  }
+  return mesh;
+}
+
+std::vector<TriMesh> eyeball_parts(const Eyeball& eyeball) {
+  // An iris of 11.7 mm and a pupil of 4 mm on a ball of 24 mm, as angles from the gaze.
+  constexpr double pupil = 0.167, iris = 0.51;
+  return {zone(eyeball, iris, std::numbers::pi, 16), zone(eyeball, pupil, iris, 3),
+          zone(eyeball, 0, pupil, 2)};
+}
+
+}  // namespace hyperex::report

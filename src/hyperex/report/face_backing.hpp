@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+
+namespace hyperex::report {
+
+// What pictures put behind the holes of a scanned skin, so that it looks like a face and not like a
+// mask: dark pockets behind mouth, eyes and nostrils, and plain eyeballs. For the eye alone: no
+// part of the model, and of no figure.
+
+/// A hole of the skin. Its pocket hangs on its edge and goes along with the skin.
+struct Opening {
+  std::vector<int> loop;  ///< vertices of the skin around it, in the direction of its triangles
+  Vec3 inward;            ///< unit length, into the head
+  double depth_m = 0;
+};
+
+/// A sphere that looks along `gaze` (unit length).
+struct Eyeball {
+  Vec3 centre, gaze;
+  double radius_m = 0;
+};
+
+struct FaceBacking {
+  std::vector<Opening> openings;
+  std::vector<Eyeball> eyeballs;  ///< right and left; none where landmarks are missing
+};
+
+/// `skin`: at rest, metres. `landmarks`: positions on it, the iBUG points or their anatomical
+/// names; without the outer corners of the eyes and those of the mouth nothing is put behind the
+/// skin, without the inner corners no eyeballs. Openings are all closed borders of at most 250 mm
+/// but the longest, which is the skin's own end. An eyeball's radius is 0.4 of the distance of the
+/// eye's corners (an adult's is 12 mm, behind an opening of some 30 mm). It lies as far forward as
+/// lets no vertex of the lids into it: at most a sixth of that distance before the line between the
+/// corners, at least 8 mm behind that place.
+FaceBacking face_backing(const TriMesh& skin, const std::map<std::string, Vec3>& landmarks);
+
+/// The pocket of an opening for vertices at `points`: two rings behind the edge and a point.
+TriMesh pocket(const Opening& opening, const Points& points);
+
+/// An eyeball as three meshes in the order sclera, iris, pupil: each of one colour.
+std::vector<TriMesh> eyeball_parts(const Eyeball& eyeball);
+
+}  // namespace hyperex::report

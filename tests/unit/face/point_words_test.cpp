@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/face/point_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "hyperex/face/canonical_face.hpp"
+
+namespace hyperex::face {
+namespace {
+
+TEST(PointWords, NameEveryLandmarkOnceAndWithItsSide) {
+  std::set<std::string> seen;
+  const CanonicalFace& face = canonical_face();
+  for (const auto& [name, vertices] : face.landmarks) {
+    const std::string words = point_words(name);
+    EXPECT_TRUE(seen.insert(words).second) << name << ": " << words << " names another point too";
+    EXPECT_EQ(words.find('_'), words.npos) << words;
+    EXPECT_EQ(words.find("ibug"), words.npos) << words;
+    // +x is the subject's left.
+    const double x = face.landmark(name, face.mesh.points).x();
+    EXPECT_EQ(words.ends_with(", left"), x > 1e-4) << name << ": " << words;
+    EXPECT_EQ(words.ends_with(", right"), x < -1e-4) << name << ": " << words;
+  }
+  EXPECT_EQ(seen.size(), 68u + 24u);
+}
+
+TEST(PointWords, OfMirroredPointsDifferInTheSideAlone) {
+  const auto without_side = [](const std::string& words) {
+    return words.substr(0, words.rfind(", "));
+  };
+  for (const auto& [name, vertices] : canonical_face().landmarks) {
+    const std::string other = mirrored_landmark(name);
+    if (other == name) continue;
+    EXPECT_EQ(without_side(point_words(name)), without_side(point_words(other)));
+  }
+}
+
+TEST(PointWords, KnowPairsAndLeaveOtherNames) {
+  EXPECT_EQ(point_words("ibug68_54"), "corner of the mouth, left");
+  EXPECT_EQ(point_words("ibug68_48/54"), "corner of the mouth");
+  EXPECT_EQ(point_words("cheilion"), "corner of the mouth (cheilion)");
+  EXPECT_EQ(point_words("cheilion_R"), "corner of the mouth (cheilion), right");
+  EXPECT_EQ(point_words("ibug68_68"), "ibug68 68");
+  EXPECT_EQ(point_words("ibug68_x"), "ibug68 x");
+  EXPECT_EQ(point_words("my_marker_L"), "my marker L");
+  EXPECT_EQ(point_words(""), "");
+}
+
+}  // namespace
+}  // namespace hyperex::face

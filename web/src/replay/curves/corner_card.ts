@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The first figures of the page: both corners of the mouth in words and over time, and a line for each variant.
+import type { Chart } from '../../charts/chart_options';
+import { cornersOf, differenceWords, mm, type Corners } from '../corners';
+import type { Replay } from '../data';
+import { button, element } from '../../page/dom';
+import { faceColour, leftHue, rightHue } from '../../page/face_colour';
+import { faceWords, landmarkName } from '../../page/format';
+import { chooseFace } from '../face/face_chooser';
+import type { Shown } from '../shown';
+import { isNumber } from '../tables/figure_table';
+import { variantsOf, type VariantRow } from '../variants';
+
+/** A difference from base below this is none, mm: half of what a figure here shows. */
+const sameMm = 0.05;
+
+/** Where the floor comes from, in words. */
+function floorWords(replay: Replay, { floorMm, undecided }: Corners): string {
+  const jitter = replay.symmetry?.jitter_mm ?? 0;
+  const mesh = meshFloorWhy(replay);
+  if (!(floorMm > 0)) return mesh || 'Largest distance from rest. No floor is known: the recording is exact.';
+  const why = jitter > 0 ? ` Jitter of the tracked points: ${jitter.toFixed(2)} mm.` : '';
+  const verdict = undecided ? 'Undecided' : 'Decided';
+  return `Largest distance from rest. ${verdict}: a difference below ${mm(floorMm)} would not be told from jitter and mesh.${why}`;
+}
+
+function meshFloorWhy(replay: Replay): string {
+  const floor = (replay.summary.symmetry as { mesh_floor?: { known?: boolean; why?: string } } | undefined)?.mesh_floor;
+  return floor?.known === false && floor.why ? `Largest distance from rest. ${floor.why}` : '';
+}
+
+function sideWords(side: 'left' | 'right', valueMm: number): HTMLElement {
+  const words = element('span', '', side);
+  words.append(element('i'), `${side} `, element('b', mm(valueMm)));
+  return words;
+}
+
+function headline(corners: Corners): HTMLElement {
+  const line = element('p', '', 'headline');
+  line.id = 'headline';
+  const verdict = element('strong', differenceWords(corners));
+  verdict.classList.toggle('undecided', corners.undecided);
+  line.append(sideWords('left', corners.leftMm), ', ', sideWords('right', corners.rightMm), ': ', verdict);
+  return line;
+}
+
+/** "0.8 mm less than base" of the side that changes more; empty where neither does. */
+function againstBase(own: Corners, base: Corners): string {
+  const change = { left: own.leftMm - base.leftMm, right: own.rightMm - base.rightMm };
+  const side = Math.abs(change.left) > Math.abs(change.right) ? 'left' : 'right';
+  const by = change[side];
+  if (Math.abs(by) < sameMm) return '';
+  const goes = side === 'left' ? own.leftMm : own.rightMm;
+  return `${side} corner ${mm(goes)}, ${mm(Math.abs(by))} ${by < 0 ? 'less' : 'more'} than base`;
+}
+
+/** Where the tissue shows when the corners are driven. */
+function elsewhere(row: VariantRow): string {
+  const { farthest_near: near, displacement_there_mm: here, base_displacement_there_mm: there } = row;
+  if (typeof near !== 'string' || near === '' || !isNumber(here) || !isNumber(there)) return 'moves as base';
+  return `corners as base; most changed near ${landmarkName(near)}: ${mm(here)} instead of ${mm(there)}`;
+}
+
+function variantLines(replay: Replay, shown: Shown, base: Corners): HTMLElement | null {
+  const variants = variantsOf(replay);
+  if (!variants) return null;
+  const all = replay.faces.map((_, i) => (i === 0 ? base : cornersOf(replay, i)));
+  const words = all.map((own, i) => (own && i > 0 ? againstBase(own, base) : ''));
+  const list = element('ul', '', 'variant-lines');
+  replay.faces.forEach(({ name }, i) => {
+    if (i === 0) return;
+    const row = variants.table.find((r) => r.name === name);
+    const item = element('li');
+    const face = button('', 'face-name', () => chooseFace(shown, i));
+    const dot = element('i');
+    dot.style.background = faceColour(i);
+    face.append(dot, name);
+    item.append(face, ': ', words[i] || (row ? elsewhere(row) : 'corners as base'));
+    list.append(item);
+  });
+  const box = element('div');
+  box.append(list);
+  if (base.driven && words.every((text) => text === ''))
+    box.prepend(element('p', 'Both corners are driven points: they go where the recording says, whatever the tissue.'));
+  return box;
+}
+
+/** Of the face shown, of two the second dashed. Empty where the run has no points at the corners. */
+export function cornerCurves(replay: Replay, shown: Shown): Omit<Chart, 'title'>[] {
+  const faces = [...new Set(shown.visible)];
+  const base = cornersOf(replay, faces[0]);
+  if (!base) return [];
+  const several = replay.faces.length > 1;
+  return [{
+    caption: '', unit: ' mm', digits: 1, timeS: base.timeS, yLabel: 'from rest (mm)', heightPx: 165,
+    curves: faces.flatMap((face, k) => {
+      const own = cornersOf(replay, face)!;
+      const of = faces.length > 1 ? ` of ${faceWords(replay.faces, face)}` : '';
+      const file = several ? ` of ${replay.faces[face].name} (mm)` : ' (mm)';
+      return [
+        { label: `left${of}`, column: `left${file}`, values: own.left, hue: leftHue(), broken: k > 0 },
+        { label: `right${of}`, column: `right${file}`, values: own.right, hue: rightHue(), broken: k > 0 },
+      ];
+    }),
+  }];
+}
+
+/** Words above the chart, and below it what the variants do; they follow the face that is shown. */
+export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement): void {
+  card.classList.add('corners');
+  const said = element('div', '', 'said');
+  const floor = element('p', '', 'floor');
+  const show = () => {
+    const face = shown.visible[shown.visible.length - 1];
+    const corners = cornersOf(replay, face)!;
+    said.replaceChildren(headline(corners));
+    const whose = replay.faces.length > 1 ? `Of ${faceWords(replay.faces, face)}. ` : '';
+    floor.textContent = whose + floorWords(replay, corners);
+  };
+  show();
+  shown.onChange(show);
+  card.querySelector('.plot-head')!.after(said, floor);
+  const lines = variantLines(replay, shown, cornersOf(replay, 0)!);
+  if (lines) card.append(lines);
+}
