@@ -10,9 +10,8 @@ const policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsaf
 const withPolicy: Plugin = {
   name: 'content-security-policy',
   apply: 'build',
-  transformIndexHtml: () => [
-    { tag: 'meta', attrs: { 'http-equiv': 'Content-Security-Policy', content: policy }, injectTo: 'head-prepend' },
-  ],
+  transformIndexHtml: (html) => html.replace('<meta charset="utf-8" />', (first) =>
+    `${first}\n    <meta http-equiv="Content-Security-Policy" content="${policy}" />`),
 };
 
 export default defineConfig({

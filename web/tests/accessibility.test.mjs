@@ -30,7 +30,8 @@ const files = process.env.PAGE
 
 /** What readers may meet only after a press. */
 async function unfold(page) {
-  for (const summary of await page.locator('details:not([open]) > summary').all()) await summary.click();
+  const folded = page.locator('details:not([open]) > summary:visible');
+  while ((await folded.count()) > 0) await folded.first().click();
   for (const more of await page.locator('button[aria-expanded=false]:visible').all()) await more.click();
   await pressWhereShown(page, '#modes [data-mode=side-by-side]');
 }

@@ -9,7 +9,7 @@ import { readPage, withData } from './page_data.mjs';
 
 const sides = (L, R) => ({ L, R });
 const pair = (point, L, R, undecided = false) => ({
-  point, undecided, speed_correlation: 0.987,
+  point, undecided, floor_mm: undecided ? 0.3 : 0.05, speed_correlation: 0.987,
   excursion_mm: sides(L, R), excursion_ratio_R_L: L > 0 ? R / L : null,
   path_mm: sides(2 * L, 2 * R), path_ratio_R_L: L > 0 ? R / L : null,
   peak_speed_mm_s: sides(9 * L, 9 * R), peak_speed_ratio_R_L: L > 0 ? R / L : null,
@@ -32,6 +32,9 @@ export async function rarePage() {
     excursions: [pair('alare', 0.5, 0.6, true), pair('cheilion', 6.78, 4.2), pair('ibug68_7/9', 12, 11), pair('cheek', 0, 1)],
   };
   table[2].excursions = [pair('cheilion', 5, 3), pair('alare', 6, 0.25)];
+  Object.assign(data.point_words, {
+    cheilion: 'corner of the mouth (cheilion)', alare: 'wing of the nose (alare)', cheek: 'cheek', 'ibug68_7/9': 'outline of the jaw',
+  });
   const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'rare.html');
   await writeFile(file, withData(html, data));
   return file;

@@ -71,10 +71,12 @@ for (const report of reports) {
 
     test('colouring, views and overlays change the picture', async () => {
       await page.locator('#to-peak').click();
+      const skin = await look(page);
+      assert.equal(await page.locator('#colour-bar').isVisible(), false);
+      await page.getByRole('button', { name: 'Displacement' }).click();
       const mapped = await look(page);
       assert.equal(await page.locator('#colour-bar').isVisible(), true);
       await page.getByRole('button', { name: 'Skin' }).click();
-      const skin = await look(page);
       assert.ok(await changedShare(mapped, skin) > 0.08);
       assert.equal(await page.locator('#colour-bar').isVisible(), false);
       await page.getByRole('button', { name: 'Three-quarter' }).click();

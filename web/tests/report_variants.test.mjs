@@ -44,7 +44,7 @@ describe('a report with variants', () => {
     await page.addStyleTag({ content: '#canvas-host { background: #808080; }' });
   });
   after(() => close?.());
-  // The scene itself alone, from the front, where it moves most.
+  // Base alone, from the front, where it moves most.
   beforeEach(async () => {
     await page.getByRole('button', { name: 'One face' }).click();
     await page.locator('#chips button').first().click();
@@ -63,7 +63,7 @@ describe('a report with variants', () => {
   });
 
   test('shows the face that is chosen, by button, by key and at its name', async () => {
-    assert.deepEqual(await pressed(page, 'chips'), ['the scene itself']);
+    assert.deepEqual(await pressed(page, 'chips'), ['base']);
     const itself = await look(page);
     await page.locator('#chips button').nth(1).click();
     await drawn(page, '1');
@@ -77,7 +77,7 @@ describe('a report with variants', () => {
     assert.ok(await changedShare(itself, await look(page)) < 1e-3, 'back to the first picture');
   });
 
-  test('compares a variant with the scene itself, and two faces side by side', async () => {
+  test('compares a variant with base, and two faces side by side', async () => {
     await page.keyboard.press('2');
     await page.keyboard.press('s');
     await drawn(page, '0 1');
@@ -158,7 +158,7 @@ describe('a report with variants', () => {
     assert.ok(await changedShare(right, await look(page), { ...under, left: 0.05 }) < 1e-3);
     await page.keyboard.press('End');
     assert.ok(await changedShare(left, await look(page), { ...under, right: 0.95 }) < 1e-3);
-    assert.match(await handle.getAttribute('aria-valuetext'), /100 % the scene itself/);
+    assert.match(await handle.getAttribute('aria-valuetext'), /100 % base/);
     assert.equal(await page.locator('#frame').inputValue(), frame, 'keys of the line moved the frame');
     await page.keyboard.press('w');
     await drawn(page, '1');
@@ -204,7 +204,7 @@ describe('a report with variants', () => {
       if (!skin) titles.push(await page.locator('#colour-bar figcaption').textContent());
     }
     assert.equal(titles[0], 'Displacement from rest mm');
-    assert.equal(titles[1], 'Distance from the scene itself mm');
+    assert.equal(titles[1], 'Distance from base mm');
     assert.equal(titles[2], 'Asymmetry of the motion mm');
     assert.equal(titles[3], "Young's modulus kPa");
     const chosen = [];
@@ -215,7 +215,7 @@ describe('a report with variants', () => {
     assert.deepEqual(chosen, await buttons.allTextContents());
   });
 
-  test('the scene itself differs nowhere from itself; a variant does, on the scale of those shown', async () => {
+  test('base differs nowhere from itself; a variant does, on the scale of those shown', async () => {
     const greatest = () => page.locator('#colour-bar .ticks span').last().textContent().then(Number);
     const reaches = async (...shown) => {
       const most = Math.max(...shown.map((i) => data.variants[i - 1].max_difference_mm));
@@ -244,7 +244,7 @@ describe('a report with variants', () => {
     await reaches(1, 2);
   });
 
-  test('beside the scene itself both faces are coloured by the distance between them', async () => {
+  test('beside base both faces are coloured by the distance between them', async () => {
     await page.getByRole('button', { name: 'Difference', exact: true }).click();
     await page.keyboard.press('2');
     await page.keyboard.press('s');
@@ -287,7 +287,7 @@ describe('a report with variants', () => {
     assert.equal(apart, same, 'the distance between two faces is one');
     assert.ok(own > 1 && apart > 0.05 && apart <= data.variants[0].max_difference_mm, `${own} mm, ${apart} mm apart`);
     assert.ok(apart >= Math.abs(own - other) - 0.02 && apart <= own + other + 0.02, `${apart} between ${own} and ${other}`);
-    assert.match(await page.locator('#said').textContent(), new RegExp(`the scene itself: displacement ${own.toFixed(2)} mm, Difference`));
+    assert.match(await page.locator('#said').textContent(), new RegExp(`base: displacement ${own.toFixed(2)} mm, Difference`));
     if (pictures) await page.screenshot({ path: join(pictures, 'readout.png') });
     await page.keyboard.press('Home');
     await drawn(page, '0 1');
@@ -373,7 +373,7 @@ test('a page without variants has no controls for them', { skip: Boolean(process
   await page.waitForSelector('#face[data-at-rest="true"]');
   for (const id of ['faces', 'wipe', 'swap', 'first-label', 'second-label'])
     assert.equal(await page.locator(`#${id}`).isVisible(), false, id);
-  assert.deepEqual(await page.locator('#colouring button').allTextContents(), ['Displacement', 'Skin']);
+  assert.deepEqual(await page.locator('#colouring button').allTextContents(), ['Skin', 'Displacement']);
   for (const key of ['s', 'w', '2', 'x']) await page.keyboard.press(key);
   assert.equal(await page.locator('#face').getAttribute('data-faces'), '0');
   const [saved] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('e')]);

@@ -13,6 +13,7 @@
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/report/displacement_modes.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/glb.hpp"
 #include "hyperex/scene/asymmetry_picture.hpp"
 #include "hyperex/scene/face_box.hpp"
@@ -77,6 +78,42 @@ std::vector<Still> stills_of(const Results& r) {
     stills.push_back({shown[s], &r.simulation.still_displacement_m[s]});
   return stills;
 }
+
+/// What stands behind the holes of the skin, in the face's frame.
+class BackingSurfaces {
+ public:
+  BackingSurfaces(const report::FaceBacking& backing, const tissue::FaceFrame& frame) {
+    for (const report::Eyeball& eye : backing.eyeballs) {
+      int part = 0;
+      for (const TriMesh& mesh : report::eyeball_parts(eye))
+        parts_.push_back({{frame.local_points(mesh.points), mesh.triangles}, kEye[part++]});
+    }
+    still_ = parts_.size();
+  }
+
+  /// The skin's surface with all that stands behind it; valid until the next call.
+  std::vector<render::Surface> with(const render::Surface& skin,
+                                    const report::FaceBacking& backing) {
+    parts_.erase(parts_.begin() + std::ptrdiff_t(still_), parts_.end());
+    for (const report::Opening& opening : backing.openings)
+      parts_.push_back({report::pocket(opening, skin.mesh.points), kPocket});
+    std::vector<render::Surface> all{skin};
+    for (const Part& part : parts_)
+      all.push_back({.mesh = part.mesh, .plain = part.colour, .smooth = false});
+    return all;
+  }
+
+ private:
+  struct Part {
+    TriMesh mesh;
+    render::Colour colour;
+  };
+  static constexpr std::array<render::Colour, 3> kEye = {
+      {{0.93, 0.92, 0.9}, {0.43, 0.36, 0.28}, {0.08, 0.07, 0.06}}};
+  static constexpr render::Colour kPocket{0.13, 0.05, 0.04};
+  std::vector<Part> parts_;
+  std::size_t still_ = 0;
+};
 
 /// The skin in the face's box, in all its shapes.
 Points framed_points(const Results& r, const std::vector<Still>& stills,
@@ -164,6 +201,12 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   for (const Vec3& view : views)
     height_m = std::max(height_m, render::framing(framed, view, aspect).height_m);
 
+  report::FaceBacking backing = report::face_backing(p.skin_rest, r.inputs.landmarks);
+  BackingSurfaces behind(backing, frame);
+  // Pockets hang on the skin in the face's frame.
+  for (report::Opening& opening : backing.openings)
+    opening.inward = frame.local(frame.origin + opening.inward);
+
   render::ContactSheet sheet;
   sheet.title = r.scene.title.empty() ? r.inputs.scan.file.filename().string() : r.scene.title;
   sheet.note = "displacement of the skin; red: driven points";
@@ -175,15 +218,17 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
     camera.height_m = height_m;
     const TriMesh rest{frame.local_points(p.skin_rest.points), p.skin_rest.triangles};
     std::vector<render::Polyline> lines;
+    const render::Surface at_rest{.mesh = rest};
     if (p.lip_cut_rest.rows() > 0) lines.push_back({frame.local_points(p.lip_cut_rest)});
     sheet.pictures.push_back(
-        {render::render({{.mesh = rest}}, camera, options, markers(p, frame), lines), "rest"});
+        {render::render(behind.with(at_rest, backing), camera, options, markers(p, frame), lines),
+         "rest"});
     for (const Still& still : stills) {
       const TriMesh mesh{frame.local_points(moved(p, *still.displacement)), p.skin_rest.triangles};
       const render::Surface surface{
           .mesh = mesh, .scalar = 1e3F * still.displacement->rowwise().norm(), .range = {0, top}};
-      sheet.pictures.push_back(
-          {render::render({surface}, camera, options), fmt::format("{:.2f} s", still.time_s)});
+      sheet.pictures.push_back({render::render(behind.with(surface, backing), camera, options),
+                                fmt::format("{:.2f} s", still.time_s)});
     }
   }
   render::write_png(file, render::contact_sheet(sheet));

@@ -21,6 +21,7 @@ struct Results {
   std::vector<std::string> notes;
   report::DisplacementModes modes;  ///< of the skin; empty where neither glTF nor page is wanted
   const tissue::TissueField* tissue = nullptr;  ///< where the tissue differs from place to place
+  std::vector<std::string> warnings = {};       ///< those of `notes` that nobody should overlook
 };
 
 /// Writes all files but summary.json and report.html into `directory`.

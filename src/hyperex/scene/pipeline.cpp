@@ -132,15 +132,15 @@ std::vector<std::string> idle_variants(const Json& table) {
   for (std::size_t i = 1; i < table.size(); ++i)
     if (const Json& most = table[i]["greatest_distance_mm"];
         most.is_number() && most.get<double>() < kSame_mm)
-      notes.push_back(
-          fmt::format("variant {} moves as base does: what it changes has no effect",
-                      table[i]["name"].get<std::string>()));
+      notes.push_back(fmt::format("variant {} moves as base does: what it changes has no effect",
+                                  table[i]["name"].get<std::string>()));
   return notes;
 }
 
-void warn(const std::vector<std::string>& notes, std::vector<std::string>& all) {
+void warn(const std::vector<std::string>& notes, Results& results) {
   for (const std::string& note : notes) spdlog::warn("{}", note);
-  all.insert(all.end(), notes.begin(), notes.end());
+  results.notes.insert(results.notes.end(), notes.begin(), notes.end());
+  results.warnings.insert(results.warnings.end(), notes.begin(), notes.end());
 }
 
 }  // namespace
@@ -260,9 +260,8 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
       few > 0 && few <= kFewInverted * double(tets))
     results.notes.push_back(fmt::format(
         "{} of {} tetrahedra turned inside out in some frame, too few to matter", few, tets));
-  warn(warnings_of(simulation.report, tets), results.notes);
-  if (const auto& note = results.symmetry.map->plane.note; !note.empty())
-    warn({note}, results.notes);
+  warn(warnings_of(simulation.report, tets), results);
+  if (const auto& note = results.symmetry.map->plane.note; !note.empty()) warn({note}, results);
   Json summary = summary_of(results);
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.
@@ -274,12 +273,14 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
                          seconds["variants"] = own.lap();
                          summary["variants"] = write_variants(results, variants, mesh, directory);
                        });
-  if (!variants.empty()) warn(idle_variants(summary["variants"]["table"]), results.notes);
+  if (!variants.empty()) warn(idle_variants(summary["variants"]["table"]), results);
   seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;
   for (std::string& note : results.notes) note = with_file_names(scene, note);
   summary["notes"] = results.notes;
+  for (std::string& warning : results.warnings) warning = with_file_names(scene, warning);
+  summary["warnings"] = results.warnings;
   summary["options"] = echoed_options(scene);
   if (scene.output.report) {
     write_report(results, variants, summary, directory);

@@ -64,10 +64,13 @@ const isEmpty = (value: unknown): boolean =>
   value === null || value === undefined || value === '' || (typeof value === 'number' && !Number.isFinite(value)) ||
   (Array.isArray(value) && value.every(isEmpty)) || (isObject(value) && Object.values(value).every(isEmpty));
 
-function textOf(value: unknown): string {
-  if (typeof value === 'number') return number(value);
+/** Lengths and times below a nanometre or a nanosecond are what rounding leaves. */
+const leastShown = 1e-6;
+
+function textOf(value: unknown, unit = ''): string {
+  if (typeof value === 'number') return ['mm', 's', '°'].includes(unit) && Math.abs(value) < leastShown ? '0' : number(value);
   if (typeof value === 'boolean') return value ? 'yes' : 'no';
-  if (Array.isArray(value)) return value.map(textOf).join(', ');
+  if (Array.isArray(value)) return value.map((v) => textOf(v, unit)).join(', ');
   return typeof value === 'string' ? pointOrText(value) : String(value);
 }
 
@@ -111,7 +114,7 @@ function table(caption: string, rows: Row[]): HTMLElement {
     const shown = typeof value === 'number' || Array.isArray(value) ? unit : '';
     row.append(head);
     const cell = row.insertCell();
-    cell.textContent = textOf(value) + (shown ? (shown === '°' ? '°' : ` ${shown}`) : '');
+    cell.textContent = textOf(value, unit) + (shown ? (shown === '°' ? '°' : ` ${shown}`) : '');
     if (typeof value === 'string') cell.className = 'text';
   }
   card.append(made);

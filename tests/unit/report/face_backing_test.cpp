@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/report/face_backing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/tissue/canonical_face.hpp"
+#include "unit/report/made_up_face.hpp"
+
+namespace hyperex::report {
+namespace {
+
+const tissue::EmbeddedFace& embedded() {
+  static const tissue::EmbeddedFace face = tissue::embedded_face();
+  return face;
+}
+
+TEST(FaceBacking, FindsEyesAndMouthOfTheEmbeddedFaceAndNotItsBorder) {
+  const auto& face = embedded();
+  const FaceBacking backing = face_backing(face.mesh, face.landmarks);
+  ASSERT_EQ(backing.openings.size(), 3u);
+  for (const char* inside : {"ibug68_37", "ibug68_44", "ibug68_62"}) {
+    double nearest_m = INFINITY;
+    for (const Opening& opening : backing.openings)
+      for (const int v : opening.loop)
+        nearest_m = std::min(
+            nearest_m, (face.mesh.points.row(v).transpose() - face.landmarks.at(inside)).norm());
+    EXPECT_LT(nearest_m, 3e-3) << inside;
+  }
+  for (const Opening& opening : backing.openings) {
+    EXPECT_NEAR(opening.inward.norm(), 1, 1e-12);
+    EXPECT_LT(opening.inward.z(), -0.8) << "+z looks forward";
+  }
+}
+
+TEST(FaceBacking, EyeballsLieBehindTheLidsAndAreSeenBetweenThem) {
+  const auto& face = embedded();
+  const FaceBacking backing = face_backing(face.mesh, face.landmarks);
+  ASSERT_EQ(backing.eyeballs.size(), 2u);
+  EXPECT_LT(backing.eyeballs[0].centre.x(), 0) << "the subject's right first";
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Eyeball& eye = backing.eyeballs[side];
+    EXPECT_GT(eye.radius_m, 0.008);
+    EXPECT_LT(eye.radius_m, 0.015);
+    for (Eigen::Index v = 0; v < face.mesh.points.rows(); ++v) {
+      const Vec3 off = face.mesh.points.row(v).transpose() - eye.centre;
+      if (off.dot(eye.gaze) > 0.35 * eye.radius_m) EXPECT_GT(off.norm(), eye.radius_m) << v;
+    }
+    // Not sunk: its front is within 4 mm of the plane of the lids' edges.
+    const Vec3 lid = (face.landmarks.at(side ? "ibug68_43" : "ibug68_38") +
+                      face.landmarks.at(side ? "ibug68_47" : "ibug68_40")) /
+                     2;
+    const double depth_m = (lid - eye.centre).dot(eye.gaze) - eye.radius_m;
+    EXPECT_LT(std::abs(depth_m), 4e-3) << depth_m;
+  }
+}
+
+TEST(FaceBacking, APocketIsClosedButForItsEdgeAndLiesBehindIt) {
+  const auto face = testing::made_up_face(testing::Surface::plain);
+  const TriMesh& skin = face.performance.skin_rest;
+  std::map<std::string, Vec3> landmarks;
+  const auto& tracks = face.performance.landmarks;
+  for (std::size_t i = 0; i < tracks.names.size(); ++i)
+    landmarks[tracks.names[i]] = tracks.positions[0].row(Eigen::Index(i)).transpose();
+  const FaceBacking backing = face_backing(skin, landmarks);
+  ASSERT_EQ(backing.openings.size(), 1u) << "the cut, not the border";
+  EXPECT_TRUE(backing.eyeballs.empty()) << "without the inner corners of the eyes";
+  const Opening& opening = backing.openings[0];
+  const Points moved = skin.points + face.performance.skin_displacement_m[15].cast<double>();
+  const TriMesh mesh = pocket(opening, moved);
+  ASSERT_EQ(boundary_loops(mesh.triangles).size(), 1u);
+  const auto n = Eigen::Index(opening.loop.size());
+  EXPECT_EQ(boundary_loops(mesh.triangles)[0].size(), opening.loop.size());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    EXPECT_EQ(mesh.points.row(i), moved.row(opening.loop[std::size_t(i)])) << "hangs on the edge";
+    EXPECT_GT((mesh.points.row(n + i) - mesh.points.row(i)).dot(opening.inward),
+              0.2 * opening.depth_m);
+  }
+  landmarks.erase("cheilion_L");
+  EXPECT_TRUE(face_backing(skin, landmarks).openings.empty());
+}
+
+TEST(FaceBacking, AnEyeballsPartsLieOnItsSphereAndCoverIt) {
+  const Eyeball eye{{0.01, 0.02, 0.03}, Vec3(0.1, 0.2, 1).normalized(), 0.012};
+  double area = 0;
+  for (const TriMesh& part : eyeball_parts(eye)) {
+    for (Eigen::Index v = 0; v < part.points.rows(); ++v)
+      EXPECT_NEAR((part.points.row(v).transpose() - eye.centre).norm(), eye.radius_m, 1e-12);
+    area += triangle_areas(part).sum();
+    const Points normals = vertex_normals(part);
+    for (Eigen::Index v = 0; v < part.points.rows(); ++v)
+      if (normals.row(v).norm() > 0.5)
+        EXPECT_GT(normals.row(v).dot(part.points.row(v) - eye.centre.transpose()), 0);
+  }
+  EXPECT_NEAR(area, 4 * M_PI * eye.radius_m * eye.radius_m, 0.02 * 4 * M_PI * 1.44e-4);
+}
+
+}  // namespace
+}  // namespace hyperex::report
