@@ -95,8 +95,11 @@ class BackingSurfaces {
   std::vector<render::Surface> with(const render::Surface& skin,
                                     const report::FaceBacking& backing) {
     parts_.erase(parts_.begin() + std::ptrdiff_t(still_), parts_.end());
-    for (const report::Opening& opening : backing.openings)
-      parts_.push_back({report::pocket(opening, skin.mesh.points), kPocket});
+    for (const report::Opening& opening : backing.openings) {
+      TriMesh mesh = report::pocket(opening, skin.mesh.points);
+      mesh.triangles.col(1).swap(mesh.triangles.col(2));  // seen from behind: darker, no sheen
+      parts_.push_back({std::move(mesh), kPocket});
+    }
     std::vector<render::Surface> all{skin};
     for (const Part& part : parts_)
       all.push_back({.mesh = part.mesh, .plain = part.colour, .smooth = false});
