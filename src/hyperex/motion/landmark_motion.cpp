@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/motion/landmark_motion.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include "hyperex/io/number.hpp"
+
+// A small table, kept as a file, copied into the library by the assembler.
+__asm__(
+    ".pushsection .rodata\n"
+    ".global hyperex_landmark_motion_begin\n"
+    ".global hyperex_landmark_motion_end\n"
+    "hyperex_landmark_motion_begin:\n"
+    ".incbin \"" HYPEREX_LANDMARK_MOTION_CSV
+    "\"\n"
+    "hyperex_landmark_motion_end:\n"
+    ".byte 0\n"
+    ".popsection\n");
+
+extern "C" const char hyperex_landmark_motion_begin[], hyperex_landmark_motion_end[];
+
+namespace hyperex::motion {
+
+namespace {
+
+constexpr double kMillimetre = 1e-3;
+constexpr std::size_t kTexts = 3, kNumbersBeforeModes = 6;
+constexpr double kCorrelationLength_m = 0.04, kShared = 0.9;
+
+// Our own file: a fault in it is a fault of the build.
+void require(bool sound) {
+  if (!sound) throw std::logic_error("the table of moving landmarks in this program is damaged");
+}
+
+double metres(std::string_view cell) {
+  const auto number = io::parse_number(cell);
+  require(number.has_value());
+  return kMillimetre * *number;
+}
+
+/// Columns of the modes of a part, three each; `after` is where they begin.
+Eigen::Index modes_named(const std::vector<std::string_view>& header, std::string_view part) {
+  Eigen::Index columns = 0;
+  for (const auto name : header) columns += name.size() > part.size() && name.starts_with(part);
+  require(columns > 0 && columns % 3 == 0);
+  return columns / 3;
+}
+
+void add_row(const std::vector<std::string_view>& cells, Eigen::Index row, LandmarkMotion& table) {
+  table.names.emplace_back(cells[0]);
+  table.aliases.emplace_back(cells[1]);
+  table.upper.push_back(cells[2] == "upper");
+  std::size_t at = kTexts;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) table.rest_m(row, axis) = metres(cells[at++]);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    table.sd_m(row, axis) = metres(cells[at++]);
+    require(table.sd_m(row, axis) > 0);
+  }
+  for (Eigen::MatrixXd* modes : {&table.upper_modes_m, &table.lower_modes_m})
+    for (Eigen::Index mode = 0; mode < modes->cols(); ++mode)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        (*modes)(3 * row + axis, mode) = metres(cells[at++]);
+}
+
+LandmarkMotion parsed() {
+  const std::string_view text(hyperex_landmark_motion_begin, hyperex_landmark_motion_end);
+  std::vector<std::vector<std::string_view>> lines;
+  io::Lines all(text);
+  for (std::string_view line; all.next(line);)
+    if (!line.empty() && line.front() != '#') lines.push_back(io::split(line, ','));
+  require(lines.size() > 3);
+  LandmarkMotion table;
+  const Eigen::Index landmarks = Eigen::Index(lines.size()) - 1;
+  table.rest_m.resize(landmarks, 3);
+  table.sd_m.resize(landmarks, 3);
+  table.upper_modes_m.resize(3 * landmarks, modes_named(lines[0], "upper"));
+  table.lower_modes_m.resize(3 * landmarks, modes_named(lines[0], "lower"));
+  const auto cells = kTexts + kNumbersBeforeModes +
+                     3 * std::size_t(table.upper_modes_m.cols() + table.lower_modes_m.cols());
+  for (Eigen::Index row = 0; row < landmarks; ++row) {
+    require(lines[std::size_t(row) + 1].size() == cells);
+    add_row(lines[std::size_t(row) + 1], row, table);
+  }
+  return table;
+}
+
+/// Covariance of motion beyond the modes of two landmarks: a part of the face moves for itself.
+Eigen::Matrix3d beyond_modes(const LandmarkMotion& table, int a, int b) {
+  const double distance_m = (table.rest_m.row(a) - table.rest_m.row(b)).norm();
+  const double alike =
+      kShared * std::exp(-distance_m / kCorrelationLength_m) + (a == b ? 1 - kShared : 0);
+  return (alike * table.sd_m.row(a).array() * table.sd_m.row(b).array()).matrix().asDiagonal();
+}
+
+Eigen::MatrixXd part_prior(const LandmarkMotion& table, const std::vector<int>& rows, bool upper) {
+  const Eigen::MatrixXd& all_modes = upper ? table.upper_modes_m : table.lower_modes_m;
+  const Eigen::Index count = Eigen::Index(rows.size());
+  Eigen::MatrixXd modes(3 * count, all_modes.cols());
+  for (Eigen::Index i = 0; i < count; ++i)
+    modes.middleRows(3 * i, 3) = all_modes.middleRows(3 * rows[std::size_t(i)], 3);
+  Eigen::MatrixXd covariance = modes * modes.transpose();
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const int a = rows[std::size_t(i)], b = rows[std::size_t(j)];
+      if (table.upper[std::size_t(a)] == upper && table.upper[std::size_t(b)] == upper)
+        covariance.block<3, 3>(3 * i, 3 * j) += beyond_modes(table, a, b);
+    }
+  return covariance;
+}
+
+}  // namespace
+
+const LandmarkMotion& landmark_motion() {
+  static const LandmarkMotion table = parsed();
+  return table;
+}
+
+ExpressionPrior expression_prior(const std::vector<int>& rows, const Eigen::Matrix3d& turn,
+                                 double scale) {
+  const auto carried = [&](Eigen::MatrixXd covariance) {
+    for (Eigen::Index i = 0; i < covariance.rows(); i += 3)
+      for (Eigen::Index j = 0; j < covariance.cols(); j += 3) {
+        const Eigen::Matrix3d block = covariance.block<3, 3>(i, j);
+        covariance.block<3, 3>(i, j) = scale * scale * (turn * block * turn.transpose());
+      }
+    return covariance;
+  };
+  return {carried(part_prior(landmark_motion(), rows, true)),
+          carried(part_prior(landmark_motion(), rows, false))};
+}
+
+}  // namespace hyperex::motion
