@@ -18,13 +18,13 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kLeastJitter_m = 1e-5;
+constexpr double kLeastJitter_m = 1e-7;
 constexpr double kSmoothing_s = 0.1;
-// Amplitudes of expression that are tried: 0.02, 0.04, ... 5.12 standard deviations.
-constexpr double kLeastAmplitude = 0.02;
-constexpr int kAmplitudes = 9;
-// A weak prior on their logarithms, about half a standard deviation: without it a face of few
-// points may be said to move not at all, or beyond all measure.
+// Amplitudes of expression that are tried: 0.0001, 0.0002, ... 6.6 standard deviations. The least
+// lets points that do not move at all carry the pose alone.
+constexpr double kLeastAmplitude = 1e-4;
+constexpr int kAmplitudes = 17, kUsualIndex = 12;
+// A weak prior against amplitudes beyond all measure, which a face of few points may suggest.
 constexpr double kUsualAmplitude = 0.5, kPriorWeight = 0.5;
 
 Eigen::Matrix3d cross_matrix(const Vec3& v) {
@@ -83,7 +83,7 @@ class Witnesses {
     const Vector6 told = w.whitened.transpose() * white;
     double sum = w.log_determinant + white.squaredNorm() - told.dot(w.covariance * told);
     for (const double amplitude : a)
-      sum += 2 * kPriorWeight * std::pow(std::log(amplitude / kUsualAmplitude), 2);
+      sum += 2 * kPriorWeight * std::pow(std::max(0.0, std::log(amplitude / kUsualAmplitude)), 2);
     return sum;
   }
 
@@ -162,29 +162,36 @@ class WitnessKeeper {
     return witnesses_.front();
   }
 
-  /// The likeliest amplitudes of a sample, on the grid, found downhill from `start`.
-  std::array<int, 2> likeliest(const Sample& sample, std::array<int, 2> start) {
+  /// The likeliest amplitudes of a sample, on the grid, found downhill from `before` and from
+  /// usual ones: there may be more than one valley.
+  std::array<int, 2> likeliest(const Sample& sample, const std::array<int, 2>& before) {
     const Witnesses& witnesses = of(sample.seen);
     const Eigen::VectorXd residual =
         witnesses.residual(sample.now, witnesses.rough_pose(sample.now));
-    double least = misfit(start, residual);
+    const auto near = downhill(before, residual);
+    const auto far = downhill({kUsualIndex, kUsualIndex}, residual);
+    return misfit(far, residual) < misfit(near, residual) ? far : near;
+  }
+
+ private:
+  std::array<int, 2> downhill(std::array<int, 2> at, const Eigen::VectorXd& residual) {
+    double least = misfit(at, residual);
     for (bool moved = true; moved;) {
       moved = false;
-      const std::array<int, 2> from = start;
+      const std::array<int, 2> from = at;
       for (const auto& [up, down] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
         const std::array<int, 2> next = {from[0] + up, from[1] + down};
         if (std::min(next[0], next[1]) < 0 || std::max(next[0], next[1]) >= kAmplitudes) continue;
         if (const double value = misfit(next, residual); value < least - 1e-9) {
           least = value;
-          start = next;
+          at = next;
           moved = true;
         }
       }
     }
-    return start;
+    return at;
   }
 
- private:
   double misfit(const std::array<int, 2>& at, const Eigen::VectorXd& residual) {
     const Amplitudes a = {std::ldexp(kLeastAmplitude, at[0]), std::ldexp(kLeastAmplitude, at[1])};
     auto found = weighings_.find(at);
