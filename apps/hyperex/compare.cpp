@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "compare_picture.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/baseline.hpp"
@@ -235,10 +236,12 @@ void write_picture(const Options& options, const Surfaces& surfaces, const io::L
 }
 
 void run(Options options) {
+  if (!options.json && options.picture.empty()) options.picture = "compare.png";
   if (options.baseline &&
       (!options.corresponding || options.rest.empty() || options.landmarks.empty()))
     throw InputError(InputProblem{"compare", 0, "--baseline", "",
                                   "--corresponding, --rest SCAN and --landmarks L.json beside it"});
+  check_outputs({options.picture}, {options.a, options.b, options.rest, options.landmarks});
   const Surfaces surfaces = read_surfaces(options);
   io::Landmarks landmarks;
   metrics::Regions regions;
@@ -257,7 +260,6 @@ void run(Options options) {
     for (const auto& baseline : metrics::baselines(surfaces.rest, surfaces.b.points, landmarks))
       baselines.push_back({baseline.name, baseline.key,
                            rows_of(distances(options, surfaces, baseline.moved), regions)});
-  if (!options.json && options.picture.empty()) options.picture = "compare.png";
   if (!options.picture.empty()) write_picture(options, surfaces, landmarks, regions, distance);
   if (options.json)
     print_json(rows, baselines);

@@ -30,9 +30,7 @@ std::string text(const Vec3& v) {
 void run(const Options& options) {
   std::filesystem::path picture = options.picture;
   if (picture.empty()) picture = std::filesystem::path(options.out).replace_extension(".png");
-  for (const auto& file : {options.out, picture}) check_folder_of(file);
-  if (picture == options.out)
-    throw InputError(options.out, "is to hold the landmarks and the picture: expected two files");
+  check_outputs({options.out, picture}, {options.scan});
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
   if (scan.unit_guessed)

@@ -4,12 +4,15 @@
 
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
 #include <string>
 
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/interrupt.hpp"
+#include "hyperex/core/standard_streams.hpp"
 
 namespace {
 
@@ -24,21 +27,7 @@ void print_error(const std::string& text) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  // A file that may grow no further is then a failed write, told in words, not the end.
-  std::signal(SIGXFSZ, SIG_IGN);
-  hyperex::end_cleanly_when_interrupted();
-  // Standard output is for results alone: what is said on the way goes beside it.
-  spdlog::set_default_logger(spdlog::stderr_color_mt("hyperex"));
-  spdlog::set_pattern("%^%l%$: %v");
-  CLI::App program{
-      "Recorded expressions, re-enacted on scanned faces through simulated soft tissue.",
-      "hyperex"};
-  program.set_version_flag("--version", "hyperex " HYPEREX_VERSION);
-  program.require_subcommand(1);
-  program.footer("hyperex SUBCOMMAND --help tells more, with an example.");
+void add_subcommands(CLI::App& program) {
   hyperex::cli::add_run(program);
   hyperex::cli::add_check(program);
   hyperex::cli::add_landmarks(program);
@@ -48,6 +37,16 @@ int main(int argc, char** argv) {
   hyperex::cli::add_track(program);
   hyperex::cli::add_presets(program);
   hyperex::cli::add_scene_reference(program);
+}
+
+// "/root/m.csv: Permission denied"
+std::string words_of(const std::filesystem::filesystem_error& error) {
+  const std::string path = error.path1().string();
+  return (path.empty() ? "" : path + ": ") + error.code().message();
+}
+
+// What the command comes to: 0, 2 for a mistake in the input, 1 for a computation that failed.
+int status_of(CLI::App& program, int argc, char** argv) {
   try {
     program.parse(argc, argv);
     return 0;
@@ -59,8 +58,43 @@ int main(int argc, char** argv) {
   } catch (const hyperex::InputError& error) {
     print_error(error.what());
     return 2;
+  } catch (const std::filesystem::filesystem_error& error) {
+    print_error(words_of(error));
+    return 2;
+  } catch (const std::bad_alloc&) {
+    print_error("there is not enough memory for this");
+    return 1;
   } catch (const std::exception& error) {
     print_error(error.what());
     return 1;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hyperex::open_standard_streams();
+  // A file that may grow no further is then a failed write, told in words, not the end. So is a
+  // pipe whose reader has left: a message that nobody reads is no reason to end.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  hyperex::end_cleanly_when_interrupted();
+  // Standard output is for results alone: what is said on the way goes beside it.
+  spdlog::set_default_logger(spdlog::stderr_color_mt("hyperex"));
+  spdlog::set_pattern("%^%l%$: %v");
+  // Its own failures to write a message are none of the user's.
+  spdlog::set_error_handler([](const std::string&) {});
+  CLI::App program{
+      "Recorded expressions, re-enacted on scanned faces through simulated soft tissue.",
+      "hyperex"};
+  program.set_version_flag("--version", "hyperex " HYPEREX_VERSION);
+  program.require_subcommand(1);
+  program.footer("hyperex SUBCOMMAND --help tells more, with an example.");
+  add_subcommands(program);
+  const int status = status_of(program, argc, argv);
+  const hyperex::Printed printed = hyperex::flush_standard_output();
+  if (status != 0 || printed.whole) return status;
+  if (!printed.reader_left)
+    print_error("standard output: the results could not be printed (" + printed.why + ")");
+  return 1;
 }

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/io/vtu.hpp"
 #include "hyperex/scene/inputs.hpp"
@@ -64,9 +65,10 @@ void print(const tissue::TissueMesh& mesh, const std::filesystem::path& out) {
 }
 
 void run(const Options& options) {
+  const auto file = options.landmarks.empty() ? landmarks_beside(options.scan) : options.landmarks;
+  check_outputs({options.out}, {options.scan, file});
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
-  const auto file = options.landmarks.empty() ? landmarks_beside(options.scan) : options.landmarks;
   if (scan.unit_guessed)
     std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
   const io::Landmarks given = landmarks_of(scan, file);

@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
@@ -160,14 +162,29 @@ void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
   tell(options, all);
 }
 
+/// The files of a folder, each of which may be a frame.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  return files;
+}
+
 void run(const Options& options) {
   std::optional<io::LengthUnit> unit;
   if (!options.unit.empty()) unit = io::length_unit(options.unit);
+  const std::vector<fs::path> outputs = {options.out, options.excursions, options.picture,
+                                         options.map, options.map_ply};
   fs::path file = options.motion;
   if (fs::is_directory(file)) {
-    if (!fs::exists(file / "motion.csv")) return run_surfaces(options, unit);
+    if (!fs::exists(file / "motion.csv")) {
+      std::vector<fs::path> inputs = files_in(file);
+      inputs.push_back(options.landmarks);
+      check_outputs(outputs, inputs);
+      return run_surfaces(options, unit);
+    }
     file /= "motion.csv";
   }
+  check_outputs(outputs, {file});
   if (!options.map.empty() || !options.map_ply.empty())
     throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
                                   "a folder of surfaces; points alone have no map"});

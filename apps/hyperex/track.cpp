@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "commands.hpp"
 #include "hyperex/capture/mirrored.hpp"
@@ -32,14 +34,15 @@ struct Options {
   std::optional<double> seconds;
 };
 
+constexpr std::string_view kCandide = "candide:";
+
 /// "canonical", or "candide:FILE" read into `own`.
 const tracking::FaceModel& model_of(const std::string& text,
                                     std::optional<tracking::FaceModel>& own) {
-  constexpr const char* kCandide = "candide:";
   if (text == "canonical") return tracking::canonical_model();
   if (!text.starts_with(kCandide))
     throw InputError({{}, 0, "--model", text, "canonical or candide:FILE.wfm"});
-  own = tracking::candide_model(text.substr(std::string(kCandide).size()));
+  own = tracking::candide_model(text.substr(kCandide.size()));
   return *own;
 }
 
@@ -126,15 +129,36 @@ tracking::FrameVisitor visitor_of(tracking::PreviewMovie* preview) {
   };
 }
 
+std::vector<std::filesystem::path> outputs_of(const Options& options) {
+  std::vector<std::filesystem::path> files = options.outputs.files();
+  files.push_back(options.plots);
+  return files;
+}
+
+/// The files that are read: of a folder those that lie in it, its pictures aside.
+std::vector<std::filesystem::path> inputs_of(const Options& options) {
+  std::vector<std::filesystem::path> files = {options.camera};
+  std::string played = options.device;
+  if (played.starts_with("play:")) files.push_back(played.substr(5));
+  if (options.model.starts_with(kCandide)) files.push_back(options.model.substr(kCandide.size()));
+  files.push_back(options.recording);
+  for (const char* name : {"associations.txt", "rgb.txt", "depth.txt", "camera.toml"})
+    if (!options.recording.empty())
+      files.push_back(std::filesystem::path(options.recording) / name);
+  if (!options.score.empty())
+    for (const char* name :
+         {"truth_pose.csv", "truth_landmarks68_camera_m.csv", "truth_weights.csv"})
+      files.push_back(options.score / name);
+  return files;
+}
+
 void run(const Options& options) {
   if (!options.outputs.any() && options.plots.empty() && options.score.empty())
     throw InputError(
         "hyperex track: nothing to do: give --out, --trc, --preview, --glb, --plots or --score");
   if (options.json && options.score.empty())
     throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
-  for (const auto& file : {options.outputs.motion, options.outputs.trc, options.outputs.preview,
-                           options.outputs.glb, options.plots})
-    check_folder_of(file);
+  check_outputs(outputs_of(options), inputs_of(options));
   std::optional<tracking::FaceModel> own;
   const tracking::FaceModel& model = model_of(options.model, own);
   std::optional<tracking::Truth> truth;

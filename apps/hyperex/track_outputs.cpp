@@ -30,6 +30,13 @@ void write_trc(const std::filesystem::path& file, const motion::Motion& motion) 
 
 }  // namespace
 
+std::vector<std::filesystem::path> TrackOutputs::files() const {
+  std::vector<std::filesystem::path> all = {motion, trc, preview, glb};
+  if (!motion.empty())
+    for (const char* kind : {"pose", "units", "arkit"}) all.push_back(beside(motion, kind));
+  return all;
+}
+
 void add_output_options(CLI::App& command, TrackOutputs& outputs) {
   command.add_option(
       "--out", outputs.motion,

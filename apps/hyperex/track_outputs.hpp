@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hyperex/tracking/output/preview_movie.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
@@ -16,6 +17,8 @@ struct TrackOutputs {
   std::filesystem::path trc, preview, glb;
   bool vertices = false;  ///< in the motion too
 
+  /// Every file, those beside the motion among them; some empty.
+  std::vector<std::filesystem::path> files() const;
   bool any() const { return !motion.empty() || !trc.empty() || !preview.empty() || !glb.empty(); }
 };
 

@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/capture/video_writer.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 #include "hyperex/capture/video_library.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/core/interrupt.hpp"
+#include "hyperex/core/temporary.hpp"
 
 namespace hyperex::capture {
 namespace fs = std::filesystem;
 
 namespace {
 
-/// Ends as the target does: the encoder takes the container from the name.
-fs::path temporary_beside(const fs::path& target) {
-  return target.parent_path() /
-         fmt::format(".{}.{}.tmp.mp4", target.filename().string(), static_cast<long>(::getpid()));
-}
+/// Of the temporary name: the encoder takes the container from it.
+const char* const kExtension = "tmp.mp4";
 
 }  // namespace
 
 struct VideoWriter::Impl {
   Impl(const fs::path& target, int width, int height)
-      : file(target), temporary(temporary_beside(target)), width_px(width), height_px(height) {}
+      : file(followed_links(target)),
+        temporary(temporary_beside(file, kExtension)),
+        width_px(width),
+        height_px(height) {}
   ~Impl() {
     encoder.reset();
     std::error_code ignored;
@@ -38,6 +38,7 @@ struct VideoWriter::Impl {
 
   fs::path file;
   TemporaryPath temporary;
+  std::optional<InUse> in_use;
   std::unique_ptr<VideoEncoder> encoder;
   int width_px, height_px;
   std::size_t pictures = 0;
@@ -46,6 +47,9 @@ struct VideoWriter::Impl {
 void VideoWriter::check_name(const fs::path& file) {
   if (file.extension() != ".mp4")
     throw InputError(file, "expected the name of a video that ends in .mp4");
+  std::error_code ignored;
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
+    throw InputError(file, "is no regular file, which a video needs");
   video_library();
 }
 
@@ -61,6 +65,7 @@ VideoWriter::VideoWriter(const fs::path& file, int width_px, int height_px,
   errno = 0;
   if (!std::ofstream(impl_->temporary.path(), std::ios::binary))
     throw InputError(file, std::string("cannot be written (") + std::strerror(errno) + ")");
+  impl_->in_use.emplace(impl_->temporary.path());
   impl_->encoder = video_library().create_file(impl_->temporary.path().string(), width_px,
                                                height_px, frames_a_second);
   if (!impl_->encoder)

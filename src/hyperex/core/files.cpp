@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/core/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,40 +12,129 @@
 #include <sstream>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/interrupt.hpp"
+#include "hyperex/core/temporary.hpp"
 
 namespace hyperex {
 namespace fs = std::filesystem;
 
 namespace {
-fs::path temporary_beside(const fs::path& target, const char* extension = "tmp") {
-  return target.parent_path() / fmt::format(".{}.{}.{}", target.filename().string(),
-                                            static_cast<long>(::getpid()), extension);
+
+[[noreturn]] void cannot_write(const fs::path& path, const std::string& why) {
+  throw InputError(path, "cannot be written (" + why + ")");
 }
 
-fs::path without_slash(const fs::path& folder) {
-  return folder.has_filename() ? folder : folder.parent_path();
+/// The standard stream that `path` leads to, or -1: renaming a file into the place of what a shell
+/// has opened would part the two.
+int standard_stream(const fs::path& path) {
+  struct stat wanted {
+  }, open{};
+  if (::stat(path.c_str(), &wanted) != 0) return -1;
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+    if (::fstat(stream, &open) == 0 && open.st_dev == wanted.st_dev && open.st_ino == wanted.st_ino)
+      return stream;
+  return -1;
 }
+
+/// What stands at `path` takes bytes, but is no file that another could replace.
+bool is_written_through(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_directory(status) &&
+         (!fs::is_regular_file(status) || standard_stream(path) >= 0);
+}
+
+void write_through(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  std::ostringstream buffer;  // whole before anything is sent
+  write(buffer);
+  const std::string bytes = std::move(buffer).str();
+  const int stream = standard_stream(path);
+  const int file =
+      stream >= 0 ? ::dup(stream) : ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (file < 0) cannot_write(path, std::strerror(errno));
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t some = ::write(file, bytes.data() + sent, bytes.size() - sent);
+    if (some < 0 && errno == EINTR) continue;
+    if (some <= 0) {
+      const std::string why = some < 0 ? std::strerror(errno) : "it takes no more";
+      ::close(file);
+      cannot_write(path, why);
+    }
+    sent += std::size_t(some);
+  }
+  ::close(file);
+}
+
+/// A file under another name or by a link is the same file.
+bool are_same(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::exists(a, error) && fs::exists(b, error)) return fs::equivalent(a, b, error);
+  return fs::weakly_canonical(fs::absolute(a, error), error) ==
+         fs::weakly_canonical(fs::absolute(b, error), error);
+}
+
+/// Throws where `file`, what `path` leads to, could not be made or replaced.
+void check_right(const fs::path& path, const fs::path& file) {
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    throw InputError(path, "cannot be written: there is no folder " + folder.string());
+  const fs::path there = fs::exists(file, error) ? file : folder;
+  if (::access(there.c_str(), W_OK) != 0) cannot_write(path, std::strerror(errno));
+}
+
 }  // namespace
 
-void check_folder_of(const fs::path& path) {
-  const fs::path folder = path.parent_path();
+fs::path followed_links(const fs::path& path) {
+  constexpr int most = 40;  // as the system has it
   std::error_code error;
-  if (!folder.empty() && !fs::is_directory(folder, error))
-    throw InputError(path, "cannot be written: there is no folder " + folder.string());
+  if (fs::is_directory(path, error))
+    throw InputError(path, "is a folder; expected the name of a file");
+  fs::path file = path;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(file, error)); ++links) {
+    if (links == most) throw InputError(path, "is a link that leads in a circle");
+    file = file.parent_path() / fs::read_symlink(file, error);
+    if (error) cannot_write(path, error.message());
+  }
+  return file;
+}
+
+void check_outputs(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const fs::path& path = outputs[i];
+    if (path.empty()) continue;
+    if (is_written_through(path)) continue;
+    const fs::path file = followed_links(path);
+    check_right(path, file);
+    for (const fs::path& input : inputs)
+      if (!input.empty() && are_same(file, input))
+        throw InputError(path, "is read too; expected another file to write to");
+    for (std::size_t k = 0; k < i; ++k)
+      if (!outputs[k].empty() && !is_written_through(outputs[k]) &&
+          are_same(file, followed_links(outputs[k])))
+        throw InputError(path, "is named for two outputs; expected a file each");
+    remove_leftovers(file, file.has_parent_path() ? file.parent_path() : fs::path("."));
+  }
 }
 
 void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  const TemporaryPath listed(temporary_beside(path));
+  if (is_written_through(path)) return write_through(path, write);
+  const fs::path file = followed_links(path);
+  std::error_code error, ignored;
+  const fs::file_status before = fs::status(file, error);
+  if (fs::exists(before) && ::access(file.c_str(), W_OK) != 0)
+    cannot_write(path, std::strerror(errno));
+  const TemporaryPath listed(temporary_beside(file));
   const fs::path& temporary = listed.path();
-  std::error_code ignored;
   const auto fail = [&](const std::string& why) {
     fs::remove(temporary, ignored);
-    throw InputError(path, "cannot be written (" + why + ")");
+    cannot_write(path, why);
   };
   {
     errno = 0;
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) fail(std::strerror(errno));
+    const InUse in_use(temporary);
     try {
       write(stream);
     } catch (...) {
@@ -54,65 +145,9 @@ void write_file_atomically(const fs::path& path, const std::function<void(std::o
     stream.flush();
     if (!stream) fail(errno ? std::strerror(errno) : "the disk may be full");
   }
-  std::error_code error;
-  fs::rename(temporary, path, error);
+  if (fs::exists(before)) fs::permissions(temporary, before.permissions(), ignored);
+  fs::rename(temporary, file, error);
   if (error) fail(error.message());
-}
-
-OutputDirectory::OutputDirectory(fs::path target, std::string marker)
-    : target_(without_slash(fs::absolute(target).lexically_normal())),
-      temporary_(temporary_beside(target_)),
-      marker_(std::move(marker)) {
-  std::error_code error;
-  if (fs::exists(target_)) {
-    if (!fs::is_directory(target_))
-      throw InputError(target_, "is a file; expected the name of a folder for the outputs");
-    if (!fs::is_empty(target_) && !fs::exists(target_ / marker_))
-      throw InputError(target_, fmt::format("holds other files and no earlier run's {}; expected a "
-                                            "new or empty folder, or one of an earlier run",
-                                            marker_));
-  }
-  fs::create_directories(target_.parent_path(), error);
-  fs::remove_all(path(), error);
-  error.clear();
-  fs::create_directory(path(), error);
-  if (error) throw InputError(target_, "cannot be created (" + error.message() + ")");
-}
-
-OutputDirectory::~OutputDirectory() {
-  if (committed_) return;
-  std::error_code ignored;
-  fs::remove_all(path(), ignored);
-}
-
-std::string OutputDirectory::with_own_name(std::string text) const {
-  const std::string from = path().string(), to = target_.string();
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-void OutputDirectory::commit() {
-  // An earlier run's folder is moved aside, not removed, until this one stands in its place.
-  const auto together = hold_off_interruption();
-  const fs::path aside = temporary_beside(target_, "old");
-  std::error_code error, ignored;
-  const auto fail = [&] {
-    throw InputError(target_, "cannot be written (" + error.message() + ")");
-  };
-  const bool replaces = fs::exists(target_, ignored);
-  if (replaces) {
-    fs::remove_all(aside, ignored);
-    fs::rename(target_, aside, error);
-    if (error) fail();
-  }
-  fs::rename(path(), target_, error);
-  if (error) {
-    if (replaces) fs::rename(aside, target_, ignored);
-    fail();
-  }
-  committed_ = true;
-  if (replaces) fs::remove_all(aside, ignored);
 }
 
 std::string read_file(const fs::path& path) {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -54,6 +55,12 @@ void remove_all_on_list() {
   }
 }
 
+/// A library that gives up by exit() leaves nothing behind either.
+void remove_at_exit() {
+  const std::unique_lock lock(mutex(), std::try_to_lock);
+  if (lock) remove_all_on_list();
+}
+
 void wait_for_signal() {
   unsigned char signal = 0;
   ssize_t got = 0;
@@ -88,9 +95,10 @@ std::unique_lock<std::mutex> hold_off_interruption() {
 }
 
 void end_cleanly_when_interrupted() {
+  std::atexit(remove_at_exit);
   if (::pipe(wake) != 0) return;  // signals then end the program as ever
   std::thread(wait_for_signal).detach();
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     struct sigaction action {};
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
     action = {};

@@ -25,9 +25,10 @@ class TemporaryPath {
 /// While this is held an interruption waits: for renames that belong together.
 std::unique_lock<std::mutex> hold_off_interruption();
 
-/// From now on SIGINT, SIGTERM and SIGHUP (each unless it is ignored, as under nohup) remove what
-/// is on the list, say so in one line on standard error and end the program with the status 128 +
-/// signal. Call once, from main().
+/// From now on SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGXCPU (each unless it is ignored, as under
+/// nohup) remove what is on the list, say so in one line on standard error and end the program with
+/// the status 128 + signal. What is on the list when a library calls exit() is removed as well.
+/// Call once, from main().
 void end_cleanly_when_interrupted();
 
 /// While one lives, the first of these signals only asks for an end, and the program goes on to

@@ -3,15 +3,17 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <optional>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/output_directory.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/run_both.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
+#include "hyperex/scene/earlier_run.hpp"
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/frames.hpp"
 #include "hyperex/scene/outputs.hpp"
@@ -266,14 +268,14 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Json summary = summary_of(results);
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.
-  tbb::parallel_invoke([&] { write_outputs(results, directory); },
-                       [&] {
-                         if (variants.empty()) return;
-                         Stopwatch own;
-                         simulate_variants(variants, mesh, *results.symmetry.map);
-                         seconds["variants"] = own.lap();
-                         summary["variants"] = write_variants(results, variants, mesh, directory);
-                       });
+  run_both([&] { write_outputs(results, directory); },
+           [&] {
+             if (variants.empty()) return;
+             Stopwatch own;
+             simulate_variants(variants, mesh, *results.symmetry.map);
+             seconds["variants"] = own.lap();
+             summary["variants"] = write_variants(results, variants, mesh, directory);
+           });
   if (!variants.empty()) warn(idle_variants(summary["variants"]["table"]), results);
   seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();
@@ -289,14 +291,20 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
     seconds["total"] = seconds["total"].get<double>() + total.lap();
     summary["seconds"] = seconds;
   }
-  write_file_atomically(directory / "summary.json",
-                        [&](std::ostream& stream) { stream << summary.dump(2) << '\n'; });
+  // A later run into the same folder removes these and nothing else.
+  std::vector<std::string> files = files_below(directory);
+  files.push_back("summary.json");
+  summary["files"] = files;
+  write_file_atomically(directory / "summary.json", [&](std::ostream& stream) {
+    // A path need not be UTF-8.
+    stream << summary.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  });
   return summary;
 }
 }  // namespace
 
 nlohmann::ordered_json run_scene(const Scene& scene, const std::filesystem::path& directory) {
-  OutputDirectory out(directory);
+  OutputDirectory out(directory, files_of_earlier_run, files_named_by(scene));
   try {
     Json summary = run_into(scene, out.path());
     out.commit();

@@ -25,7 +25,7 @@ std::string text_of(const json& value) {
   else if (value.is_array())
     for (const json& item : value) append(text_of(item), item.is_object() ? "; " : ", ");
   else
-    text = value.dump();
+    text = value.dump(-1, ' ', false, json::error_handler_t::replace);
   return text;
 }
 

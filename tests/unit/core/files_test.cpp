@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/core/files.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -91,70 +93,68 @@ TEST_F(Files, ReadingNamesWhatIsWrong) {
   EXPECT_EQ(read_file(folder_ / "empty"), "");
 }
 
-TEST_F(Files, OutputAppearsOnCommitOnly) {
-  const fs::path target = folder_ / "deep" / "out";
-  {
-    OutputDirectory out(target);
-    put(out.path() / "summary.json", "{}");
-    EXPECT_FALSE(fs::exists(target));
-    out.commit();
-    EXPECT_EQ(read_file(target / "summary.json"), "{}");
-  }
-  EXPECT_TRUE(fs::exists(target / "summary.json"));
-  {
-    OutputDirectory out(target);  // an earlier run may be replaced ...
-    put(out.path() / "new.txt", "x");
-  }  // ... but is not, without commit
-  EXPECT_TRUE(fs::exists(target / "summary.json"));
-  {
-    OutputDirectory out(target);
-    put(out.path() / "new.txt", "x");
-    out.commit();
-  }
-  EXPECT_FALSE(fs::exists(target / "summary.json"));
-  EXPECT_TRUE(fs::exists(target / "new.txt"));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep"), {}), 1);
+TEST_F(Files, ALinkIsFollowedAndPermissionsAreKept) {
+  fs::create_directories(folder_ / "disk");
+  put(folder_ / "disk" / "a.txt", "old");
+  fs::permissions(folder_ / "disk" / "a.txt", fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("disk/a.txt", folder_ / "link.txt");
+  put(folder_ / "link.txt", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.txt"));
+  EXPECT_EQ(read_file(folder_ / "disk" / "a.txt"), "new");
+  EXPECT_EQ(fs::status(folder_ / "disk" / "a.txt").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("disk/b.txt", folder_ / "to_come.txt");
+  put(folder_ / "to_come.txt", "b");
+  EXPECT_EQ(read_file(folder_ / "disk" / "b.txt"), "b");
+  fs::create_symlink("circle", folder_ / "circle");
+  EXPECT_THAT([&] { put(folder_ / "circle", "x"); },
+              ThrowsMessage<InputError>(HasSubstr("circle")));
+  EXPECT_THAT([&] { put(folder_ / "disk", "x"); },
+              ThrowsMessage<InputError>(HasSubstr("is a folder")));
 }
 
-TEST_F(Files, AnEarlierOutputSurvivesAFailedCommit) {
-  const fs::path target = folder_ / "out";
-  fs::create_directories(target);
-  put(target / "summary.json", "earlier");
-  {
-    OutputDirectory out(target);
-    fs::remove_all(out.path());  // as if the disk had gone: renaming fails
-    EXPECT_THAT([&] { out.commit(); }, ThrowsMessage<InputError>(HasSubstr("cannot be written")));
-  }
-  EXPECT_EQ(read_file(target / "summary.json"), "earlier");
-  EXPECT_THAT(names(), ::testing::ElementsAre("out"));
+TEST_F(Files, WhatIsNoRegularFileIsWrittenToAndStays) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  put(pipe, "through");
+  char got[20] = {};
+  EXPECT_EQ(::read(reader, got, sizeof got), 7);
+  ::close(reader);
+  EXPECT_STREQ(got, "through");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  fs::create_symlink("/dev/full", folder_ / "full");
+  EXPECT_THAT([&] { put(folder_ / "full", "x"); },
+              ThrowsMessage<InputError>(HasSubstr("No space left")));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "full"));
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-TEST_F(Files, OutputTakesNoForeignFolder) {
-  fs::create_directories(folder_ / "mine");
-  put(folder_ / "mine" / "letters.txt", "dear");
-  EXPECT_THAT([&] { OutputDirectory out(folder_ / "mine"); },
-              ThrowsMessage<InputError>(HasSubstr("holds other files")));
-  put(folder_ / "file", "x");
-  EXPECT_THAT([&] { OutputDirectory out(folder_ / "file"); },
-              ThrowsMessage<InputError>(HasSubstr("is a file")));
-  EXPECT_EQ(read_file(folder_ / "mine" / "letters.txt"), "dear");
-  fs::create_directories(folder_ / "empty");
-  {
-    OutputDirectory out(folder_ / "empty/");
-    put(out.path() / "summary.json", "{}");
-    out.commit();
-  }
-  EXPECT_TRUE(fs::exists(folder_ / "empty" / "summary.json"));
+TEST_F(Files, ALongNameHasAShorterTemporaryOne) {
+  const fs::path file = folder_ / (std::string(251, 'a') + ".txt");
+  put(file, "x");
+  EXPECT_EQ(read_file(file), "x");
 }
 
-TEST_F(Files, AnExceptionLeavesNoOutput) {
-  try {
-    OutputDirectory out(folder_ / "out");
-    put(out.path() / "half.txt", "x");
-    throw NumericalError("no positive pivot");
-  } catch (const NumericalError&) {
-  }
-  EXPECT_THAT(names(), ::testing::IsEmpty());
+TEST_F(Files, OutputsAreCheckedBeforeTheWork) {
+  put(folder_ / "scan.ply", "scan");
+  fs::create_hard_link(folder_ / "scan.ply", folder_ / "same.ply");
+  fs::create_symlink("scan.ply", folder_ / "link.ply");
+  const auto refused = [&](const std::vector<fs::path>& outputs, const char* why) {
+    EXPECT_THAT(
+        [&] {
+          check_outputs(outputs, {folder_ / "scan.ply", ""});
+        },
+        ThrowsMessage<InputError>(HasSubstr(why)));
+  };
+  const fs::path out = folder_ / "out.csv", round = folder_ / "." / "out.csv";
+  for (const char* name : {"scan.ply", "same.ply", "link.ply"})
+    refused({folder_ / name}, "is read too");
+  refused({out, "", round}, "is named for two outputs");
+  refused({folder_ / "none" / "a.csv"}, "there is no folder");
+  refused({folder_}, "is a folder");
+  EXPECT_NO_THROW(check_outputs({out, "", folder_ / "b.csv"}, {folder_ / "scan.ply"}));
+  EXPECT_NO_THROW(check_outputs({"/dev/null", "/dev/null"}, {"/dev/null"}));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/output_directory.hpp"
 
 namespace hyperex {
 namespace {
@@ -39,9 +40,10 @@ class Interrupt : public testing::TestWithParam<int> {
 TEST_P(Interrupt, RemovesWhatIsHalfWrittenAndKeepsWhatIsWhole) {
   const auto half_done = [&] {
     end_cleanly_when_interrupted();
-    OutputDirectory whole(folder_ / "whole");
+    const auto none = [](const fs::path&) { return std::set<std::string>(); };
+    OutputDirectory whole(folder_ / "whole", none);
     whole.commit();
-    const OutputDirectory half(folder_ / "half");
+    const OutputDirectory half(folder_ / "half", none);
     fs::create_directory(half.path() / "frames");
     std::ofstream(half.path() / "frames" / "frame.vtu") << "half";
     write_file_atomically(folder_ / "single.vtu", [&](std::ostream& stream) {
@@ -94,7 +96,20 @@ TEST_P(Interrupt, AtTheUsersRequestTheProgramGoesOnOnce) {
   ::unsetenv("HYPEREX_INTERRUPT_TWICE");
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, testing::Values(SIGINT, SIGTERM, SIGHUP));
+using AtExit = Interrupt;
+TEST_P(AtExit, OfALibraryWhatIsHalfWrittenIsRemoved) {
+  const auto ends = [&] {
+    end_cleanly_when_interrupted();
+    const TemporaryPath half(folder_ / "half");
+    std::ofstream(half.path()) << "half";
+    std::exit(5);
+  };
+  EXPECT_EXIT(ends(), testing::ExitedWithCode(5), "");
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+INSTANTIATE_TEST_SUITE_P(Library, AtExit, testing::Values(0));
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT));
 
 }  // namespace
 }  // namespace hyperex

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Temporary names beside the outputs, ".NAME.PID.tmp", and what to do with those that a killed
+// process left behind.
+#include <filesystem>
+#include <string>
+
+namespace hyperex {
+
+/// A name beside `target` that is this process's own: ".NAME.PID.EXTENSION". Where that were longer
+/// than the file system takes, NAME is cut and ends in a hash of the whole name.
+std::filesystem::path temporary_beside(const std::filesystem::path& target,
+                                       const std::string& extension = "tmp");
+
+/// Such a name for the outputs of a folder, in the folder itself.
+std::filesystem::path temporary_within(const std::filesystem::path& folder,
+                                       const std::string& extension = "tmp");
+
+/// Whether `name` is one that temporary_beside() or temporary_within() gives for `target`, in
+/// whichever process, with the ".going" of an interruption or without.
+bool is_temporary_of(const std::filesystem::path& target, const std::string& name);
+
+/// Marks a file or folder that exists as in use while this lives, by a lock that ends with the
+/// process, however that ends. Without a message where the file system knows no locks.
+class InUse {
+ public:
+  explicit InUse(const std::filesystem::path& path);
+  ~InUse();
+  InUse(InUse&& other) noexcept;
+  InUse(const InUse&) = delete;
+  InUse& operator=(const InUse&) = delete;
+  bool held() const { return held_; }
+  /// Another process uses it.
+  bool taken() const { return taken_; }
+
+ private:
+  int file_ = -1;
+  bool held_ = false, taken_ = false;
+};
+
+/// Removes the temporary files and folders of `target` in `folder` that no living process uses: a
+/// killed one left them. An earlier output that it had moved aside is given its name again where
+/// nothing else has that. Says so in one line each; what cannot be removed stays without a word.
+void remove_leftovers(const std::filesystem::path& target, const std::filesystem::path& folder);
+
+}  // namespace hyperex

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/run_both.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace hyperex {
+namespace {
+
+std::string thrown_by(const std::function<void()>& first, const std::function<void()>& second) {
+  try {
+    run_both(first, second);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RunBoth, AnExceptionInOneCutsNoLoopOfTheOtherShort) {
+  constexpr int steps = 200;
+  std::atomic<int> done{0};
+  std::atomic<bool> begun{false};
+  const auto fails = [&] {
+    // Once the other is under way; where there is one thread alone, it never will be.
+    for (int tries = 0; tries < 200 && !begun; ++tries)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    throw std::runtime_error("no space left");
+  };
+  const auto counts = [&] {
+    tbb::parallel_for(0, steps, [&](int) {
+      begun = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ++done;
+    });
+  };
+  EXPECT_EQ(thrown_by(fails, counts), "no space left");
+  EXPECT_EQ(done, steps);
+  done = 0;
+  begun = false;
+  EXPECT_EQ(thrown_by(counts, fails), "no space left");
+  EXPECT_EQ(done, steps);
+}
+
+TEST(RunBoth, TheFirstOnesExceptionIsTold) {
+  const auto a = [] { throw std::runtime_error("a"); };
+  const auto b = [] { throw std::runtime_error("b"); };
+  for (int time = 0; time < 20; ++time) EXPECT_EQ(thrown_by(a, b), "a");
+  EXPECT_EQ(thrown_by([] {}, b), "b");
+  EXPECT_EQ(thrown_by([] {}, [] {}), "");
+}
+
+}  // namespace
+}  // namespace hyperex
