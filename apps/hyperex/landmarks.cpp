@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/memory.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
@@ -31,6 +32,7 @@ void run(const Options& options) {
   std::filesystem::path picture = options.picture;
   if (picture.empty()) picture = std::filesystem::path(options.out).replace_extension(".png");
   check_outputs({options.out, picture}, {options.scan});
+  take_library_memory();
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
   if (scan.unit_guessed)

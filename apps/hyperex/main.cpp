@@ -3,16 +3,19 @@
 #include <spdlog/spdlog.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/interrupt.hpp"
 #include "hyperex/core/standard_streams.hpp"
+#include "hyperex/scene/keys.hpp"
 
 namespace {
 
@@ -45,9 +48,30 @@ std::string words_of(const std::filesystem::filesystem_error& error) {
   return (path.empty() ? "" : path + ": ") + error.code().message();
 }
 
+// CLI11 alone says of a misspelt command that one is required.
+void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  std::string list;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->check_name(argv[1])) return;
+    if (command->get_group().empty()) continue;
+    names.push_back(command->get_name());
+    list += (list.empty() ? "" : ", ") + command->get_name();
+  }
+  const std::string near = hyperex::scene::nearest(argv[1], names);
+  throw hyperex::InputError(
+      {{},
+       0,
+       "",
+       hyperex::scene::show(argv[1]),
+       "a subcommand (" + list + ")" + (near.empty() ? "" : "; did you mean " + near + "?")});
+}
+
 // What the command comes to: 0, 2 for a mistake in the input, 1 for a computation that failed.
 int status_of(CLI::App& program, int argc, char** argv) {
   try {
+    refuse_unknown_command(program, argc, argv);
     program.parse(argc, argv);
     return 0;
   } catch (const CLI::Success& done) {  // --help, --version
@@ -93,6 +117,8 @@ int main(int argc, char** argv) {
   add_subcommands(program);
   const int status = status_of(program, argc, argv);
   const hyperex::Printed printed = hyperex::flush_standard_output();
+  // Libraries that were short of memory may wait for ever for threads of theirs at the end.
+  if (status == 1) std::_Exit(status);
   if (status != 0 || printed.whole) return status;
   if (!printed.reader_left)
     print_error("standard output: the results could not be printed (" + printed.why + ")");

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/memory.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/io/vtu.hpp"
 #include "hyperex/scene/inputs.hpp"
@@ -67,6 +68,7 @@ void print(const tissue::TissueMesh& mesh, const std::filesystem::path& out) {
 void run(const Options& options) {
   const auto file = options.landmarks.empty() ? landmarks_beside(options.scan) : options.landmarks;
   check_outputs({options.out}, {options.scan, file});
+  take_library_memory();
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
   if (scan.unit_guessed)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "hyperex/core/memory.hpp"
 #include "hyperex/scene/pipeline.hpp"
 
 namespace hyperex::cli {
@@ -31,6 +32,7 @@ std::string solver_line(const nlohmann::ordered_json& summary) {
 }
 
 void run(const Options& options) {
+  take_library_memory();
   auto overrides = options.overrides;
   if (options.verify) overrides.push_back("solver.verify=true");
   const auto summary = scene::run_scene(scene::read_scene(options.scene, overrides), options.out);
@@ -68,7 +70,10 @@ void add_run(CLI::App& program) {
       program.add_subcommand("run", "Re-enact a recorded expression on a scanned face");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
   command
-      ->add_option("--out", options->out, "Folder for the outputs; appears complete or not at all")
+      ->add_option(
+          "--out", options->out,
+          "Folder for the outputs, new, empty or of an earlier run; appears complete or not "
+          "at all")
       ->required();
   command
       ->add_option("--set", options->overrides,

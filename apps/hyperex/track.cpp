@@ -16,6 +16,7 @@
 #include "hyperex/capture/open_source.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/memory.hpp"
 #include "hyperex/report/tracking_page.hpp"
 #include "hyperex/tracking/fit/score.hpp"
 #include "track_live.hpp"
@@ -159,6 +160,7 @@ void run(const Options& options) {
   if (options.json && options.score.empty())
     throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
   check_outputs(outputs_of(options), inputs_of(options));
+  take_library_memory();
   std::optional<tracking::FaceModel> own;
   const tracking::FaceModel& model = model_of(options.model, own);
   std::optional<tracking::Truth> truth;

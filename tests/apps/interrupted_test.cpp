@@ -35,13 +35,13 @@ class Interrupted : public GoodInputs {
     ::kill(program, signal);
     int status = 0;
     ::waitpid(program, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
 };
 
 TEST_F(Interrupted, RunLeavesNothing) {
   const auto before = names_in(in(""));
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGQUIT}) {
     EXPECT_EQ(status_after(signal), 128 + signal);
     const auto told = problems_in(read_file(in("err.txt")));
     ASSERT_EQ(told.size(), 1u);
@@ -49,6 +49,21 @@ TEST_F(Interrupted, RunLeavesNothing) {
     fs::remove(in("err.txt"));
     EXPECT_EQ(names_in(in("")), before);
   }
+}
+
+TEST_F(Interrupted, WhatAKilledRunLeavesIsRemovedByTheNext) {
+  EXPECT_EQ(status_after(SIGKILL), 128 + SIGKILL);
+  const auto left = [&] {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(in("")))
+      if (entry.path().filename().string().starts_with(".out.")) names.push_back(entry.path());
+    return names;
+  };
+  EXPECT_EQ(left().size(), 1u);
+  const Outcome next = call("run scene.toml --out out");
+  EXPECT_EQ(next.status, 0) << next.err;
+  EXPECT_THAT(next.err, testing::HasSubstr("which a killed run had left"));
+  EXPECT_THAT(left(), testing::IsEmpty());
 }
 
 }  // namespace

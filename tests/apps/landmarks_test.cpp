@@ -45,7 +45,7 @@ TEST_F(LandmarksCommand, RefusesInOneLineAndLeavesNothing) {
        {std::pair{"landmarks sheet.ply --out l.json --unit mm", "no face was found"},
         {"landmarks gone.ply --out l.json", "gone.ply"},
         {"landmarks sheet.ply --out no/l.json", "there is no folder"},
-        {"landmarks sheet.ply --out l.json --picture l.json", "expected two files"}}) {
+        {"landmarks sheet.ply --out l.json --picture l.json", "is named for two outputs"}}) {
     const Outcome outcome = call(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     const auto line = outcome.err.find("hyperex: ");

@@ -81,7 +81,7 @@ const std::vector<Fault> kScenes{
        fs::create_directory(in("out"));
        put(in("out/letter.txt"), "dear");
      },
-     {"out", "holds other files"}},
+     {"out", "holds letter.txt, which no earlier run"}},
     {"OutBelowAFile",
      [](const In&) {},
      {"face.ply/out", "cannot be created"},

@@ -42,6 +42,14 @@ class ProgramTest : public testing::Test {
             read_file(folder_ / "out.txt"), read_file(folder_ / "err.txt")};
   }
 
+  /// A line of shell where the program is called, which is $HYPEREX there; its exit status.
+  int shell(const std::string& line) const {
+    const std::string command =
+        "cd '" + (folder_ / "in").string() + "' && HYPEREX='" HYPEREX_PROGRAM "' && " + line;
+    const int status = std::system(command.c_str());
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+
   /// Where the program is called.
   std::filesystem::path in(const std::string& name) const { return folder_ / "in" / name; }
 

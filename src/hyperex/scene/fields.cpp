@@ -126,14 +126,24 @@ fs::path resolve(const fs::path& folder, const std::string& path) {
   return (folder / path).lexically_normal();
 }
 
+/// "C:\new\table.ply" between double quotes holds a line break and a tab.
+bool holds_escape(const std::string& path) {
+  return std::any_of(path.begin(), path.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < ' '; });
+}
+
 std::vector<Complaint> check_file(const KeyInfo& info, const json& value, const fs::path& folder,
                                   bool folder_too) {
   if (!is_word(value)) return {{"", value, info.expected()}};
   const fs::path path = resolve(folder, value.get<std::string>());
   std::error_code error;
   if (!fs::exists(path, error))
-    return {
-        {"", value, fmt::format("an existing file (there is none at {})", show(path.string()))}};
+    return {{"", value,
+             fmt::format("an existing file (there is none at {}){}", show(path.string()),
+                         holds_escape(path.string())
+                             ? "; a backslash between double quotes begins an escape: put a path "
+                               "of Windows between single quotes"
+                             : "")}};
   if (!folder_too && fs::is_directory(path, error))
     return {{"", value, fmt::format("a file ({} is a folder)", show(path.string()))}};
   return {};

@@ -7,6 +7,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/toml_values.hpp"
+#include "hyperex/scene/variant_names.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -119,6 +120,17 @@ void Reader::take_section(const std::string& name, const json& value) {
   }
 }
 
+/// What a file is by its name, where that is no scene; empty otherwise.
+std::string other_kind(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* scan : {".ply", ".obj", ".stl", ".gltf", ".glb"})
+    if (extension == scan) return "scan";
+  for (const char* recording : {".csv", ".trc", ".mp4", ".mov", ".avi", ".oni"})
+    if (extension == recording) return "recording";
+  return "";
+}
+
 bool Reader::take_file() {
   const auto fail = [&](int line, const std::string& expected) {
     problems.push_back({scene.file, line, "", "", expected});
@@ -127,13 +139,22 @@ bool Reader::take_file() {
   std::error_code error;
   if (!fs::exists(scene.file, error)) return fail(0, "an existing scene file");
   if (fs::is_directory(scene.file, error)) return fail(0, "a scene file; this is a folder");
+  if (const std::string kind = other_kind(scene.file); !kind.empty())
+    return fail(0, fmt::format("a scene file, which names a scan and a recording; this is a {0}. "
+                               "Put {0} = {{ file = '{1}' }} into a file that ends in .toml "
+                               "(docs/scene.md)",
+                               kind == "scan" ? "scan" : "motion", scene.file.filename().string()));
   TomlValues values;
   try {
     values = parse_toml(read_file(scene.file));
   } catch (const InputError&) {
     return fail(0, "a file that can be read");
   } catch (const TornToml& torn) {
-    return fail(torn.line, "sound TOML (" + torn.why + ")");
+    return fail(torn.line, "sound TOML (" + torn.why + ")" +
+                               (torn.backslash ? "; a backslash between double quotes begins an "
+                                                 "escape: put a path of Windows between single "
+                                                 "quotes, 'C:\\scans\\me.ply'"
+                                               : ""));
   }
   lines_ = std::move(values.lines);
   for (const auto& [name, value] : values.root.items()) {
@@ -289,17 +310,10 @@ void Reader::settle_variant(const json& block, const std::string& at) {
     return;
   }
   const json name = block.value("name", json());
-  const bool plain_name =
-      name.is_string() && !name.get<std::string>().empty() &&
-      std::all_of(name.get_ref<const std::string&>().begin(),
-                  name.get_ref<const std::string&>().end(),
-                  [](unsigned char c) {
-                    return std::isalnum(c) || c == ' ' || c == '-' || c == '_' || c == '.';
-                  }) &&
-      name.get_ref<const std::string&>().front() != '.';
-  if (!plain_name) {
+  if (!name.is_string() || !is_variant_name(name.get<std::string>())) {
     complain(in_file(name.is_null() ? at : at + ".name"), at + ".name", name,
-             "a name of letters, digits, spaces, '-', '_' and '.', not the latter first");
+             "a name of letters, digits, spaces and any of -_.,;:+=%&'()[], at most 100, a letter "
+             "or digit among them");
     return;
   }
   for (const Variant& other : scene.variants)
@@ -310,6 +324,7 @@ void Reader::settle_variant(const json& block, const std::string& at) {
   varied.scene.variants.clear();
   Variant variant;
   variant.name = name;
+  variant.folder = variant_folder(variant.name, scene.variants);
   variant.changes = json::object();
   for (const auto& [key, value] : changes_of(block)) {
     const std::string place = at + "." + key;

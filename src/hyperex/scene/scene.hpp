@@ -169,7 +169,8 @@ struct Scene {
 /// The same face and motion with other tissue, support or drive: what a run compares with the
 /// scene itself.
 struct Variant {
-  std::string name;        ///< letters, digits, spaces and -_. ; also names its folder
+  std::string name;        ///< printable ASCII
+  std::string folder;      ///< of its outputs: the name, '_' for what is awkward in a path
   nlohmann::json changes;  ///< "tissue.young_kpa": 400, as given
   Scene scene;             ///< with the changes; its own variants are empty
 };

@@ -44,6 +44,15 @@ json convert(const toml::node& node, const std::string& name, std::map<std::stri
 
 }  // namespace
 
+namespace {
+bool has_backslash(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string found;
+  for (int n = 0; n < line; ++n) std::getline(lines, found);
+  return found.find('\\') != std::string::npos;
+}
+}  // namespace
+
 TomlValues parse_toml(const std::string& text) {
   try {
     const toml::table table = toml::parse(text);
@@ -54,7 +63,8 @@ TomlValues parse_toml(const std::string& text) {
     std::string why(error.description());
     for (char& c : why)
       if (static_cast<unsigned char>(c) < ' ') c = ' ';
-    throw TornToml{static_cast<int>(error.source().begin.line), why};
+    const int line = static_cast<int>(error.source().begin.line);
+    throw TornToml{line, why, has_backslash(text, line)};
   }
 }
 

@@ -14,8 +14,9 @@ struct TomlValues {
 };
 
 struct TornToml {
-  int line = 0;     ///< 1-based
-  std::string why;  ///< one line
+  int line = 0;            ///< 1-based
+  std::string why;         ///< one line
+  bool backslash = false;  ///< there is one in that line
 };
 
 /// Throws TornToml where `text` is no TOML.

@@ -30,6 +30,14 @@ std::string field(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
 }
 
+/// A text as a cell: between quotes where it would else be taken for several.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
 /// Positions of a landmark over time; empty where there is none of that name.
 Points track_of(const motion::Motion& m, const std::string& name) {
   const int row = m.index_of(name);
@@ -124,9 +132,9 @@ void write_table(const fs::path& file, const VariantComparison& base,
     for (const auto& figure : figures_of(base)) out << ',' << figure.first;
     out << ",farthest_near,driven_point,response_point\n";
     const auto row = [&](const VariantComparison& c) {
-      out << c.name;
+      out << cell(c.name);
       for (const auto& figure : figures_of(c)) out << ',' << field(figure.second);
-      fmt::print(out, ",{},{},{}\n", c.farthest_near, pair.driven, pair.response);
+      fmt::print(out, ",{},{},{}\n", cell(c.farthest_near), cell(pair.driven), cell(pair.response));
     };
     row(base);
     for (const auto& one : compared) row(one);
@@ -150,6 +158,7 @@ std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& input
     VariantRun run;
     run.scene = variant.scene;
     run.scene.title = variant.name;
+    run.folder = variant.folder;
     run.scene.output.vtu = run.scene.output.vtu && run.scene.output.variants_vtu;
     run.scene.output.glb = run.scene.output.report = false;
     run.inputs = inputs_of_variant(variant.scene, inputs);
@@ -261,7 +270,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
     const Results results{run.scene,    run.inputs, mesh, run.simulation,
                           run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
     compared[i] = compare_variant(run.scene.title, base, results, pair);
-    const fs::path folder = directory / "variants" / run.scene.title;
+    const fs::path folder = directory / "variants" / run.folder;
     fs::create_directories(folder);
     write_outputs(results, folder);
   });
@@ -275,6 +284,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
   json["table"] = Json::array({json_of(own)});
   for (std::size_t i = 0; i < compared.size(); ++i) {
     Json one = json_of(compared[i]);
+    one["folder"] = "variants/" + runs[i].folder;
     one["changes"] = echoed_changes(base.scene, base.scene.variants[i].changes);
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");

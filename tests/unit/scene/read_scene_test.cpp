@@ -168,6 +168,26 @@ TEST(ReadScene, VariantsAreTheSceneWithTheirChanges) {
   EXPECT_TRUE(scene.variants[1].scene.variants.empty());
 }
 
+TEST(ReadScene, AScanOrARecordingIsNoScene) {
+  const SceneFolder folder;
+  EXPECT_THAT(sentences(problems_of(folder / "face.ply")),
+              HasSubstr("this is a scan. Put scan = { file = 'face.ply' } into a file"));
+  EXPECT_THAT(sentences(problems_of(folder / "motion.csv")),
+              HasSubstr("this is a recording. Put motion = { file = 'motion.csv' }"));
+}
+
+TEST(ReadScene, PathsOfWindowsBelongBetweenSingleQuotes) {
+  const std::string scene = "motion = { file = \"embedded\" }\n";
+  EXPECT_THAT(only_problem(scene + "scan = { file = \"C:\\Users\\me.ply\" }\n"),
+              HasSubstr("put a path of Windows between single quotes, 'C:\\scans\\me.ply'"));
+  // What happens to be an escape that there is.
+  EXPECT_THAT(only_problem(scene + "scan = { file = \"C:\\new\\table.ply\" }\n"),
+              HasSubstr("put a path of Windows between single quotes"));
+  EXPECT_THAT(only_problem(scene + "scan = { file = 'C:\\new\\table.ply' }\n"),
+              testing::Not(HasSubstr("single quotes")));
+  EXPECT_THAT(only_problem(scene + "scan = { file = \n"), testing::Not(HasSubstr("single quotes")));
+}
+
 TEST(ReadScene, VariantsThatCannotBe) {
   const std::string base = std::string(smallest) + "[[variant]]\n";
   EXPECT_THAT(only_problem(base + "name = \"a\"\n"),

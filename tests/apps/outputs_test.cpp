@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What stands where outputs are to go: it is the user's, unless an earlier run wrote it.
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/malformed.hpp"
+
+namespace hyperex {
+namespace {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Outputs : public GoodInputs {
+ protected:
+  void add_variant(const std::string& name) const {
+    std::ofstream(in("scene.toml"), std::ios::app)
+        << "[[variant]]\nname = \"" << name << "\"\ntissue = { young_kpa = 400 }\n";
+  }
+  void expect_run(const std::string& out) const {
+    const Outcome outcome = call("run scene.toml --out " + out);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+  /// Refused in one line, and nothing is changed.
+  void expect_refused(const std::string& arguments, const std::string& words,
+                      const std::string& before = "true") const {
+    const auto names = names_in(in(""));
+    const Outcome outcome = call(arguments, before);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    const auto told = problems_in(outcome.err);
+    ASSERT_EQ(told.size(), 1u) << arguments << '\n' << outcome.err;
+    EXPECT_THAT(told[0], HasSubstr(words)) << arguments;
+    EXPECT_EQ(names_in(in("")), names) << arguments;
+  }
+};
+
+TEST_F(Outputs, AFailedWriteBesideVariantsIsToldAndLeavesNothing) {
+  add_variant("a");
+  // In half-kilobytes: enough for the tables.
+  expect_refused("run scene.toml --out out", "cannot be written (File too large)", "ulimit -f 64");
+}
+
+TEST_F(Outputs, TooLittleMemoryIsToldAndLeavesNothing) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer takes more addresses than any limit here leaves";
+#endif
+  const auto names = names_in(in(""));
+  for (const char* limit : {"262144", "700000", "1000000"}) {
+    const Outcome outcome =
+        call("run scene.toml --out out", std::string("ulimit -v ") + limit + " && ulimit -t 60");
+    EXPECT_EQ(outcome.status, 1) << limit;
+    const auto told = problems_in(outcome.err);
+    ASSERT_EQ(told.size(), 1u) << outcome.err;
+    EXPECT_THAT(told[0], HasSubstr("there is not enough memory")) << limit;
+    EXPECT_EQ(names_in(in("")), names);
+  }
+}
+
+TEST_F(Outputs, OfAnEarlierRunAreReplacedOthersRefused) {
+  expect_run("out");
+  const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
+  EXPECT_EQ(summary["program"], "hyperex");
+  EXPECT_EQ(summary["files"].get<std::vector<std::string>>().size(),
+            std::size_t(std::count_if(fs::recursive_directory_iterator(in("out")), {},
+                                      [](const auto& entry) { return entry.is_regular_file(); })));
+  const auto written = names_in(in("out"));
+  expect_run("out");
+  EXPECT_EQ(names_in(in("out")), written);
+  fs::create_directories(in("out/.git"));
+  put(in("out/thesis.doc"), "years");
+  expect_refused("run scene.toml --out out", "out: holds .git/ and thesis.doc, which no earlier");
+  fs::create_directories(in("mine/notes"));
+  put(in("mine/summary.json"), "{}");
+  expect_refused("run scene.toml --out mine", "holds notes/ and summary.json, which no earlier");
+}
+
+TEST_F(Outputs, TheCurrentFolderIsTakenOnlyWhereItHoldsNothingElse) {
+  expect_refused("run scene.toml --out .", "holds face.ply, face_landmarks.json, motion.csv and 1");
+  fs::create_directory(in("here"));
+  EXPECT_EQ(shell("cd here && $HYPEREX run ../scene.toml --out . >/dev/null 2>&1 && "
+                  "$HYPEREX run ../scene.toml --out . >/dev/null 2>&1 && test -e report.html"),
+            0);
+  for (const auto& entry : fs::directory_iterator(in("here")))
+    EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+}
+
+TEST_F(Outputs, AnInputIsNotReplaced) {
+  expect_run("out");
+  replace_in(in("scene.toml"), "motion.csv", "out/motion.csv");
+  expect_refused("run scene.toml --out out", "out/motion.csv: lies in ");
+  for (const char* arguments :
+       {"landmarks face.ply --out face.ply", "landmarks face.ply --out l.json --picture face.ply",
+        "symmetry motion.csv --keep-head --out ./motion.csv", "symmetry out --out out/motion.csv",
+        "mesh face.ply --out face_landmarks.json", "mesh face.ply --out link.ply",
+        "compare face.ply out/skin_peak.ply --picture face.ply",
+        "compare face.ply out/skin_peak.ply --json --picture out/skin_peak.ply"}) {
+    if (!fs::exists(in("link.ply"))) fs::create_symlink("face.ply", in("link.ply"));
+    expect_refused(arguments, "is read too");
+  }
+  const std::string symmetry = "symmetry motion.csv --keep-head --out a ";
+  expect_refused(symmetry + "--excursions a", "is named for two outputs");
+  expect_refused(symmetry + "--picture sub/../a", "is named for two outputs", "mkdir -p sub");
+  put(in("clip.mp4"), "");
+  expect_refused("track clip.mp4 --mirrored no --preview clip.mp4", "is read too");
+  expect_refused("track clip.mp4 --out m.csv --plots m.pose.csv", "is named for two outputs");
+}
+
+TEST_F(Outputs, DevicesAndLinksStay) {
+  fs::create_symlink("/dev/null", in("null"));
+  ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
+  fs::create_directories(in("disk"));
+  fs::create_symlink("disk/table.csv", in("link.csv"));
+  const std::string symmetry = "symmetry motion.csv --keep-head --out ";
+  EXPECT_EQ(call(symmetry + "null --excursions null").status, 0);
+  EXPECT_TRUE(fs::is_symlink(in("null")));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(shell("$HYPEREX " + symmetry + "pipe >/dev/null 2>&1 & cat pipe >read.csv; wait $!"),
+            0);
+  EXPECT_TRUE(fs::is_fifo(in("pipe")));
+  EXPECT_EQ(call(symmetry + "link.csv").status, 0);
+  EXPECT_TRUE(fs::is_symlink(in("link.csv")));
+  EXPECT_EQ(read_file(in("disk/table.csv")), read_file(in("read.csv")));
+  EXPECT_EQ(shell("$HYPEREX " + symmetry + "/dev/stdout >>said.csv 2>/dev/null"), 0);
+  EXPECT_THAT(read_file(in("said.csv")), testing::StartsWith(read_file(in("read.csv"))));
+
+  fs::create_symlink("disk", in("out"));
+  expect_run("out");
+  EXPECT_TRUE(fs::is_symlink(in("out")));
+  EXPECT_TRUE(fs::exists(in("disk/table.csv")));
+}
+
+TEST_F(Outputs, WhatCannotBeIsToldBeforeTheWork) {
+  fs::create_symlink("nowhere", in("dangling"));
+  fs::create_symlink("circle", in("circle"));
+  expect_refused("run scene.toml --out dangling", "is a link to nowhere, which does not exist");
+  expect_refused("run scene.toml --out circle", "circle: cannot be written (");
+  expect_refused("run scene.toml --out ''", "the name of the folder for the outputs is empty");
+  expect_refused("run scene.toml --out motion.csv", "is a file; expected the name of a folder");
+  expect_refused("run scene.toml --out " + std::string(256, 'x'), "File name too long");
+  expect_refused("symmetry motion.csv --out circle", "is a link that leads in a circle");
+  expect_refused("symmetry motion.csv --out .", "is a folder; expected the name of a file");
+  const std::string long_name(250, 'x');
+  expect_run(long_name);
+  EXPECT_TRUE(fs::exists(in(long_name + "/report.html")));
+}
+
+TEST_F(Outputs, AFolderWhoseNameIsNoUtf8WillDo) {
+  const std::string folder = "caf\351";
+  fs::create_directory(in(folder));
+  for (const char* name : {"face.ply", "face_landmarks.json", "motion.csv", "scene.toml"})
+    fs::copy_file(in(name), in(folder) / name);
+  const Outcome outcome = call("run '" + folder + "/scene.toml' --out '" + folder + "/out'");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NO_THROW(nlohmann::json::parse(read_file(in(folder) / "out/summary.json")));
+  expect_refused("run scene.toml --out '" + folder + "'", "no earlier run is known");
+}
+
+TEST_F(Outputs, AVariantsNameMayHoldAComma) {
+  add_variant("stiff, both (x2)");
+  expect_run("out");
+  EXPECT_TRUE(fs::exists(in("out/variants/stiff_ both _x2_/skin_peak.ply")));
+  EXPECT_THAT(read_file(in("out/variants.csv")), HasSubstr("\n\"stiff, both (x2)\","));
+  const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
+  EXPECT_EQ(summary["variants"]["table"][1]["folder"], "variants/stiff_ both _x2_");
+}
+
+TEST_F(Outputs, WhatIsNoCommandOrSceneIsToldAsSuch) {
+  expect_refused("animate scene.toml", "\"animate\": expected a subcommand (run, check, ");
+  expect_refused("simmetry motion.csv", "did you mean symmetry?");
+  expect_refused("run face.ply --out out", "this is a scan. Put scan = { file = 'face.ply' }");
+}
+
+}  // namespace
+}  // namespace hyperex
