@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build asan tsan coverage lint fresh bench experiments fidelity mutations clean setup
+.PHONY: help demo test build asan tsan coverage lint fresh fuzz bench experiments fidelity mutations clean setup
 
 # Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
 ifneq ($(shell test -w "$$HOME" && echo yes),yes)
@@ -66,6 +66,12 @@ lint: ## formatting and clang-tidy over everything (some 30 minutes of CPU)
 
 fresh: ## all this on an empty Debian 12, as root and as a user with sudo (needs root; COLD=1: no caches)
 	scripts/fresh.sh $(if $(COLD),--cold)
+
+fuzz: ## fuzz every reader of files with libFuzzer, 10 minutes each (SECONDS_EACH=5: a look)
+	scripts/setup.sh --fuzz
+	cmake --preset fuzz
+	cmake --build --preset fuzz --parallel $(JOBS)
+	JOBS=$(JOBS) tests/fuzz/run.sh $(or $(SECONDS_EACH),600)
 
 bench: ## measure everything, beside CalculiX, and write docs/performance.md (QUICK=1: a look)
 	scripts/setup.sh --bench

@@ -4,6 +4,7 @@
 #   scripts/setup.sh           to build and run
 #   scripts/setup.sh --video   also to read video files and webcams and to write --preview videos
 #   scripts/setup.sh --tests   also what the tests take (--video, a browser, CalculiX)
+#   scripts/setup.sh --fuzz    also clang and libFuzzer
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
 #   scripts/setup.sh --lint    also clang-format, clang-tidy and gcovr (with --tests)
 # Says first what it will install and how large it is, installs only what is missing, and is quick
@@ -39,9 +40,10 @@ case "${1:-}" in
     [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
     [[ "$1" == --tests ]] || packages+=(clang-format clang-tidy gcovr)
     ;;
+  --fuzz) packages+=(clang libclang-rt-14-dev) ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
-  -h | --help) sed -n '3,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) die "unknown option $1 (there are --video, --tests, --bench and --lint)" ;;
+  -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) die "unknown option $1 (there are --video, --tests, --fuzz, --bench and --lint)" ;;
 esac
 
 node_is_enough() {

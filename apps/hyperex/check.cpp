@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/scene/pipeline.hpp"
 
 namespace hyperex::cli {
@@ -27,7 +28,7 @@ void add_check(CLI::App& program) {
   command->callback([options] {
     for (const auto& note :
          scene::check_scene(scene::read_scene(options->scene, options->overrides)))
-      std::cout << note << '\n';
+      std::cout << printable(note) << '\n';
     std::cout << options->scene.string() << ": no problems found\n";
   });
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -7,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -14,20 +16,43 @@
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/interrupt.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/core/standard_streams.hpp"
 #include "hyperex/scene/keys.hpp"
 
 namespace {
 
 // One line a problem, each with the program's name.
-void print_error(const std::string& text) {
+void print_error(const std::string& message) {
   hyperex::wait_if_interrupted();
+  const std::string text = hyperex::first_lines(hyperex::printable(message));
   size_t begin = 0;
   while (begin <= text.size()) {
     const size_t end = std::min(text.find('\n', begin), text.size());
     std::cerr << "hyperex: " << text.substr(begin, end - begin) << '\n';
     begin = end + 1;
   }
+}
+
+/// "%*": what is said, fit for a terminal.
+class PrintableMessage : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&,
+              spdlog::memory_buf_t& to) override {
+    const std::string text =
+        hyperex::first_lines(hyperex::printable({message.payload.data(), message.payload.size()}));
+    to.append(text.data(), text.data() + text.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<PrintableMessage>();
+  }
+};
+
+void log_to_standard_error() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("hyperex"));
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<PrintableMessage>('*').set_pattern("%^%l%$: %*");
+  spdlog::set_formatter(std::move(formatter));
 }
 
 void add_subcommands(CLI::App& program) {
@@ -104,8 +129,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   hyperex::end_cleanly_when_interrupted();
   // Standard output is for results alone: what is said on the way goes beside it.
-  spdlog::set_default_logger(spdlog::stderr_color_mt("hyperex"));
-  spdlog::set_pattern("%^%l%$: %v");
+  log_to_standard_error();
   // Its own failures to write a message are none of the user's.
   spdlog::set_error_handler([](const std::string&) {});
   CLI::App program{

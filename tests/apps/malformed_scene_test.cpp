@@ -23,7 +23,8 @@ void line_in_scene(const In& in, const std::string& line) {
 }
 
 const std::vector<Fault> kScenes{
-    key("NegativeStiffness", "tissue.young_kpa=-5", {"tissue.young_kpa", "-5", "above 0", "kPa"}),
+    key("NegativeStiffness", "tissue.young_kpa=-5",
+        {"tissue.young_kpa", "-5", "from 0.001", "kPa"}),
     key("Incompressible", "tissue.poisson=0.5", {"tissue.poisson", "0.5", "0.4999"}),
     key("NoStep", "time.step_s=0", {"time.step_s", "= 0", "1e-06"}),
     key("MillionsOfSteps", "time.step_s=1e-6' --set 'time.end_s=600",
@@ -49,7 +50,7 @@ const std::vector<Fault> kScenes{
      },
      {"scene.toml:20", "motion.point_gain[1].point", "ibug68_48", "once"}},
     key("NegativeStiffnessAtAPoint", "tissue.point=[{landmark=\"cheek\", young_kpa=-3}]",
-        {"tissue.point[0].young_kpa", "-3", "above 0"}),
+        {"tissue.point[0].young_kpa", "-3", "from 0.001"}),
     key("NegativeViscosityInARegion", "tissue.region=[{name=\"nose\", viscosity_pa_s=-1}]",
         {"tissue.region[0].viscosity_pa_s", "-1", "from 0"}),
     key("NegativeFactor", "tissue.region=[{name=\"nose\", young_factor=-1}]",

@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"Indefinite", "tissue = { region = [{ name = \"cheek_R\", poisson_factor = 2 }] }\n",
               "tissue.region[0].poisson_factor = 2.0: expected Poisson's ratio to stay from"},
         Fault{"Negative", "tissue = { young_kpa = -3 }\n",
-              "tissue.young_kpa = -3: expected a number above 0"},
+              "tissue.young_kpa = -3: expected a number from 0.001"},
         Fault{"NotToVary", "mesh = { layers = 3 }\n",
               "mesh.layers = 3: expected a key of what may vary"}),
     [](const auto& fault) { return std::string(fault.param.name); });

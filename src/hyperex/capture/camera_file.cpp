@@ -10,6 +10,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/io/nesting.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/toml.hpp"
 
@@ -86,8 +87,11 @@ class Reader {
 
 Camera read_camera_file(const fs::path& file) {
   toml::table table;
+  const std::string text = read_file(file);
+  if (const int line = io::line_nested_too_deep_toml(text); line > 0)
+    throw InputError(InputProblem{file, line, "", "", "plain keys: " + io::too_deep()});
   try {
-    table = toml::parse(read_file(file));
+    table = toml::parse(text);
   } catch (const toml::parse_error& error) {
     throw InputError(InputProblem{file, static_cast<int>(error.source().begin.line), "", "",
                                   "TOML: " + io::quotable(error.description())});

@@ -60,9 +60,11 @@ Decoded decode_png(Bytes bytes, PngAs as, const std::string& name) {
 
 /// The bytes of a file, or the fault.
 std::vector<unsigned char> read_bytes(const fs::path& file, std::string& fault) {
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  // Asked first: a pipe would wait to be opened.
   std::error_code ignored;
-  if (!stream || !fs::is_regular_file(file, ignored)) {
+  std::ifstream stream;
+  if (fs::is_regular_file(file, ignored)) stream.open(file, std::ios::binary | std::ios::ate);
+  if (!stream.is_open()) {
     fault = file.string() + ": no such file";
     return {};
   }
@@ -76,12 +78,24 @@ std::vector<unsigned char> read_bytes(const fs::path& file, std::string& fault) 
   return bytes;
 }
 
-bool has_size(const cv::Mat& picture, const Intrinsics& expected) {
-  return picture.cols == expected.width_px && picture.rows == expected.height_px;
+/// By its header; nothing where that cannot be read, which decoding then tells.
+cv::Size size_of(Bytes bytes) {
+  if (is_png(bytes)) return png_size(bytes);
+  const std::unique_ptr<void, int (*)(void*)> decoder(tjInitDecompress(), tjDestroy);
+  int width = 0, height = 0, subsampling = 0, colours = 0;
+  if (begins_with(bytes, "\xFF\xD8") &&
+      tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &width, &height, &subsampling,
+                          &colours) == 0)
+    return {width, height};
+  return {};
 }
 
-std::string wrong_size(const fs::path& file, const cv::Mat& picture, const Intrinsics& expected) {
-  return file.string() + ": " + size_text(picture.cols, picture.rows) +
+/// Asked before a picture is decoded: a small file may hold any number of equal pixels.
+std::string fault_of_size(const fs::path& file, Bytes bytes, const Intrinsics& expected) {
+  const cv::Size size = size_of(bytes);
+  if (size.empty() || (size.width == expected.width_px && size.height == expected.height_px))
+    return {};
+  return file.string() + ": " + size_text(size.width, size.height) +
          " pixels, but the camera has " + size_text(expected.width_px, expected.height_px);
 }
 
@@ -96,9 +110,8 @@ Decoded decode_colour(Bytes bytes, const std::string& name) {
 Decoded decode_colour(const fs::path& file, const Intrinsics& expected) {
   Decoded decoded;
   const auto bytes = read_bytes(file, decoded.fault);
+  if (decoded.fault.empty()) decoded.fault = fault_of_size(file, bytes, expected);
   if (decoded.fault.empty()) decoded = decode_colour(bytes, file.string());
-  if (decoded.fault.empty() && !has_size(decoded.picture, expected))
-    return {{}, wrong_size(file, decoded.picture, expected)};
   return decoded;
 }
 
@@ -109,11 +122,11 @@ Decoded decode_depth(const fs::path& file, const Intrinsics& expected, double de
   if (!decoded.fault.empty()) return decoded;
   if (begins_with(bytes, "\xFF\xD8")) return {{}, file.string() + kind};
   if (!is_png(bytes)) return {{}, file.string() + ": torn picture, or no PNG"};
+  decoded.fault = fault_of_size(file, bytes, expected);
+  if (!decoded.fault.empty()) return decoded;
   decoded = decode_png(bytes, PngAs::stored_grey, file.string());
   if (!decoded.fault.empty()) return decoded;
   if (decoded.picture.type() != CV_16UC1) return {{}, file.string() + kind};
-  if (!has_size(decoded.picture, expected))
-    return {{}, wrong_size(file, decoded.picture, expected)};
   if (cv::countNonZero(decoded.picture) == 0)
     return {{}, file.string() + ": depth without a single reading"};
   cv::Mat depth_m;

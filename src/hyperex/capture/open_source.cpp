@@ -97,6 +97,9 @@ SourceKind source_kind(const std::string& spec) {
         "camera (kinect, openni, webcam:N)");
   if (fs::is_directory(spec, ignored)) return SourceKind::folder;
   if (fs::exists(spec, ignored)) {
+    if (fs::is_character_file(spec, ignored) || fs::is_block_file(spec, ignored))
+      throw InputError(spec,
+                       "is a device; expected a recording, or a camera by its word, as webcam:0");
     if (is_mesh(spec))
       throw InputError(spec, "is a mesh, not a recording: hyperex landmarks finds landmarks on it");
     return extension_of(spec) == ".oni" ? SourceKind::oni

@@ -72,6 +72,15 @@ bool is_png(std::span<const unsigned char> bytes) {
   return bytes.size() >= 4 && png_sig_cmp(bytes.data(), 0, 4) == 0;
 }
 
+cv::Size png_size(std::span<const unsigned char> bytes) {
+  constexpr std::size_t width_at = 16, height_at = 20, end = 24;  // of IHDR, which comes first
+  if (!is_png(bytes) || bytes.size() < end || std::memcmp(&bytes[12], "IHDR", 4) != 0) return {};
+  const std::uint32_t width = png_get_uint_32(&bytes[width_at]),
+                      height = png_get_uint_32(&bytes[height_at]);
+  if (width > PNG_UINT_31_MAX || height > PNG_UINT_31_MAX) return {};
+  return {int(width), int(height)};
+}
+
 PngPicture read_png(std::span<const unsigned char> bytes, PngAs as, double most_pixels) {
   Reading reading{bytes, {}, {}};
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reading, fail, keep_quiet);

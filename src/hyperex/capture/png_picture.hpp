@@ -17,6 +17,8 @@ struct PngPicture {
 };
 
 bool is_png(std::span<const unsigned char> bytes);
+/// As its header says; 0 x 0 where it is torn.
+cv::Size png_size(std::span<const unsigned char> bytes);
 /// The whole file is read to its end and every check sum in it held to, so a torn one is a fault.
 /// So is one of more than `most_pixels`.
 PngPicture read_png(std::span<const unsigned char> bytes, PngAs as, double most_pixels);

@@ -11,6 +11,7 @@
 #include "hyperex/capture/faults.hpp"
 #include "hyperex/capture/tum_lists.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/named_file.hpp"
 
 namespace hyperex::capture {
 namespace {
@@ -71,6 +72,8 @@ class TumFolder : public FrameSource {
       throw InputError(file,
                        "missing: expected the camera's width, height, fx, fy, cx, cy (pixels) and "
                        "depth_scale (stored value per metre)");
+    std::error_code ignored;
+    if (fs::is_fifo(file, ignored)) throw InputError(file, "is a pipe; expected the camera's file");
     camera_ = read_camera_file(file);
     notes_ = camera_.notes;
   }
@@ -104,14 +107,27 @@ class TumFolder : public FrameSource {
     frame.index = index;
     frame.time_s = listed.time_s;
     frame.fault = listed.fault;
-    const auto take = [&](Decoded decoded, cv::Mat& into) {
+    const auto take = [&](const std::string& name, const auto& decode, cv::Mat& into) {
+      Decoded decoded;
+      try {
+        decoded = decode(named_file(folder_, name));
+      } catch (const InputError& error) {
+        decoded.fault = error.what();
+      }
       into = std::move(decoded.picture);
       if (frame.fault.empty()) frame.fault = std::move(decoded.fault);
     };
-    take(decode_colour(folder_ / listed.colour, camera_.intrinsics), frame.colour);
+    take(
+        listed.colour,
+        [&](const fs::path& file) { return decode_colour(file, camera_.intrinsics); },
+        frame.colour);
     if (has_depth_ && !listed.depth.empty())
-      take(decode_depth(folder_ / listed.depth, camera_.intrinsics, camera_.depth_per_metre),
-           frame.depth_m);
+      take(
+          listed.depth,
+          [&](const fs::path& file) {
+            return decode_depth(file, camera_.intrinsics, camera_.depth_per_metre);
+          },
+          frame.depth_m);
     frame.valid = frame.fault.empty();
     return frame;
   }

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/core/files.hpp"
+#include "hyperex/core/named_file.hpp"
 #include "hyperex/io/number.hpp"
 
 namespace hyperex::capture {
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 template <class Use>
 void read_lines(const fs::path& file, std::size_t pictures_a_line, const std::string& expected,
                 Use use) {
-  const std::string text = read_file(file);
+  const std::string text = read_regular_file(file);
   io::Lines lines(text);
   std::string_view line;
   while (lines.next(line)) {

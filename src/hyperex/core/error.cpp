@@ -3,13 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "hyperex/core/printable.hpp"
+
 namespace hyperex {
+
+namespace {
+constexpr std::size_t most_quoted = 120, most_problems = 20;
+}
 
 std::string InputProblem::sentence() const {
   std::string where = file.string();
   if (line > 0) where += fmt::format(":{}", line);
-  std::string what = key;
-  if (!value.empty()) what += (key.empty() ? "" : " = ") + value;
+  std::string what = printable(key, most_quoted);
+  if (!value.empty()) what += (key.empty() ? "" : " = ") + printable(value, most_quoted);
   std::string text = where;
   if (!what.empty()) text += (text.empty() ? "" : ": ") + what;
   return text + (text.empty() ? "expected " : ": expected ") + expected;
@@ -18,10 +26,10 @@ std::string InputProblem::sentence() const {
 namespace {
 std::string join(const std::vector<InputProblem>& problems) {
   std::string text;
-  for (const auto& problem : problems) {
-    if (!text.empty()) text += '\n';
-    text += problem.sentence();
-  }
+  for (std::size_t i = 0; i < std::min(problems.size(), most_problems); ++i)
+    text += (i == 0 ? "" : "\n") + problems[i].sentence();
+  if (problems.size() > most_problems)
+    text += fmt::format("\n... and {} problems more", problems.size() - most_problems);
   return text;
 }
 }  // namespace
@@ -30,7 +38,7 @@ InputError::InputError(const InputProblem& problem) : std::runtime_error(problem
 InputError::InputError(const std::vector<InputProblem>& problems)
     : std::runtime_error(join(problems)) {}
 InputError::InputError(const std::filesystem::path& file, const std::string& message)
-    : std::runtime_error(file.string() + ": " + message) {}
+    : std::runtime_error(printable(file.string() + ": " + message)) {}
 
 InputError::InputError(const std::string& sentences) : std::runtime_error(sentences) {}
 

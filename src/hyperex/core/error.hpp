@@ -22,7 +22,7 @@ struct InputProblem {
   std::string sentence() const;
 };
 
-/// The user's input cannot be used. what() is one line, or one line a problem.
+/// The user's input cannot be used. what() is one line, or one a problem, 20 at most.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const InputProblem& problem);

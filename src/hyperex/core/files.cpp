@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/interrupt.hpp"
@@ -83,6 +84,17 @@ void check_right(const fs::path& path, const fs::path& file) {
   if (::access(there.c_str(), W_OK) != 0) cannot_write(path, std::strerror(errno));
 }
 
+/// What comes out of a pipe need not end.
+std::string read_pipe(const fs::path& path, std::istream& stream) {
+  constexpr std::size_t most = std::size_t(1) << 30;
+  std::string bytes;
+  std::vector<char> part(1 << 16);
+  while (stream.read(part.data(), std::streamsize(part.size())), stream.gcount() > 0) {
+    bytes.append(part.data(), std::size_t(stream.gcount()));
+    if (bytes.size() > most) throw InputError(path, "gives more than 1 GiB; expected a file");
+  }
+  return bytes;
+}
 }  // namespace
 
 fs::path followed_links(const fs::path& path) {
@@ -154,8 +166,12 @@ std::string read_file(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError(path, "no such file");
   if (fs::is_directory(path, error)) throw InputError(path, "is a folder; expected a file");
+  const bool pipe = fs::is_fifo(path, error);
+  if (!pipe && !fs::is_regular_file(path, error))
+    throw InputError(path, "is a device; expected a file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(path, "cannot be read");
+  if (pipe) return read_pipe(path, stream);
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   return bytes.str();

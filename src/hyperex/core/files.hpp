@@ -27,7 +27,7 @@ void check_outputs(const std::vector<std::filesystem::path>& outputs,
 /// there yet. Throws InputError for a folder and for links that lead in a circle.
 std::filesystem::path followed_links(const std::filesystem::path& path);
 
-/// The whole file as bytes; InputError where it is missing, a folder or unreadable.
+/// The whole file as bytes; InputError where it is missing, a folder, a device or unreadable.
 std::string read_file(const std::filesystem::path& path);
 
 }  // namespace hyperex

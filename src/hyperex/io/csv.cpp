@@ -16,10 +16,45 @@
 namespace hyperex::io {
 namespace {
 
+/// The cells of a line, trimmed; those in quotes may hold separators and doubled quotes (RFC 4180).
+std::vector<std::string> cells_of(std::string_view line, char separator) {
+  std::vector<std::string> cells;
+  while (true) {
+    const auto begin = line.find_first_not_of(separator == '\t' ? " \r" : " \t\r");
+    std::string cell;
+    std::size_t end = 0;
+    if (begin != std::string_view::npos && line[begin] == '"') {
+      std::size_t at = begin + 1;
+      for (; at < line.size(); ++at) {
+        if (line[at] == '"' && (at + 1 == line.size() || line[at + 1] != '"')) break;
+        if (line[at] == '"') ++at;
+        cell += line[at];
+      }
+      end = at < line.size() ? at + 1 : std::string_view::npos;
+    }
+    if (end == 0 || end == std::string_view::npos) {  // no quotes, or never closed
+      cell.clear();
+      end = 0;
+    }
+    const auto next = line.find(separator, end);
+    cell += line.substr(end, next == std::string_view::npos ? next : next - end);
+    cells.emplace_back(trimmed(cell));
+    if (next == std::string_view::npos) return cells;
+    line.remove_prefix(next + 1);
+  }
+}
+
 char separator_of(std::string_view header) {
   for (const char separator : {',', ';', '\t'})
-    if (header.find(separator) != std::string_view::npos) return separator;
+    if (cells_of(header, separator).size() > 1) return separator;
   return ',';
+}
+
+std::string in_quotes_where_needed(const std::string& name) {
+  if (name.find_first_of(",;\"") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
 }
 
 std::vector<std::string> read_names(const std::filesystem::path& file, int line,
@@ -27,18 +62,18 @@ std::vector<std::string> read_names(const std::filesystem::path& file, int line,
   std::vector<std::string> names;
   std::set<std::string> known;
   bool all_numbers = true;
-  for (std::string_view cell : split(header, separator)) {
-    cell = trimmed(cell);
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-      cell = trimmed(cell.substr(1, cell.size() - 2));
+  for (std::string& cell : cells_of(header, separator)) {
     all_numbers = all_numbers && parse_number(cell);
-    names.emplace_back(cell);
+    names.push_back(std::move(cell));
   }
   if (all_numbers)
     throw InputError({file, line, "", quotable(header), "the names of the columns, not numbers"});
   for (std::size_t c = 0; c < names.size(); ++c) {
     if (names[c].empty())
       throw InputError({file, line, fmt::format("column {}", c + 1), "", "a name; it is empty"});
+    if (!is_printable_name(names[c]))
+      throw InputError(
+          {file, line, fmt::format("column {}", c + 1), quotable(names[c]), printable_name});
     if (!known.insert(names[c]).second)
       throw InputError({file, line, fmt::format("column {}", c + 1), quotable(names[c]),
                         "each name once; it stands twice"});
@@ -65,10 +100,12 @@ void write_table(const std::filesystem::path& file, const std::vector<std::strin
                  std::size_t numbers, long rows,
                  const std::function<std::string(long, std::vector<double>&)>& fill) {
   for (const auto& name : names)
-    if (name.empty() || name.find_first_of(",\"\r\n") != std::string::npos)
-      throw std::invalid_argument("write_csv: a name is empty or holds a comma or quote: " + name);
+    if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
+      throw std::invalid_argument("write_csv: a name is empty or holds a line break: " + name);
   write_file_atomically(file, [&](std::ostream& stream) {
-    stream << fmt::format("{}\n", fmt::join(names, ","));
+    for (std::size_t c = 0; c < names.size(); ++c)
+      stream << (c == 0 ? "" : ",") << in_quotes_where_needed(names[c]);
+    stream << '\n';
     std::vector<double> values(numbers);
     for (long row = 0; row < rows; ++row) {
       const std::string behind = fill(row, values);
@@ -109,7 +146,14 @@ CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of
       table.names = read_names(file, lines.number(), line, separator);
       continue;
     }
-    const auto cells = split(line, separator);
+    std::vector<std::string> unquoted;
+    std::vector<std::string_view> cells;
+    if (line.find('"') == std::string_view::npos) {
+      cells = split(line, separator);
+    } else {
+      unquoted = cells_of(line, separator);
+      cells.assign(unquoted.begin(), unquoted.end());
+    }
     if (cells.size() != table.names.size())
       throw InputError({file, lines.number(), "", fmt::format("{} cells", cells.size()),
                         fmt::format("{}, as the first line names them", table.names.size())});

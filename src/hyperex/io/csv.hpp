@@ -24,7 +24,8 @@ struct CsvTable {
 };
 
 /// Reads a table whose first line holds the names. Cells are separated by commas (or by semicolons
-/// or tabs, where the first line has no comma); blanks around cells, quotes around names, a
+/// or tabs, where the first line has no comma); blanks around cells, quotes around cells (which
+/// then may hold separators, and quotes doubled: RFC 4180, without line breaks in them), a
 /// byte-order mark, "\r\n", empty lines and lines beginning with '#' are put up with. No rows at
 /// all is a table of none. Throws InputError naming line and column: no names, a name twice or
 /// empty, numbers in place of names, a row of another length, a cell that is no finite number.
@@ -36,6 +37,7 @@ using TextReader =
 CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of);
 
 /// Writes a row a line, each number in the fewest digits that give it back exactly; NaN as "nan".
+/// Names with separators or quotes stand in quotes, as read_csv takes them.
 void write_csv(const std::filesystem::path& file, const std::vector<std::string>& names,
                const Eigen::Ref<const Eigen::MatrixXd>& rows);
 

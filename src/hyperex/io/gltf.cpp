@@ -14,7 +14,9 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/named_file.hpp"
 #include "hyperex/io/image.hpp"
+#include "hyperex/io/nesting.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/raw_mesh.hpp"
 
@@ -35,6 +37,49 @@ std::string one_line(std::string text) {
   return std::string(trimmed(text).substr(0, 200));
 }
 
+/// What tinygltf may see of the disk: files in the scan's folder or below.
+struct Folder {
+  std::filesystem::path path;
+  std::string refusals;
+
+  static bool holds(const std::string& name, void* self) {
+    auto& folder = *static_cast<Folder*>(self);
+    try {
+      named_file(folder.path, std::filesystem::absolute(name).string());
+      return true;
+    } catch (const std::exception& refusal) {
+      // It asks for a file beside the scan, then for one in the current folder.
+      if (folder.refusals.empty()) folder.refusals = std::string("; ") + refusal.what();
+      return false;
+    }
+  }
+  static std::string as_it_is(const std::string& name, void*) { return name; }
+  static bool read(std::vector<unsigned char>* bytes, std::string* error, const std::string& name,
+                   void* self) {
+    if (!holds(name, self)) return false;
+    try {
+      const std::string text = read_regular_file(name);
+      bytes->assign(text.begin(), text.end());
+      return true;
+    } catch (const InputError& refusal) {
+      *error += refusal.what();
+      return false;
+    }
+  }
+  static bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&,
+                            void*) {
+    return false;
+  }
+};
+
+/// The JSON of a file that begins as a binary one does; the file itself otherwise.
+std::string_view json_of(const std::string& bytes, bool binary) {
+  if (!binary) return bytes;
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, 4);
+  return std::string_view(bytes).substr(20, length);
+}
+
 tinygltf::Model load_model(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   const bool binary = bytes.starts_with("glTF");
@@ -45,7 +90,11 @@ tinygltf::Model load_model(const std::filesystem::path& file) {
       throw InputError(
           file, fmt::format("is torn: it has {} bytes; its header says {}", bytes.size(), length));
   }
+  check_nesting_json(file, json_of(bytes, binary));
+  Folder beside{file.parent_path(), {}};
   tinygltf::TinyGLTF loader;
+  loader.SetFsCallbacks(
+      {&Folder::holds, &Folder::as_it_is, &Folder::read, &Folder::write_nothing, &beside});
   loader.SetImageLoader(&keep_encoded, nullptr);
   tinygltf::Model model;
   std::string error, warning;
@@ -61,8 +110,8 @@ tinygltf::Model load_model(const std::filesystem::path& file) {
   } catch (const std::exception& exception) {
     error = exception.what();
   }
-  if (!sound) throw InputError(file, "is no sound glTF file: " + one_line(error));
-  if (!warning.empty()) spdlog::warn("{}: {}", file.string(), one_line(warning));
+  if (!sound) throw InputError(file, "is no sound glTF file: " + one_line(error) + beside.refusals);
+  if (!warning.empty()) spdlog::warn("{}: {}{}", file.string(), one_line(warning), beside.refusals);
   // Those that say how surfaces look leave the shape as it is; quantised values are read below.
   for (const auto& extension : model.extensionsRequired)
     if (!extension.starts_with("KHR_materials_") && extension != "KHR_mesh_quantization")
@@ -182,7 +231,7 @@ class SceneReader {
       : file_(file), model_(model), accessors_(file, model) {}
 
   RawMesh read() {
-    for (const int root : roots()) visit(root, Eigen::Affine3d::Identity());
+    for (const int root : roots()) visit(root, Eigen::Affine3d::Identity(), 1);
     raw_.points = Eigen::Map<const Points>(xyz_.data(), xyz_.size() / 3, 3);
     if (coloured_)
       raw_.vertex_colour = Eigen::Map<const VertexColours>(rgba_.data(), rgba_.size() / 4, 4);
@@ -221,7 +270,10 @@ class SceneReader {
     return transform;
   }
 
-  void visit(int id, const Eigen::Affine3d& scene_from_parent) {
+  void visit(int id, const Eigen::Affine3d& scene_from_parent, int depth) {
+    constexpr int deepest = 256;
+    if (depth > deepest)
+      throw InputError(file_, fmt::format("its nodes are nested deeper than {} levels", deepest));
     if (id < 0 || id >= static_cast<int>(model_.nodes.size()))
       throw InputError(file_, fmt::format("its scene names node {}; expected 0 to {}", id,
                                           int(model_.nodes.size()) - 1));
@@ -237,7 +289,7 @@ class SceneReader {
       for (const auto& primitive : model_.meshes[node.mesh].primitives)
         add(primitive, scene_from_node);
     }
-    for (const int child : node.children) visit(child, scene_from_node);
+    for (const int child : node.children) visit(child, scene_from_node, depth + 1);
   }
 
   void add(const tinygltf::Primitive& primitive, const Eigen::Affine3d& scene_from_node) {

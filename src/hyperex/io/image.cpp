@@ -7,7 +7,7 @@
 #include <array>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/core/files.hpp"
+#include "hyperex/core/named_file.hpp"
 
 namespace hyperex::io {
 namespace {
@@ -31,9 +31,9 @@ std::optional<Image> load_texture(const std::filesystem::path& scan,
   // Scanners on Windows write backslashes.
   std::string name = texture.string();
   std::replace(name.begin(), name.end(), '\\', '/');
-  const std::filesystem::path path = scan.parent_path() / name;
   try {
-    const std::string bytes = read_file(path);
+    const std::filesystem::path path = named_file(scan.parent_path(), name);
+    const std::string bytes = read_regular_file(path);
     auto image = recognise_image({bytes.begin(), bytes.end()});
     if (!image)
       spdlog::warn("{}: texture {} is neither PNG nor JPEG; going on without it", scan.string(),

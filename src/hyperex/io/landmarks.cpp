@@ -9,6 +9,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/io/nesting.hpp"
 #include "hyperex/io/number.hpp"
 
 namespace hyperex::io {
@@ -18,12 +19,14 @@ using nlohmann::json;
 /// Parses; a key that stands twice in one object is an error, not silently the last one.
 json parse_strictly(const std::filesystem::path& file) {
   const std::string text = read_file(file);
+  check_nesting_json(file, text);
   std::vector<std::set<std::string>> keys;
   const auto on_event = [&](int, json::parse_event_t event, json& parsed) {
     if (event == json::parse_event_t::object_start) keys.emplace_back();
     if (event == json::parse_event_t::object_end) keys.pop_back();
     if (event == json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw InputError({file, 0, parsed.get<std::string>(), "", "each name once; it stands twice"});
+      throw InputError(
+          {file, 0, quotable(parsed.get<std::string>()), "", "each name once; it stands twice"});
     return true;
   };
   try {
@@ -48,15 +51,18 @@ Vec3 point_of(const std::filesystem::path& file, const std::string& name, const 
     if (sound) point[k] = value[k].get<double>();
   }
   if (!sound || !point.allFinite())
-    throw InputError({file, 0, name, quotable(value.dump()), "three finite numbers [x, y, z]"});
+    throw InputError(
+        {file, 0, quotable(name), quotable(value.dump()), "three finite numbers [x, y, z]"});
   return point;
 }
 
 void add(const std::filesystem::path& file, Landmarks& landmarks, const std::string& name,
          const Vec3& point) {
   if (name.empty()) throw InputError(file, "a point has no name; expected a name for each");
+  if (!is_printable_name(name))
+    throw InputError({file, 0, "name of a point", quotable(name), printable_name});
   if (!landmarks.emplace(name, point).second)
-    throw InputError({file, 0, name, "", "each name once; it stands twice"});
+    throw InputError({file, 0, quotable(name), "", "each name once; it stands twice"});
 }
 
 LengthUnit parsed_unit(const std::filesystem::path& file, const char* key, const json& value) {

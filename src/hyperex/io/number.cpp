@@ -72,6 +72,28 @@ bool Lines::next(std::string_view& line) {
   return true;
 }
 
+bool is_printable_name(std::string_view text) {
+  while (!text.empty()) {
+    const auto lead = static_cast<unsigned char>(text[0]);
+    if (lead < 0x20 || lead == 0x7f) return false;
+    const std::size_t length = lead < 0x80                   ? 1
+                               : lead >= 0xC2 && lead < 0xE0 ? 2
+                               : lead >= 0xE0 && lead < 0xF0 ? 3
+                               : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                             : 0;
+    if (length == 0 || text.size() < length) return false;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((static_cast<unsigned char>(text[k]) & 0xC0) != 0x80) return false;
+    // Longer than needed, half of a surrogate pair, beyond the last character.
+    const auto next = length > 1 ? static_cast<unsigned char>(text[1]) : 0;
+    if ((lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) ||
+        (lead == 0xF0 && next < 0x90) || (lead == 0xF4 && next > 0x8F))
+      return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
 std::string quotable(std::string_view text) {
   std::string quoted;
   for (const char c : text.substr(0, 40))

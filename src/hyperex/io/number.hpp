@@ -33,6 +33,12 @@ class Lines {
   int number_ = 0;
 };
 
+/// Whether `text` can be a name: UTF-8, which reports are written in, without control characters,
+/// which would act on the terminal.
+bool is_printable_name(std::string_view text);
+/// What is expected where it is not.
+inline constexpr const char* printable_name = "a name in UTF-8 without control characters";
+
 /// At most 40 characters of `text`, fit to be quoted in one line of an error.
 std::string quotable(std::string_view text);
 

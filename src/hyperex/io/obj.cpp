@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/named_file.hpp"
 #include "hyperex/io/image.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/raw_mesh.hpp"
@@ -108,6 +110,30 @@ class LineChecker {
   std::vector<Reference> forward_;
 };
 
+/// Material files beside the scan, and no others.
+class MaterialReader : public tinyobj::MaterialReader {
+ public:
+  explicit MaterialReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* numbers, std::string* warning,
+                  std::string* error) override {
+    std::string text;
+    try {
+      text = read_regular_file(named_file(folder_, name));
+    } catch (const InputError& refusal) {
+      *warning += std::string(refusal.what()) + "\n";
+      return false;
+    }
+    std::istringstream stream(text);
+    tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
+    return true;
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
 std::string one_line(std::string text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -155,8 +181,7 @@ RawMesh read_obj(const std::filesystem::path& file) {
   std::vector<tinyobj::material_t> materials;
   std::string warning, error;
   std::istringstream stream(text);
-  const std::filesystem::path folder = file.parent_path();
-  tinyobj::MaterialFileReader material_reader(folder.empty() ? "./" : folder.string() + "/");
+  MaterialReader material_reader(file.parent_path());
   const bool sound = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
                                       &material_reader, false, false);
   if (!sound) throw InputError(file, "is no sound OBJ file: " + one_line(error));

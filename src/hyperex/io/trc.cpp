@@ -94,6 +94,7 @@ class TrcReader {
     for (std::size_t c = 2; c < cells.size(); ++c) {
       const std::string name(trimmed(cells[c]));
       if (name.empty()) continue;
+      if (!is_printable_name(name)) fail("", name, printable_name);
       if (!known.insert(name).second) fail("", name, "each marker's name once; it stands twice");
       trc_.names.push_back(name);
     }

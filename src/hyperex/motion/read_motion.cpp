@@ -8,10 +8,12 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/csv.hpp"
+#include "hyperex/io/number.hpp"
 #include "hyperex/io/trc.hpp"
 
 namespace hyperex::motion {
@@ -52,6 +54,7 @@ struct PointColumns {
 struct Columns {
   int time = -1;
   std::vector<PointColumns> points;
+  std::map<std::string, std::size_t> place;  // of a name among the points
 };
 
 bool is_numbered(const std::string& name) {
@@ -72,20 +75,19 @@ void add_coordinate(const io::CsvTable& table, Columns& columns, int column) {
     axis = std::tolower(name.back()) - 'x';
     name.resize(name.size() - 2);
   } else {
-    throw InputError({table.file, 1, "column", header,
+    throw InputError({table.file, 1, "column", io::quotable(header),
                       "time_s, x0, y0, z0, x1 ..., or NAME_x, NAME_y, NAME_z with an optional "
                       "unit (NAME_x_mm)"});
   }
-  auto point = std::find_if(columns.points.begin(), columns.points.end(),
-                            [&](const PointColumns& p) { return p.name == name; });
-  if (point == columns.points.end())
-    point = columns.points.insert(columns.points.end(), {name, {-1, -1, -1}, unit});
+  const auto [known, is_new] = columns.place.try_emplace(name, columns.points.size());
+  if (is_new) columns.points.push_back({name, {-1, -1, -1}, unit});
+  PointColumns* const point = &columns.points[known->second];
   if (point->column[std::size_t(axis)] >= 0)
-    throw InputError(
-        {table.file, 1, "column", header, "each coordinate of point " + name + " once"});
+    throw InputError({table.file, 1, "column", io::quotable(header),
+                      "each coordinate of point " + io::quotable(name) + " once"});
   if (point->unit != unit)
-    throw InputError({table.file, 1, "column", header,
-                      "the three coordinates of point " + name + " in one unit"});
+    throw InputError({table.file, 1, "column", io::quotable(header),
+                      "the three coordinates of point " + io::quotable(name) + " in one unit"});
   point->column[std::size_t(axis)] = column;
 }
 
@@ -128,8 +130,8 @@ Columns find_columns(const io::CsvTable& table) {
   for (const auto& point : columns.points)
     for (int axis = 0; axis < 3; ++axis)
       if (point.column[std::size_t(axis)] < 0)
-        throw InputError(table.file,
-                         fmt::format("point {} has no column for {}", point.name, "xyz"[axis]));
+        throw InputError(table.file, fmt::format("point {} has no column for {}",
+                                                 io::quotable(point.name), "xyz"[axis]));
   return columns;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "hyperex/io/number.hpp"
+
 namespace hyperex::scene {
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -23,7 +25,8 @@ std::string Range::text() const {
 
 double Unit::from_si(double si) const {
   const double value = si * over / times;
-  return std::isfinite(value) ? std::stod(fmt::format("{:.15g}", value)) : value;
+  // std::stod throws for the least numbers that there are.
+  return io::parse_number(fmt::format("{:.15g}", value)).value_or(value);
 }
 
 namespace {

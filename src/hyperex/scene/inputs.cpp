@@ -15,6 +15,7 @@
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
+#include "hyperex/scene/driven_points.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
@@ -93,9 +94,11 @@ motion::Motion read_expressions(const MotionOptions& options, Inputs& in) {
   return m;
 }
 
+constexpr const char* kNoFace = "no face was found in any of the frames";
+
 /// The first frame with a face, of which alone the person's shape is estimated: names and places
 /// of points as tracking the whole recording would give them, roughly.
-tracking::Tracking track_first_face(capture::FrameSource& source,
+tracking::Tracking track_first_face(const std::string& recording, capture::FrameSource& source,
                                     const tracking::FaceModel& model) {
   tracking::TrackerOptions options;
   options.neutral_frames = 1;
@@ -103,12 +106,23 @@ tracking::Tracking track_first_face(capture::FrameSource& source,
   tracking::Tracking tracking;
   while (tracking.frames.empty()) {
     const auto frame = source.next();
-    if (!frame) throw InputError("tracking", "no face was found in any of the frames");
+    if (!frame) throw InputError(recording, kNoFace);
     for (auto& one : tracker.feed(*frame))
       if (one.valid) tracking.frames.push_back(std::move(one));
   }
   tracking.neutral = tracker.neutral();
   return tracking;
+}
+
+tracking::Tracking tracked(const std::string& recording, capture::FrameSource& source,
+                           const tracking::FaceModel& model, Look look) {
+  if (look == Look::quick) return track_first_face(recording, source, model);
+  try {
+    return tracking::track(source, model);
+  } catch (const InputError& error) {  // the tracker does not know whose frames it got
+    if (std::string(error.what()).ends_with(kNoFace)) throw InputError(recording, kNoFace);
+    throw;
+  }
 }
 
 /// The face that a camera has recorded; with the tracked mesh where skin is to follow it.
@@ -117,7 +131,7 @@ motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
   const tracking::FaceModel& model = face_model(scene.motion, own);
   const auto source = capture::open_source(scene.motion.recording.string());
   const tracking::Tracking tracking =
-      look == Look::quick ? track_first_face(*source, model) : tracking::track(*source, model);
+      tracked(scene.motion.recording.string(), *source, model, look);
   const auto lost = std::count_if(tracking.frames.begin(), tracking.frames.end(),
                                   [](const auto& frame) { return !frame.valid; });
   in.notes.push_back(
@@ -234,10 +248,12 @@ void check_names(const Scene& scene, const Inputs& in, const std::string& of = "
     std::vector<InputProblem> problems;
     for (const auto& name : names)
       if (in_motion ? in.motion.motion.index_of(name) < 0 : !in.landmarks.count(name))
-        problems.push_back(problem_at(
-            scene, key,
-            fmt::format("names of {} ({} is none)",
-                        in_motion ? "points in the recording" : "landmarks of the scan", name)));
+        problems.push_back(
+            problem_at(scene, key,
+                       fmt::format("names of {} ({} is none)",
+                                   in_motion ? "points in the recording " + in.motion.motion.source
+                                             : "landmarks of the scan",
+                                   name)));
     return problems;
   };
   std::vector<InputProblem> all;
@@ -376,7 +392,8 @@ Inputs read_inputs(const Scene& scene, Look look) {
       in.motion.common.size(), in.motion.scan_from_motion.scale, in.motion.rms_mm));
   note_unknown_landmarks(scene, given, in);
   note_missing_support(scene, in);
-  in.driven = scene.drive.all_points ? in.motion.motion.names : scene.drive.points;
+  in.driven = driven_points(scene, in.motion.motion);
+  note_left_out_points(scene, in.motion.motion, in.notes);
   problems.attempt([&] { check_names(scene, in); });
   problems.attempt([&] { check_element_size(scene, in); });
   problems.throw_if_any();
@@ -391,7 +408,7 @@ Inputs read_inputs(const Scene& scene, Look look) {
 
 Inputs inputs_of_variant(const Scene& variant, const Inputs& inputs) {
   Inputs in = inputs;
-  in.driven = variant.drive.all_points ? in.motion.motion.names : variant.drive.points;
+  in.driven = driven_points(variant, in.motion.motion);
   return in;
 }
 

@@ -104,8 +104,9 @@ std::vector<Key> input_keys() {
 }
 
 const Unit kilopascals{"kPa", 1000, 1}, pascal_seconds{"Pa s"}, density_unit{"kg/m^3"};
-const Range young_range{0, 1e6, true}, poisson_range{-0.99, 0.4999}, viscosity_range{0, 1e7},
-    density_range{0, 20000, true};
+// From far below any tissue on: at 1e-300 the matrices are no longer positive definite.
+const Range young_range{1e-3, 1e6}, poisson_range{-0.99, 0.4999}, viscosity_range{0, 1e7},
+    density_range{1e-3, 20000};
 
 /// Parameters of a point or a region, each given or not.
 template <class Row>
@@ -195,7 +196,7 @@ std::vector<Key> model_keys() {
           "Poisson's ratio. With tissue.element = \"tet4\" the tissue moves too little near 0.5."),
       number<Scene>("tissue.viscosity_pa_s", {"Pa s"}, AT(tissue.viscosity_pa_s), {0, 1e7},
                     "Viscosity eta, of changes of shape."),
-      number<Scene>("tissue.density_kg_m3", {"kg/m^3"}, AT(tissue.density_kg_m3), {0, 20000, true},
+      number<Scene>("tissue.density_kg_m3", {"kg/m^3"}, AT(tissue.density_kg_m3), density_range,
                     "Density."),
       choice<Scene, fem::ViscousForm>(
           "tissue.viscous_form", AT(tissue.viscous_form),
@@ -269,8 +270,10 @@ std::vector<Key> model_keys() {
 
 std::vector<Key> run_keys() {
   return {
-      names_or_all<Scene>("drive.points", AT(drive.points), AT(drive.all_points),
-                          "Points of the recording that drive the skin."),
+      names_or_all<Scene>(
+          "drive.points", AT(drive.points), AT(drive.all_points),
+          "Points of the recording that drive the skin. With motion.candide and no points named: "
+          "those of the default that the model has."),
       number<Scene>(
           "drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m), {0, 30},
           "Radius of the patch of skin that a driven point moves where the lips part; half "

@@ -220,6 +220,9 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["read"] = stage.lap();
   for (const auto& note : inputs.notes) spdlog::info("{}", note);
 
+  constexpr Eigen::Index many = 100000;
+  if (inputs.scan.mesh.points.rows() > many)
+    spdlog::info("meshing under {} vertices of skin takes a while", inputs.scan.mesh.points.rows());
   tissue::TissueMesh mesh;
   {
     Progress progress("meshing the soft tissue", 0);

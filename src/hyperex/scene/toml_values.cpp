@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "hyperex/io/nesting.hpp"
 #include "hyperex/io/toml.hpp"
 
 namespace hyperex::scene {
@@ -54,6 +55,8 @@ bool has_backslash(const std::string& text, int line) {
 }  // namespace
 
 TomlValues parse_toml(const std::string& text) {
+  if (const int line = io::line_nested_too_deep_toml(text); line > 0)
+    throw TornToml{line, io::too_deep()};
   try {
     const toml::table table = toml::parse(text);
     TomlValues values;
@@ -69,6 +72,7 @@ TomlValues parse_toml(const std::string& text) {
 }
 
 std::optional<json> parse_toml_value(const std::string& value) {
+  if (io::line_nested_too_deep_toml(value) > 0) return std::nullopt;
   try {
     const toml::table table = toml::parse("value = " + value);
     std::map<std::string, int> ignored;

@@ -295,10 +295,8 @@ VolumeMesh thicken(TriMesh outer, const io::Landmarks& landmarks, const TissueMe
   }
 }
 
-}  // namespace
-
-TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
-                             const TissueMeshOptions& options, const std::string& source) {
+TissueMesh build(const TriMesh& scan, const io::Landmarks& landmarks,
+                 const TissueMeshOptions& options, const std::string& source) {
   TissueMesh out;
   SkinBuilder skin(scan, landmarks, source, out);
   skin.cut(options.cut_lips);
@@ -321,6 +319,17 @@ TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks
   for (int v : outer_border(out.volume.outer)) out.on_border[v] = 1;
   anchor_skin(out, landmarks);
   return out;
+}
+
+}  // namespace
+
+TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
+                             const TissueMeshOptions& options, const std::string& source) {
+  try {
+    return build(scan, landmarks, options, source);
+  } catch (const std::invalid_argument& e) {  // of a step that knows no file: cleaning, say
+    throw InputError(source, e.what());
+  }
 }
 
 }  // namespace hyperex::tissue

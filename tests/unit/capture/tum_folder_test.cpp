@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <fstream>
@@ -206,6 +207,37 @@ TEST_F(TumFolderTest, AWrongSizeCostsOneFrame) {
   write_recording(folder_.path(), 12);
   cv::imwrite((folder_ / "depth/4.png").string(), depth_picture_mm(4, 48, 64));
   expect_one_fault(read(), 4, "depth/4.png: 48 x 64 pixels, but the camera has 64 x 48");
+}
+
+TEST_F(TumFolderTest, AWrongSizeIsToldByTheHeaderAlone) {
+  // 16,384 x 16,384 pixels, of which none follows: decoding would say that it is torn.
+  write_text(folder_ / "rgb/3.jpg", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0"
+                                                "\x08\x02\0\0\0",
+                                                29));
+  expect_one_fault(read(), 3, "16384 x 16384 pixels, but the camera has 64 x 48");
+}
+
+TEST_F(TumFolderTest, PipesAndFilesOfOtherFoldersCostOneFrame) {
+  const Folder elsewhere;
+  fs::copy_file(folder_ / "rgb/3.jpg", elsewhere / "secret.jpg");
+  const fs::path picture = folder_ / "rgb/3.jpg";
+  fs::remove(picture);
+  ASSERT_EQ(::mkfifo(picture.c_str(), 0600), 0);
+  expect_one_fault(read(), 3, "is a pipe or device");
+  fs::remove(picture);
+  fs::create_symlink(elsewhere / "secret.jpg", picture);
+  expect_one_fault(read(), 3, "lies outside of the folder");
+}
+
+TEST_F(TumFolderTest, ListsAndCamerasThatArePipesAreRefused) {
+  for (const char* name : {"associations.txt", "camera.toml"}) {
+    const std::string text = read_text(folder_ / name);
+    fs::remove(folder_ / name);
+    ASSERT_EQ(::mkfifo((folder_ / name).c_str(), 0600), 0);
+    EXPECT_THAT(input_error([&] { read(); }), HasSubstr("is a pipe"));
+    fs::remove(folder_ / name);
+    write_text(folder_ / name, text);
+  }
 }
 
 TEST_F(TumFolderTest, DepthWithoutReadingOrOfAnotherKindCostsOneFrame) {

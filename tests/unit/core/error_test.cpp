@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace hyperex {
 namespace {
 
@@ -26,6 +28,21 @@ TEST(InputError, OneLineAProblem) {
   EXPECT_STREQ(InputError(problems).what(),
                "s.toml:1: a = 1: expected 2\ns.toml:2: b = 3: expected 4");
   EXPECT_STREQ(InputError("scan.ply", "is torn").what(), "scan.ply: is torn");
+}
+
+TEST(InputError, TellsTheFirstTwentyProblemsAndHowManyMore) {
+  const std::vector<InputProblem> problems(20000, {"s.toml", 1, "a", "1", "2"});
+  const std::string what = InputError(problems).what();
+  EXPECT_EQ(std::count(what.begin(), what.end(), '\n'), 20);
+  EXPECT_TRUE(what.ends_with("expected 2\n... and 19980 problems more")) << what;
+}
+
+TEST(InputError, KeepsLongNamesAndControlCharactersOutOfTheTerminal) {
+  const std::string what =
+      InputError({"s.toml", 1, std::string(10'000'000, 'k'), "\x1b[31mred", "2"}).what();
+  EXPECT_LT(what.size(), 300u);
+  EXPECT_TRUE(what.ends_with("... = \\x1b[31mred: expected 2")) << what;
+  EXPECT_LT(std::string(InputError("s.toml", std::string(100000, 'x')).what()).size(), 1000u);
 }
 
 }  // namespace

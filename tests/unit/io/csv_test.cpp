@@ -65,6 +65,21 @@ TEST_F(Csv, PutsUpWithWhatProgramsWrite) {
   EXPECT_EQ(read_csv(write("r.csv", "a,b\n")).values.rows(), 0);
 }
 
+TEST_F(Csv, NamesWithCommasAndQuotesComeBackAsTheyWere) {
+  const std::vector<std::string> names = {"time_s", "mole, left_x_mm", "the \"scar\"", "a;b"};
+  const Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(2, 4, 1.5);
+  write_csv(path("q.csv"), names, rows);
+  const CsvTable table = read_csv(path("q.csv"));
+  EXPECT_EQ(table.names, names);
+  EXPECT_EQ(table.values, rows);
+}
+
+TEST_F(Csv, QuotesMayStandAroundAnyCell) {
+  const CsvTable table = read_csv(write("q.csv", "\"a;1\" ; b;\"c\"\n\"1.5\";2; \"3\"\n"));
+  EXPECT_EQ(table.names, (std::vector<std::string>{"a;1", "b", "c"}));
+  EXPECT_EQ(table.values.row(0), Eigen::RowVector3d(1.5, 2, 3));
+}
+
 TEST_F(Csv, RefusesEachFaultWithOneLine) {
   const std::vector<std::pair<std::string, std::string>> faults = {
       {"", "is empty"},
@@ -77,6 +92,9 @@ TEST_F(Csv, RefusesEachFaultWithOneLine) {
       {"a,b\n\n1,two\n", ":3: column 2 (b) = two: expected a finite number"},
       {"a,b\n1,inf\n", ":2: column 2 (b) = inf"},
       {"a,b\n1,1.5mm\n", ":2: column 2 (b) = 1.5mm"},
+      {"a,b\033[31m\n1,2\n", ":1: column 2 = b?[31m: expected a name in UTF-8 without control"},
+      {"a,K\xe4se\n1,2\n", "expected a name in UTF-8"},
+      {"a,b\n\"1,2\n", ":2: column 1 (a) = \"1"},
       {"a;b\n1;2,5\n", ":2: column 2 (b) = 2,5"},
   };
   for (const auto& [text, part] : faults) {

@@ -70,7 +70,7 @@ TEST(ReadScene, AllProblemsAreThrownAtOnceEachOnItsLine) {
     EXPECT_THAT(text,
                 HasSubstr(name + ":5: time.step_s = 0: expected a number from 1e-06 to 0.1 (s)"));
     EXPECT_THAT(text,
-                HasSubstr(name + ":7: tissue.young_kpa = \"stiff\": expected a number above 0 "
+                HasSubstr(name + ":7: tissue.young_kpa = \"stiff\": expected a number from 0.001 "
                                  "to 1e+06 (kPa)"));
     EXPECT_THAT(text,
                 HasSubstr("motion.file: expected the path of a file, or \"embedded\", required"));
@@ -197,7 +197,7 @@ TEST(ReadScene, VariantsThatCannotBe) {
   EXPECT_THAT(only_problem(base + "name = \"../a\"\ntissue = { young_kpa = 4 }\n"),
               HasSubstr("variant[0].name = \"../a\""));
   EXPECT_THAT(only_problem(base + "name = \"a\"\ntissue = { young_kpa = -4 }\n"),
-              HasSubstr("variant[0].tissue.young_kpa = -4: expected a number above 0"));
+              HasSubstr("variant[0].tissue.young_kpa = -4: expected a number from 0.001"));
   EXPECT_THAT(
       only_problem(base + "name = \"a\"\nmesh = { layers = 3 }\ntissue = { young_kpa = 4 }"),
       HasSubstr("variant[0].mesh.layers = 3: expected a key of what may vary: [tissue]"));

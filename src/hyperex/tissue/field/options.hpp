@@ -24,7 +24,6 @@ struct ParameterInfo {
   const char* title;    ///< "Young's modulus (kPa)"
   double si;            ///< SI = value in the key's unit * si
   double least, most;   ///< allowed, SI
-  bool above_least;     ///< `least` itself is refused: it makes the matrix singular
   const char* allowed;  ///< in words, in the key's unit
 };
 /// What a material may have: outside, K is not positive definite, or C or M not semi-definite.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Files that another file names: a scan its texture, a recording its pictures. Whoever made that
+// file may not be whoever reads it, so it gets no other file of the machine, and no device.
+#include <filesystem>
+#include <string>
+
+namespace hyperex {
+
+/// `folder` / `name`, where that is a regular file in `folder` or below, links followed. Else
+/// InputError: missing, outside, a folder, pipe or device.
+std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& name);
+
+/// As read_file, but a pipe is refused too, before it is opened: it might wait for ever.
+std::string read_regular_file(const std::filesystem::path& path);
+
+}  // namespace hyperex
