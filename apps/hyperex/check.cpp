@@ -26,10 +26,16 @@ void add_check(CLI::App& program) {
       ->allow_extra_args(false);
   command->footer("Example: hyperex check examples/demo.toml");
   command->callback([options] {
-    for (const auto& note :
-         scene::check_scene(scene::read_scene(options->scene, options->overrides)))
-      std::cout << printable(note) << '\n';
-    std::cout << options->scene.string() << ": no problems found\n";
+    const scene::Checked checked =
+        scene::check_scene(scene::read_scene(options->scene, options->overrides));
+    for (const auto& note : checked.notes) std::cout << printable(note) << '\n';
+    for (const auto& warning : checked.warnings) std::cout << "warning: " << printable(warning) << '\n';
+    const auto count = checked.warnings.size();
+    std::cout << options->scene.string() << ": no problems found"
+              << (count == 0   ? ""
+                  : count == 1 ? ", but one warning"
+                               : ", but " + std::to_string(count) + " warnings")
+              << '\n';
   });
 }
 

@@ -128,15 +128,4 @@ Landmarks read_landmarks(const std::filesystem::path& file, std::optional<Length
   return landmarks;
 }
 
-void write_landmarks(const std::filesystem::path& file, const Landmarks& landmarks,
-                     LengthUnit unit) {
-  json points = json::object();
-  for (const auto& [name, point] : landmarks) {
-    const Vec3 p = point / metres_per(unit);
-    points[name] = {p.x(), p.y(), p.z()};
-  }
-  const json root = {{"units", name_of(unit)}, {"points", std::move(points)}};
-  write_file_atomically(file, [&](std::ostream& stream) { stream << root.dump(1) << '\n'; });
-}
-
 }  // namespace hyperex::io

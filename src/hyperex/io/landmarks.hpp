@@ -20,7 +20,7 @@ using Landmarks = std::map<std::string, Vec3>;
 /// Throws InputError: torn JSON, a point that is not three finite numbers, no points, a name twice.
 Landmarks read_landmarks(const std::filesystem::path& file,
                          std::optional<LengthUnit> stated = std::nullopt);
-
+/// read_landmarks reads it back. NAME.mrk.json: a point list of 3D Slicer, LPS, the scan's numbers.
 void write_landmarks(const std::filesystem::path& file, const Landmarks& landmarks,
                      LengthUnit unit);
 

@@ -63,6 +63,7 @@ std::string KeyInfo::expected() const {
     case Kind::number:
       return number_text(*this, "a number");
     case Kind::numbers:
+      if (most == 2) return number_text(*this, "a number, or a list of two rising ones, each");
       return "a list of " + count_text(least, most) + number_text(*this, "rising numbers, each");
     case Kind::text:
       return least > 0 ? "a name in quotes" : "a text in quotes";

@@ -142,6 +142,19 @@ Field<Owner> numbers(std::string name, Unit unit, At at, Range range, std::size_
   return field;
 }
 
+/// A time, or two rising ones [from, to].
+template <class Owner, class At>
+Field<Owner> time_or_stretch(std::string name, Unit unit, At at, Range range,
+                             std::string description) {
+  auto field =
+      numbers<Owner>(std::move(name), std::move(unit), at, range, 0, 2, std::move(description));
+  field.set = [set = field.set](Owner& owner, const nlohmann::json& value,
+                                const std::filesystem::path& folder) {
+    return set(owner, value.is_number() ? nlohmann::json::array({value}) : value, folder);
+  };
+  return field;
+}
+
 template <class Owner, class At>
 Field<Owner> flag(std::string name, At at, std::string description) {
   Field<Owner> field{

@@ -8,20 +8,24 @@
 #include <numbers>
 #include <optional>
 
+#include "hyperex/capture/mirrored.hpp"
 #include "hyperex/capture/open_source.hpp"
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/scene/driven_points.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/plausible.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
+#include "hyperex/tissue/landmark_doubts.hpp"
 #include "hyperex/tissue/landmarks.hpp"
 #include "hyperex/tracking/expression/blend_shapes.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
@@ -114,11 +118,35 @@ tracking::Tracking track_first_face(const std::string& recording, capture::Frame
   return tracking;
 }
 
-tracking::Tracking tracked(const std::string& recording, capture::FrameSource& source,
+std::unique_ptr<capture::FrameSource> open_recording(const MotionOptions& options) {
+  auto source = capture::open_source(options.recording.string());
+  if (options.mirrored) source = std::make_unique<capture::Mirrored>(std::move(source));
+  return source;
+}
+
+/// The stretch that motion.rest_s says; one time stands for the sample there.
+std::optional<motion::RestStretch> rest_stretch(const MotionOptions& options) {
+  if (options.rest_s.empty()) return std::nullopt;
+  return motion::RestStretch{options.rest_s.front(), options.rest_s.back()};
+}
+
+tracking::Tracking track_whole(const MotionOptions& options, capture::FrameSource& source,
+                               const tracking::FaceModel& model) {
+  const auto stretch = rest_stretch(options);
+  if (!stretch) return tracking::track(source, model);
+  // Of a single time its surroundings: one frame alone tells a person's shape badly.
+  const double around_s = stretch->from_s == stretch->to_s ? 0.25 : 0;
+  const auto again = open_recording(options);
+  return tracking::track(source, model, {}, {},
+                         {again.get(), stretch->from_s - around_s, stretch->to_s + around_s});
+}
+
+tracking::Tracking tracked(const MotionOptions& options, capture::FrameSource& source,
                            const tracking::FaceModel& model, Look look) {
+  const std::string recording = options.recording.string();
   if (look == Look::quick) return track_first_face(recording, source, model);
   try {
-    return tracking::track(source, model);
+    return track_whole(options, source, model);
   } catch (const InputError& error) {  // the tracker does not know whose frames it got
     if (std::string(error.what()).ends_with(kNoFace)) throw InputError(recording, kNoFace);
     throw;
@@ -129,9 +157,8 @@ tracking::Tracking tracked(const std::string& recording, capture::FrameSource& s
 motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
   std::optional<tracking::FaceModel> own;
   const tracking::FaceModel& model = face_model(scene.motion, own);
-  const auto source = capture::open_source(scene.motion.recording.string());
-  const tracking::Tracking tracking =
-      tracked(scene.motion.recording.string(), *source, model, look);
+  const auto source = open_recording(scene.motion);
+  const tracking::Tracking tracking = tracked(scene.motion, *source, model, look);
   const auto lost = std::count_if(tracking.frames.begin(), tracking.frames.end(),
                                   [](const auto& frame) { return !frame.valid; });
   in.notes.push_back(
@@ -144,10 +171,11 @@ motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
   if (!tracking.neutral->metric)
     in.notes.push_back(
         "motion: no depth in the recording; lengths rest on a usual distance between the eyes");
-  if (capture::source_kind(scene.motion.recording.string()) == capture::SourceKind::video)
-    in.notes.push_back(
-        "motion: the video is taken as not mirrored; where it is, left and right are swapped: give "
-        "the CSV that hyperex track --mirrored yes makes of it");
+  if (capture::source_kind(scene.motion.recording.string()) == capture::SourceKind::video &&
+      !scene.origins.contains("motion.mirrored"))
+    in.warnings.push_back(
+        "the video is taken as not mirrored, as it does not tell; where it is (many selfie videos "
+        "are), left and right are exchanged: say motion.mirrored = true, or false");
   for (const auto& note : source->notes()) in.notes.push_back("motion: " + note);
   motion::Motion m = tracking::motion_of(model, tracking, scene.region.measured != Measured::none);
   m.source = scene.motion.recording.string();
@@ -155,6 +183,10 @@ motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
 }
 
 motion::Motion read_motion(const Scene& scene, Look look, Inputs& in) {
+  if (scene.motion.mirrored && scene.motion.recording.empty())
+    throw InputError(problem_at(scene, "motion.mirrored",
+                                "false, as there is no motion.recording: only a camera's pictures "
+                                "can be turned back"));
   if (!scene.motion.recording.empty()) return track_recording(scene, look, in);
   if (scene.motion.source.file.empty()) return read_expressions(scene.motion, in);
   auto m = motion::read_motion(scene.motion.source.file, scene.motion.unit);
@@ -162,7 +194,21 @@ motion::Motion read_motion(const Scene& scene, Look look, Inputs& in) {
   return m;
 }
 
-motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Inputs& in) {
+/// Rest is where the scene says; `m` has its head pose taken out.
+void settle_rest(const Scene& scene, motion::Motion& m, Inputs& in) {
+  const auto stretch = rest_stretch(scene.motion);
+  if (!stretch) return;
+  auto rested = motion::with_rest(m, *stretch);
+  m = std::move(rested.motion);
+  if (rested.lead_s > 0)
+    in.notes.push_back(fmt::format(
+        "the recording does not start at rest: the run leads the face from rest into it and so "
+        "begins {:g} s before it",
+        rested.lead_s * scene.motion.time_scale));
+}
+
+motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Look look,
+                                Inputs& in) {
   motion::GapOptions gaps;
   gaps.max_gap_s = scene.motion.max_gap_s;
   const motion::FilledMotion filled = motion::fill_gaps(m, gaps);
@@ -183,6 +229,8 @@ motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Inp
                     "the points around it move with the expression; motion.rigid_points names "
                     "points fixed to the skull where there are any",
                     in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg));
+  // A quick look at a camera's recording has its first frame alone.
+  if (scene.motion.recording.empty() || look == Look::whole) settle_rest(scene, steady.motion, in);
   return steady;
 }
 
@@ -220,6 +268,7 @@ void exaggerate(const Scene& scene, Look look, motion::Motion& m, Inputs& in) {
             : "the recording is too short to tell its jitter: S(t) has no noise floor");
   }
   m = motion::time_scaled(m, scene.motion.time_scale);
+  if (scene.motion.recording.empty() || look == Look::whole) check_length(scene, m);
 }
 
 /// `shown` as problems show it, in quotes; for "right_cheek" and "cheek_r" it is cheek_R. Empty
@@ -362,17 +411,21 @@ Inputs read_inputs(const Scene& scene, Look look) {
       given = io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);
     else if (scene.scan.source.embedded)
       given = tissue::embedded_face().landmarks;
-    else if (scan_read && look == Look::whole)
-      given = find_landmarks(in.scan, "the scene names no landmarks", in.notes);
   });
   if (!scene.motion.source.embedded)
-    problems.attempt([&] { steadied = steady(scene, read_motion(scene, look, in), in); });
+    problems.attempt([&] { steadied = steady(scene, read_motion(scene, look, in), look, in); });
+  // Finding landmarks takes long: whatever else is wrong is told before.
+  const bool to_find = scene.scan.landmarks.empty() && !scene.scan.source.embedded;
+  if (to_find && look == Look::whole) {
+    problems.throw_if_any();
+    given = find_landmarks(in.scan, "the scene names no landmarks", in.notes);
+  }
   if (scan_read && !given.empty()) problems.attempt([&] { complete(scene, given, in); });
   if (scene.motion.source.embedded && !in.landmarks.empty())
     problems.attempt([&] {
       auto opening = motion::embedded_mouth_opening(in.landmarks);
       opening.source = "embedded motion";
-      steadied = steady(scene, opening, in);
+      steadied = steady(scene, opening, look, in);
     });
   if (steadied) problems.attempt([&] { exaggerate(scene, look, steadied->motion, in); });
   problems.throw_if_any();
@@ -384,12 +437,20 @@ Inputs read_inputs(const Scene& scene, Look look) {
     note_missing_support(scene, in);
     return in;
   }
+  check_sides(steadied->motion, in.landmarks);
   in.motion = reenact::align(steadied->motion, in.landmarks, scene.alignment.method);
   in.jitter_m *= in.motion.scan_from_motion.scale;
   in.notes.push_back(fmt::format(
       "aligned by {} common points, scale {:.3f}, {:.1f} mm rms apart before the smooth "
       "correction",
       in.motion.common.size(), in.motion.scan_from_motion.scale, in.motion.rms_mm));
+  const auto warn = [&](const std::string& warning) {
+    if (!warning.empty()) in.warnings.push_back(warning);
+  };
+  if (!scene.scan.landmarks.empty())
+    for (const auto& doubt : tissue::landmark_doubts(given, in.scan.mesh)) warn(doubt);
+  warn(misfit_warning(in.motion));
+  warn(start_warning(steadied->motion, in.landmarks));
   note_unknown_landmarks(scene, given, in);
   note_missing_support(scene, in);
   in.driven = driven_points(scene, in.motion.motion);

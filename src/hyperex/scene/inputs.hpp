@@ -21,6 +21,8 @@ struct Inputs {
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
   std::vector<std::string> driven;  ///< names of the driven points
   std::vector<std::string> notes;   ///< what was guessed, placed, filled: a sentence each
+  /// What is probably wrong in the inputs, with what to do about it: a sentence each.
+  std::vector<std::string> warnings;
 };
 
 /// The landmarks that every run needs: all that the canonical face knows.

@@ -49,6 +49,10 @@ std::vector<Key> input_keys() {
           "The recording of a camera, colour and depth: a folder in TUM's layout, a video or .oni "
           "file. The face in it is tracked, as by hyperex track.",
           true),
+      flag<Scene>("motion.mirrored", AT(motion.mirrored),
+                  "The pictures of motion.recording show the world as a mirror does (many selfie "
+                  "videos do) and are turned back; a video does not tell, and left and right "
+                  "depend on it."),
       path<Scene>("motion.openface", AT(motion.openface),
                   "Intensities of action units over time, a CSV of OpenFace 2: they move the face "
                   "model, and its points are the recording."),
@@ -65,6 +69,12 @@ std::vector<Key> input_keys() {
                    "Points that move with the skull: the head's pose is found from them and taken "
                    "out. Empty: all landmarks of the face, each weighed by how much it moves in "
                    "life; at least three eye corners, bridge of the nose or temples are needed."),
+      time_or_stretch<Scene>(
+          "motion.rest_s", seconds, AT(motion.rest_s), {0, 3600},
+          "When the face is at rest, from the recording's start: a time, or [from, to], over which "
+          "the mean is taken. All displacements are from there. Where the recording starts in an "
+          "expression the run begins half a second earlier, at rest, and is led into it. Empty: "
+          "the recording's first sample is at rest."),
       number<Scene>("motion.max_gap_s", seconds, AT(motion.max_gap_s), {0, 10},
                     "The longest gap in a point's track that is interpolated; a longer one is "
                     "refused."),

@@ -17,6 +17,7 @@
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/frames.hpp"
 #include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/plausible.hpp"
 #include "hyperex/scene/report_page.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
 #include "hyperex/scene/variants.hpp"
@@ -185,8 +186,9 @@ tissue::TissueMeshOptions mesh_options(const Scene& scene) {
   return o;
 }
 
-std::vector<std::string> check_scene(const Scene& scene) {
-  std::vector<std::string> notes = read_inputs(scene, Look::quick).notes;
+Checked check_scene(const Scene& scene) {
+  const Inputs inputs = read_inputs(scene, Look::quick);
+  std::vector<std::string> notes = inputs.notes;
   const auto has_regions = [](const Scene& s) { return !s.tissue.regions.empty(); };
   if (has_regions(scene) ||
       std::any_of(scene.variants.begin(), scene.variants.end(),
@@ -194,7 +196,7 @@ std::vector<std::string> check_scene(const Scene& scene) {
     notes.push_back(
         "not checked: whether the regions of the tissue lie on this scan and which values their "
         "factors lead to");
-  return notes;
+  return {notes, inputs.warnings};
 }
 
 namespace {
@@ -219,6 +221,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   }
   seconds["read"] = stage.lap();
   for (const auto& note : inputs.notes) spdlog::info("{}", note);
+  for (const auto& warning : inputs.warnings) spdlog::warn("{}", warning);
 
   constexpr Eigen::Index many = 100000;
   if (inputs.scan.mesh.points.rows() > many)
@@ -260,7 +263,10 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
       field ? &*field : nullptr};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
+  results.notes.insert(results.notes.end(), inputs.warnings.begin(), inputs.warnings.end());
   results.notes.insert(results.notes.end(), mesh.notes.begin(), mesh.notes.end());
+  if (const auto warning = skin_warning(mesh, inputs.landmarks); !warning.empty())
+    warn({warning}, results.notes);
   const Eigen::Index tets = mesh.volume.tets.rows();
   if (const int few = simulation.report.inverted_tets;
       few > 0 && few <= kFewInverted * double(tets))

@@ -14,10 +14,15 @@ namespace hyperex::scene {
 /// complete or not at all. Returns the summary (summary.json). Throws InputError, NumericalError.
 nlohmann::ordered_json run_scene(const Scene& scene, const std::filesystem::path& directory);
 
-/// Reads everything, what takes long as far as Look::quick does, and simulates nothing; returns
-/// notes for the user, which say what was not checked.
+/// What reading a scene's inputs has to say, a sentence each.
+struct Checked {
+  std::vector<std::string> notes;     ///< what was guessed or placed, and what was not checked
+  std::vector<std::string> warnings;  ///< what is probably wrong (Inputs::warnings)
+};
+
+/// Reads everything, what takes long as far as Look::quick does, and simulates nothing.
 /// Throws InputError with every problem found.
-std::vector<std::string> check_scene(const Scene& scene);
+Checked check_scene(const Scene& scene);
 
 /// Mesh options as tissue/ understands them.
 tissue::TissueMeshOptions mesh_options(const Scene& scene);

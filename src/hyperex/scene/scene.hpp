@@ -40,9 +40,13 @@ struct MotionOptions {
   std::filesystem::path openface, arkit;  ///< expressions: action units, blend shapes
   std::filesystem::path candide;       ///< CANDIDE-3's file, which they move; empty: canonical face
   std::optional<io::LengthUnit> unit;  ///< none: as the file says ("file")
+  bool mirrored = false;               ///< the recording's pictures are a mirror's
   std::vector<std::string> rigid_points;  ///< carry the head's pose; empty: chosen automatically
-  double max_gap_s = 0.2;                 ///< longest gap that is interpolated, 0 to 10
-  double gain = 1;                        ///< on all displacements, 0 to 5
+  /// Seconds from the start at which the face is at rest: none (the first sample), one time, or
+  /// from and to; each 0 to 3600.
+  std::vector<double> rest_s;
+  double max_gap_s = 0.2;                      ///< longest gap that is interpolated, 0 to 10
+  double gain = 1;                             ///< on all displacements, 0 to 5
   std::vector<motion::PointGain> point_gains;  ///< besides, on single points, each 0 to 5
   double time_scale = 1;                       ///< 2: twice as slow; 0.05 to 20
 };

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/io/landmarks.hpp"
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
 #include "unit/io/io_testing.hpp"
 
 namespace hyperex::io {
@@ -18,6 +23,60 @@ TEST_F(LandmarkFile, RoundTripInEachUnit) {
     ASSERT_EQ(read.size(), 2u);
     for (const auto& [name, p] : landmarks) EXPECT_LT((read.at(name) - p).norm(), 1e-15);
   }
+}
+
+/// What 3D Slicer's markups schema 1.0.3 asks of a point list, and its reader besides.
+void expect_slicer_schema(const nlohmann::json& root) {
+  ASSERT_TRUE(root.at("@schema").is_string());
+  EXPECT_TRUE(std::regex_match(root["@schema"].get<std::string>(),
+                               std::regex(".*markups-schema-v1\\.[0-9]+\\.[0-9]+\\.json#*")));
+  ASSERT_EQ(root.at("markups").size(), 1u);
+  const auto& markup = root["markups"][0];
+  EXPECT_EQ(markup.at("type"), "Fiducial");
+  EXPECT_EQ(markup.at("coordinateSystem"), "LPS");
+  const auto& unit = markup.at("coordinateUnits");
+  if (unit.is_array()) {  // a coded entry
+    ASSERT_EQ(unit.size(), 3u);
+    EXPECT_EQ(unit[1], "UCUM");
+  } else {
+    EXPECT_EQ(unit, "mm");  // the only word besides um
+  }
+  for (const char* flag : {"locked", "fixedNumberOfControlPoints"})
+    EXPECT_TRUE(markup.at(flag).is_boolean()) << flag;
+  std::set<std::string> ids;
+  for (const auto& point : markup.at("controlPoints")) {
+    EXPECT_TRUE(ids.insert(point.at("id").get<std::string>()).second);
+    EXPECT_TRUE(point.at("label").is_string());
+    ASSERT_EQ(point.at("position").size(), 3u);
+    ASSERT_EQ(point.at("orientation").size(), 9u);
+    for (const auto& part : {point["position"], point["orientation"]})
+      for (const auto& number : part) EXPECT_TRUE(number.is_number());
+    for (const char* flag : {"selected", "locked", "visibility"})
+      EXPECT_TRUE(point.at(flag).is_boolean()) << flag;
+    EXPECT_EQ(point.at("positionStatus"), "defined");
+  }
+}
+
+TEST_F(LandmarkFile, WritesSlicersPointListWhereTheNameSaysSo) {
+  const Landmarks landmarks = {{"cheilion_L", {0.0291234567890123, -0.04, 0.08}},
+                               {"pronasale", {1e-9, 0.1 / 3, 0.11}}};
+  for (const LengthUnit unit :
+       {LengthUnit::millimetre, LengthUnit::centimetre, LengthUnit::metre}) {
+    write_landmarks(path("l.mrk.json"), landmarks, unit);
+    std::ifstream in(path("l.mrk.json"));
+    const auto root = nlohmann::json::parse(in);
+    expect_slicer_schema(root);
+    // The numbers are the scan's own: Slicer takes both files as they are.
+    const auto& point = root["markups"][0]["controlPoints"][0];
+    EXPECT_EQ(point["label"], "cheilion_L");
+    EXPECT_NEAR(point["position"][1].get<double>(), -0.04 / metres_per(unit), 1e-12);
+    const Landmarks read = read_landmarks(path("l.mrk.json"));
+    ASSERT_EQ(read.size(), 2u);
+    for (const auto& [name, p] : landmarks) EXPECT_LT((read.at(name) - p).norm(), 1e-15);
+  }
+  write_landmarks(path("l.json"), landmarks, LengthUnit::millimetre);
+  std::ifstream in(path("l.json"));
+  EXPECT_FALSE(nlohmann::json::parse(in).contains("markups"));
 }
 
 TEST_F(LandmarkFile, StatedUnitGoesBeforeTheFiles) {

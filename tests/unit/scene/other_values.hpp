@@ -22,6 +22,7 @@ inline nlohmann::json other_value(const Key& key) {
                                                   : low + (high - low) * 0.5;
     }
     case Kind::numbers:
+      if (key.most == 2) return {key.range.low, key.range.high};
       return {key.range.low, key.range.low + 0.125, key.range.high};
     case Kind::text:
       return "other \"text\" \u00e4";

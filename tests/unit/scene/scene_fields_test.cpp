@@ -22,6 +22,8 @@ landmarks_unit = "m"
 file = "motion.csv"
 unit = "mm"
 candide = "points.json"
+mirrored = true
+rest_s = [0.21, 0.22]
 rigid_points = ["r1", "r2", "r3"]
 max_gap_s = 0.31
 gain = 1.32
@@ -134,6 +136,9 @@ contact_times_s = [0.48, 0.49]
             folder / "sub");
   EXPECT_EQ(read_scene(s.file, {"motion.arkit=" + other}).motion.arkit, other);
   EXPECT_THAT(s.motion.rigid_points, ElementsAre("r1", "r2", "r3"));
+  EXPECT_TRUE(s.motion.mirrored);
+  EXPECT_THAT(s.motion.rest_s, ElementsAre(0.21, 0.22));
+  EXPECT_THAT(read_scene(s.file, {"motion.rest_s=1.5"}).motion.rest_s, ElementsAre(1.5));
   EXPECT_EQ(s.motion.max_gap_s, 0.31);
   EXPECT_EQ(s.motion.gain, 1.32);
   EXPECT_EQ(s.motion.time_scale, 2.5);

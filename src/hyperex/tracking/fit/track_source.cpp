@@ -2,15 +2,35 @@
 #include "hyperex/tracking/fit/track_source.hpp"
 
 #include <deque>
+#include <optional>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
 
 namespace hyperex::tracking {
+namespace {
+
+/// The person's shape and skin from the frames at rest; what is tracked in them is dropped.
+void learn_rest(FaceTracker& tracker, const RestFrames& rest) {
+  Progress progress("looking at the face at rest", 0);
+  std::optional<double> start_s;
+  while (const auto frame = rest.source->next()) {
+    if (!start_s) start_s = frame->time_s;
+    const double at_s = frame->time_s - *start_s;
+    if (at_s > rest.to_s) break;
+    if (at_s >= rest.from_s) tracker.feed(*frame);
+  }
+  tracker.finish();
+  if (!tracker.neutral())
+    throw InputError("tracking", "no face was found in the frames that show it at rest");
+}
+
+}  // namespace
 
 Tracking track(capture::FrameSource& source, const FaceModel& model, const TrackerOptions& options,
-               const FrameVisitor& visit) {
+               const FrameVisitor& visit, const RestFrames& rest) {
   FaceTracker tracker(model, source.intrinsics(), options);
+  if (rest.source != nullptr) learn_rest(tracker, rest);
   Tracking tracking;
   std::deque<cv::Mat> pictures;  // of the frames that are not finished
   Progress progress("tracking", long(source.frame_count().value_or(0)));

@@ -20,10 +20,18 @@ struct Tracking {
 /// had none).
 using FrameVisitor = std::function<void(const TrackedFrame&, const cv::Mat& bgr)>;
 
+/// Frames of the same camera that show the face at rest, with times in [from_s, to_s] from the
+/// source's first frame: what is at rest is learnt from them before tracking begins.
+struct RestFrames {
+  capture::FrameSource* source = nullptr;  ///< none: the first frames that are tracked
+  double from_s = 0, to_s = 0;
+};
+
 /// Tracks a source to its end, with a progress bar. With `visit` the pictures of frames that are
 /// held back (FaceTracker) are kept in memory until they are finished. Throws InputError where no
-/// frame shows a face.
+/// frame, or none of those at rest, shows a face.
 Tracking track(capture::FrameSource& source, const FaceModel& model,
-               const TrackerOptions& options = {}, const FrameVisitor& visit = {});
+               const TrackerOptions& options = {}, const FrameVisitor& visit = {},
+               const RestFrames& rest = {});
 
 }  // namespace hyperex::tracking

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "hyperex/geometry/transform.hpp"
+#include "hyperex/motion/rest.hpp"
+
+namespace hyperex::scene {
+namespace {
+
+constexpr double kMirroredRms_m = 6e-3, kMirroredShare = 0.5;
+constexpr double kMisfit_mm = 10, kLeastScale = 0.8, kMostScale = 1.25;
+constexpr double kSkinOff_m = 5e-3;
+
+/// Rows of the points that both sides name, measured in the first sample.
+std::pair<Points, Points> common_points(const motion::Motion& m, const io::Landmarks& landmarks) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < m.names.size(); ++i)
+    if (landmarks.contains(m.names[i])) rows.push_back(Eigen::Index(i));
+  Points recorded(Eigen::Index(rows.size()), 3), scanned = recorded;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    recorded.row(Eigen::Index(i)) = m.positions.front().row(rows[i]);
+    scanned.row(Eigen::Index(i)) = landmarks.at(m.names[std::size_t(rows[i])]).transpose();
+  }
+  return {recorded, scanned};
+}
+
+double misfit_m(const Points& recorded, const Points& scanned) {
+  return rms_distance(fit_similarity(recorded, scanned).apply(recorded), scanned);
+}
+
+}  // namespace
+
+void check_sides(const motion::Motion& stabilised, const io::Landmarks& landmarks) {
+  auto [recorded, scanned] = common_points(stabilised, landmarks);
+  if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return;
+  const double as_is = misfit_m(recorded, scanned);
+  recorded.col(0) *= -1;
+  const double mirrored = misfit_m(recorded, scanned);
+  if (as_is <= kMirroredRms_m || mirrored >= kMirroredShare * as_is) return;
+  motion::refuse(
+      stabilised,
+      fmt::format("left and right are exchanged: the points are {:.1f} mm rms from the scan's "
+                  "landmarks of the same names, and {:.1f} mm with one axis negated; L and R are "
+                  "the subject's own sides, and the axes right-handed",
+                  1e3 * as_is, 1e3 * mirrored));
+}
+
+std::string misfit_warning(const reenact::AlignedMotion& aligned) {
+  const double scale = aligned.scan_from_motion.scale;
+  if (aligned.rms_mm <= kMisfit_mm && scale >= kLeastScale && scale <= kMostScale) return "";
+  return fmt::format(
+      "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's landmarks "
+      "of "
+      "the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} to {:g}); check that "
+      "names, axes and unit are right and that both are of one person",
+      aligned.rms_mm, scale, kMisfit_mm, kLeastScale, kMostScale);
+}
+
+std::string start_warning(const motion::Motion& stabilised, const io::Landmarks& landmarks) {
+  const auto started = motion::started_in_expression(stabilised, landmarks);
+  if (!started) return "";
+  return fmt::format(
+      "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is nearer "
+      "to the scan, which is at rest, than at the start ({} differs by {:.1f} mm); displacements "
+      "are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
+      started->stretch.from_s, started->stretch.to_s, started->point, 1e3 * started->distance_m,
+      started->stretch.from_s, started->stretch.to_s);
+}
+
+void check_length(const Scene& scene, const motion::Motion& m) {
+  if (m.time_s.size() < 2)
+    motion::refuse(m,
+                   "has one sample, which is the face at rest: nothing moves; expected two or "
+                   "more");
+  const double frame_s = 1 / scene.time.frame_rate_hz;
+  const double slack = 1e-9;
+  if (scene.time.end_s > 0 && scene.time.end_s < frame_s - slack)
+    throw InputError(problem_at(
+        scene, "time.end_s",
+        fmt::format("at least {:.4g} s, a frame at time.frame_rate_hz = {:g}: a shorter run shows "
+                    "the face at rest alone",
+                    frame_s, scene.time.frame_rate_hz)));
+  const double lasts_s = m.time_s.back() - m.time_s.front();
+  if (scene.time.end_s == 0 && lasts_s < frame_s - slack)
+    motion::refuse(m, fmt::format("lasts {:.4g} s, less than a frame at time.frame_rate_hz = {:g}: "
+                                  "expected more, or a higher rate",
+                                  lasts_s, scene.time.frame_rate_hz));
+}
+
+std::string skin_warning(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  double distance_m = 0;
+  Vec3 at = Vec3::Zero();
+  for (Eigen::Index v = 0; v < mesh.skin.points.rows(); ++v) {
+    const auto& anchor = mesh.anchors[std::size_t(v)];
+    Vec3 simulated = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      simulated += anchor.weight[k] * mesh.volume.outer.points.row(anchor.node[k]).transpose();
+    const Vec3 scanned = mesh.skin.points.row(v);
+    if (const double d = (simulated - scanned).norm(); d > distance_m) {
+      distance_m = d;
+      at = scanned;
+    }
+  }
+  if (distance_m <= kSkinOff_m || landmarks.empty()) return "";
+  double nearest_m = std::numeric_limits<double>::infinity();
+  std::string nearest;
+  for (const auto& [name, position] : landmarks)
+    if (const double d = (position - at).norm(); d < nearest_m) {
+      nearest_m = d;
+      nearest = name;
+    }
+  return fmt::format(
+      "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: there the motion is "
+      "not the scan's own; a smaller mesh.element_size_mm or a cleaner scan helps",
+      1e3 * distance_m, 1e3 * nearest_m, nearest);
+}
+
+}  // namespace hyperex::scene

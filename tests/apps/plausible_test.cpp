@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Inputs that can be read and do not belong together: told before they become figures.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/good_inputs.hpp"
+#include "apps/program.hpp"
+#include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/motion/read_motion.hpp"
+
+namespace hyperex {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+class Plausible : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_good_inputs(in(""));
+  }
+
+  /// The mouth opening from sample `first` on, changed by `change`.
+  template <class Change>
+  void write_motion(std::size_t first, std::size_t count, Change change) const {
+    motion::Motion m = motion::embedded_mouth_opening(good_landmarks());
+    const auto cut = [&](auto& samples) {
+      samples.erase(samples.begin(), samples.begin() + long(first));
+      samples.resize(std::min(count, samples.size()));
+    };
+    cut(m.time_s);
+    cut(m.positions);
+    change(m);
+    motion::write_motion_csv(in("motion.csv"), m);
+  }
+
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(read_file(in("out/summary.json")));
+  }
+};
+
+TEST_F(Plausible, GoodInputsGiveNoWarning) {
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, Not(HasSubstr("warning")));
+}
+
+TEST_F(Plausible, AMisplacedLandmarkIsNamedByCheckAndRun) {
+  io::Landmarks landmarks = good_landmarks();
+  landmarks["cheilion_R"] = landmarks["cheek_R"];
+  io::write_landmarks(in("face_landmarks.json"), landmarks, io::LengthUnit::millimetre);
+  const auto named = AllOf(HasSubstr("landmark cheilion_R is "),
+                           HasSubstr("mm from ibug68_48, which names the same place"));
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, AllOf(named, HasSubstr("warning: "), HasSubstr("but one warning")));
+  const Outcome run = call("run scene.toml --out out");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, named);
+  EXPECT_THAT(summary()["notes"].dump(), named);
+}
+
+TEST_F(Plausible, AStartInAnExpressionIsToldAndMended) {
+  write_motion(40, 41, [](motion::Motion&) {});  // from the widest opening to the end
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, AllOf(HasSubstr("seems to start in an expression"),
+                                 HasSubstr("say motion.rest_s = [1.0")));
+  // What it advises is right: the face then starts at rest, is led to the opening and comes back.
+  const Outcome mended = call(
+      "run scene.toml --out out --set motion.rest_s=[1.2,1.33] --set time.end_s=0.6"
+      " --set time.frame_rate_hz=30");
+  EXPECT_EQ(mended.status, 0) << mended.err;
+  EXPECT_THAT(mended.err, AllOf(Not(HasSubstr("seems to start")), HasSubstr("begins 0.5 s")));
+  EXPECT_NEAR(summary()["peak_time_s"].get<double>(), 0.5, 0.05);
+  EXPECT_GT(summary()["lip_opening_mm"].get<double>(), 5);
+  EXPECT_EQ(call("check scene.toml --set motion.rest_s=40").status, 2);
+}
+
+TEST_F(Plausible, ExchangedSidesOfARecordingAreRefused) {
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (auto& sample : m.positions) sample.col(0) *= -1;
+  });
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_THAT(checked.err, AllOf(HasSubstr("motion.csv: left and right are exchanged"),
+                                 HasSubstr("mm rms from the scan's landmarks")));
+}
+
+TEST_F(Plausible, ABadFitOfTheRecordingIsTold) {
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (auto& sample : m.positions) sample *= 1.5;
+  });
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out,
+              AllOf(HasSubstr("the recording fits the scan badly"), HasSubstr("scale of 0.667")));
+}
+
+TEST_F(Plausible, ARunWithoutMotionIsRefused) {
+  const Outcome brief = call("check scene.toml --set time.end_s=0.05");
+  EXPECT_EQ(brief.status, 2);
+  EXPECT_THAT(brief.err, AllOf(HasSubstr("time.end_s = 0.05"), HasSubstr("at least 0.1 s")));
+  write_motion(0, 1, [](motion::Motion&) {});
+  const Outcome single = call("check scene.toml");
+  EXPECT_EQ(single.status, 2);
+  EXPECT_THAT(single.err, HasSubstr("motion.csv: has one sample"));
+}
+
+TEST_F(Plausible, TheMotionIsReadBeforeLandmarksAreSearched) {
+  TriMesh sheet = good_face();
+  sheet.points.col(2) *= 0.02;  // no face is found on it
+  write_mm(in("face.ply"), sheet);
+  replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
+  put(in("motion.csv"), "");
+  const Outcome run = call("run scene.toml --out out");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("motion.csv"), Not(HasSubstr("no face was found"))));
+}
+
+TEST_F(Plausible, OnlyACamerasPicturesAreTurnedBack) {
+  const Outcome checked = call("check scene.toml --set motion.mirrored=true");
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_THAT(checked.err,
+              AllOf(HasSubstr("motion.mirrored = true"), HasSubstr("no motion.recording")));
+}
+
+}  // namespace
+}  // namespace hyperex
