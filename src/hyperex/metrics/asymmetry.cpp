@@ -82,6 +82,11 @@ Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
 
 Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& pairs,
                              const PointsF& displacement) {
+  return asymmetry_mm(plane, pairs, displacement, displacement);
+}
+
+Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& pairs,
+                             const PointsF& displacement, const PointsF& across) {
   Eigen::VectorXf out(displacement.rows());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const auto at = static_cast<size_t>(i);
@@ -92,7 +97,7 @@ Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& 
     Vec3 other = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
       other += pairs.weights[at][k] *
-               displacement.row(pairs.vertices[at][static_cast<size_t>(k)]).cast<double>();
+               across.row(pairs.vertices[at][static_cast<size_t>(k)]).cast<double>();
     const Vec3 own = displacement.row(i).cast<double>();
     out[i] = static_cast<float>(1e3 * (own - plane.reflect_vector(other)).norm());
   }
@@ -116,19 +121,24 @@ RestAsymmetry rest_asymmetry(const TriMesh& rest, const io::Landmarks& landmarks
   return out;
 }
 
-Asymmetry asymmetry_of(const RestAsymmetry& rest, const std::vector<PointsF>& frames) {
-  Asymmetry out{rest, {}, 0};
+Asymmetry asymmetry_of(const RestAsymmetry& rest, const std::vector<PointsF>& frames,
+                       const std::vector<PointsF>& twin) {
+  Asymmetry out{rest, {}, 0, {}};
   out.frames.resize(frames.size());
-  tbb::parallel_for(size_t{0}, frames.size(), [&](size_t f) {
+  const auto summary = [&](const PointsF& own, const PointsF& across) -> AsymmetrySummary {
     const Eigen::VectorXd map_m =
-        1e-3 * asymmetry_mm(out.plane, out.pairs, frames[f]).cast<double>();
+        1e-3 * asymmetry_mm(out.plane, out.pairs, own, across).cast<double>();
     const DistanceStatistics face = statistics_of(map_m, out.face);
     const DistanceStatistics mouth = statistics_of(map_m, out.mouth);
-    out.frames[f] = {face.rms_mm, face.p95_mm, mouth.rms_mm, mouth.p95_mm};
-  });
+    return {face.rms_mm, face.p95_mm, mouth.rms_mm, mouth.p95_mm};
+  };
+  tbb::parallel_for(size_t{0}, frames.size(),
+                    [&](size_t f) { out.frames[f] = summary(frames[f], frames[f]); });
   for (size_t f = 0; f < frames.size(); ++f)
     if (out.frames[f].face_rms_mm > out.frames[static_cast<size_t>(out.worst_frame)].face_rms_mm)
       out.worst_frame = static_cast<int>(f);
+  const auto worst = static_cast<size_t>(out.worst_frame);
+  if (worst < twin.size()) out.mesh_floor = summary(frames[worst], twin[worst]);
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
 /// counterparts.
 Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& pairs,
                              const PointsF& displacement);
+/// u_i - R u'_c(i): the same with the counterparts' displacements taken from `other`. With those of
+/// a run's mirrored twin (mesh_floor.hpp) what mesh and shape alone make of the map.
+Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& pairs,
+                             const PointsF& displacement, const PointsF& other);
 
 /// Of one frame.
 struct AsymmetrySummary {
@@ -54,9 +59,13 @@ RestAsymmetry rest_asymmetry(const TriMesh& rest, const io::Landmarks& landmarks
 struct Asymmetry : RestAsymmetry {
   std::vector<AsymmetrySummary> frames;
   int worst_frame = 0;  ///< largest face_rms_mm
+  /// What mesh and shape of the face make of it in the worst frame; none without a twin.
+  std::optional<AsymmetrySummary> mesh_floor;
 };
 
-/// Everything of a sequence: `frames` are displacements of the points at rest (m).
-Asymmetry asymmetry_of(const RestAsymmetry& rest, const std::vector<PointsF>& frames);
+/// Everything of a sequence: `frames` are displacements of the points at rest (m). `twin`: of the
+/// mirrored twin, as many; empty: none.
+Asymmetry asymmetry_of(const RestAsymmetry& rest, const std::vector<PointsF>& frames,
+                       const std::vector<PointsF>& twin = {});
 
 }  // namespace hyperex::metrics

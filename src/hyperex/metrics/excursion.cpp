@@ -103,8 +103,8 @@ PairExcursion pair_of(const motion::Motion& motion, int left, int right, double 
   pair.path_ratio = ratio(r.path_mm, l.path_mm);
   pair.speed_ratio = ratio(r.peak_speed_mm_s, l.peak_speed_mm_s);
   pair.speed_correlation = correlation(speed_mm_s(motion, {left}), speed_mm_s(motion, {right}));
-  pair.undecided =
-      jitter_m > 0 && !(std::abs(l.excursion_mm - r.excursion_mm) >= 1.96 * 2 * 1e3 * jitter_m);
+  pair.jitter_floor_mm = 1.96 * 2 * 1e3 * jitter_m;
+  pair.undecided = jitter_m > 0 && !(std::abs(pair.difference_mm()) >= pair.floor_mm());
   return pair;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,9 +32,14 @@ struct PairExcursion {
   SideExcursion left_side, right_side;
   double excursion_ratio = 0, path_ratio = 0, speed_ratio = 0;
   double speed_correlation = 0;  ///< Pearson's, of both speeds over time; NaN where one is constant
-  /// The excursions differ by less than jitter alone makes them in 95 % of motions: 1.96 * 2 jitter
-  /// (two places a side, to first order along the way). Never where jitter is 0.
-  bool undecided = false;
+  /// What the excursions of a symmetric motion differ by, in 95 % of motions, by jitter alone:
+  /// 1.96 * 2 jitter (two places a side, to first order along the way); 0 where none is known.
+  double jitter_floor_mm = 0;
+  double mesh_floor_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none (mesh_floor.hpp)
+  bool undecided = false;  ///< the excursions differ by less than the larger floor
+
+  double difference_mm() const { return left_side.excursion_mm - right_side.excursion_mm; }
+  double floor_mm() const { return std::fmax(jitter_floor_mm, mesh_floor_mm); }
 };
 
 /// What clinics measure of a smile: how far the corners of the mouth travel.

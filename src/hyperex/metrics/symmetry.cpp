@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -105,30 +106,48 @@ std::array<std::array<Vec3, 4>, 2> rest_rays(const motion::Motion& motion, const
 
 }  // namespace
 
+std::vector<double> SymmetryCurve::floors() const {
+  if (noise.empty()) return mesh_noise;
+  std::vector<double> larger = noise;
+  for (size_t i = 0; i < mesh_noise.size(); ++i) larger[i] = std::max(larger[i], mesh_noise[i]);
+  return larger;
+}
+
 bool SymmetryCurve::undecided(size_t sample) const {
   const double apart = std::abs(xi_left[sample] - xi_right[sample]);
-  return std::isnan(apart) || (!noise.empty() && !(apart >= noise[sample]));
+  const auto under = [&](const std::vector<double>& floors) {
+    return !floors.empty() && !(apart >= floors[sample]);
+  };
+  return std::isnan(apart) || under(noise) || under(mesh_noise);
+}
+
+std::vector<Stretches> stretches_of(const motion::Motion& landmarks) {
+  const Points10 points = find_points(landmarks);
+  const auto rest = rest_rays(landmarks, points);
+  std::vector<Stretches> all;
+  for (const Points& sample : landmarks.positions) {
+    all.emplace_back();
+    for (size_t side = 0; side < 2; ++side) {
+      const auto now = rays(sample, points.of[side]);
+      for (size_t k = 0; k < 4; ++k)
+        all.back()[4 * side + k] = now[k].norm() / rest[side][k].norm() - 1;
+    }
+  }
+  return all;
 }
 
 SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor, double jitter_m) {
   if (!(floor > 0) || !std::isfinite(floor))
     throw InputError(
         InputProblem{"symmetry", 0, "floor", fmt::format("{}", floor), "a number above 0"});
-  const Points10 points = find_points(landmarks);
-  const auto rest = rest_rays(landmarks, points);
   SymmetryCurve curve;
   curve.floor = floor;
-  curve.stand_ins = points.stand_ins;
+  curve.stand_ins = find_points(landmarks).stand_ins;
   curve.time_s = landmarks.time_s;
-  for (const Points& sample : landmarks.positions) {
-    std::array<double, 2> xi = {0, 0};
-    for (int side = 0; side < 2; ++side) {
-      const auto now = rays(sample, points.of[side]);
-      for (int k = 0; k < 4; ++k) xi[side] += now[k].norm() / rest[side][k].norm() - 1;
-    }
-    curve.xi_left.push_back(xi[0]);
-    curve.xi_right.push_back(xi[1]);
-    const double apart = std::abs(xi[0] - xi[1]);
+  for (const Stretches& q : stretches_of(landmarks)) {
+    curve.xi_left.push_back(q[0] + q[1] + q[2] + q[3]);
+    curve.xi_right.push_back(q[4] + q[5] + q[6] + q[7]);
+    const double apart = std::abs(curve.xi_left.back() - curve.xi_right.back());
     curve.s.push_back(std::isnan(apart) ? apart : std::log(std::max(apart, floor)));
   }
   curve.s.front() = std::log(floor);

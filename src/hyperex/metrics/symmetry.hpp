@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,6 +8,10 @@
 #include "hyperex/motion/motion.hpp"
 
 namespace hyperex::metrics {
+
+/// Relative changes of the eight distances of S(t) in one sample: r_k / r_k0 - 1 to exocanthion,
+/// palpebrale inferius, alare and crista philtri inferior of the left, then of the right.
+using Stretches = std::array<double, 8>;
 
 /// Symmetry of motion after Trotman et al.: with r_k,side(t) the distances from cheilion to
 /// exocanthion, palpebrale_inferius, alare and crista_philtri_inferior of one side,
@@ -24,9 +29,15 @@ struct SymmetryCurve {
   /// jitter alone (symmetry_noise), dimensionless; empty where jitter_m is 0. S_floor is its
   /// logarithm.
   std::vector<double> noise;
+  /// Of each sample what |xi_L - xi_R| of a symmetric motion stays under by the mesh's own
+  /// unevenness and the resolution of a simulation (mesh_floor.hpp); empty where none is known.
+  std::vector<double> mesh_noise;
+  std::vector<Stretches> mesh_remainder;  ///< what mesh_noise is of (twin_remainders)
 
-  /// |xi_L - xi_R| is under the noise of that sample: which side moves more is then undecided.
-  /// Also true where not measured; never for an exact motion.
+  /// The larger of both floors, a value a sample; empty where neither is known.
+  std::vector<double> floors() const;
+  /// |xi_L - xi_R| is under either floor of that sample: which side moves more is then undecided.
+  /// Also true where not measured; never for an exact motion without a mesh.
   bool undecided(size_t sample) const;
 };
 
@@ -38,6 +49,9 @@ struct SymmetryCurve {
 /// measurement are NaN.
 SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor = 1e-6,
                           double jitter_m = 0);
+
+/// A value a sample; NaN where not measured. Points and errors as symmetry_of.
+std::vector<Stretches> stretches_of(const motion::Motion& landmarks);
 
 /// Points known to `jitter_m` (standard deviation a coordinate, independent of each other and in
 /// time) make xi_L - xi_R uncertain; to first order its variance at time t is

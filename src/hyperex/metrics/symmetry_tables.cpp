@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/metrics/mesh_floor.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -19,6 +20,10 @@ std::string field(double value) {
 /// A field each, or as many empty ones.
 std::string at(const std::vector<double>& values, size_t i) {
   return i < values.size() ? field(values[i]) : std::string();
+}
+
+std::string log_at(const std::vector<double>& values, size_t i) {
+  return i < values.size() ? field(std::log(values[i])) : std::string();
 }
 
 Json number(double value) {
@@ -39,6 +44,10 @@ Json pair_json(const PairExcursion& p) {
   json["peak_speed_mm_s"] = both(p.left_side.peak_speed_mm_s, p.right_side.peak_speed_mm_s);
   json["peak_speed_ratio_R_L"] = number(p.speed_ratio);
   json["speed_correlation"] = number(p.speed_correlation);
+  json["difference_mm"] = number(p.difference_mm());
+  json["jitter_floor_mm"] = p.jitter_floor_mm;
+  json["mesh_floor_mm"] = number(p.mesh_floor_mm);
+  json["floor_mm"] = number(p.floor_mm());
   json["undecided"] = p.undecided;
   return json;
 }
@@ -51,7 +60,8 @@ Json curve_json(const SymmetryCurve& curve) {
   json["jitter_mm"] = 1e3 * curve.jitter_m;
   json["S_most"] = number(curve.s[most]);
   json["S_most_at_s"] = curve.time_s[most];
-  json["S_floor_there"] = curve.noise.empty() ? Json(nullptr) : number(std::log(curve.noise[most]));
+  const std::vector<double> floors = curve.floors();
+  json["S_floor_there"] = floors.empty() ? Json(nullptr) : number(std::log(floors[most]));
   json["undecided_samples"] = undecided;
   json["samples"] = curve.time_s.size() - 1;
   json["verdict"] = verdict_of(curve);
@@ -72,6 +82,10 @@ Json map_json(const Asymmetry& map) {
   json["worst_face_p95_mm"] = number(worst.face_p95_mm);
   json["worst_mouth_rms_mm"] = number(worst.mouth_rms_mm);
   json["worst_mouth_p95_mm"] = number(worst.mouth_p95_mm);
+  if (map.mesh_floor) {
+    json["mesh_floor_face_rms_mm"] = number(map.mesh_floor->face_rms_mm);
+    json["mesh_floor_mouth_rms_mm"] = number(map.mesh_floor->mouth_rms_mm);
+  }
   return json;
 }
 
@@ -91,7 +105,10 @@ std::string verdict_of(const SymmetryCurve& curve) {
   const double apart = curve.xi_left[most] - curve.xi_right[most];
   if (std::abs(apart) <= curve.floor) return "both sides stretch alike";
   if (curve.undecided(most))
-    return "undecided: the sides differ by less than jitter alone makes them";
+    return std::string("undecided: the sides differ by less than ") +
+           (curve.noise.empty()        ? "the mesh alone makes them"
+            : curve.mesh_noise.empty() ? "jitter alone makes them"
+                                       : "jitter or the mesh alone make them");
   return fmt::format("the sides differ most at {:.3g} s, by |xi_L - xi_R| = {:.3g}",
                      curve.time_s[most], std::abs(apart));
 }
@@ -100,17 +117,23 @@ void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasure
   const SymmetryCurve& curve = measures.curve;
   const Commissure& mouth = measures.excursions.commissure;
   write_file_atomically(file, [&](std::ostream& stream) {
-    stream << "time_s,xi_L,xi_R,S_ln,floor,S_floor,commissure_L_mm,commissure_R_mm,"
+    stream << "time_s,xi_L,xi_R,S_ln,floor,S_floor,S_floor_jitter,S_floor_mesh,decided,"
+              "commissure_L_mm,commissure_R_mm,"
               "commissure_speed_L_mm_s,commissure_speed_R_mm_s";
     if (measures.map)
       stream << ",asymmetry_face_rms_mm,asymmetry_face_p95_mm,asymmetry_mouth_rms_mm,"
                 "asymmetry_mouth_p95_mm";
     stream << '\n';
+    const std::vector<double> floors = curve.floors();
     for (size_t i = 0; i < curve.time_s.size(); ++i) {
-      fmt::print(stream, "{},{},{},{},{:.9g},{},{},{},{},{}", field(curve.time_s[i]),
+      fmt::print(stream, "{},{},{},{},{:.9g},{},{},{},{},{},{},{},{}", field(curve.time_s[i]),
                  field(curve.xi_left[i]), field(curve.xi_right[i]), field(curve.s[i]), curve.floor,
-                 curve.noise.empty() ? "" : field(std::log(curve.noise[i])), at(mouth.left_mm, i),
-                 at(mouth.right_mm, i), at(mouth.left_mm_s, i), at(mouth.right_mm_s, i));
+                 log_at(floors, i), log_at(curve.noise, i), log_at(curve.mesh_noise, i),
+                 floors.empty()       ? ""
+                 : curve.undecided(i) ? "0"
+                                      : "1",
+                 at(mouth.left_mm, i), at(mouth.right_mm, i), at(mouth.left_mm_s, i),
+                 at(mouth.right_mm_s, i));
       if (measures.map) {
         const AsymmetrySummary& frame = measures.map->frames.at(i);
         fmt::print(stream, ",{},{},{},{}", field(frame.face_rms_mm), field(frame.face_p95_mm),
@@ -125,14 +148,15 @@ void write_excursions_csv(const std::filesystem::path& file, const Excursions& e
   write_file_atomically(file, [&](std::ostream& stream) {
     stream << "point,excursion_L_mm,excursion_R_mm,excursion_ratio_R_L,path_L_mm,path_R_mm,"
               "path_ratio_R_L,peak_speed_L_mm_s,peak_speed_R_mm_s,peak_speed_ratio_R_L,"
-              "speed_correlation,decided\n";
+              "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,decided\n";
     for (const PairExcursion& p : excursions.pairs)
-      fmt::print(stream, "{},{},{},{},{},{},{},{},{},{},{},{}\n", p.name,
+      fmt::print(stream, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.name,
                  field(p.left_side.excursion_mm), field(p.right_side.excursion_mm),
                  field(p.excursion_ratio), field(p.left_side.path_mm), field(p.right_side.path_mm),
                  field(p.path_ratio), field(p.left_side.peak_speed_mm_s),
                  field(p.right_side.peak_speed_mm_s), field(p.speed_ratio),
-                 field(p.speed_correlation), p.undecided ? 0 : 1);
+                 field(p.speed_correlation), field(p.difference_mm()), field(p.jitter_floor_mm),
+                 field(p.mesh_floor_mm), p.undecided ? 0 : 1);
   });
 }
 
@@ -146,6 +170,12 @@ Json summary_of(const SymmetryMeasures& measures) {
     pairs.push_back(pair_json(p));
   }
   json["excursions"] = pairs;
+  if (const auto& floor = measures.curve.mesh_noise; !floor.empty())
+    json["mesh_floor"] = {{"known", true},
+                          {"xi_there", number(floor[largest_difference(measures.curve)])},
+                          {"resolution_mm", 1e3 * kResolution_m}};
+  else if (!measures.no_mesh_floor.empty())
+    json["mesh_floor"] = {{"known", false}, {"why", measures.no_mesh_floor}};
   if (measures.map) json["asymmetry_map"] = map_json(*measures.map);
   return json;
 }

@@ -16,20 +16,23 @@ struct SymmetryMeasures {
   SymmetryCurve curve;
   Excursions excursions;
   std::optional<Asymmetry> map;  ///< where there is a surface
+  std::string no_mesh_floor;     ///< of a simulated face: why it has none, a sentence
 };
 
-/// CSV, a row a sample: time_s, xi_L, xi_R, S_ln, floor, S_floor, commissure_L_mm, commissure_R_mm,
+/// CSV, a row a sample: time_s, xi_L, xi_R, S_ln, floor, S_floor (the larger of the next two),
+/// S_floor_jitter, S_floor_mesh, decided (1, 0, or empty without a floor), commissure_L_mm, commissure_R_mm,
 /// commissure_speed_L_mm_s, commissure_speed_R_mm_s, and with a map asymmetry_face_rms_mm,
 /// asymmetry_face_p95_mm, asymmetry_mouth_rms_mm, asymmetry_mouth_p95_mm. Empty where not measured
-/// or not defined; S_floor is empty for an exact motion. Samples of curve and map must be the same.
+/// or not defined; floors are empty where none is known. Samples of curve and map must be the same.
 void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasures& measures);
 
 /// CSV, a row a pair of points: point; of L, R and as ratio_R_L: excursion_mm, path_mm,
-/// peak_speed_mm_s; speed_correlation; decided (1 or 0).
+/// peak_speed_mm_s; speed_correlation; difference_mm (L - R of the excursions), jitter_floor_mm,
+/// mesh_floor_mm (empty where unknown), decided (1 or 0).
 void write_excursions_csv(const std::filesystem::path& file, const Excursions& excursions);
 
-/// For summary.json: jitter, how much of S(t) is undecided, commissure, excursions, map. Numbers
-/// that are not defined are null.
+/// For summary.json: jitter, the mesh's floor, how much of S(t) is undecided, commissure,
+/// excursions, map. Numbers that are not defined are null.
 nlohmann::ordered_json summary_of(const SymmetryMeasures& measures);
 
 /// Where the sides differ most and by how much, that they do not, or that it is undecided. Not

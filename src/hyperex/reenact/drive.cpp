@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <set>
 
 #include "hyperex/core/error.hpp"
@@ -17,6 +17,14 @@ namespace hyperex::reenact {
 namespace {
 
 constexpr double greatest_shift_m = 0.010;
+/// How far the correction of a patch reaches from its point: farther gives smoother skin, but the
+/// points of both lips' ends then work against each other.
+constexpr double correction_reach_m = 0.016;
+/// Points closer together than this are met in the mean alone: to meet each would fold the skin
+/// between them, which has no nodes there.
+constexpr double one_place_m = 0.001;
+/// Over the kernel's value at 0: rounding, not a wish for smoothness.
+constexpr double correction_ridge = 1e-4;
 /// Difference of the walks to both lips at which a place counts as wholly above or below the mouth.
 constexpr double full_margin_m = 0.010;
 
@@ -38,6 +46,50 @@ std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t
   }
   if (hit.empty() && nearest >= 0) hit.push_back(nearest);
   return hit;
+}
+
+/// Wendland's C2 function of compact support, positive definite in three dimensions.
+double wendland(double distance_m) {
+  const double r = distance_m / correction_reach_m;
+  return r < 1 ? std::pow(1 - r, 4) * (4 * r + 1) : 0;
+}
+
+/// The mean of each group of points within one_place_m of its first: |groups| x |points|.
+Eigen::MatrixXd one_place_means(const Points& points) {
+  std::vector<std::vector<Eigen::Index>> groups;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& some) {
+      return (points.row(some.front()) - points.row(i)).norm() < one_place_m;
+    });
+    if (group == groups.end())
+      groups.push_back({i});
+    else
+      group->push_back(i);
+  }
+  Eigen::MatrixXd mean =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(groups.size()), points.rows());
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Eigen::Index i : groups[g])
+      mean(static_cast<Eigen::Index>(g), i) = 1.0 / static_cast<double>(groups[g].size());
+  return mean;
+}
+
+/// Adds to the weights W what makes the driven places A W = 1, smoothly: with S the kernel between
+/// nodes and G the means of one_place_means(), of the opened points,
+///   W + S (G A)' (G A S (G A)' + ridge)^-1 G (1 - A W).
+void meet_points(const Points& opened_points, const Points& opened, DrivenPatches& patches) {
+  const auto count = static_cast<Eigen::Index>(patches.nodes.size());
+  const Eigen::MatrixXd mean = one_place_means(opened_points);
+  const Eigen::MatrixXd a = mean * Eigen::MatrixXd(patches.carriers)(Eigen::all, patches.nodes);
+  Eigen::MatrixXd kernel(count, count);
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (Eigen::Index k = 0; k <= j; ++k)
+      kernel(j, k) = kernel(k, j) = wendland((opened.row(j) - opened.row(k)).norm());
+  const Eigen::MatrixXd reach = kernel * a.transpose();
+  Eigen::MatrixXd gram = a * reach;
+  gram.diagonal().array() += correction_ridge;
+  const Eigen::MatrixXd missing = mean - a * patches.weights;
+  patches.weights += reach * gram.ldlt().solve(missing);
 }
 
 }  // namespace
@@ -131,9 +183,18 @@ DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& 
                                    p.name, d * 1e3, off_skin_m * 1e3));
   const double radius = patch_radius_m * (1.5 - 0.5 * field.openness());
   std::set<int> nodes;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  std::vector<std::string> names;
+  Points rest(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
     for (int v : patch_nodes(points, i, mesh, radius)) nodes.insert(v);
+    names.push_back(points[i].name);
+    rest.row(static_cast<Eigen::Index>(i)) = points[i].rest.transpose();
+  }
   DrivenPatches patches;
+  patches.carriers = carriers(mesh, skin_places(mesh, names, rest));
+  for (Eigen::Index i = 0; i < rest.rows(); ++i)
+    for (CarrierMatrix::InnerIterator it(patches.carriers, i); it; ++it)
+      nodes.insert(static_cast<int>(it.col()));
   patches.nodes.assign(nodes.begin(), nodes.end());
   Points places(patches.nodes.size(), 3);
   std::vector<double> margin;
@@ -142,6 +203,9 @@ DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& 
     margin.push_back(mesh.upper_margin[patches.nodes[j]]);
   }
   patches.weights = field.weights(places, margin);
+  for (Eigen::Index j = 0; j < places.rows(); ++j)
+    places.row(j) = field.opened(places.row(j), margin[j]).transpose();
+  meet_points(field.opened_points(), places, patches);
   return patches;
 }
 

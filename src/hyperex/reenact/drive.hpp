@@ -5,6 +5,7 @@
 
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/reenact/alignment.hpp"
+#include "hyperex/reenact/skin_places.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::reenact {
@@ -26,11 +27,15 @@ class DriveField {
   /// u(place j) = sum_i weight(j, i) d_i; `margin[j]`: of place j, as TissueMesh::upper_margin.
   Eigen::MatrixXd weights(const Points& places, const std::vector<double>& margin) const;
   const std::vector<DrivenPoint>& points() const { return points_; }
+  /// The points on the face whose mouth is opened.
+  Points opened_points() const { return centres_.topRows(Eigen::Index(points_.size())); }
   /// How far the mouth was opened, over the most that it is: 0 to 1.
   double openness() const;
 
- private:
+  /// A place on the face whose mouth is opened.
   Vec3 opened(const Vec3& p, double margin) const;
+
+ private:
   std::vector<DrivenPoint> points_;
   Points centres_;  // opened: the points, then the still places
   Vec3 shift_;      // of what lies wholly above the mouth
@@ -49,12 +54,14 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
 
 /// Skin nodes that take prescribed displacements: a patch around each driven point, reaching
 /// `patch_radius_m` where the lips part as far as counts and half as far again where they stay
-/// closed (but at least the nearest node), never across the slit. In a patch the displacement is
-/// the field's, which is the better guess than the tissue's where nothing parts and the worse one
-/// where the lips do (docs/fidelity.md).
+/// closed, never across the slit, and in any case the nodes that carry the point. In a patch the
+/// displacement is the field's, which is the better guess than the tissue's where nothing parts and
+/// the worse one where the lips do (docs/fidelity.md), corrected so that the driven points end
+/// where they are driven: the field meets them, the mesh, linear between its nodes, does not.
 struct DrivenPatches {
   std::vector<int> nodes;   ///< outer nodes, rising
   Eigen::MatrixXd weights;  ///< |nodes| x |points|
+  CarrierMatrix carriers;   ///< |points| x |outer nodes|: what the driven points' places follow
 };
 
 /// Throws InputError ("source: ...") where a point lies farther than 25 mm from the skin.

@@ -18,6 +18,7 @@
 #include "hyperex/reenact/boundary.hpp"
 #include "hyperex/reenact/input_shapes.hpp"
 #include "hyperex/reenact/lip_contact.hpp"
+#include "hyperex/reenact/skin_places.hpp"
 #include "hyperex/reenact/solve.hpp"
 #include "hyperex/tissue/lips.hpp"
 
@@ -91,22 +92,6 @@ class SkinCarrier {
   const MeasuredRegion& region_;
 };
 
-/// Skin vertices that carry the landmarks, each on its own lip.
-std::vector<Match> landmark_matches(const tissue::TissueMesh& mesh,
-                                    const io::Landmarks& landmarks) {
-  Points places(landmarks.size(), 3);
-  std::vector<int> side;
-  Eigen::Index i = 0;
-  for (const auto& [name, p] : landmarks) {
-    places.row(i++) = p.transpose();
-    side.push_back(tissue::lip_of(name));
-  }
-  std::vector<int> vertex_side;
-  for (double m : mesh.skin_upper_margin)
-    vertex_side.push_back(m > 0.002 ? 1 : m < -0.002 ? -1 : 0);
-  return match(places, mesh.skin, side, vertex_side);
-}
-
 motion::Motion landmark_tracks(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                                const std::vector<double>& time_s,
                                const std::vector<PointsF>& frames) {
@@ -118,7 +103,7 @@ motion::Motion landmark_tracks(const tissue::TissueMesh& mesh, const io::Landmar
     tracks.names.push_back(name);
     rest.row(i++) = p.transpose();
   }
-  const auto matches = landmark_matches(mesh, landmarks);
+  const auto matches = skin_places(mesh, tracks.names, rest);
   for (const PointsF& frame : frames) {
     Points at = rest;
     for (std::size_t m = 0; m < matches.size(); ++m)
@@ -266,6 +251,32 @@ class Run {
       p.driven_points_rest.row(i) = motion_.rest.row(rows[i]);
     p.peak_frame = peak_frame(rows);
     measure_lips();
+    measure_driven(rows);
+  }
+
+  /// How far the driven points end from where they are driven.
+  void measure_driven(const std::vector<int>& rows) {
+    const Performance& p = result_.performance;
+    const auto places = skin_places(mesh_, p.driven_names, p.driven_points_rest);
+    std::vector<double> off_m(rows.size(), 0);
+    for (std::size_t f = 0; f < p.frame_time_s.size(); ++f) {
+      const Points wanted = input_.at(p.frame_time_s[f]);
+      const Points skin = p.skin_displacement_m[f].cast<double>();
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        off_m[i] = std::max(
+            off_m[i], (places[i].displacement(skin) - wanted.row(rows[i]).transpose()).norm());
+    }
+    std::string names;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      result_.report.driven_off_mm = std::max(result_.report.driven_off_mm, 1e3 * off_m[i]);
+      if (off_m[i] > kDrivenWithin_m) names += (names.empty() ? "" : ", ") + p.driven_names[i];
+    }
+    if (!names.empty())
+      result_.report.notes.push_back(
+          fmt::format("driven points end up to {:.2f} mm from where they are driven: {}; points "
+                      "that lie closer "
+                      "together than the elements and move differently are met in the mean",
+                      result_.report.driven_off_mm, names));
   }
 
   int peak_frame(const std::vector<int>& rows) const {

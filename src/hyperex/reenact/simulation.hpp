@@ -81,6 +81,9 @@ struct SimulationOptions {
   double peak_time_s = -1;  ///< below 0: where the driven points moved most in the mean
 };
 
+/// Driven points that end farther than this from where they are driven are named in a note.
+inline constexpr double kDrivenWithin_m = 1e-4;
+
 /// What happened, for the summary.
 struct SimulationReport {
   int free_dofs = 0, steps = 0, driven_nodes = 0, skull_nodes = 0, mandible_nodes = 0;
@@ -91,6 +94,8 @@ struct SimulationReport {
   double assemble_s = 0, analyse_s = 0, factor_s = 0, basis_s = 0, simulate_s = 0;
   int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
   double greatest_opening_deg = 0;  ///< of the jaw
+  /// Greatest distance of any driven point from where it is driven, over the frames.
+  double driven_off_mm = 0;
   double lip_overlap_mm =
       0;  ///< greatest depth by which the lips pass through each other beyond rest
   double lip_gap_mm =

@@ -93,7 +93,9 @@ json symmetry_section(const metrics::SymmetryCurve* curve) {
           {"xi_right", curve->xi_right},
           {"s", curve->s},
           {"floor", curve->floor},
-          {"noise", curve->noise},
+          {"noise", curve->floors()},
+          {"jitter_noise", curve->noise},
+          {"mesh_noise", curve->mesh_noise},
           {"jitter_mm", 1e3 * curve->jitter_m}};
 }
 

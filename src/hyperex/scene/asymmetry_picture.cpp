@@ -14,7 +14,8 @@ namespace hyperex::scene {
 render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm,
                              const metrics::Asymmetry& asymmetry, const io::Landmarks& landmarks,
                              const std::string& title, const std::string& note) {
-  constexpr double least_top_mm = 0.1;  // a symmetric face is all of one colour, not of its noise
+  // A symmetric face is all of one colour: not of its noise, nor of what its mesh makes of it.
+  constexpr double least_top_mm = 5;
   // A few vertices at a torn or cut place must not set the scale.
   constexpr double shown_share = 0.99;
   std::vector<float> values;

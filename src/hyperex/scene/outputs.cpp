@@ -7,6 +7,7 @@
 #include <array>
 
 #include "hyperex/core/progress.hpp"
+#include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/canvas.hpp"
@@ -38,11 +39,14 @@ void write_peak(const Results& r, const std::filesystem::path& directory) {
   io::write_ply(directory / "skin_peak.ply", skin, r.inputs.scan.unit,
                 {{"displacement_mm", 1e3F * d.rowwise().norm()}, {"asymmetry_mm", map_mm}});
   const metrics::AsymmetrySummary& frame = asymmetry.frames[static_cast<std::size_t>(p.peak_frame)];
-  const std::string note = fmt::format(
+  std::string note = fmt::format(
       "the face less its reflection, less the same at rest, at {:.2f} s; face rms {:.2f} mm, mouth "
       "rms {:.2f} mm",
       p.frame_time_s[static_cast<std::size_t>(p.peak_frame)], frame.face_rms_mm,
       frame.mouth_rms_mm);
+  if (asymmetry.mesh_floor)
+    note += fmt::format("; by the mesh and the face's own shape alone {:.2f} and {:.2f} mm",
+                        asymmetry.mesh_floor->face_rms_mm, asymmetry.mesh_floor->mouth_rms_mm);
   render::write_png(
       directory / "asymmetry.png",
       draw_asymmetry(skin, map_mm, asymmetry, r.inputs.landmarks, "Asymmetry of the motion", note));
@@ -178,12 +182,16 @@ metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inpu
 
 metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
                                             const metrics::RestAsymmetry& at_rest,
-                                            const reenact::Performance& p) {
+                                            const reenact::Performance& p,
+                                            const MirroredTwin& twin) {
   const double jitter_m = inputs.jitter_m * scene.motion.gain;
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
   all.excursions = metrics::excursions_of(p.landmarks, jitter_m);
-  all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m);
+  all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m, twin.skin_displacement_m);
+  all.no_mesh_floor = twin.why_not;
+  if (twin.why_not.empty())
+    metrics::add_mesh_floor(all.curve, all.excursions, p.landmarks, twin.landmarks);
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include "hyperex/reenact/simulation.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/scene/inputs.hpp"
+#include "hyperex/scene/mirrored_twin.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::scene {
@@ -41,10 +42,12 @@ std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak);
 /// The asymmetry of the skin at rest, the same for all tissues; neither lip is taken for the other.
 metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inputs& inputs);
 
-/// S(t), excursions and the asymmetry map of a simulated face, to the jitter of its input.
+/// S(t), excursions and the asymmetry map of a simulated face, judged by the jitter of its input
+/// and by its mirrored twin, if it has one.
 metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
                                             const metrics::RestAsymmetry& at_rest,
-                                            const reenact::Performance& performance);
+                                            const reenact::Performance& performance,
+                                            const MirroredTwin& twin);
 
 /// Rest and the still shapes from the front and three-quarter, coloured by displacement.
 void write_contact_sheet(const Results& results, const std::filesystem::path& file);

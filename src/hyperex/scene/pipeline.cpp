@@ -98,6 +98,7 @@ Json summary_of(const Results& r) {
   s["dt_s"] = r.scene.time.step_s;
   s["frames"] = p.frame_time_s.size();
   s["driven_nodes"] = report.driven_nodes;
+  s["driven_points_off_mm"] = report.driven_off_mm;
   s["skull_nodes"] = report.skull_nodes;
   s["mandible_nodes"] = report.mandible_nodes;
   s["peak_time_s"] = p.frame_time_s[p.peak_frame];
@@ -244,7 +245,12 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
-  const auto simulation = reenact::simulate(mesh, inputs.landmarks, inputs.motion, options);
+  const metrics::RestAsymmetry at_rest = rest_asymmetry(mesh, inputs);
+  reenact::SimulationResult simulation;
+  MirroredTwin twin;
+  tbb::parallel_invoke(
+      [&] { simulation = reenact::simulate(mesh, inputs.landmarks, inputs.motion, options); },
+      [&] { twin = simulate_twin(scene, inputs, mesh, field ? &*field : nullptr, at_rest.plane); });
   stage.lap();
   seconds["assemble"] = simulation.report.assemble_s;
   seconds["analyse"] = simulation.report.analyse_s;
@@ -252,21 +258,21 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
-  Results results{
-      scene,
-      inputs,
-      mesh,
-      simulation,
-      symmetry_measures(scene, inputs, rest_asymmetry(mesh, inputs), simulation.performance),
-      inputs.notes,
-      {},
-      field ? &*field : nullptr};
+  Results results{scene,
+                  inputs,
+                  mesh,
+                  simulation,
+                  symmetry_measures(scene, inputs, at_rest, simulation.performance, twin),
+                  inputs.notes,
+                  {},
+                  field ? &*field : nullptr};
   if (scene.output.glb || scene.output.report)
     results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
-  results.notes.insert(results.notes.end(), inputs.warnings.begin(), inputs.warnings.end());
   results.notes.insert(results.notes.end(), mesh.notes.begin(), mesh.notes.end());
+  results.notes.insert(results.notes.end(), inputs.warnings.begin(), inputs.warnings.end());
+  results.warnings = inputs.warnings;
   if (const auto warning = skin_warning(mesh, inputs.landmarks); !warning.empty())
-    warn({warning}, results.notes);
+    warn({warning}, results);
   const Eigen::Index tets = mesh.volume.tets.rows();
   if (const int few = simulation.report.inverted_tets;
       few > 0 && few <= kFewInverted * double(tets))
@@ -274,6 +280,8 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
         "{} of {} tetrahedra turned inside out in some frame, too few to matter", few, tets));
   warn(warnings_of(simulation.report, tets), results);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty()) warn({note}, results);
+  if (!twin.why_not.empty())
+    results.notes.push_back("the mesh's own floor of symmetry is not known: " + twin.why_not);
   Json summary = summary_of(results);
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.

@@ -13,6 +13,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
+#include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/pipeline.hpp"
@@ -118,6 +119,8 @@ std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& 
           {"mean_displacement_R_mm", c.mean_displacement_right_mm},
           {"asymmetry_rms_mm", c.asymmetry_mm},
           {"added_xi_difference", c.added_xi_difference},
+          {"added_xi_floor", c.added_xi_floor},
+          {"added_xi_decided", c.added_xi_decided()},
           {"share_within_25_mm_of_mouth", c.share_near_mouth},
           {"lag_ms", 1e3 * c.lag.lag_s},
           {"lag_correlation", c.lag.correlation},
@@ -179,7 +182,10 @@ void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& 
       reenact::SimulationOptions options = simulation_options(run.scene, run.inputs);
       if (run.field) options.tissue.element = run.field->element;
       run.simulation = reenact::simulate(mesh, run.inputs.landmarks, run.inputs.motion, options);
-      run.symmetry = symmetry_measures(run.scene, run.inputs, at_rest, run.simulation.performance);
+      const MirroredTwin twin = simulate_twin(run.scene, run.inputs, mesh,
+                                              run.field ? &*run.field : nullptr, at_rest.plane);
+      run.symmetry =
+          symmetry_measures(run.scene, run.inputs, at_rest, run.simulation.performance, twin);
     } catch (const NumericalError& error) {
       throw NumericalError(fmt::format("variant {}: {}", run.scene.title, error.what()));
     }
@@ -244,6 +250,7 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
   c.asymmetry_mm = map.frames[peak].face_rms_mm;
   const metrics::SymmetryCurve& s = run.symmetry.curve;
   c.added_xi_difference = at_greatest(metrics::added_difference(s, base.symmetry.curve));
+  c.added_xi_floor = metrics::added_mesh_floor(s, base.symmetry.curve);
   const Vec3 mouth = (landmarks.at(tissue::ibug(48)) + landmarks.at(tissue::ibug(54))) / 2;
   c.share_near_mouth = metrics::share_within(c.difference.greatest_m, own.skin_rest.points, mouth,
                                              kNearMouth_m, area);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -46,6 +47,12 @@ struct VariantComparison {
   double asymmetry_mm = 0;  ///< at the peak, root mean square over the face
   /// What the variant adds to xi_L - xi_R, where it adds most.
   double added_xi_difference = 0;
+  double added_xi_floor = 0;  ///< what the mesh makes of that (added_mesh_floor); NaN: unknown
+  /// 1 where it is above the floor, else 0; NaN where no floor is known.
+  double added_xi_decided() const {
+    if (std::isnan(added_xi_floor)) return added_xi_floor;
+    return std::abs(added_xi_difference) > added_xi_floor ? 1 : 0;
+  }
   /// Share of the summed squared distances (greatest over time, weighted with area) within 25 mm of
   /// the middle of the mouth; NaN where all are 0.
   double share_near_mouth = 0;

@@ -118,11 +118,13 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
   const render::Range time{own.time_s.front(), own.time_s.back()};
   for (auto& curve : s_curves) curve.name.clear();
   std::vector<double> floor;
-  for (const double value : own.noise) floor.push_back(std::log(value));
+  for (const double value : own.floors()) floor.push_back(std::log(value));
   if (!floor.empty())
-    s_curves.push_back(
-        {floor, render::palette::cut,
-         fmt::format("noise floor of {:.2g} mm jitter; below it: undecided", 1e3 * own.jitter_m)});
+    s_curves.push_back({floor, render::palette::cut,
+                        own.mesh_noise.empty()
+                            ? fmt::format("noise floor of {:.2g} mm jitter; below it: undecided",
+                                          1e3 * own.jitter_m)
+                            : std::string("floor of the mesh and of jitter; below it: undecided")});
   const render::TimePlot upper{70,
                                y + 18,
                                800,

@@ -48,10 +48,12 @@ class SymmetryTables : public testing::Test {
 
 TEST_F(SymmetryTables, CurvesOfAnExactMotionHaveNoNoiseFloor) {
   write_symmetry_csv(file_, some());
-  EXPECT_EQ(read_file(file_),
-            "time_s,xi_L,xi_R,S_ln,floor,S_floor,commissure_L_mm,commissure_R_mm,"
-            "commissure_speed_L_mm_s,commissure_speed_R_mm_s\n"
-            "0,0,0,-0.693147181,0.5,,0,,,\n0.1,,0,,0.5,,,,,\n0.2,0.5,0.25,-1.38629436,0.5,,4,,,\n");
+  EXPECT_EQ(
+      read_file(file_),
+      "time_s,xi_L,xi_R,S_ln,floor,S_floor,S_floor_jitter,S_floor_mesh,decided,commissure_L_mm,"
+      "commissure_R_mm,commissure_speed_L_mm_s,commissure_speed_R_mm_s\n"
+      "0,0,0,-0.693147181,0.5,,,,,0,,,\n0.1,,0,,0.5,,,,,,,,\n"
+      "0.2,0.5,0.25,-1.38629436,0.5,,,,,4,,,\n");
 }
 
 TEST_F(SymmetryTables, CurvesHoldTheNoiseFloorAndTheMap) {
@@ -63,8 +65,30 @@ TEST_F(SymmetryTables, CurvesHoldTheNoiseFloorAndTheMap) {
   const std::string text = read_file(file_);
   EXPECT_THAT(text, HasSubstr(",asymmetry_face_rms_mm,asymmetry_face_p95_mm,asymmetry_mouth_rms_mm,"
                               "asymmetry_mouth_p95_mm\n"));
-  EXPECT_THAT(text, HasSubstr("\n0.1,,0,,0.5,0,,,,,1,2,3,4\n"));
-  EXPECT_THAT(text, HasSubstr(",-0.693147181,4,,,,1,,3,4\n"));
+  EXPECT_THAT(text, HasSubstr("\n0.1,,0,,0.5,0,0,,0,,,,,1,2,3,4\n"));
+  EXPECT_THAT(text, HasSubstr(",-0.693147181,-0.693147181,,0,4,,,,1,,3,4\n"));
+}
+
+TEST_F(SymmetryTables, TheLargerOfBothFloorsDecides) {
+  SymmetryMeasures all = some();
+  all.curve.noise = {1, 1, 0.1};
+  all.curve.mesh_noise = {0.1, 0.1, 0.2};
+  EXPECT_EQ(all.curve.floors(), (std::vector<double>{1, 1, 0.2}));
+  EXPECT_FALSE(all.curve.undecided(2)) << "0.25 apart";
+  all.curve.mesh_noise[2] = 0.3;
+  EXPECT_TRUE(all.curve.undecided(2));
+  all.curve.noise.clear();
+  all.curve.floor = 1e-6;
+  EXPECT_TRUE(all.curve.undecided(2)) << "the mesh alone";
+  EXPECT_THAT(verdict_of(all.curve), HasSubstr("the mesh alone"));
+  write_symmetry_csv(file_, all);
+  EXPECT_THAT(read_file(file_), HasSubstr(",1e-06,-1.2039728,,-1.2039728,0,4,,,\n"));
+  const auto json = summary_of(all);
+  EXPECT_EQ(json["mesh_floor"]["xi_there"], 0.3);
+  EXPECT_NEAR(json["S_floor_there"].get<double>(), std::log(0.3), 1e-12);
+  all.curve.mesh_noise.clear();
+  all.no_mesh_floor = "for a reason";
+  EXPECT_EQ(summary_of(all)["mesh_floor"]["why"], "for a reason");
 }
 
 TEST_F(SymmetryTables, ExcursionsAreARowAPair) {
@@ -72,7 +96,8 @@ TEST_F(SymmetryTables, ExcursionsAreARowAPair) {
   EXPECT_EQ(read_file(file_),
             "point,excursion_L_mm,excursion_R_mm,excursion_ratio_R_L,path_L_mm,path_R_mm,"
             "path_ratio_R_L,peak_speed_L_mm_s,peak_speed_R_mm_s,peak_speed_ratio_R_L,"
-            "speed_correlation,decided\ncheilion,4,2,0.5,8,4,0.5,20,5,0.25,,1\n");
+            "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,decided\n"
+            "cheilion,4,2,0.5,8,4,0.5,20,5,0.25,,2,0,,1\n");
 }
 
 TEST_F(SymmetryTables, SummaryCallsUndecidedWhatNoiseMayMake) {

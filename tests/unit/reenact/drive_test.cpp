@@ -66,6 +66,39 @@ TEST_F(Drive, MeetsEveryDrivenPoint) {
   }
 }
 
+/// How far the places of the points follow each point's unit displacement: |points| x |points|.
+Eigen::MatrixXd reached(const DrivenPatches& p) {
+  return Eigen::MatrixXd(p.carriers)(Eigen::all, p.nodes) * p.weights;
+}
+
+TEST_F(Drive, PointsBetweenTheNodesEndWhereTheyAreDriven) {
+  const TriMesh& skin = face_.mesh.skin;
+  std::vector<DrivenPoint> points = at_nodes(test::seven_points());
+  for (DrivenPoint& point : points)  // into the middle of a triangle
+    for (int f = 0; f < skin.triangles.rows(); ++f)
+      if ((skin.triangles.row(f).array() == node_of(point.name)).any()) {
+        point.rest.setZero();
+        for (int k = 0; k < 3; ++k)
+          point.rest += skin.points.row(skin.triangles(f, k)).transpose() / 3;
+      }
+  const auto still = still_places(points, face_.landmarks);
+  for (const double radius : {1e-9, 0.006, 0.012}) {
+    const DrivenPatches p =
+        driven_patches(field_of(points, still), face_.mesh, radius, "motion.csv");
+    EXPECT_LT((reached(p) - Eigen::MatrixXd::Identity(7, 7)).cwiseAbs().maxCoeff(), 1e-3) << radius;
+  }
+}
+
+TEST_F(Drive, PointsAtAlmostOnePlaceAreMetInTheMean) {
+  std::vector<DrivenPoint> points = at_nodes({"ibug68_8", "ibug68_7"});
+  points[1].rest = points[0].rest + Vec3(0.00003, 0.00002, 0);
+  const DrivenPatches p = driven_patches(field_of(points, {}), face_.mesh, 0.012, "motion.csv");
+  const Eigen::MatrixXd at = reached(p);
+  EXPECT_NEAR((at(0, 0) + at(1, 0)) / 2, 0.5, 0.02);
+  EXPECT_NEAR((at(0, 1) + at(1, 1)) / 2, 0.5, 0.02);
+  EXPECT_LT(p.weights.cwiseAbs().maxCoeff(), 1.5) << "the skin is not folded between them";
+}
+
 TEST_F(Drive, ACommonTranslationIsFollowed) {
   const DrivenPatches p = patches(test::seven_points());
   for (Eigen::Index j = 0; j < p.weights.rows(); ++j) EXPECT_NEAR(p.weights.row(j).sum(), 1, 1e-9);

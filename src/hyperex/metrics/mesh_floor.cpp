@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/mesh_floor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace hyperex::metrics {
+namespace {
+
+constexpr double two_sided_95 = 1.959964;
+
+double half_sum(const Stretches& values) {
+  double sum = 0;
+  for (const double value : values) sum += std::abs(value);
+  return sum / 2;
+}
+
+}  // namespace
+
+std::vector<Stretches> twin_remainders(const motion::Motion& run, const motion::Motion& twin) {
+  const std::vector<Stretches> own = stretches_of(run), other = stretches_of(twin);
+  if (own.size() != other.size())
+    throw std::invalid_argument("a run and its twin must have the same samples");
+  std::vector<Stretches> remainders(own.size());
+  for (size_t i = 0; i < own.size(); ++i)
+    for (size_t k = 0; k < own[i].size(); ++k)
+      remainders[i][k] = own[i][k] - other[i][(k + 4) % own[i].size()];
+  return remainders;
+}
+
+std::vector<double> xi_mesh_floor(const motion::Motion& run, const motion::Motion& twin,
+                                  const std::vector<Stretches>& remainders) {
+  // Two places a side, as excursions: a jitter of this size makes a difference of kResolution_m.
+  std::vector<double> floor = symmetry_noise(run, kResolution_m / (2 * two_sided_95));
+  if (floor.size() != remainders.size() || twin.positions.size() != remainders.size())
+    throw std::invalid_argument("a run and its twin must have the same samples");
+  for (size_t i = 0; i < floor.size(); ++i) floor[i] += half_sum(remainders[i]);
+  return floor;
+}
+
+double excursion_mesh_floor_mm(const motion::Motion& run, const motion::Motion& twin, int left,
+                               int right) {
+  double most = 0;
+  for (const auto& [here, there] : {std::pair{left, right}, {right, left}}) {
+    const auto own = distance_from_rest_mm(run, {here}),
+               other = distance_from_rest_mm(twin, {there});
+    for (size_t i = 0; i < own.size() && i < other.size(); ++i)
+      if (const double apart = std::abs(own[i] - other[i]); apart > most) most = apart;
+  }
+  return most + 1e3 * kResolution_m;
+}
+
+void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::Motion& run,
+                    const motion::Motion& twin) {
+  curve.mesh_remainder = twin_remainders(run, twin);
+  curve.mesh_noise = xi_mesh_floor(run, twin, curve.mesh_remainder);
+  for (PairExcursion& pair : excursions.pairs) {
+    pair.mesh_floor_mm = excursion_mesh_floor_mm(run, twin, pair.left, pair.right);
+    pair.undecided = !(std::abs(pair.difference_mm()) >= pair.floor_mm());
+  }
+}
+
+double added_mesh_floor(const SymmetryCurve& variant, const SymmetryCurve& base) {
+  const auto &own = variant.mesh_remainder, &other = base.mesh_remainder;
+  if (own.empty() || own.size() != other.size()) return std::numeric_limits<double>::quiet_NaN();
+  double most = 0;
+  for (size_t i = 0; i < own.size(); ++i) {
+    Stretches apart;
+    for (size_t k = 0; k < apart.size(); ++k) apart[k] = own[i][k] - other[i][k];
+    if (const double sum = half_sum(apart); sum > most) most = sum;
+  }
+  return most;
+}
+
+}  // namespace hyperex::metrics

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/metrics/midsagittal.hpp"
+#include "hyperex/reenact/performance.hpp"
+#include "hyperex/scene/inputs.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
+
+namespace hyperex::scene {
+
+/// A run's mirrored twin: the same mesh, supports and driven points with the motion and the tissue
+/// mirrored in the face's midsagittal plane. What it lays open: metrics/mesh_floor.hpp.
+struct MirroredTwin {
+  std::string why_not;       ///< a sentence where there is none, else empty
+  motion::Motion landmarks;  ///< as Performance::landmarks of the run, same names and times
+  std::vector<PointsF> skin_displacement_m;
+};
+
+/// Each point moves as the mirror image of its counterpart: with M its reflection's linear part,
+/// x_i(t) = x_i(0) + M (x_m(i)(t) - x_m(i)(0)). Counterparts are landmarks' names mirrored, else
+/// the point nearest to the reflected place, within 5 mm. Points without one stay as they are;
+/// where one of `needed` (names) has none there is no mirrored motion, and `why_not` says so.
+std::optional<reenact::AlignedMotion> mirrored_motion(const reenact::AlignedMotion& motion,
+                                                      const metrics::MidsagittalPlane& plane,
+                                                      const std::vector<std::string>& needed,
+                                                      std::string& why_not);
+
+/// Every tetrahedron takes the field at the point of the skin nearest to its reflected centroid.
+std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
+    const tissue::TissueField& field, const tissue::TissueMesh& mesh,
+    const metrics::MidsagittalPlane& plane);
+
+/// `field`: where the run's tissue differs from place to place, else null. By the reduced model,
+/// whichever the run takes. Throws NumericalError as simulate().
+MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs, const tissue::TissueMesh& mesh,
+                           const tissue::TissueField* field,
+                           const metrics::MidsagittalPlane& plane);
+
+}  // namespace hyperex::scene

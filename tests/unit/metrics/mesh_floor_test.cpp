@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/mesh_floor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace hyperex::metrics {
+namespace {
+
+/// The ten points of S(t), mirror images in x = 0, and how each moves in the second sample.
+motion::Motion ten_points(const std::function<Vec3(const std::string&)>& moved) {
+  motion::Motion motion;
+  const std::vector<std::pair<std::string, Vec3>> left = {
+      {"cheilion", {25, -35, 5}},
+      {"exocanthion", {45, 30, 0}},
+      {"palpebrale_inferius", {32, 25, 5}},
+      {"alare", {17, -5, 12}},
+      {"crista_philtri_inferior", {5, -25, 14}}};
+  motion.time_s = {0, 0.1, 0.2};
+  Points rest(10, 3);
+  for (const auto& [name, at] : left)
+    for (const int side : {1, -1}) {
+      rest.row(Eigen::Index(motion.names.size())) << 1e-3 * side * at.x(), 1e-3 * at.y(),
+          1e-3 * at.z();
+      motion.names.push_back(name + (side > 0 ? "_L" : "_R"));
+    }
+  motion.positions.assign(3, rest);
+  for (Eigen::Index i = 0; i < 10; ++i)
+    for (int k = 1; k < 3; ++k)
+      motion.positions[std::size_t(k)].row(i) +=
+          k / 2.0 * moved(motion.names[std::size_t(i)]).transpose();
+  return motion;
+}
+
+Vec3 smile(const std::string& name) {
+  const double side = name.ends_with("_L") ? 1 : -1;
+  return name.starts_with("cheilion") ? Vec3(side * 0.006, 0.008, 0) : Vec3::Zero();
+}
+
+double most(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+TEST(MeshFloor, OfAnEvenMeshIsTheResolutionAlone) {
+  const auto motion = ten_points(smile);
+  for (const Stretches& sample : twin_remainders(motion, motion))
+    for (const double value : sample) EXPECT_NEAR(value, 0, 1e-12);
+  EXPECT_NEAR(excursion_mesh_floor_mm(motion, motion, 0, 1), 0.1, 1e-9);
+  const auto floor = xi_mesh_floor(motion, motion, twin_remainders(motion, motion));
+  const auto resolution = symmetry_noise(motion, 1e-4 / 1.959964 / 2);
+  for (std::size_t i = 0; i < floor.size(); ++i) EXPECT_NEAR(floor[i], resolution[i], 1e-12);
+}
+
+TEST(MeshFloor, AOneSidedMotionOnAnEvenMeshIsDecided) {
+  const auto left =
+      ten_points([](auto& n) { return n.ends_with("_L") ? smile(n) : Vec3(0, 0, 0); });
+  const auto right =
+      ten_points([](auto& n) { return n.ends_with("_R") ? smile(n) : Vec3(0, 0, 0); });
+  SymmetryCurve curve = symmetry_of(left);
+  Excursions pairs = excursions_of(left);
+  add_mesh_floor(curve, pairs, left, right);
+  EXPECT_FALSE(curve.undecided(2));
+  EXPECT_FALSE(pairs.pairs.front().undecided);
+  EXPECT_NEAR(pairs.pairs.front().mesh_floor_mm, 0.1, 1e-9)
+      << "10 mm, and the twin's other side too";
+}
+
+TEST(MeshFloor, ASymmetricMotionThatTheMeshBendsIsUndecided) {
+  // The mesh lets the left corner move 7 % farther, whatever drives it.
+  const auto bent =
+      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.07 : 1.0) * smile(n)); });
+  SymmetryCurve curve = symmetry_of(bent);
+  Excursions pairs = excursions_of(bent);
+  EXPECT_FALSE(curve.undecided(2)) << "to an exact motion without a twin";
+  EXPECT_FALSE(pairs.pairs.front().undecided);
+  add_mesh_floor(curve, pairs, bent, bent);
+  EXPECT_TRUE(curve.undecided(1));
+  EXPECT_TRUE(curve.undecided(2));
+  EXPECT_TRUE(pairs.pairs.front().undecided);
+  EXPECT_NEAR(pairs.pairs.front().mesh_floor_mm, 0.7 + 0.1, 1e-9);
+  EXPECT_GE(most(curve.mesh_noise), std::abs(curve.xi_left[2] - curve.xi_right[2]));
+}
+
+TEST(MeshFloor, ErrorsThatCancelInXiStillCount) {
+  // The left eye's corner gives what the left wing of the nose takes.
+  const auto motion = ten_points([](auto& n) {
+    if (n == "exocanthion_L") return Vec3(0, 0.001, 0);
+    return n == "alare_L" ? Vec3(0, -0.00045, 0) : Vec3(0, 0, 0);
+  });
+  const SymmetryCurve curve = symmetry_of(motion);
+  const auto floor = xi_mesh_floor(motion, motion, twin_remainders(motion, motion));
+  const auto resolution = symmetry_noise(motion, 1e-4 / 1.959964 / 2);
+  EXPECT_GT(floor[2] - resolution[2], 3 * std::abs(curve.xi_left[2] - curve.xi_right[2]));
+}
+
+TEST(MeshFloor, OfWhatAVariantAddsIsThatOfTheDifference) {
+  const auto own = ten_points(smile);
+  const auto bent =
+      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.07 : 1.0) * smile(n)); });
+  const auto bent_more =
+      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.08 : 1.0) * smile(n)); });
+  const auto curve = [](const motion::Motion& motion) {
+    SymmetryCurve made = symmetry_of(motion);
+    made.mesh_remainder = twin_remainders(motion, motion);
+    return made;
+  };
+  EXPECT_EQ(added_mesh_floor(curve(bent), curve(bent)), 0) << "the same mesh bends both alike";
+  EXPECT_LT(added_mesh_floor(curve(bent_more), curve(bent)),
+            0.2 * added_mesh_floor(curve(bent), curve(own)));
+  EXPECT_GT(added_mesh_floor(curve(bent_more), curve(bent)), 0);
+  EXPECT_TRUE(std::isnan(added_mesh_floor(curve(bent), symmetry_of(bent))));
+}
+
+}  // namespace
+}  // namespace hyperex::metrics
