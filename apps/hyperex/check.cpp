@@ -29,7 +29,8 @@ void add_check(CLI::App& program) {
     const scene::Checked checked =
         scene::check_scene(scene::read_scene(options->scene, options->overrides));
     for (const auto& note : checked.notes) std::cout << printable(note) << '\n';
-    for (const auto& warning : checked.warnings) std::cout << "warning: " << printable(warning) << '\n';
+    for (const auto& warning : checked.warnings)
+      std::cout << "warning: " << printable(warning) << '\n';
     const auto count = checked.warnings.size();
     std::cout << options->scene.string() << ": no problems found"
               << (count == 0   ? ""

@@ -248,7 +248,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   const metrics::RestAsymmetry at_rest = rest_asymmetry(mesh, inputs);
   reenact::SimulationResult simulation;
   MirroredTwin twin;
-  tbb::parallel_invoke(
+  run_both(
       [&] { simulation = reenact::simulate(mesh, inputs.landmarks, inputs.motion, options); },
       [&] { twin = simulate_twin(scene, inputs, mesh, field ? &*field : nullptr, at_rest.plane); });
   stage.lap();
