@@ -3,11 +3,13 @@
 //   REPORT=out/variants/report.html node --test web/tests/first_screen.test.mjs
 // Without REPORT it takes the variants of a made-up face that write_report_fixtures wrote.
 import assert from 'node:assert/strict';
-import { resolve } from 'node:path';
+import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
 import { fixture } from './fixtures.mjs';
-import { readPage } from './page_data.mjs';
+import { readPage, withData } from './page_data.mjs';
 import { look } from './pixels.mjs';
 
 const report = process.env.REPORT ? resolve(process.env.REPORT) : fixture('variants.html');
@@ -106,6 +108,29 @@ describe('the first figures', () => {
     assert.match(text, /the scene without a variant|corner of the mouth/i);
     assert.doesNotMatch(text, /the scene itself/);
   });
+});
+
+test('what is below its floor is undecided, and warnings come first', { skip: Boolean(process.env.REPORT) }, async () => {
+  const { html, data } = await readPage(report);
+  const sides = { L: 8.2, R: 7.9 };
+  data.summary.symmetry = { excursions: [{
+    point: 'cheilion', excursion_mm: sides, path_mm: sides, peak_speed_mm_s: sides, excursion_ratio_R_L: 0.96, path_ratio_R_L: 0.96,
+    peak_speed_ratio_R_L: 0.96, speed_correlation: 0.99, undecided: true, floor_mm: 0.9, peak_speed_undecided: true, peak_speed_floor_mm_s: 5.5,
+  }] };
+  Object.assign(data.point_words, { cheilion: 'corner of the mouth (cheilion)' });
+  data.notes = ['the scan has a hole', 'a landmark is off'];
+  Object.assign(data.summary, { warnings: ['a landmark is off'], max_displacement_mm: 25.5, lip_opening_mm: null, nothing: '' });
+  const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'undecided.html');
+  await writeFile(file, withData(html, data));
+  const { page, close } = await openPage(browser, file);
+  assert.equal(await page.locator('#headline').textContent(), 'left 8.2 mm, right 7.9 mm: 0.3 mm apart: undecided (below 0.9 mm)');
+  const cells = await page.locator('.excursions tbody td .undecided').allTextContents();
+  assert.deepEqual(cells, ['undecided (below 0.9 mm)', 'undecided (below 5.5 mm/s)']);
+  assert.deepEqual(await page.locator('#note-list li').allTextContents(), ['Warning: A landmark is off', 'The scan has a hole']);
+  const rows = await page.locator('#summary-tables > .table-cards tr').allTextContents();
+  assert.deepEqual(rows, ['Largest displacement of the skin25.5 mm'], 'grouped, with units, and nothing that is empty');
+  await close();
+  await rm(dirname(file), { recursive: true });
 });
 
 test('begins with the skin, and nothing of what is behind shows through its holes', async () => {

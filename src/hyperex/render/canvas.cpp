@@ -150,7 +150,7 @@ std::vector<double> ticks(const Range& range, int wanted) {
 void Canvas::colour_bar(double x, double y, double height_px, const ColourBar& bar) {
   constexpr double width_px = 16;
   for (int row = 0; row < static_cast<int>(height_px); ++row)
-    rectangle(x, y + row, width_px, 1, viridis(1 - (row + 0.5) / height_px));
+    rectangle(x, y + row, width_px, 1, moss(1 - (row + 0.5) / height_px));
   const TextStyle small{.size_px = 12, .colour = palette::faint_ink};
   text(x, y - 12, bar.label, {.size_px = 12, .colour = palette::ink});
   const std::vector<double> values = ticks(bar.range, 6);

@@ -18,7 +18,7 @@ struct TextStyle {
   bool bold = false;
 };
 
-/// A scale of viridis with ticks at round numbers, laid out vertically.
+/// A scale of the map moss with ticks at round numbers, laid out vertically.
 struct ColourBar {
   Range range;
   std::string label;  ///< above the bar, with the unit: "distance (mm)"

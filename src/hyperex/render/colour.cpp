@@ -7,10 +7,10 @@
 
 namespace hyperex::render {
 
-Colour viridis(double share) {
-  static constexpr std::array<int, 11> tenths = {0x440154, 0x482576, 0x414487, 0x35608d,
-                                                 0x2a788e, 0x21908c, 0x22a884, 0x43bf71,
-                                                 0x7ad151, 0xbbdf27, 0xfde725};
+Colour moss(double share) {
+  static constexpr std::array<int, 11> tenths = {0xe4e2d3, 0xd2d1ac, 0xbcc286, 0xa3b466,
+                                                 0x86a64f, 0x6a9743, 0x4f873f, 0x37773d,
+                                                 0x206639, 0x095535, 0x00442e};
   const double position = 10 * std::clamp(std::isnan(share) ? 0.0 : share, 0.0, 1.0);
   const int low = std::min(9, static_cast<int>(position));
   const double t = position - low;

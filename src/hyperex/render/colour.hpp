@@ -14,9 +14,11 @@ struct Range {
   double low = 0, high = 1;
 };
 
-/// Viridis, uniform to the eye and readable without colour vision (S. van der Walt and N. Smith,
-/// matplotlib, CC0), from its values at each tenth; `share` is clamped to 0..1.
-Colour viridis(double share);
+/// From pale to dark green in even steps of lightness (OKLCH 0.91 to 0.34, hue 100 to 165 degrees;
+/// B. Ottosson 2020), readable without colour vision: what hardly moves stays light, as a dark face
+/// hides its features. The report's map "moss" (web/src/replay/face/colour.ts) has the same values.
+/// `share` is clamped to 0..1.
+Colour moss(double share);
 
 /// Where `value` lies in `range`, 0 to 1, clamped.
 double share_in(const Range& range, double value);

@@ -24,11 +24,11 @@ Vec3f linear(const Colour& colour) {
 }
 
 // Fine enough for 8 bits a channel.
-const ColourTable& linear_viridis() {
+const ColourTable& linear_moss() {
   static const ColourTable table = [] {
     constexpr int last = 4095;
     ColourTable t;
-    for (int i = 0; i <= last; ++i) t.push_back(linear(viridis(i / double(last))));
+    for (int i = 0; i <= last; ++i) t.push_back(linear(moss(i / double(last))));
     return t;
   }();
   return table;
@@ -76,7 +76,7 @@ struct Prepared {
       double value = 0;
       for (int k = 0; k < 3; ++k) value += hit.weight[k] * surface->scalar[corners[k]];
       if (std::isnan(value)) return plain;
-      const ColourTable& map = linear_viridis();
+      const ColourTable& map = linear_moss();
       return map[std::size_t(
           std::lround(share_in(surface->range, value) * double(map.size() - 1)))];
     }

@@ -51,7 +51,16 @@ double length_of(const std::vector<int>& loop, const Points& points) {
   return sum;
 }
 
-std::vector<Opening> openings_of(const TriMesh& skin, const Vec3& forward) {
+/// Between the outer corners of the eyes, seen from the front: not where a scan is torn at its rim.
+bool in_the_face(const std::vector<int>& loop, const Points& points, const Corners& corners) {
+  Vec3 centre = Vec3::Zero();
+  for (const int v : loop) centre += points.row(v).transpose() / double(loop.size());
+  const Vec3 across = *corners.outer[1] - *corners.outer[0];
+  const double share = (centre - *corners.outer[0]).dot(across) / across.squaredNorm();
+  return share > 0 && share < 1;
+}
+
+std::vector<Opening> openings_of(const TriMesh& skin, const Corners& corners) {
   constexpr double longest_m = 0.25;
   const std::vector<std::vector<int>> loops = boundary_loops(skin.triangles);
   std::vector<double> length_m;
@@ -60,13 +69,15 @@ std::vector<Opening> openings_of(const TriMesh& skin, const Vec3& forward) {
   const auto border = std::max_element(length_m.begin(), length_m.end()) - length_m.begin();
   std::vector<Opening> openings;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (std::ptrdiff_t(i) == border || length_m[i] > longest_m || loops[i].size() < 3) continue;
+    if (std::ptrdiff_t(i) == border || length_m[i] > longest_m || loops[i].size() < 3 ||
+        !in_the_face(loops[i], skin.points, corners))
+      continue;
     Vec3 outward = Vec3::Zero();
     for (const int v : loops[i]) outward += normals.row(v).transpose();
     outward /= double(loops[i].size());
     // The edge of a lip is rolled in; the face's own direction keeps the pocket behind it.
-    openings.push_back(
-        {loops[i], -(forward + 0.5 * outward).normalized(), std::min(0.03, 0.25 * length_m[i])});
+    openings.push_back({loops[i], -(corners.forward + 0.5 * outward).normalized(),
+                        std::min(0.03, 0.25 * length_m[i])});
   }
   return openings;
 }
@@ -123,7 +134,7 @@ FaceBacking face_backing(const TriMesh& skin, const Landmarks& landmarks) {
   FaceBacking backing;
   const auto corners = corners_of(landmarks);
   if (!corners) return backing;
-  backing.openings = openings_of(skin, corners->forward);
+  backing.openings = openings_of(skin, *corners);
   for (std::size_t side = 0; side < 2; ++side)
     if (corners->inner[0] && corners->inner[1])
       backing.eyeballs.push_back(eyeball_between(*corners->outer[side], *corners->inner[side],

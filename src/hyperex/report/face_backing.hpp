@@ -33,10 +33,10 @@ struct FaceBacking {
 /// `skin`: at rest, metres. `landmarks`: positions on it, the iBUG points or their anatomical
 /// names; without the outer corners of the eyes and those of the mouth nothing is put behind the
 /// skin, without the inner corners no eyeballs. Openings are all closed borders of at most 250 mm
-/// but the longest, which is the skin's own end. An eyeball's radius is 0.4 of the distance of the
-/// eye's corners (an adult's is 12 mm, behind an opening of some 30 mm). It lies as far forward as
-/// lets no vertex of the lids into it: at most a sixth of that distance before the line between the
-/// corners, at least 8 mm behind that place.
+/// whose middle lies between the outer corners of the eyes, but the longest, the skin's own end. An
+/// eyeball's radius is 0.4 of the distance of the eye's corners (an adult's is 12 mm, behind an
+/// opening of some 30 mm). It lies as far forward as lets no vertex of the lids into it: at most a
+/// sixth of that distance before the line between the corners, at least 8 mm behind that place.
 FaceBacking face_backing(const TriMesh& skin, const std::map<std::string, Vec3>& landmarks);
 
 /// The pocket of an opening for vertices at `points`: two rings behind the edge and a point.

@@ -35,6 +35,12 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
     ['symmetry.asymmetry_map.mesh_floor_face_rms_mm', 'of which the mesh alone makes', 'mm'],
     ['symmetry.asymmetry_map.rest_rms_mm', 'Asymmetry at rest, taken out (rms)', 'mm'],
   ]],
+  ['Tissue at the peak', [
+    ['at_peak.von_mises_stress_kpa.median', 'Von Mises stress, median', 'kPa'],
+    ['at_peak.von_mises_stress_kpa.p95', '95 % of the tissue below', 'kPa'],
+    ['at_peak.von_mises_stress_kpa.p99', '99 % below', 'kPa'],
+    ['at_peak.greatest_principal_strain.p95', 'Largest principal strain, 95 % below'],
+  ]],
   ['Mesh', [
     ['skin_vertices', 'Vertices of the skin'],
     ['nodes', 'Nodes'],
