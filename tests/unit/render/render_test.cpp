@@ -105,8 +105,10 @@ TEST(Render, ScalarsGoThroughTheMapAndNaNIsPlain) {
     const std::uint8_t* p = image.pixel(100, y);
     return std::array<int, 3>{p[0], p[1], p[2]};
   };
-  EXPECT_GT(hue(height, 60)[0], 2 * hue(height, 60)[2]);    // yellow at the top
-  EXPECT_GT(hue(height, 140)[2], 2 * hue(height, 140)[1]);  // violet at the bottom
+  const auto top = hue(height, 60), bottom = hue(height, 140);
+  EXPECT_GT(top[1], 3 * top[0] / 2);  // dark green at the top
+  EXPECT_GT(bottom[0], 2 * top[0]);   // pale at the bottom, where the lamps shine less
+  EXPECT_GT(bottom[0], bottom[2]);
   height.setConstant(std::numeric_limits<float>::quiet_NaN());
   const auto plain = hue(height, 100);
   EXPECT_EQ(plain[0], plain[1]);
