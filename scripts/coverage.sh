@@ -17,6 +17,7 @@ awk -F, 'NR > 1 {
     total[room] += $2; covered[room] += $3; all += $2; seen += $3
   }
   END {
+    if (!all) { print "coverage: no counts: make coverage" > "/dev/stderr"; exit 1 }
     for (room in total)
       printf "%-10s %6d lines %6.1f %%\n", room, total[room], 100 * covered[room] / total[room] | "sort"
     close("sort")

@@ -20,4 +20,10 @@ for ((i = 0; i < ${#rooms[@]}; ++i)); do
     status=1
   fi
 done
+# NDEBUG takes assert() out of the builds that users run; HX_ASSERT (core/assert.hpp) stays.
+if grep -rnE '(^|[^_a-zA-Z])assert\(|<cassert>' src/hyperex apps/hyperex --include='*.[ch]pp' |
+  grep -vE '^src/hyperex/core/(assert|error).hpp'; then
+  echo "expected HX_ASSERT"
+  status=1
+fi
 exit $status

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Three tiers of error. A bug of ours: assert(). A mistake in the input: InputError, one sentence
+// Three tiers of error. A bug of ours: HX_ASSERT. A mistake in the input: InputError, one sentence
 // naming file, key, value and what was expected. Numerical trouble: NumericalError, or better a
 // returned report.
 #include <filesystem>

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <vector>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex {
 
 /// The quantile at `share` (0 to 1) of at least one value, rising; linear between neighbours.
 inline double quantile_of_sorted(const std::vector<double>& sorted, double share) {
-  assert(!sorted.empty());
+  HX_ASSERT(!sorted.empty());
   const double position = share * static_cast<double>(sorted.size() - 1);
   const auto low = static_cast<std::size_t>(position);
   const std::size_t high = std::min(low + 1, sorted.size() - 1);
@@ -18,7 +19,7 @@ inline double quantile_of_sorted(const std::vector<double>& sorted, double share
 
 /// One of at least one value: the middle one, the upper of two.
 inline double median(std::vector<double> values) {
-  assert(!values.empty());
+  HX_ASSERT(!values.empty());
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

@@ -2,11 +2,12 @@
 #include "hyperex/face/canonical_face.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+
+#include "hyperex/core/assert.hpp"
 
 // Two small texts, made and kept as files, copied into the library by the assembler.
 __asm__(
@@ -127,7 +128,7 @@ const std::vector<int>& lip_contour() {
 
 Vec3 CanonicalFace::landmark(const std::string& name, const Points& vertices) const {
   const auto found = landmarks.find(name);
-  assert(found != landmarks.end());
+  HX_ASSERT(found != landmarks.end());
   Vec3 sum = Vec3::Zero();
   for (const int vertex : found->second) sum += vertices.row(vertex).transpose();
   return sum / double(found->second.size());

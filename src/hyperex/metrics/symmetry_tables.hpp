@@ -20,10 +20,11 @@ struct SymmetryMeasures {
 };
 
 /// CSV, a row a sample: time_s, xi_L, xi_R, S_ln, floor, S_floor (the larger of the next two),
-/// S_floor_jitter, S_floor_mesh, decided (1, 0, or empty without a floor), commissure_L_mm, commissure_R_mm,
-/// commissure_speed_L_mm_s, commissure_speed_R_mm_s, and with a map asymmetry_face_rms_mm,
-/// asymmetry_face_p95_mm, asymmetry_mouth_rms_mm, asymmetry_mouth_p95_mm. Empty where not measured
-/// or not defined; floors are empty where none is known. Samples of curve and map must be the same.
+/// S_floor_jitter, S_floor_mesh, decided (1, 0, or empty without a floor), commissure_L_mm,
+/// commissure_R_mm, commissure_speed_L_mm_s, commissure_speed_R_mm_s, and with a map
+/// asymmetry_face_rms_mm, asymmetry_face_p95_mm, asymmetry_mouth_rms_mm, asymmetry_mouth_p95_mm.
+/// Empty where not measured or not defined; floors are empty where none is known. Samples of curve
+/// and map must be the same.
 void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasures& measures);
 
 /// CSV, a row a pair of points: point; of L, R and as ratio_R_L: excursion_mm, path_mm,

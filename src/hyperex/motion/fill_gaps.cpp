@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::motion {
 
@@ -66,7 +67,7 @@ void fill(const Motion& from, Motion& to, int point, int first, int last, GapFil
 }  // namespace
 
 FilledMotion fill_gaps(const Motion& motion, const GapOptions& options) {
-  assert(options.max_gap_s >= 0);
+  HX_ASSERT(options.max_gap_s >= 0);
   check_steps(motion, options.max_gap_s);
   const int count = int(motion.time_s.size());
   FilledMotion result{motion, {}};

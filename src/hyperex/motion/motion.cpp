@@ -2,8 +2,8 @@
 #include "hyperex/motion/motion.hpp"
 
 #include <algorithm>
-#include <cassert>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 
 namespace hyperex::motion {
@@ -14,7 +14,7 @@ int Motion::index_of(const std::string& name) const {
 }
 
 Points Motion::at(double t) const {
-  assert(!time_s.empty() && time_s.size() == positions.size());
+  HX_ASSERT(!time_s.empty() && time_s.size() == positions.size());
   if (t <= time_s.front()) return positions.front();
   if (t >= time_s.back()) return positions.back();
   const std::size_t next = std::upper_bound(time_s.begin(), time_s.end(), t) - time_s.begin();

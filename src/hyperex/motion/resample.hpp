@@ -18,8 +18,8 @@ enum class Interpolation {
   monotone
 };
 
-/// First derivatives at rising times `t` of the C2 cubic splines through the columns of `y` (one row
-/// a time), zero at both ends.
+/// First derivatives at rising times `t` of the C2 cubic splines through the columns of `y` (one
+/// row a time), zero at both ends.
 Eigen::MatrixXd spline_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y);
 
 /// The positions of a motion as functions of time: built once, evaluated often. Before the first

@@ -24,7 +24,7 @@ struct Performance {
   /// The simulated tissue; empty where everything was measured.
   Points nodes;
   Tetrahedra tets;
-  std::vector<PointsF> node_displacement_m;             ///< per frame
+  std::vector<PointsF> node_displacement_m;                          ///< per frame
   std::vector<float> tet_young_pa, tet_poisson, tet_viscosity_pa_s;  ///< per tetrahedron
 
   /// Landmarks of the scan as the moved skin carries them, at the frame times.

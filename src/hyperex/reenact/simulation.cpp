@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <optional>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/form/inverted.hpp"
@@ -334,13 +334,13 @@ class Run {
 fem::Material TissueValues::material(std::size_t tets) const {
   fem::Material out;
   const auto fill = [&](std::vector<double>& values, tissue::Parameter parameter, double uniform) {
-    assert(element[parameter].empty() || element[parameter].size() == tets);
+    HX_ASSERT(element[parameter].empty() || element[parameter].size() == tets);
     if (element[parameter].empty())
       values.assign(tets, uniform);
     else
       values = element[parameter];
-    assert(std::all_of(values.begin(), values.end(),
-                       [&](double value) { return tissue::is_allowed(parameter, value); }));
+    HX_ASSERT(std::all_of(values.begin(), values.end(),
+                          [&](double value) { return tissue::is_allowed(parameter, value); }));
   };
   fill(out.young_pa, tissue::young, young_pa);
   fill(out.poisson, tissue::poisson, poisson);

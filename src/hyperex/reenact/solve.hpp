@@ -19,8 +19,8 @@ struct Solution {
 };
 
 /// `times_in_steps`: rising, from 0 to the drive's last step; linear between steps.
-Solution solve(fem::System system, const std::vector<int>& prescribed,
-               const fem::Drive& drive, const std::vector<double>& times_in_steps,
-               const SolverOptions& options, double dt_s);
+Solution solve(fem::System system, const std::vector<int>& prescribed, const fem::Drive& drive,
+               const std::vector<double>& times_in_steps, const SolverOptions& options,
+               double dt_s);
 
 }  // namespace hyperex::reenact

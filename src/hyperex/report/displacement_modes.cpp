@@ -2,8 +2,9 @@
 #include "hyperex/report/displacement_modes.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::report {
 namespace {
@@ -132,7 +133,8 @@ DisplacementModes displacement_modes(const std::vector<PointsF>& frames, double 
   const auto n = static_cast<Index>(frames.size());
   out.weights.resize(n, 0);
   if (n == 0 || frames.front().rows() == 0) return out;
-  for ([[maybe_unused]] const auto& frame : frames) assert(frame.rows() == frames.front().rows());
+  for ([[maybe_unused]] const auto& frame : frames)
+    HX_ASSERT(frame.rows() == frames.front().rows());
 
   const Eigen::MatrixXd basis = right_singular_vectors(frames);
   const Index k = modes_needed(frames, basis, basis.cols(), tolerance_m);

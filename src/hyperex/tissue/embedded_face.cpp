@@ -3,8 +3,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/subdivision_method_3.h>
 
-#include <cassert>
-
+#include "hyperex/core/assert.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 
 namespace hyperex::tissue {
@@ -27,7 +26,7 @@ TriMesh subdivided(const Points& control, const Triangles& triangles) {
     using V = Surface::Vertex_index;
     [[maybe_unused]] const auto made = surface.add_face(
         V(unsigned(triangles(f, 0))), V(unsigned(triangles(f, 1))), V(unsigned(triangles(f, 2))));
-    assert(made != Surface::null_face());
+    HX_ASSERT(made != Surface::null_face());
   }
   CGAL::Subdivision_method_3::Loop_subdivision(surface,
                                                CGAL::parameters::number_of_iterations(kRounds));

@@ -2,10 +2,11 @@
 #include "hyperex/tissue/lip_line.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::tissue {
 
@@ -145,7 +146,7 @@ std::vector<int> best_path(const Eigen::MatrixXd& crease, const std::vector<doub
 
 std::optional<LipLine> find_lip_line(const TriMesh& scan, const Points& guess,
                                      const Eigen::Matrix3d& scan_from_face) {
-  assert(guess.rows() >= 2);
+  HX_ASSERT(guess.rows() >= 2);
   const Points points = scan.points * scan_from_face, line = guess * scan_from_face;
   HeightMap map = height_map(points, scan.triangles, line);
   if (map.height.cols() < 20) return {};

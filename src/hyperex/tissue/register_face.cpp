@@ -3,12 +3,12 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <set>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
@@ -170,7 +170,7 @@ class Solver {
     Sparse normal(unknowns, unknowns);
     normal.setFromTriplets(entries.begin(), entries.end());
     factor_.compute(normal);
-    assert(factor_.info() == Eigen::Success);
+    HX_ASSERT(factor_.info() == Eigen::Success);
     const Maps maps = factor_.solve(right);
     Points moved(rest_.rows(), 3);
     for (Eigen::Index v = 0; v < rest_.rows(); ++v) {
@@ -235,7 +235,7 @@ RegisteredFace register_canonical_face(const io::Landmarks& given, const TriMesh
   std::vector<std::string> known;
   for (const auto& [name, position] : given)
     if (face.landmarks.contains(name)) known.push_back(name);
-  assert(known.size() >= 3);
+  HX_ASSERT(known.size() >= 3);
   Points there(Eigen::Index(known.size()), 3), here = there;
   for (std::size_t i = 0; i < known.size(); ++i) {
     there.row(Eigen::Index(i)) = given.at(known[i]).transpose();

@@ -5,9 +5,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <cassert>
 #include <limits>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 
 namespace hyperex::fem {
@@ -44,7 +44,7 @@ Assembler::Assembler(const Points& nodes, const Tetrahedra& tets, ElementKind ki
 
 Assembler::Assembler(const Points& nodes, const Tetrahedra& tets, const DilatationGroups& groups)
     : nodes_(nodes), shapes_(shapes_of(nodes, tets)), corners_(tets.rows()) {
-  assert(tets.rows() == 0 || (tets.minCoeff() >= 0 && tets.maxCoeff() < nodes.rows()));
+  HX_ASSERT(tets.rows() == 0 || (tets.minCoeff() >= 0 && tets.maxCoeff() < nodes.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
     for (int a = 0; a < 4; ++a) corners_[t][a] = tets(t, a);
   const Lists corner = corner_lists(tets);
@@ -232,8 +232,8 @@ void Assembler::fill_groups(int n, const std::vector<double>& stiffness, System&
 
 void Assembler::assemble(const Material& material, System& system) const {
   [[maybe_unused]] const auto count = static_cast<std::size_t>(element_count());
-  assert(material.young_pa.size() == count && material.poisson.size() == count);
-  assert(material.viscosity_pa_s.size() == count && material.density_kg_m3.size() == count);
+  HX_ASSERT(material.young_pa.size() == count && material.poisson.size() == count);
+  HX_ASSERT(material.viscosity_pa_s.size() == count && material.density_kg_m3.size() == count);
   const Lists& wide = stiffness_neighbours();
   const auto fits = [&](const SparseMatrix& m, const Lists& neighbours) {
     return m.cols() == 3 * node_count() && m.isCompressed() &&

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tbb/parallel_for.h>
 
-#include <cassert>
 #include <cmath>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/fem/form/assembler.hpp"
 
 namespace hyperex::fem {
@@ -15,7 +15,7 @@ Eigen::Matrix<double, 4, 3> Assembler::corner_values(const Points& d, Eigen::Ind
 }
 
 VoigtRows Assembler::strain(const Points& d) const {
-  assert(d.rows() == node_count());
+  HX_ASSERT(d.rows() == node_count());
   VoigtRows strain(element_count(), 6);
   tbb::parallel_for(Eigen::Index{0}, element_count(), [&](Eigen::Index t) {
     strain.row(t) = strain_of(shapes_[t], corner_values(d, t)).transpose();
@@ -53,12 +53,12 @@ Eigen::VectorXd Assembler::own_dilatation(const Points& d) const {
 }
 
 Eigen::VectorXd Assembler::dilatation(const Points& d) const {
-  assert(d.rows() == node_count());
+  HX_ASSERT(d.rows() == node_count());
   return groups_.size() > 0 ? spread(group_dilatation(d)) : own_dilatation(d);
 }
 
 Eigen::VectorXd Assembler::pressure_pa(const Material& material, const Points& d) const {
-  assert(d.rows() == node_count());
+  HX_ASSERT(d.rows() == node_count());
   const std::vector<Moduli> of_element = moduli(material);
   Eigen::VectorXd pressure = own_dilatation(d);
   for (Eigen::Index t = 0; t < pressure.size(); ++t)
@@ -112,7 +112,7 @@ System assemble(const Points& nodes, const Tetrahedra& tets, const Material& mat
 }
 
 VoigtRows element_strain(const Points& nodes, const Tetrahedra& tets, const Points& d) {
-  assert(d.rows() == nodes.rows());
+  HX_ASSERT(d.rows() == nodes.rows());
   VoigtRows strain(tets.rows(), 6);
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
     strain.row(t) =

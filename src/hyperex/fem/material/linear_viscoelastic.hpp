@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Dense>
-#include <cassert>
 #include <vector>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::fem {
 
@@ -22,12 +23,12 @@ struct Material {
 
 /// E / (2 (1 + nu))
 inline double shear_modulus_pa(double young_pa, double poisson) {
-  assert(young_pa > 0 && poisson > -1);
+  HX_ASSERT(young_pa > 0 && poisson > -1);
   return young_pa / (2 * (1 + poisson));
 }
 /// E / (3 (1 - 2 nu))
 inline double bulk_modulus_pa(double young_pa, double poisson) {
-  assert(young_pa > 0 && poisson < 0.5);
+  HX_ASSERT(young_pa > 0 && poisson < 0.5);
   return young_pa / (3 * (1 - 2 * poisson));
 }
 

@@ -6,7 +6,8 @@
 #include <tbb/parallel_for.h>
 
 #include <array>
-#include <cassert>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -15,9 +16,9 @@ constexpr int kParts = 4;
 
 Eigen::MatrixXd inner_products(const Eigen::Ref<const Eigen::MatrixXd>& a,
                                const Eigen::Ref<const Eigen::MatrixXd>& b) {
-  assert(a.rows() == b.rows());
   const int m = static_cast<int>(a.cols()), n = static_cast<int>(b.cols());
   if (m == 0 || n == 0) return Eigen::MatrixXd::Zero(m, n);
+  HX_ASSERT(a.rows() == b.rows());
   std::array<Eigen::MatrixXd, kParts> part;
   tbb::parallel_for(0, kParts, [&](int i) {
     const Eigen::Index from = a.rows() * i / kParts, to = a.rows() * (i + 1) / kParts;
@@ -31,8 +32,9 @@ Eigen::MatrixXd inner_products(const Eigen::Ref<const Eigen::MatrixXd>& a,
 
 void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::MatrixXd& b,
                  double factor, Eigen::Ref<Eigen::MatrixXd> out) {
-  assert(a.cols() == b.rows() && out.rows() == a.rows() && out.cols() == b.cols());
+  HX_ASSERT(a.cols() == b.rows() && out.cols() == b.cols());
   if (a.cols() == 0 || b.cols() == 0) return;
+  HX_ASSERT(out.rows() == a.rows());
   tbb::parallel_for(0, kParts, [&](int i) {
     const Eigen::Index from = a.rows() * i / kParts, to = a.rows() * (i + 1) / kParts;
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, static_cast<int>(to - from),
@@ -44,7 +46,7 @@ void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Matrix
 
 Eigen::MatrixXd symmetric_product(const SparseMatrix& s,
                                   const Eigen::Ref<const Eigen::MatrixXd>& b) {
-  assert(s.cols() == b.rows());
+  HX_ASSERT(s.cols() == b.rows());
   // By rows, so that one entry of S meets neighbouring numbers.
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Rows in = b;

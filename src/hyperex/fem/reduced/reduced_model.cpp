@@ -2,9 +2,9 @@
 #include "hyperex/fem/reduced/reduced_model.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/fem/reduced/basis.hpp"
 #include "hyperex/fem/reduced/reduced_newmark.hpp"
 
@@ -218,8 +218,8 @@ void ReducedModel::refill(System system) {
 }
 
 Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {
-  assert(drive.steps() >= 1 && options.tolerance > 0);
-  assert(drive.prescribed.rows() == static_cast<Eigen::Index>(factor_.prescribed().size()));
+  HX_ASSERT(drive.steps() >= 1 && options.tolerance > 0);
+  HX_ASSERT(drive.prescribed.rows() == static_cast<Eigen::Index>(factor_.prescribed().size()));
   Growth growth(system_, factor_, drive, options);
   growth.begin();
   double error = 0;

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <vector>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/one_thread.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
@@ -81,13 +81,13 @@ struct Cholesky::Impl {
 
 Cholesky::Cholesky(const SparseMatrix& lower, std::string purpose, std::vector<int> order)
     : impl_(std::make_unique<Impl>()) {
-  assert(lower.rows() == lower.cols() && lower.isCompressed());
+  HX_ASSERT(lower.rows() == lower.cols() && lower.isCompressed());
   impl_->purpose = std::move(purpose);
   impl_->permuted.resize(static_cast<std::size_t>(lower.cols()));
   if (lower.cols() == 0) return;
   cholmod_sparse view = cholmod_view(lower);
   if (!order.empty()) {
-    assert(static_cast<Eigen::Index>(order.size()) == lower.cols());
+    HX_ASSERT(static_cast<Eigen::Index>(order.size()) == lower.cols());
     impl_->common.method[0].ordering = CHOLMOD_GIVEN;
   }
   impl_->factor =
@@ -103,7 +103,7 @@ Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 
 int Cholesky::factorize(const SparseMatrix& lower) {
   Impl& m = *impl_;
-  assert(lower.cols() == size());
+  HX_ASSERT(lower.cols() == size());
   if (size() == 0) return -1;
   cholmod_sparse view = cholmod_view(lower);
   cholmod_factorize(&view, m.factor, &m.common);
@@ -117,7 +117,7 @@ int Cholesky::factorize(const SparseMatrix& lower) {
 
 void Cholesky::solve(Eigen::VectorXd& x) {
   Impl& m = *impl_;
-  assert(x.size() == size());
+  HX_ASSERT(x.size() == size());
   if (size() == 0) return;
   const auto* perm = static_cast<const int*>(m.factor->Perm);
   for (int i = 0; i < size(); ++i) m.permuted[i] = x[perm[i]];
@@ -127,7 +127,7 @@ void Cholesky::solve(Eigen::VectorXd& x) {
 
 void Cholesky::solve(Eigen::MatrixXd& x) {
   Impl& m = *impl_;
-  assert(x.rows() == size());
+  HX_ASSERT(x.rows() == size());
   if (size() == 0 || x.cols() == 0) return;
   cholmod_dense b{};
   b.nrow = b.d = static_cast<std::size_t>(x.rows());

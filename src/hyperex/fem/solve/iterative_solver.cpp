@@ -6,8 +6,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cassert>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 
 namespace hyperex::fem {
@@ -69,7 +69,7 @@ IterativeSolver::IterativeSolver(const SparseMatrix& a, const Partition& partiti
       options_(options),
       a_(a, partition),
       schwarz_(a_, points_of(a_, nodes), options.subdomain_nodes, purpose_) {
-  assert(3 * nodes.rows() == a.cols());
+  HX_ASSERT(3 * nodes.rows() == a.cols());
 }
 
 int IterativeSolver::factorize(const SparseMatrix& a) {
@@ -82,7 +82,7 @@ int IterativeSolver::factorize(const SparseMatrix& a) {
 
 void IterativeSolver::solve(Eigen::MatrixXd& x, const Eigen::MatrixXd& guess) {
   last_iterations_ = 0;
-  assert(guess.cols() == 0 || (guess.cols() == x.cols() && guess.rows() == x.rows()));
+  HX_ASSERT(guess.cols() == 0 || (guess.cols() == x.cols() && guess.rows() == x.rows()));
   for (Eigen::Index from = 0; from < x.cols(); from += kTogether)
     solve_together(x.middleCols(from, std::min(kTogether, x.cols() - from)), guess, from);
 }

@@ -4,7 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <cassert>
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -32,7 +32,7 @@ void rows_of(const int* column, const double* block, int blocks, const Columns& 
 
 NodeBlocks::NodeBlocks(const SparseMatrix& a, const Partition& partition)
     : index_(partition.unknowns() / 3, -1) {
-  assert(partition.unknowns() % 3 == 0);
+  HX_ASSERT(partition.unknowns() % 3 == 0);
   for (int n = 0; n < partition.unknowns() / 3; ++n) {
     const int* free = partition.free_index.data() + 3 * n;
     if (free[0] < 0 && free[1] < 0 && free[2] < 0) continue;
@@ -43,7 +43,7 @@ NodeBlocks::NodeBlocks(const SparseMatrix& a, const Partition& partition)
   start_.assign(1, 0);
   for (const int n : nodes_) {
     for (int k = a.outerIndexPtr()[3 * n]; k < a.outerIndexPtr()[3 * n + 1]; k += 3) {
-      assert(a.innerIndexPtr()[k] % 3 == 0);
+      HX_ASSERT(a.innerIndexPtr()[k] % 3 == 0);
       const int other = index_[a.innerIndexPtr()[k] / 3];
       if (other >= 0) column_.push_back(other);
     }

@@ -3,8 +3,7 @@
 
 #include <cholmod.h>
 
-#include <cassert>
-
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
 
@@ -27,7 +26,7 @@ struct Common : cholmod_common {
 }  // namespace
 
 NodeOrder order_by_nodes(const SparseMatrix& lower, const std::vector<int>& node_of) {
-  assert(static_cast<Eigen::Index>(node_of.size()) == lower.cols());
+  HX_ASSERT(static_cast<Eigen::Index>(node_of.size()) == lower.cols());
   NodeOrder out;
   if (node_of.empty()) return out;
   std::vector<int> first, group(node_of.size());  // nodes numbered without gaps

@@ -2,7 +2,8 @@
 #include "hyperex/fem/solve/partition.hpp"
 
 #include <algorithm>
-#include <cassert>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -37,15 +38,15 @@ SparseMatrix free_rows(const SparseMatrix& a, const Partition& partition,
 
 Partition::Partition(int unknowns, std::vector<int> prescribed_)
     : prescribed(std::move(prescribed_)), free_index(unknowns, 0) {
-  assert(std::is_sorted(prescribed.begin(), prescribed.end()));
-  assert(prescribed.empty() || (prescribed.front() >= 0 && prescribed.back() < unknowns));
+  HX_ASSERT(std::is_sorted(prescribed.begin(), prescribed.end()));
+  HX_ASSERT(prescribed.empty() || (prescribed.front() >= 0 && prescribed.back() < unknowns));
   for (const int c : prescribed) free_index[c] = -1;
   for (int i = 0; i < unknowns; ++i)
     if (free_index[i] == 0) {
       free_index[i] = static_cast<int>(free.size());
       free.push_back(i);
     }
-  assert(free.size() + prescribed.size() == free_index.size());
+  HX_ASSERT(free.size() + prescribed.size() == free_index.size());
 }
 
 SparseMatrix free_lower(const SparseMatrix& a, const Partition& partition) {
@@ -57,14 +58,14 @@ SparseMatrix coupling(const SparseMatrix& a, const Partition& partition) {
 }
 
 SparseMatrix combined(const System& system, double damping_share, double mass_share) {
-  assert(system.damping.nonZeros() == system.mass.nonZeros());
+  HX_ASSERT(system.damping.nonZeros() == system.mass.nonZeros());
   SparseMatrix a = system.stiffness;
   for (Eigen::Index column = 0; column < a.cols(); ++column) {
     int at = a.outerIndexPtr()[column];
     for (int k = system.damping.outerIndexPtr()[column];
          k < system.damping.outerIndexPtr()[column + 1]; ++k) {
       while (a.innerIndexPtr()[at] < system.damping.innerIndexPtr()[k]) ++at;
-      assert(at < a.outerIndexPtr()[column + 1]);
+      HX_ASSERT(at < a.outerIndexPtr()[column + 1]);
       a.valuePtr()[at] +=
           damping_share * system.damping.valuePtr()[k] + mass_share * system.mass.valuePtr()[k];
     }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/solve/node_order.hpp"
@@ -39,7 +40,7 @@ void PartitionedFactor::pick(const SparseMatrix& a, const SparseMatrix& lower, c
   NodeOrder order = order_by_nodes(lower, node_of);
   forecast_ = {order.entries, order.flops, static_cast<double>(lower.nonZeros())};
   const bool can_choose = nodes.rows() > 0;
-  assert(can_choose || wanted != LinearSolver::iterative);
+  HX_ASSERT(can_choose || wanted != LinearSolver::iterative);
   if (can_choose && pick_linear_solver(wanted, forecast_, available_memory_bytes() + spare_bytes) ==
                         LinearSolver::iterative)
     iterative_.emplace(a, partition_, nodes, purpose_);

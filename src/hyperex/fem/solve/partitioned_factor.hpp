@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <cassert>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/fem/solve/cholesky.hpp"
 #include "hyperex/fem/solve/iterative_solver.hpp"
 #include "hyperex/fem/solve/linear_solver.hpp"
@@ -43,7 +43,7 @@ class PartitionedFactor {
   int last_iterations() const { return iterative_ ? iterative_->last_iterations() : 0; }
   /// Only where solver() is cholesky.
   const Cholesky& cholesky() const {
-    assert(cholesky_);
+    HX_ASSERT(cholesky_);
     return *cholesky_;
   }
 

@@ -7,7 +7,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cassert>
 #include <span>
 
 #include "hyperex/fem/solve/node_order.hpp"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/solve/static_solve.hpp"
 
-#include <cassert>
-
+#include "hyperex/core/assert.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 
 namespace hyperex::fem {
@@ -26,7 +25,7 @@ Eigen::VectorXd StaticSolver::solve(const Eigen::VectorXd& prescribed_values,
   const auto& free = impl_->factor.free();
   const auto& prescribed = impl_->factor.prescribed();
   Eigen::VectorXd all(static_cast<Eigen::Index>(free.size() + prescribed.size()));
-  assert(force.size() == 0 || force.size() == all.size());
+  HX_ASSERT(force.size() == 0 || force.size() == all.size());
   Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
   if (force.size() > 0) x = force(free);
   x.noalias() -= impl_->oc * prescribed_values;

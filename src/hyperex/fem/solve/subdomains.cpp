@@ -2,9 +2,10 @@
 #include "hyperex/fem/solve/subdomains.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 #include <span>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -38,7 +39,7 @@ void halve(const Points& points, std::span<int> nodes, int parts, std::vector<in
 }  // namespace
 
 Subdomains overlapping_subdomains(const NodeBlocks& a, const Points& points, int target) {
-  assert(points.rows() == a.node_count() && target > 0);
+  HX_ASSERT(points.rows() == a.node_count() && target > 0);
   Subdomains out;
   const int count = a.node_count();
   if (count == 0) return out;

@@ -4,13 +4,13 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <cassert>
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::fem {
 
 InertiaRows::InertiaRows(const System& system) {
   const SparseMatrix& c = system.damping;
-  assert(c.cols() % 3 == 0 && c.nonZeros() % 9 == 0);
+  HX_ASSERT(c.cols() % 3 == 0 && c.nonZeros() % 9 == 0);
   start_.assign(1, 0);
   for (Eigen::Index n = 0; n < c.cols() / 3; ++n)
     start_.push_back(start_.back() + (c.outerIndexPtr()[3 * n + 1] - c.outerIndexPtr()[3 * n]) / 3);
@@ -20,7 +20,7 @@ InertiaRows::InertiaRows(const System& system) {
 
 void InertiaRows::refill(const System& system) {
   const SparseMatrix &c = system.damping, &m = system.mass;
-  assert(c.nonZeros() == m.nonZeros() && c.nonZeros() == 9 * static_cast<int>(pair_.size()));
+  HX_ASSERT(c.nonZeros() == m.nonZeros() && c.nonZeros() == 9 * static_cast<int>(pair_.size()));
   tbb::parallel_for(std::size_t{0}, start_.size() - 1, [&](std::size_t n) {
     for (int axis = 0; axis < 3; ++axis) {
       // Both are symmetric: column r is row r.
@@ -29,7 +29,7 @@ void InertiaRows::refill(const System& system) {
         pair_[k].node = c.innerIndexPtr()[at] / 3;
         for (int j = 0; j < 3; ++j) {
           pair_[k].damping[3 * axis + j] = c.valuePtr()[at + j];
-          assert(axis == j || m.valuePtr()[at + j] == 0);
+          HX_ASSERT(axis == j || m.valuePtr()[at + j] == 0);
         }
         pair_[k].mass = m.valuePtr()[at + axis];
       }

@@ -2,8 +2,8 @@
 #include "hyperex/fem/time/newmark.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
-#include <cassert>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 #include "hyperex/fem/time/inertia.hpp"
@@ -128,7 +128,7 @@ struct Newmark::Impl {
 
 Newmark::Newmark(System system, std::vector<int> prescribed, const NewmarkOptions& options,
                  LinearSolver wanted) {
-  assert(options.dt_s > 0 && options.gamma >= 0.5 && 2 * options.beta >= options.gamma);
+  HX_ASSERT(options.dt_s > 0 && options.gamma >= 0.5 && 2 * options.beta >= options.gamma);
   impl_ = std::make_unique<Impl>(std::move(system), std::move(prescribed), options, wanted);
 }
 Newmark::~Newmark() = default;
@@ -146,7 +146,7 @@ void Newmark::refill(System system) {
 void Newmark::start(const Eigen::VectorXd& d, const Eigen::VectorXd& v,
                     const Eigen::VectorXd& prescribed_acceleration, const Eigen::VectorXd& force) {
   Kinematics& state = impl_->state;
-  assert(d.size() == state.d.size() && v.size() == d.size());
+  HX_ASSERT(d.size() == state.d.size() && v.size() == d.size());
   state.d = d;
   state.v = v;
   state.a(impl_->factor.prescribed()) = prescribed_acceleration;
@@ -154,9 +154,9 @@ void Newmark::start(const Eigen::VectorXd& d, const Eigen::VectorXd& v,
 }
 
 void Newmark::step(const Kinematics& next, const Eigen::VectorXd& force) {
-  assert(next.d.size() == static_cast<Eigen::Index>(impl_->factor.prescribed().size()));
-  assert(next.v.size() == next.d.size() && next.a.size() == next.d.size());
-  assert(force.size() == 0 || force.size() == impl_->state.d.size());
+  HX_ASSERT(next.d.size() == static_cast<Eigen::Index>(impl_->factor.prescribed().size()));
+  HX_ASSERT(next.v.size() == next.d.size() && next.a.size() == next.d.size());
+  HX_ASSERT(force.size() == 0 || force.size() == impl_->state.d.size());
   impl_->advance(next, force);
 }
 
@@ -165,7 +165,7 @@ void Newmark::step(const Eigen::VectorXd& prescribed_next, const Eigen::VectorXd
   const Kinematics& state = impl_->state;
   const auto& prescribed = impl_->factor.prescribed();
   Kinematics& next = impl_->own;
-  assert(prescribed_next.size() == next.d.size());
+  HX_ASSERT(prescribed_next.size() == next.d.size());
   for (std::size_t i = 0; i < prescribed.size(); ++i) {
     const int n = prescribed[i];
     next.d[i] = prescribed_next[i];
@@ -178,7 +178,7 @@ void Newmark::step(const Eigen::VectorXd& prescribed_next, const Eigen::VectorXd
 void Newmark::set_state(const Eigen::VectorXd& d, const Eigen::VectorXd& v,
                         const Eigen::VectorXd& a) {
   Kinematics& state = impl_->state;
-  assert(d.size() == state.d.size() && v.size() == d.size() && a.size() == d.size());
+  HX_ASSERT(d.size() == state.d.size() && v.size() == d.size() && a.size() == d.size());
   state = {d, v, a};
 }
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <cassert>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/geometry/transform.hpp"
@@ -141,7 +141,7 @@ Points smoothed(const FaceModel& model, const Points& shape, const VertexMean& m
 
 Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& camera,
                          const std::vector<Observation>& frames, const NeutralOptions& options) {
-  assert(!frames.empty());
+  HX_ASSERT(!frames.empty());
   Neutral neutral;
   const auto scale = scale_from_depth(model, camera, frames);
   neutral.metric = scale.has_value();

@@ -30,8 +30,8 @@ Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& came
                          const std::vector<Observation>& frames,
                          const NeutralOptions& options = {});
 
-/// Throws InputError where depth puts the outer corners of the eyes less than 50 or more than 150 mm
-/// apart: the depth's unit or the camera is not as stated then.
+/// Throws InputError where depth puts the outer corners of the eyes less than 50 or more than 150
+/// mm apart: the depth's unit or the camera is not as stated then.
 void check_size(const FaceModel& model, const Neutral& neutral);
 
 }  // namespace hyperex::tracking

@@ -2,9 +2,10 @@
 #include "hyperex/tracking/fit/vertex_system.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <map>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::tracking {
 
@@ -86,7 +87,7 @@ std::vector<Eigen::Index> VertexSystem::slots(const SparseMatrix& pattern) const
     const int* begin = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column];
     const int* end = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column + 1];
     const int* at = std::lower_bound(begin, end, int(row));
-    assert(at != end && *at == int(row));
+    HX_ASSERT(at != end && *at == int(row));
     found.push_back(at - pattern.innerIndexPtr());
   };
   for (Eigen::Index v = 0; v < vertex_count(); ++v)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/tracking/model/face_model.hpp"
 
-#include <cassert>
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::tracking {
 
@@ -13,7 +13,7 @@ int FaceModel::animation_unit(const std::string& unit_name) const {
 
 Points deformed(const Points& base, const std::vector<DeformationUnit>& units,
                 const Eigen::VectorXd& weights) {
-  assert(weights.size() == Eigen::Index(units.size()));
+  HX_ASSERT(weights.size() == Eigen::Index(units.size()));
   Points points = base;
   for (std::size_t k = 0; k < units.size(); ++k) {
     const double weight = weights[Eigen::Index(k)];
@@ -25,7 +25,7 @@ Points deformed(const Points& base, const std::vector<DeformationUnit>& units,
 }
 
 Vec3 landmark_at(const std::vector<int>& vertices, const Points& points) {
-  assert(!vertices.empty());
+  HX_ASSERT(!vertices.empty());
   Vec3 sum = Vec3::Zero();
   for (const int vertex : vertices) sum += points.row(vertex).transpose();
   return sum / double(vertices.size());

@@ -14,8 +14,8 @@ namespace hyperex::tracking {
 struct ScanLandmarkOptions {
   /// The sides from which the face is seen, about its own front: yaw to the subject's left, pitch
   /// upwards, degrees. Each is looked at twice, the second time in the mirror.
-  std::vector<std::pair<double, double>> views_deg = {{0, 0},   {-12, 0}, {12, 0}, {-25, 0},
-                                                      {25, 0},  {0, 12},  {0, -12}};
+  std::vector<std::pair<double, double>> views_deg = {{0, 0},  {-12, 0}, {12, 0}, {-25, 0},
+                                                      {25, 0}, {0, 12},  {0, -12}};
   /// A view whose point is so far from where the others see it counts half, m.
   double tolerance_m = 4e-3;
 };
