@@ -140,10 +140,11 @@ bool Reader::take_file() {
   if (!fs::exists(scene.file, error)) return fail(0, "an existing scene file");
   if (fs::is_directory(scene.file, error)) return fail(0, "a scene file; this is a folder");
   if (const std::string kind = other_kind(scene.file); !kind.empty())
-    return fail(0, fmt::format("a scene file, which names a scan and a recording; this is a {0}. "
-                               "Put {0} = {{ file = '{1}' }} into a file that ends in .toml "
-                               "(docs/scene.md)",
-                               kind == "scan" ? "scan" : "motion", scene.file.filename().string()));
+    return fail(
+        0, fmt::format("a scene file, which names a scan and a recording; this is a {}. "
+                       "Put {} = {{ file = '{}' }} into a file that ends in .toml "
+                       "(docs/scene.md)",
+                       kind, kind == "scan" ? "scan" : "motion", scene.file.filename().string()));
   TomlValues values;
   try {
     values = parse_toml(read_file(scene.file));
