@@ -18,7 +18,8 @@ using VertexColours = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowM
 /// plain. The mesh is referred to, not copied.
 struct Surface {
   const TriMesh& mesh;
-  Eigen::VectorXf scalar = {};  ///< one a vertex, through the map moss over `range`; NaN: plain there
+  Eigen::VectorXf scalar =
+      {};  ///< one a vertex, through the map moss over `range`; NaN: plain there
   Range range = {};
   VertexColours colours = {};
   Colour plain = palette::skin;
