@@ -23,10 +23,12 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
     ['lip_opening_mm', 'Lips open by', 'mm'],
     ['lip_overlap_mm', 'Lips pass through each other by', 'mm'],
     ['jaw_opening_deg', 'Jaw opens by', '°'],
-    ['rigid_points_rms_mm', 'Points on bone, residual (rms)', 'mm'],
+    ['head_shift_uncertainty_mm', 'Head’s place known to (95 %)', 'mm'],
+    ['head_turn_uncertainty_deg', 'Head’s turn known to (95 %)', '°'],
   ]],
   ['Symmetry', [
     ['symmetry.verdict', 'Verdict on ξ'],
+    ['symmetry.lowpass_hz', 'Speeds filtered below', 'Hz'],
     ['symmetry.S_most', 'Largest S'],
     ['symmetry.S_most_at_s', 'at', 's'],
     ['symmetry.undecided_samples', 'Undecided samples'],

@@ -124,6 +124,12 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
     used.forEach((column, c) => {
       const made = figureCell(row[column.key], column);
       const value = row[column.key];
+      if (column.key === 'added_xi_difference' && i > 0 && Number(row.added_xi_decided ?? 1) === 0) {
+        made.replaceChildren(element('span', 'undecided', 'undecided'));
+        made.title = `${made.title}: below what the mesh alone makes`;
+        line.append(made);
+        return;
+      }
       if (column !== insideOut) made.className = 'quantity';
       if (isNumber(value) && most[c] > 0) made.style.setProperty('--share', String(Math.abs(value) / most[c]));
       line.append(made);
