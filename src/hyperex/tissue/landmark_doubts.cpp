@@ -20,6 +20,10 @@ namespace {
 // only five are given, 5 mm on lips, eyes and nose of a full set).
 constexpr double kSamePlace_m = 5e-3, kOffSurface_m = 5e-3;
 constexpr double kSurprise_m = 7e-3, kDeviations = 3.5;
+// Of a few landmarks each is predicted less well, and fewer can be odd by chance: true ones are at
+// most 2.0 standard deviations off there.
+constexpr double kDeviationsOfFew = 2.75;
+constexpr std::size_t kFew = 20;
 /// More doubtful ones than this share, and the set as a whole is in doubt.
 constexpr double kManyShare = 1.0 / 3;
 
@@ -66,8 +70,9 @@ void doubt_surprises(io::Landmarks given, Doubts& doubts) {
   for (;;) {
     const LandmarkSurprise* worst = nullptr;
     const auto surprises = landmark_surprises(given);
+    const double most = surprises.size() <= kFew ? kDeviationsOfFew : kDeviations;
     for (const auto& surprise : surprises)
-      if (surprise.distance_m > kSurprise_m && surprise.deviations > kDeviations &&
+      if (surprise.distance_m > kSurprise_m && surprise.deviations > most &&
           (worst == nullptr || surprise.deviations > worst->deviations))
         worst = &surprise;
     if (worst == nullptr) return;

@@ -31,8 +31,9 @@ std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given);
 /// and what to do; the most doubtful first. Three questions:
 ///  * two names of one place (face::same_place) are more than 5 mm apart: the one that the others
 ///    put farther off is named;
-///  * a landmark is more than 7 mm and 3.5 standard deviations from where the others put it
-///    (landmark_surprises), the worst being left out before the next is judged;
+///  * a landmark is more than 7 mm and 3.5 standard deviations (2.75 of at most 20 landmarks) from
+///    where the others put it (landmark_surprises), the worst being left out before the next is
+///    judged;
 ///  * a landmark is more than 5 mm off the scan's surface.
 /// Nothing is refused here: complete_landmarks does that, with far wider bounds.
 std::vector<std::string> landmark_doubts(const io::Landmarks& given, const TriMesh& scan);

@@ -85,7 +85,7 @@ TEST(WithRest, TakesTheMeanWhereTheStartIsAtRest) {
   // Noise of 0.2 mm about rest in the first 0.3 s.
   Motion m =
       smile([](double t) { return t < 0.3 ? 0.02 * std::cos(t * 30 * std::numbers::pi) : 1; });
-  const RestedMotion rested = with_rest(m, {0, 0.23});
+  const RestedMotion rested = with_rest(m, {0, 0.19});
   EXPECT_EQ(rested.lead_s, 0);
   EXPECT_EQ(rested.motion.time_s, m.time_s);
   EXPECT_NEAR((rested.motion.positions.front() - kFace).cwiseAbs().maxCoeff(), 0, 1e-9);
