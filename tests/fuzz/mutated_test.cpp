@@ -70,7 +70,9 @@ TEST_P(Mutated, StartFromInputsThatAreSound) {
   const bool can_be_taken = reader.name != "picture";
   int taken = 0;
   for (const std::string& seed : reader.seeds) taken += try_input(reader, folder_, seed);
-  if (can_be_taken) EXPECT_GE(taken, 1) << reader.name;
+  if (can_be_taken) {
+    EXPECT_GE(taken, 1) << reader.name;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Reader, Mutated, testing::ValuesIn(readers()),
