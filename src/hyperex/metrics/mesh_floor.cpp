@@ -69,7 +69,7 @@ double added_mesh_floor(const SymmetryCurve& variant, const SymmetryCurve& base)
   for (size_t i = 0; i < own.size(); ++i) {
     Stretches apart;
     for (size_t k = 0; k < apart.size(); ++k) apart[k] = own[i][k] - other[i][k];
-    if (const double sum = half_sum(apart); sum > most) most = sum;
+    most = std::max(most, 2 * half_sum(apart));
   }
   return most;
 }

@@ -41,7 +41,8 @@ void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::
                     const motion::Motion& twin);
 
 /// The floor of what a variant adds to xi_L - xi_R: with p the remainders of the variant less those
-/// of the base, the greatest over time of 1/2 sum |p|. NaN where either has no twin.
+/// of the base, the greatest over time of sum |p|: twice the bound for a symmetric motion in
+/// symmetric tissue, as there the difference may equal the bound. NaN where either has no twin.
 double added_mesh_floor(const SymmetryCurve& variant, const SymmetryCurve& base);
 
 }  // namespace hyperex::metrics
