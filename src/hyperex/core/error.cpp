@@ -10,7 +10,7 @@
 namespace hyperex {
 
 namespace {
-constexpr std::size_t most_quoted = 120, most_problems = 20;
+constexpr std::size_t most_quoted = 120, most_problems = 20, most_in_line = 900;
 }
 
 std::string InputProblem::sentence() const {
@@ -20,7 +20,8 @@ std::string InputProblem::sentence() const {
   if (!value.empty()) what += (key.empty() ? "" : " = ") + printable(value, most_quoted);
   std::string text = where;
   if (!what.empty()) text += (text.empty() ? "" : ": ") + what;
-  return text + (text.empty() ? "expected " : ": expected ") + expected;
+  // A path, and what is expected, may hold names from files too.
+  return printable(text + (text.empty() ? "expected " : ": expected ") + expected, most_in_line);
 }
 
 namespace {

@@ -42,6 +42,8 @@ TEST(InputError, KeepsLongNamesAndControlCharactersOutOfTheTerminal) {
       InputError({"s.toml", 1, std::string(10'000'000, 'k'), "\x1b[31mred", "2"}).what();
   EXPECT_LT(what.size(), 300u);
   EXPECT_TRUE(what.ends_with("... = \\x1b[31mred: expected 2")) << what;
+  EXPECT_EQ((InputProblem{"a.wfm", 0, "", "", "unit \x01"}.sentence()),
+            "a.wfm: expected unit \\x01");
   EXPECT_LT(std::string(InputError("s.toml", std::string(100000, 'x')).what()).size(), 1000u);
 }
 
