@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build asan tsan coverage lint fresh fuzz bench experiments fidelity mutations clean setup
+.PHONY: help demo test build asan tsan coverage lint fresh fuzz bench experiments fidelity mutations interop clean setup
 
 # Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
 ifneq ($(shell test -w "$$HOME" && echo yes),yes)
@@ -23,7 +23,8 @@ demo: build ## re-enact a mouth opening on the face that comes with the program
 	@echo
 	@echo "The face moves. Open in a browser:"
 	@echo "  $(CURDIR)/out/demo/report.html"
-	@echo "In Blender or any glTF viewer: out/demo/performance.glb; in ParaView: out/demo/frames.pvd."
+	@echo "In Blender or any glTF viewer: out/demo/performance.glb; in ParaView: out/demo/frames.pvd"
+	@echo "(there the filter Warp By Vector moves the tissue)."
 	@echo "Your own face next: see 'Your own data' in README.md."
 
 build: setup ## the program alone: build/release/bin/hyperex
@@ -92,6 +93,10 @@ fidelity: build ## errors against true faces, into the table of docs/fidelity.md
 
 mutations: ## perturb formulas one at a time and show that a test fails for each (ONLY=name: some)
 	tests/mutations/run.sh $(ONLY)
+
+interop: build ## open what a run writes in ParaView and Blender, and check Slicer's landmarks
+	scripts/setup.sh --interop
+	tests/interop/run.sh $(PROGRAM)
 
 setup: ## install what building takes (asks for sudo where you are not root)
 	scripts/setup.sh

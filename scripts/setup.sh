@@ -6,6 +6,7 @@
 #   scripts/setup.sh --tests   also what the tests take (--video, a browser, CalculiX)
 #   scripts/setup.sh --fuzz    also clang and libFuzzer
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
+#   scripts/setup.sh --interop  also the programs that make interop opens files in: ParaView, Blender
 #   scripts/setup.sh --lint    also clang-format, clang-tidy and gcovr (with --tests)
 # Says first what it will install and how large it is, installs only what is missing, and is quick
 # when nothing is.
@@ -42,8 +43,9 @@ case "${1:-}" in
     ;;
   --fuzz) packages+=(clang libclang-rt-14-dev) ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
-  -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) die "unknown option $1 (there are --video, --tests, --fuzz, --bench and --lint)" ;;
+  --interop) packages+=(paraview python3-paraview blender python3-numpy) ;;
+  -h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) die "unknown option $1 (there are --video, --tests, --fuzz, --bench, --interop and --lint)" ;;
 esac
 
 node_is_enough() {

@@ -235,8 +235,7 @@ void write_picture(const Options& options, const Surfaces& surfaces, const io::L
   std::cerr << "picture: " << options.picture.string() << '\n';
 }
 
-void run(Options options) {
-  if (!options.json && options.picture.empty()) options.picture = "compare.png";
+void run(const Options& options) {
   if (options.baseline &&
       (!options.corresponding || options.rest.empty() || options.landmarks.empty()))
     throw InputError(InputProblem{"compare", 0, "--baseline", "",
@@ -274,7 +273,7 @@ void add_compare(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "compare",
       "Distance from surface A to surface B, or between vertices of the same index, overall and by "
-      "region of the face, as a table or JSON, with a coloured picture.");
+      "region of the face, as a table or JSON, and on demand as a coloured picture.");
   command->add_option("A", options->a, "Surface that is scored (PLY, OBJ, STL, glTF)")->required();
   command->add_option("B", options->b, "Surface that it is measured against")->required();
   command->add_option("--landmarks", options->landmarks,
@@ -287,7 +286,7 @@ void add_compare(CLI::App& program) {
       "beyond its number are taken as appended and left out");
   command->add_flag("--json", options->json, "Print JSON and nothing else on standard output");
   command->add_option("--picture", options->picture,
-                      "Coloured picture (default: compare.png, none with --json)");
+                      "Write a coloured picture of the distance here (.png)");
   command->add_option("--unit", options->unit, "Unit of the surfaces (default: guessed by size)")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command->add_flag("--baseline", options->baseline,
@@ -295,7 +294,7 @@ void add_compare(CLI::App& program) {
                     "landmarks' true displacement (with --corresponding, --rest and --landmarks)");
   command->footer(
       "Example:\n  hyperex compare --corresponding --rest scan.ply out/a/skin_peak.ply truth.ply "
-      "--landmarks landmarks.json --json");
+      "--landmarks landmarks.json --picture distance.png");
   command->callback([options] { run(*options); });
 }
 

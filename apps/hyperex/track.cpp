@@ -156,7 +156,8 @@ std::vector<std::filesystem::path> inputs_of(const Options& options) {
 void run(const Options& options) {
   if (!options.outputs.any() && options.plots.empty() && options.score.empty())
     throw InputError(
-        "hyperex track: nothing to do: give --out, --trc, --preview, --glb, --plots or --score");
+        "hyperex track: nothing to do: give --out, --trc, --preview, --glb, --livelink, --plots or "
+        "--score");
   if (options.json && options.score.empty())
     throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
   check_outputs(outputs_of(options), inputs_of(options));

@@ -8,6 +8,7 @@
 #include "hyperex/io/trc.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/report/tracked_glb.hpp"
+#include "hyperex/tracking/output/live_link.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -31,7 +32,7 @@ void write_trc(const std::filesystem::path& file, const motion::Motion& motion) 
 }  // namespace
 
 std::vector<std::filesystem::path> TrackOutputs::files() const {
-  std::vector<std::filesystem::path> all = {motion, trc, preview, glb};
+  std::vector<std::filesystem::path> all = {motion, trc, preview, glb, live_link};
   if (!motion.empty())
     for (const char* kind : {"pose", "units", "arkit"}) all.push_back(beside(motion, kind));
   return all;
@@ -49,6 +50,8 @@ void add_output_options(CLI::App& command, TrackOutputs& outputs) {
   command.add_option(
       "--glb", outputs.glb,
       "Write the moving face here (.glb), the head's pose in the animation of its node");
+  command.add_option("--livelink", outputs.live_link,
+                     "Write ARKit's blend-shape weights here as Live Link Face records them (CSV)");
   command.add_flag("--vertices", outputs.vertices, "The model's vertices too, as vertex_K");
 }
 
@@ -71,12 +74,13 @@ void write_outputs(const TrackOutputs& outputs, const tracking::FaceModel& model
   }
   if (!outputs.trc.empty()) write_trc(outputs.trc, motion);
   if (!outputs.glb.empty()) report::write_tracked_glb(outputs.glb, model, tracking, camera);
+  if (!outputs.live_link.empty()) tracking::write_live_link_csv(outputs.live_link, model, tracking);
   if (quiet) return;
   if (!outputs.motion.empty())
     std::cout << fmt::format(
         "written: {} (points, mm), and beside it .pose.csv, .units.csv and .arkit.csv\n",
         outputs.motion.string());
-  for (const auto& file : {outputs.trc, outputs.preview, outputs.glb})
+  for (const auto& file : {outputs.trc, outputs.preview, outputs.glb, outputs.live_link})
     if (!file.empty()) std::cout << fmt::format("written: {}\n", file.string());
 }
 

@@ -14,12 +14,15 @@ namespace hyperex::cli {
 /// The files that `hyperex track` writes, each where it is named.
 struct TrackOutputs {
   std::filesystem::path motion;  ///< CSV, with tables beside it
-  std::filesystem::path trc, preview, glb;
+  std::filesystem::path trc, preview, glb, live_link;
   bool vertices = false;  ///< in the motion too
 
   /// Every file, those beside the motion among them; some empty.
   std::vector<std::filesystem::path> files() const;
-  bool any() const { return !motion.empty() || !trc.empty() || !preview.empty() || !glb.empty(); }
+  bool any() const {
+    return !motion.empty() || !trc.empty() || !preview.empty() || !glb.empty() ||
+           !live_link.empty();
+  }
 };
 
 void add_output_options(CLI::App& command, TrackOutputs& outputs);

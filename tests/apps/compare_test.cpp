@@ -111,13 +111,19 @@ TEST_F(Program, ComparesByRegionsOfTheScanAtRest) {
   EXPECT_FALSE(nlohmann::json::parse(call(files).out).contains("baseline"));
 }
 
-TEST_F(Program, PrintsATableAndDrawsAPicture) {
+TEST_F(Program, PrintsATableAndDrawsAPictureWhereAskedAlone) {
   write_sheet("a.ply", 0);
   write_sheet("b.ply", 0.003);
   const Outcome found = call("compare a.ply b.ply --unit mm");
   ASSERT_EQ(found.status, 0) << found.err;
   EXPECT_THAT(found.out, HasSubstr("surface       3.000    3.000"));
-  EXPECT_TRUE(fs::exists(in("compare.png")));
+  const auto entries = [&] {
+    return std::distance(fs::directory_iterator(in("")), fs::directory_iterator());
+  };
+  EXPECT_EQ(entries(), 2) << "no file that was not asked for";
+  EXPECT_EQ(call("compare a.ply b.ply --unit mm --picture p.png").out, found.out);
+  EXPECT_THAT(read_file(in("p.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(entries(), 3);
 }
 
 TEST_F(Program, RefusesInOneLine) {

@@ -12,7 +12,13 @@ const files = process.env.GLB
 
 for (const file of files) {
   test(`${file} is valid glTF with a moving face`, async () => {
-    const report = await validator.validateBytes(new Uint8Array(await readFile(file)));
+    const bytes = await readFile(file);
+    const length = bytes.readUInt32LE(12);
+    const gltf = JSON.parse(bytes.subarray(20, 20 + length).toString());
+    const names = gltf.meshes[0].extras.targetNames;
+    assert.ok(names.length > 0);
+    for (const name of names) assert.match(name, /^pose_[0-9]+\.[0-9]+s$/);
+    const report = await validator.validateBytes(new Uint8Array(bytes));
     const told = report.issues.messages.filter((m) => m.severity <= 1);
     assert.deepEqual(told, [], 'errors and warnings');
     assert.equal(report.info.animationCount, 1);

@@ -15,12 +15,6 @@ namespace {
 
 using Eigen::Index;
 
-PointsF spread(const PointsF& skin, const std::vector<int>& skin_vertex) {
-  PointsF out(static_cast<Index>(skin_vertex.size()), 3);
-  for (std::size_t i = 0; i < skin_vertex.size(); ++i) out.row(i) = skin.row(skin_vertex[i]);
-  return out;
-}
-
 /// glTF's COLOR_0 is linear, scans store sRGB; 16 bits keep the dark tones apart.
 int add_colours(GltfArrays& arrays, const reenact::Performance& performance, const io::Scan& scan) {
   const auto srgb = skin_colour(performance, scan);
@@ -57,16 +51,6 @@ int add_texture(tinygltf::Model& model, GltfArrays& arrays, const io::Image& pic
   return 0;
 }
 
-void add_targets(tinygltf::Mesh& mesh, GltfArrays& arrays, const SkinView& view,
-                 const PointsF& rest, const PointsF& rest_normals, const Triangles& skin_triangles,
-                 const DisplacementModes& modes) {
-  std::vector<PointsF> positions, normals;
-  for (const PointsF& mode : modes.modes) positions.push_back(spread(mode, view.skin_vertex));
-  for (const PointsF& mode : normal_modes(rest, rest_normals, skin_triangles, modes))
-    normals.push_back(spread(mode, view.skin_vertex));
-  add_morph_targets(mesh, arrays, positions, normals, modes.weights.row(0).transpose());
-}
-
 void check(const reenact::Performance& performance, const DisplacementModes& modes) {
   const auto frames = static_cast<Index>(performance.frame_time_s.size());
   if (!modes.modes.empty() && (modes.weights.rows() != frames ||
@@ -75,7 +59,8 @@ void check(const reenact::Performance& performance, const DisplacementModes& mod
 }
 
 tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan& scan,
-                         const DisplacementModes& modes) {
+                         const DisplacementModes& modes, const GlbOptions& options,
+                         GlbReport& report) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "hyperex";
@@ -106,12 +91,18 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
   mesh.name = "skin";
   mesh.primitives.push_back(skin);
   if (!modes.modes.empty()) {
-    add_targets(mesh, arrays, view, rest, rest_normals, performance.skin_rest.triangles, modes);
+    const double copies = double(view.skin_vertex.size()) / double(rest.rows());
+    const PoseTargets targets = pose_targets(performance.skin_rest, performance.skin_displacement_m,
+                                             performance.frame_time_s, modes, options.tolerance_m,
+                                             options.max_bytes - double(arrays.bytes()), copies);
+    report.keys = targets.names.size();
+    report.max_error_m = targets.keys.max_error_m;
+    add_morph_targets(mesh, arrays, targets, view.skin_vertex);
     tinygltf::Animation animation;
     animation.name = "performance";
     const double start_s = performance.frame_time_s.front();
     const int times = arrays.times(performance.frame_time_s, start_s);
-    animate(animation, 0, "weights", times, arrays.rows_as_scalars(modes.weights));
+    animate(animation, 0, "weights", times, arrays.rows_as_scalars(targets.keys.weights));
     model.animations.push_back(animation);
   }
   model.meshes.push_back(mesh);
@@ -128,13 +119,17 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
 
 }  // namespace
 
-void write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
-               const io::Scan& scan, const DisplacementModes& modes) {
+GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
+                    const io::Scan& scan, const DisplacementModes& modes,
+                    const GlbOptions& options) {
   check(performance, modes);
-  const tinygltf::Model model = model_of(performance, scan, modes);
+  GlbReport report;
+  const tinygltf::Model model = model_of(performance, scan, modes, options, report);
   write_file_atomically(file, [&](std::ostream& stream) {
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
+    report.bytes = static_cast<double>(stream.tellp());
   });
+  return report;
 }
 
 }  // namespace hyperex::report

@@ -8,15 +8,30 @@
 
 namespace hyperex::report {
 
-/// Writes the moving skin as binary glTF 2.0, metres: one mesh with `modes` (of
-/// performance.skin_displacement_m) as morph targets, their weights animated linearly at the frame
-/// times counted from the first frame. Normals move too: the targets' normal deltas are the
-/// least-squares fit to the true normals of all frames. With the scan's texture (vertices split at
+struct GlbOptions {
+  double tolerance_m = 1e-4;  ///< of any vertex in any frame
+  double max_bytes = 20e6;    ///< of the file
+};
+
+/// What was written.
+struct GlbReport {
+  std::size_t keys = 0;
+  double max_error_m = 0;  ///< largest distance of any vertex in any frame from its true place
+  double bytes = 0;
+};
+
+/// Writes the moving skin as binary glTF 2.0, metres: one mesh, whose morph targets are poses of
+/// the performance (pose_keys.hpp), named by their times ("pose_0.933s"), with weights from 0 to 1,
+/// animated linearly at the frame times counted from the first frame. As few poses as
+/// options.tolerance_m allows; where they would take more than options.max_bytes fewer, and the
+/// report tells the error that remains, but always one. `modes` are those of
+/// performance.skin_displacement_m. Normals move too. With the scan's texture (vertices split at
 /// seams, the skin's order kept by extras.skin_vertices otherwise) or its vertex colours, else a
 /// plain skin tone. A performance without motion is written as a still mesh. Throws InputError
 /// where the file cannot be written, std::invalid_argument where performance, scan and modes do not
 /// belong together.
-void write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
-               const io::Scan& scan, const DisplacementModes& modes);
+GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
+                    const io::Scan& scan, const DisplacementModes& modes,
+                    const GlbOptions& options = {});
 
 }  // namespace hyperex::report

@@ -2,12 +2,19 @@
 #include "hyperex/report/gltf_parts.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 
 #include "hyperex/report/skin_view.hpp"
 
 namespace hyperex::report {
 
 using Eigen::Index;
+
+namespace {
+/// Bytes of an index and a vector in a sparse accessor, and of a vector in another.
+constexpr std::size_t kSparse = 16, kDense = 12;
+}  // namespace
 
 GltfArrays::GltfArrays(tinygltf::Model& model) : model_(model) {
   model_.buffers.emplace_back();
@@ -51,6 +58,25 @@ int GltfArrays::vectors(const PointsF& rows, bool with_range) {
   return at;
 }
 
+int GltfArrays::few_vectors(const PointsF& rows, float least) {
+  std::vector<std::uint32_t> indices;
+  for (Index v = 0; v < rows.rows(); ++v)
+    if (rows.row(v).norm() >= least) indices.push_back(static_cast<std::uint32_t>(v));
+  const auto vertices = static_cast<std::size_t>(rows.rows());
+  if (indices.empty() || kSparse * indices.size() >= kDense * vertices) return vectors(rows, false);
+  PointsF values(static_cast<Index>(indices.size()), 3);
+  for (std::size_t i = 0; i < indices.size(); ++i) values.row(Index(i)) = rows.row(indices[i]);
+  const int at = accessor(-1, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, vertices);
+  auto& sparse = model_.accessors[static_cast<std::size_t>(at)].sparse;
+  sparse.isSparse = true;
+  sparse.indices.byteOffset = sparse.values.byteOffset = 0;
+  sparse.count = static_cast<int>(indices.size());
+  sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  sparse.indices.bufferView = view(indices.data(), 4 * indices.size());
+  sparse.values.bufferView = view(values.data(), 12 * indices.size());
+  return at;
+}
+
 int GltfArrays::triangles(const Triangles& rows) {
   const int at = view(rows.data(), rows.size() * sizeof(int), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
   return accessor(at, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, rows.size());
@@ -87,27 +113,62 @@ int GltfArrays::rows_as_vectors(const Eigen::MatrixXf& rows) {
   return at;
 }
 
-std::vector<PointsF> normal_modes(const PointsF& rest, const PointsF& rest_normals,
-                                  const Triangles& triangles, const DisplacementModes& modes) {
-  const Eigen::MatrixXf inverse =
-      modes.weights.cast<double>().completeOrthogonalDecomposition().pseudoInverse().cast<float>();
-  std::vector<PointsF> out(modes.modes.size(), PointsF::Zero(rest.rows(), 3));
-  for (Index f = 0; f < modes.weights.rows(); ++f) {
-    const PointsF change = vertex_normals(rest + modes.displacement(f), triangles) - rest_normals;
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] += inverse(k, f) * change;
-  }
+namespace {
+/// Of a normal's change: about half a degree.
+constexpr float kLeastNormal = 0.01F;
+
+std::size_t longer_than(const PointsF& rows, float least) {
+  return static_cast<std::size_t>((rows.rowwise().norm().array() >= least).count());
+}
+
+}  // namespace
+
+PointsF spread(const PointsF& skin, const std::vector<int>& vertices) {
+  PointsF out(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) out.row(Index(i)) = skin.row(vertices[i]);
   return out;
 }
 
-void add_morph_targets(tinygltf::Mesh& mesh, GltfArrays& arrays,
-                       const std::vector<PointsF>& positions, const std::vector<PointsF>& normals,
-                       const Eigen::VectorXf& first_weights) {
+PoseTargets pose_targets(const TriMesh& rest, const std::vector<PointsF>& displacements,
+                         const std::vector<double>& time_s, const DisplacementModes& modes,
+                         double tolerance_m, double max_bytes, double copies) {
+  constexpr double kJson = 700;  // accessors, views and name of a key
+  const PointsF at_rest = rest.points.cast<float>();
+  const PointsF rest_normals = vertex_normals(at_rest, rest.triangles);
+  std::map<int, PointsF> normals;
+  double spent = 0;
+  const auto take = [&](int frame) {
+    PointsF change =
+        vertex_normals(at_rest + displacements[std::size_t(frame)], rest.triangles) - rest_normals;
+    const auto vertices = static_cast<std::size_t>(change.rows());
+    const double bytes =
+        copies * double(kDense * vertices +
+                        std::min(kDense * vertices, kSparse * longer_than(change, kLeastNormal))) +
+        double(sizeof(float) * time_s.size()) + kJson;
+    if (spent + bytes > max_bytes && !normals.empty()) return false;
+    spent += bytes;
+    normals[frame] = std::move(change);
+    return true;
+  };
+  PoseTargets targets;
+  targets.keys = pose_keys(displacements, modes, tolerance_m, take);
+  for (const int frame : targets.keys.frames) {
+    targets.positions.push_back(displacements[std::size_t(frame)]);
+    targets.normals.push_back(std::move(normals.at(frame)));
+  }
+  targets.names = pose_names(targets.keys, time_s);
+  return targets;
+}
+
+void add_morph_targets(tinygltf::Mesh& mesh, GltfArrays& arrays, const PoseTargets& targets,
+                       const std::vector<int>& vertices) {
   tinygltf::Value::Array names;
-  for (std::size_t k = 0; k < positions.size(); ++k) {
-    mesh.primitives[0].targets.push_back({{"POSITION", arrays.vectors(positions[k], true)},
-                                          {"NORMAL", arrays.vectors(normals[k], false)}});
-    mesh.weights.push_back(first_weights[Index(k)]);
-    names.emplace_back("mode_" + std::to_string(k));
+  for (std::size_t k = 0; k < targets.positions.size(); ++k) {
+    mesh.primitives[0].targets.push_back(
+        {{"POSITION", arrays.vectors(spread(targets.positions[k], vertices), true)},
+         {"NORMAL", arrays.few_vectors(spread(targets.normals[k], vertices), kLeastNormal)}});
+    mesh.weights.push_back(targets.keys.weights(0, Index(k)));
+    names.emplace_back(targets.names[k]);
   }
   mesh.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(names)}});
 }

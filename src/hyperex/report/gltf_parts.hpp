@@ -8,6 +8,7 @@
 
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/report/displacement_modes.hpp"
+#include "hyperex/report/pose_keys.hpp"
 
 namespace hyperex::report {
 
@@ -21,6 +22,10 @@ class GltfArrays {
   int accessor(int view, int component, int type, std::size_t count, bool normalised = false);
   /// Vertex attributes; `with_range`: with least and greatest values, as positions need.
   int vectors(const PointsF& rows, bool with_range);
+  /// Vertex attributes most of which are nearly 0: those shorter than `least` are 0 and, where that
+  /// is smaller, not stored (a sparse accessor).
+  int few_vectors(const PointsF& rows, float least);
+  std::size_t bytes() const { return model_.buffers[0].data.size(); }
   int triangles(const Triangles& rows);
   /// Key times of an animation, counted from `start_s`.
   int times(const std::vector<double>& time_s, double start_s);
@@ -33,16 +38,27 @@ class GltfArrays {
   tinygltf::Model& model_;
 };
 
-/// D_k, |V| x 3 each, that minimise over all frames f the sum of squares of
-/// sum_k w_fk D_k - (normals(f) - normals at rest): D = W^+ dN.
-std::vector<PointsF> normal_modes(const PointsF& rest, const PointsF& rest_normals,
-                                  const Triangles& triangles, const DisplacementModes& modes);
+/// A moving surface as morph targets: keys, and what moves.
+struct PoseTargets {
+  PoseKeys keys;
+  std::vector<PointsF> positions, normals;  ///< of each key, what is added to those at rest
+  std::vector<std::string> names;
+};
 
-/// Morph targets mode_0, mode_1 ... of the mesh's first primitive, and the weights of a player that
-/// plays nothing.
-void add_morph_targets(tinygltf::Mesh& mesh, GltfArrays& arrays,
-                       const std::vector<PointsF>& positions, const std::vector<PointsF>& normals,
-                       const Eigen::VectorXf& first_weights);
+/// Of the surface at rest and its displacements over time. Keys after the first are left out
+/// where all would take more than `max_bytes`; `copies` of each vertex are written (1.2: a fifth of
+/// them twice).
+PoseTargets pose_targets(const TriMesh& rest, const std::vector<PointsF>& displacements,
+                         const std::vector<double>& time_s, const DisplacementModes& modes,
+                         double tolerance_m, double max_bytes, double copies = 1);
+
+/// Morph targets of the mesh's first primitive, a vertex of it for each of `vertices`, and the
+/// weights of a player that plays nothing.
+void add_morph_targets(tinygltf::Mesh& mesh, GltfArrays& arrays, const PoseTargets& targets,
+                       const std::vector<int>& vertices);
+
+/// Rows of a skin's vertices.
+PointsF spread(const PointsF& skin, const std::vector<int>& vertices);
 
 /// Adds a channel: `path` of `node` by the accessors of times and values.
 void animate(tinygltf::Animation& animation, int node, const std::string& path, int times,

@@ -2,6 +2,7 @@
 #include "hyperex/report/tracked_glb.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "hyperex/core/files.hpp"
@@ -14,6 +15,8 @@ namespace {
 using Eigen::Index;
 using tracking::TrackedFrame;
 using tracking::Tracking;
+
+constexpr double kMaxBytes = 20e6;
 
 enum Nodes : int { camera_node, camera_frame_node, head_node };
 
@@ -67,7 +70,7 @@ Eigen::MatrixXf rotations(const std::vector<const TrackedFrame*>& shown) {
 }
 
 void animate_head(tinygltf::Model& model, GltfArrays& arrays, const Tracking& tracking,
-                  const std::vector<const TrackedFrame*>& shown, const DisplacementModes& modes) {
+                  const std::vector<const TrackedFrame*>& shown, const PoseTargets& targets) {
   std::vector<double> times;
   Eigen::MatrixXf places(Index(shown.size()), 3);
   for (const TrackedFrame* frame : shown) {
@@ -80,14 +83,14 @@ void animate_head(tinygltf::Model& model, GltfArrays& arrays, const Tracking& tr
   animation.name = "tracked";
   animate(animation, head_node, "translation", keys, arrays.rows_as_vectors(places));
   animate(animation, head_node, "rotation", keys, arrays.rows_as_vectors(rotations(shown)));
-  if (!modes.modes.empty())
-    animate(animation, head_node, "weights", keys, arrays.rows_as_scalars(modes.weights));
+  if (!targets.names.empty())
+    animate(animation, head_node, "weights", keys, arrays.rows_as_scalars(targets.keys.weights));
   animate_validity(animation, arrays, tracking);
   model.animations.push_back(animation);
 }
 
 void add_face(tinygltf::Model& model, GltfArrays& arrays, const TriMesh& face,
-              const DisplacementModes& modes) {
+              const PoseTargets& targets) {
   const PointsF rest = face.points.cast<float>();
   const PointsF normals = vertex_normals(rest, face.triangles);
   tinygltf::Primitive skin;
@@ -100,9 +103,11 @@ void add_face(tinygltf::Model& model, GltfArrays& arrays, const TriMesh& face,
   tinygltf::Mesh mesh;
   mesh.name = "face";
   mesh.primitives.push_back(skin);
-  if (!modes.modes.empty())
-    add_morph_targets(mesh, arrays, modes.modes, normal_modes(rest, normals, face.triangles, modes),
-                      modes.weights.row(0).transpose());
+  if (!targets.names.empty()) {
+    std::vector<int> all(std::size_t(rest.rows()));
+    std::iota(all.begin(), all.end(), 0);
+    add_morph_targets(mesh, arrays, targets, all);
+  }
   model.meshes.push_back(mesh);
 }
 
@@ -144,15 +149,19 @@ void write_tracked_glb(const std::filesystem::path& file, const tracking::FaceMo
     throw std::invalid_argument("write_tracked_glb: no neutral face of this model");
   const Points& rest = tracking.neutral->points_m;
   const auto shown = frames_shown(tracking);
-  const DisplacementModes modes = displacement_modes(displacements(shown, rest), tolerance_m);
+  const std::vector<PointsF> motion = displacements(shown, rest);
+  std::vector<double> time_s;
+  for (const TrackedFrame* frame : shown) time_s.push_back(frame->time_s);
+  const PoseTargets targets = pose_targets({rest, model.mesh.triangles}, motion, time_s,
+                                           displacement_modes(motion), tolerance_m, kMaxBytes);
   tinygltf::Model gltf;
   gltf.asset.version = "2.0";
   gltf.asset.generator = "hyperex";
   GltfArrays arrays(gltf);
-  add_face(gltf, arrays, {rest, model.mesh.triangles}, modes);
+  add_face(gltf, arrays, {rest, model.mesh.triangles}, targets);
   add_nodes(gltf, camera,
             shown.empty() ? Eigen::Isometry3d::Identity() : shown.front()->camera_from_head);
-  if (!shown.empty()) animate_head(gltf, arrays, tracking, shown, modes);
+  if (!shown.empty()) animate_head(gltf, arrays, tracking, shown, targets);
   write_file_atomically(file, [&](std::ostream& stream) {
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&gltf, stream, false, true);
   });

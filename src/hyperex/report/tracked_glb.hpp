@@ -12,8 +12,9 @@ namespace hyperex::report {
 ///   recording_camera   a camera with the recording's field of view, to look through
 ///   camera_frame       the camera's own frame: x right, y down, z forward
 ///     head             camera_from_head, animated; its mesh is the person's face at rest (+x the
-///                      subject's left, +y up, +z forward) with the modes of its motion as morph
-///                      targets (displacement_modes.hpp, to `tolerance_m`), their weights animated
+///                      subject's left, +y up, +z forward) with poses of its motion as morph
+///                      targets (pose_keys.hpp, to `tolerance_m`, or as many as fit into 20 MB),
+///                      their weights animated
 /// Times are counted from the recording's first frame, and keys are at the valid ones. Where frames
 /// are not valid the head's scale is 0: nothing is shown then. Valid frames whose time does not
 /// rise are left out. Throws InputError where the file cannot be written, std::invalid_argument

@@ -245,18 +245,37 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   render::write_png(file, render::contact_sheet(sheet));
 }
 
-void write_outputs(const Results& r, const std::filesystem::path& directory) {
+nlohmann::ordered_json glb_json(const report::GlbReport& glb) {
+  return {{"keys", glb.keys},
+          {"largest_error_mm", 1e3 * glb.max_error_m},
+          {"size_mb", 1e-6 * glb.bytes}};
+}
+
+std::string glb_note(const OutputOptions& output, const report::GlbReport& glb) {
+  if (glb.max_error_m <= output.glb_tolerance_m) return {};
+  return fmt::format(
+      "performance.glb shows the motion to {:.2f} mm in place of {:g} mm "
+      "(output.glb_tolerance_mm): "
+      "its {} shape keys fill output.glb_max_mb = {:g}",
+      1e3 * glb.max_error_m, 1e3 * output.glb_tolerance_m, glb.keys, output.glb_max_mb);
+}
+
+std::optional<report::GlbReport> write_outputs(const Results& r,
+                                               const std::filesystem::path& directory) {
   const Performance& p = r.simulation.performance;
   write_peak(r, directory);
   motion::write_motion_csv(directory / "motion.csv", p.landmarks);
   metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
   metrics::write_excursions_csv(directory / "excursions.csv", r.symmetry.excursions);
   if (r.scene.output.vtu) write_frames(r, directory);
+  std::optional<report::GlbReport> glb;
   if (r.scene.output.glb)
-    report::write_glb(directory / "performance.glb", p, r.inputs.scan, r.modes);
+    glb = report::write_glb(directory / "performance.glb", p, r.inputs.scan, r.modes,
+                            {r.scene.output.glb_tolerance_m, 1e6 * r.scene.output.glb_max_mb});
   if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
   Progress progress("drawing the contact sheet", 0);
   write_contact_sheet(r, directory / "contact_sheet.png");
+  return glb;
 }
 
 }  // namespace hyperex::scene

@@ -2,10 +2,13 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/reenact/simulation.hpp"
 #include "hyperex/report/displacement_modes.hpp"
+#include "hyperex/report/glb.hpp"
 #include "hyperex/scene/inputs.hpp"
 #include "hyperex/scene/mirrored_twin.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -25,8 +28,16 @@ struct Results {
   std::vector<std::string> warnings = {};       ///< those of `notes` that nobody should overlook
 };
 
-/// Writes all files but summary.json and report.html into `directory`.
-void write_outputs(const Results& results, const std::filesystem::path& directory);
+/// Writes all files but summary.json and report.html into `directory`, and tells of
+/// performance.glb; nothing where that is not wanted.
+std::optional<report::GlbReport> write_outputs(const Results& results,
+                                               const std::filesystem::path& directory);
+
+/// "glb" of summary.json: keys, largest_error_mm, size_mb.
+nlohmann::ordered_json glb_json(const report::GlbReport& glb);
+
+/// A warning where output.glb_max_mb left less than output.glb_tolerance_mm asks for; else empty.
+std::string glb_note(const OutputOptions& output, const report::GlbReport& glb);
 
 /// Where the simulation ends, from the start of the motion.
 double run_end_s(const Scene& scene, const Inputs& inputs);

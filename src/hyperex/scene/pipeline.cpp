@@ -285,7 +285,8 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Json summary = summary_of(results);
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.
-  run_both([&] { write_outputs(results, directory); },
+  std::optional<report::GlbReport> glb;
+  run_both([&] { glb = write_outputs(results, directory); },
            [&] {
              if (variants.empty()) return;
              Stopwatch own;
@@ -293,6 +294,10 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
              seconds["variants"] = own.lap();
              summary["variants"] = write_variants(results, variants, mesh, directory);
            });
+  if (glb) {
+    summary["glb"] = glb_json(*glb);
+    if (const auto note = glb_note(scene.output, *glb); !note.empty()) warn({note}, results);
+  }
   if (!variants.empty()) warn(idle_variants(summary["variants"]["table"]), results);
   seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();

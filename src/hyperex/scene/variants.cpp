@@ -163,7 +163,7 @@ std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& input
     run.scene.title = variant.name;
     run.folder = variant.folder;
     run.scene.output.vtu = run.scene.output.vtu && run.scene.output.variants_vtu;
-    run.scene.output.glb = run.scene.output.report = false;
+    run.scene.output.report = false;
     run.inputs = inputs_of_variant(variant.scene, inputs);
     run.field = fields.of(variant.scene, fmt::format("variant[{}].", runs.size()));
     runs.push_back(std::move(run));
@@ -271,15 +271,18 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
                     const tissue::TissueMesh& mesh, const fs::path& directory) {
   const ResponsePair pair = response_pair(base);
   std::vector<VariantComparison> compared(runs.size());
+  std::vector<std::optional<report::GlbReport>> glb(runs.size());
   Progress progress("writing variants", 0);
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
     const VariantRun& run = runs[i];
-    const Results results{run.scene,    run.inputs, mesh, run.simulation,
-                          run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
+    Results results{run.scene,    run.inputs, mesh, run.simulation,
+                    run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
+    if (run.scene.output.glb)
+      results.modes = report::displacement_modes(run.simulation.performance.skin_displacement_m);
     compared[i] = compare_variant(run.scene.title, base, results, pair);
     const fs::path folder = directory / "variants" / run.folder;
     fs::create_directories(folder);
-    write_outputs(results, folder);
+    glb[i] = write_outputs(results, folder);
   });
   const VariantComparison own = compare_variant("base", base, base, pair);
   write_table(directory / "variants.csv", own, compared, pair);
@@ -294,6 +297,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
     one["folder"] = "variants/" + runs[i].folder;
     one["changes"] = echoed_changes(base.scene, base.scene.variants[i].changes);
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
+    if (glb[i]) one["glb"] = glb_json(*glb[i]);
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");
     json["table"].push_back(one);
   }

@@ -37,6 +37,21 @@ auto rows_of(const tinygltf::Model& model, int accessor) {
   return Rows(Eigen::Map<const Rows>(data, static_cast<Eigen::Index>(a.count), Columns));
 }
 
+/// Vectors of an accessor, whether all are stored or only those that are not 0.
+PointsF vectors_of(const tinygltf::Model& model, int accessor) {
+  const auto& a = model.accessors.at(accessor);
+  if (!a.sparse.isSparse) return rows_of<float, 3>(model, accessor);
+  const auto bytes = [&](int view) {
+    return model.buffers[0].data.data() + model.bufferViews.at(view).byteOffset;
+  };
+  const auto* index = reinterpret_cast<const unsigned*>(bytes(a.sparse.indices.bufferView));
+  const auto* value = reinterpret_cast<const float*>(bytes(a.sparse.values.bufferView));
+  PointsF rows = PointsF::Zero(static_cast<Eigen::Index>(a.count), 3);
+  for (int i = 0; i < a.sparse.count; ++i)
+    rows.row(index[i]) << value[3 * i], value[3 * i + 1], value[3 * i + 2];
+  return rows;
+}
+
 /// What a player shows in a frame, from the file alone.
 PointsF played(const tinygltf::Model& model, const std::string& attribute, int frame) {
   const auto& skin = model.meshes[0].primitives[0];
@@ -45,7 +60,7 @@ PointsF played(const tinygltf::Model& model, const std::string& attribute, int f
   PointsF out = rows_of<float, 3>(model, skin.attributes.at(attribute));
   for (std::size_t k = 0; k < skin.targets.size(); ++k)
     out += weights[frame * static_cast<Eigen::Index>(skin.targets.size()) + k] *
-           rows_of<float, 3>(model, skin.targets[k].at(attribute));
+           vectors_of(model, skin.targets[k].at(attribute));
   return out;
 }
 
@@ -53,7 +68,10 @@ TEST(Glb, PlaysThePerformance) {
   const auto face = made_up_face(Surface::plain);
   const auto modes = displacement_modes(face.performance.skin_displacement_m);
   const auto file = scratch("plays.glb");
-  write_glb(file, face.performance, face.scan, modes);
+  const GlbReport report =
+      write_glb(file, face.performance, face.scan, modes, {.tolerance_m = 2e-5});
+  EXPECT_LE(report.max_error_m, 2e-5);
+  EXPECT_EQ(report.bytes, double(std::filesystem::file_size(file)));
   const auto model = read_back(file);
   const auto times = rows_of<float, 1>(model, model.animations.at(0).samplers.at(0).input);
   ASSERT_EQ(times.size(), 31);
@@ -67,6 +85,45 @@ TEST(Glb, PlaysThePerformance) {
     // Fitted normals: within 3 degrees of the true ones, where those at rest are off by 14.
     EXPECT_GT(shown.cwiseProduct(normals).rowwise().sum().minCoeff(), std::cos(0.052)) << f;
   }
+}
+
+TEST(Glb, KeysArePosesWithTheirTimesForNamesAndWeightsFromZeroToOne) {
+  const auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const auto file = scratch("keys.glb");
+  const GlbReport report = write_glb(file, face.performance, face.scan, modes);
+  const auto model = read_back(file);
+  const auto& names = model.meshes[0].extras.Get("targetNames");
+  ASSERT_EQ(names.ArrayLen(), report.keys);
+  const auto weights = rows_of<float, 1>(model, model.animations.at(0).samplers.at(0).output);
+  EXPECT_GE(weights.minCoeff(), 0);
+  EXPECT_EQ(weights.maxCoeff(), 1);
+  const auto keys = static_cast<Eigen::Index>(report.keys);
+  for (Eigen::Index k = 0; k < keys; ++k) {
+    const auto name = names.Get(int(k)).Get<std::string>();
+    ASSERT_TRUE(name.starts_with("pose_") && name.ends_with("s")) << name;
+    const auto frame = std::lround(30 * std::stod(name.substr(5)));  // frames come at 30 Hz
+    EXPECT_EQ(weights[frame * keys + k], 1) << "the face in that frame is the key";
+    const auto at = model.meshes[0].primitives[0].targets[std::size_t(k)].at("POSITION");
+    EXPECT_TRUE(vectors_of(model, at) == face.performance.skin_displacement_m[std::size_t(frame)]);
+  }
+}
+
+TEST(Glb, LeavesKeysOutWhereTheFileWouldBeTooLargeAndTellsTheError) {
+  auto face = made_up_face(Surface::plain);
+  auto& frames = face.performance.skin_displacement_m;
+  for (std::size_t f = 0; f < frames.size(); ++f)  // jitter, which no other frame has
+    for (Eigen::Index i = 0; i < frames[f].size(); ++i)
+      frames[f].data()[i] += 5e-4F * float(std::sin(0.1 * double((f + 1) * (f + 7)) * double(i)));
+  const auto modes = displacement_modes(frames);
+  const auto file = scratch("small.glb");
+  const GlbReport whole = write_glb(file, face.performance, face.scan, modes, {2e-4, 1e9});
+  EXPECT_LE(whole.max_error_m, 2e-4);
+  const GlbReport small = write_glb(file, face.performance, face.scan, modes, {2e-4, 3e5});
+  EXPECT_LE(small.bytes, 3e5);
+  EXPECT_GT(small.bytes, 2e5) << "as many as fit";
+  EXPECT_LT(small.keys, whole.keys);
+  EXPECT_GT(small.max_error_m, 2e-4);
 }
 
 TEST(Glb, SplitsVerticesAtSeamsAndKeepsThePicture) {

@@ -2,8 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/csv.hpp"
+#include "hyperex/tracking/expression/blend_shapes.hpp"
+#include "hyperex/tracking/output/live_link.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
 
 namespace hyperex::tracking {
@@ -91,6 +96,80 @@ TEST(TrackingOutputs, UnitsHaveTheirFacsNamesAndValidity) {
   EXPECT_TRUE(std::isnan(table.values(1, table.column("mouthSmile_L [AU12]"))));
   EXPECT_EQ(table.values(0, table.column("valid")), 1);
   EXPECT_EQ(table.values(1, table.column("valid")), 0);
+}
+
+/// Frames over `seconds` at 30 Hz, the weights of frame 5 not known.
+Tracking talking(double seconds) {
+  const FaceModel& model = canonical_model();
+  Tracking tracking = three_frames();
+  const TrackedFrame first = tracking.frames[0];
+  tracking.frames.clear();
+  for (int k = 0; k < int(30 * seconds); ++k) {
+    TrackedFrame frame = first;
+    frame.time_s = 12.5 + k / 30.0;
+    frame.valid = k != 5;
+    for (Eigen::Index u = 0; u < frame.weights.size(); ++u)
+      frame.weights[u] =
+          0.4 * std::sin(0.2 * k + double(u)) / model.animation_units[std::size_t(u)].arkit_scale;
+    tracking.frames.push_back(frame);
+  }
+  return tracking;
+}
+
+TEST(LiveLink, IsReadBackAsTheWeightsThatWereTracked) {
+  const FaceModel& model = canonical_model();
+  const Tracking tracking = talking(3);
+  const auto file = scratch("live.csv"), plain = scratch("live.arkit.csv");
+  write_live_link_csv(file, model, tracking);
+  write_arkit_csv(plain, model, tracking);
+  const BlendShapes read = read_arkit(file);
+  ASSERT_EQ(read.time_s.size(), tracking.frames.size() - 1) << "no row for a frame without a face";
+  const io::CsvTable truth = io::read_csv(plain);
+  ASSERT_EQ(read.names.size(), 52u);
+  for (std::size_t k = 0; k < read.time_s.size(); ++k) {
+    const auto row = Eigen::Index(k < 5 ? k : k + 1);
+    EXPECT_NEAR(read.time_s[k], truth.values(row, 0) - 12.5, 1e-5);
+    for (std::size_t c = 0; c < read.names.size(); ++c) {
+      const auto column = truth.find(read.names[c]);
+      EXPECT_NEAR(read.weights(Eigen::Index(k), Eigen::Index(c)),
+                  column ? truth.values(row, *column) : 0, 1e-9)
+          << read.names[c];
+    }
+  }
+  EXPECT_GT(read.weights.maxCoeff(), 0.35);
+}
+
+TEST(LiveLink, CountsTimeAsTheAppDoes) {
+  const auto file = scratch("codes.csv");
+  Tracking tracking = talking(3);
+  tracking.frames[1].time_s += 1e-3;
+  tracking.frames.back().time_s = 12.5 + 3661 + 59.5 / 60;
+  write_live_link_csv(file, canonical_model(), tracking);
+  const std::string text = read_file(file);
+  EXPECT_THAT(text, testing::HasSubstr("\n00:00:00:00.000,61,"));
+  EXPECT_THAT(text, testing::HasSubstr("\n00:00:00:02.060,61,"));
+  EXPECT_THAT(text, testing::HasSubstr("\n01:01:01:59.500,61,"));
+}
+
+TEST(LiveLink, HasTheColumnsOfARealRecording) {
+  const std::filesystem::path real =
+      std::filesystem::path(HYPEREX_SHARED_DIR) / "data/real/livelink/range_of_motion.csv";
+  if (!std::filesystem::exists(real)) GTEST_SKIP() << "no " << real;
+  const std::string text = read_file(real);
+  std::string header;
+  for (const std::string& name : live_link_columns()) header += (header.empty() ? "" : ",") + name;
+  EXPECT_EQ(text.substr(0, text.find_first_of("\r\n")), header);
+  const BlendShapes shapes = read_arkit(real);
+  EXPECT_EQ(shapes.names.size(), 52u);
+  EXPECT_EQ(shapes.time_s.size(), 4030u);
+  // Rows come at 30 Hz, the timecode counts 60ths.
+  EXPECT_NEAR(shapes.time_s.back() / 4029, 1 / 30.0, 1e-3);
+}
+
+TEST(LiveLink, RefusesARecordingWithoutAFace) {
+  Tracking tracking = talking(1);
+  for (TrackedFrame& frame : tracking.frames) frame.valid = false;
+  EXPECT_THROW(write_live_link_csv(scratch("none.csv"), canonical_model(), tracking), InputError);
 }
 
 }  // namespace

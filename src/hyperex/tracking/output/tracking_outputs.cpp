@@ -5,34 +5,15 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
 #include "hyperex/io/csv.hpp"
+#include "hyperex/tracking/output/arkit_weights.hpp"
 
 namespace hyperex::tracking {
 
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// ARKit's name -> units that it is the mean of, with their factors.
-struct ArkitPart {
-  Eigen::Index unit;
-  double factor;
-};
-
-std::map<std::string, std::vector<ArkitPart>> arkit_parts(const FaceModel& model) {
-  std::map<std::string, std::vector<ArkitPart>> parts;
-  for (std::size_t k = 0; k < model.animation_units.size(); ++k) {
-    const DeformationUnit& unit = model.animation_units[k];
-    const auto add = [&](const std::string& names, double factor) {
-      for (const auto& name : arkit_names(names)) parts[name].push_back({Eigen::Index(k), factor});
-    };
-    add(unit.arkit, unit.arkit_scale);
-    add(unit.arkit_negative, -unit.arkit_scale);
-  }
-  return parts;
-}
 
 }  // namespace
 
@@ -105,21 +86,16 @@ void write_units_csv(const std::filesystem::path& file, const FaceModel& model,
 
 void write_arkit_csv(const std::filesystem::path& file, const FaceModel& model,
                      const Tracking& tracking) {
-  const auto parts = arkit_parts(model);
-  std::vector<std::string> names = {"time_s"};
-  for (const auto& [name, units] : parts) names.push_back(name);
+  const ArkitWeights weights(model);
+  std::vector<std::string> names = weights.names();
+  names.insert(names.begin(), "time_s");
   io::write_csv(file, names, long(tracking.frames.size()), [&](long k, std::vector<double>& row) {
     const TrackedFrame& frame = tracking.frames[std::size_t(k)];
     std::fill(row.begin(), row.end(), kNan);
     row[0] = frame.time_s;
     if (!frame.valid) return;
     std::size_t at = 1;
-    for (const auto& [name, units] : parts) {
-      double sum = 0;
-      for (const auto& [unit, factor] : units)
-        sum += std::clamp(factor * frame.weights[unit], 0.0, 1.0);
-      row[at++] = sum / double(units.size());
-    }
+    for (const auto& [name, weight] : weights.of(frame)) row[at++] = weight;
   });
 }
 
