@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <filesystem>
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   fs::path motion, out, excursions, picture, map, map_ply, landmarks;
-  double floor = 1e-6, rate_hz = 30;
+  double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz;
   std::string unit, jitter_mm = "0";
   bool keep_head = false;
 };
@@ -50,6 +51,15 @@ void print_curve(const metrics::SymmetryCurve& curve) {
                            std::log(curve.floor));
 }
 
+/// Which figures of a pair jitter alone may have made.
+std::string undecided_note(const metrics::PairExcursion& p) {
+  std::vector<std::string> figures;
+  if (p.undecided) figures.push_back("excursion");
+  if (p.peak_speed_undecided) figures.push_back("speed");
+  if (p.speed_correlation_undecided) figures.push_back("correlation");
+  return figures.empty() ? "" : fmt::format("  undecided: {}", fmt::join(figures, ", "));
+}
+
 void print_excursions(const metrics::Excursions& excursions) {
   std::cout << fmt::format("\n{:<43}{:>32}{:>33}{:>13}\n", "", "excursion (mm)  ",
                            "peak speed (mm/s)  ", "correlation");
@@ -60,7 +70,12 @@ void print_excursions(const metrics::Excursions& excursions) {
                              cell(p.left_side.excursion_mm, 2), cell(p.right_side.excursion_mm, 2),
                              cell(p.excursion_ratio, 3), cell(p.left_side.peak_speed_mm_s, 1),
                              cell(p.right_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),
-                             cell(p.speed_correlation, 3), p.undecided ? "  undecided" : "");
+                             cell(p.speed_correlation, 3), undecided_note(p));
+  if (excursions.lowpass_hz > 0)
+    std::cout << fmt::format(
+        "speeds smoothed with a cut-off of {:g} Hz; undecided: within what "
+        "jitter alone makes\n",
+        excursions.lowpass_hz);
 }
 
 void print_summary(const metrics::SymmetryMeasures& all) {
@@ -154,7 +169,7 @@ void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
   const double jitter_m = jitter_of(options, frames.tracks);
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(frames.tracks, options.floor, jitter_m);
-  all.excursions = metrics::excursions_of(frames.tracks, jitter_m);
+  all.excursions = metrics::excursions_of(frames.tracks, jitter_m, options.lowpass_hz);
   all.map =
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
@@ -194,7 +209,7 @@ void run(const Options& options) {
   const motion::Motion steady = without_head(motion, options.keep_head);
   const double jitter_m = jitter_of(options, steady);
   if (jitter_m > 0) all.curve = metrics::symmetry_of(motion, options.floor, jitter_m);
-  all.excursions = metrics::excursions_of(steady, jitter_m);
+  all.excursions = metrics::excursions_of(steady, jitter_m, options.lowpass_hz);
   tell(options, all);
 }
 
@@ -234,6 +249,12 @@ void add_symmetry(CLI::App& program) {
       ->add_option("--jitter-mm", options->jitter_mm,
                    "Jitter of the points (standard deviation a coordinate, mm), which sets the "
                    "noise floor; auto: that of the quietest half second; 0: exact")
+      ->capture_default_str();
+  command
+      ->add_option("--lowpass-hz", options->lowpass_hz,
+                   "Cut-off of the zero-phase low-pass that speeds and paths are smoothed by where "
+                   "there is jitter; 0: not smoothed")
+      ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   command->add_flag("--keep-head", options->keep_head,
                     "Do not take the head's pose out before excursions are measured");

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/metrics/speed_floor.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -26,17 +28,52 @@ double greatest(const std::vector<double>& values) {
   return most;
 }
 
-SideExcursion side_of(const motion::Motion& motion, int column) {
+SmoothTrack smoothed_mm(const motion::Motion& motion, const std::vector<int>& columns,
+                        double lowpass_hz) {
+  Points track(static_cast<Eigen::Index>(motion.positions.size()), 3);
+  for (Eigen::Index k = 0; k < track.rows(); ++k)
+    track.row(k) = 1e3 * place(motion, static_cast<size_t>(k), columns);
+  return lowpassed(motion.time_s, track, lowpass_hz);
+}
+
+SideExcursion side_of(const motion::Motion& motion, int column, double lowpass_hz) {
   SideExcursion side;
   side.excursion_mm = greatest(distance_from_rest_mm(motion, {column}));
-  side.peak_speed_mm_s = greatest(speed_mm_s(motion, {column}));
-  Eigen::RowVector3d last = motion.positions.front().row(column);
-  for (const Points& sample : motion.positions)
-    if (sample.row(column).allFinite()) {
-      side.path_mm += 1e3 * (sample.row(column) - last).norm();
-      last = sample.row(column);
+  side.peak_speed_mm_s =
+      greatest_inside(motion.time_s, speed_mm_s(motion, {column}, lowpass_hz), lowpass_hz);
+  const Points track = smoothed_mm(motion, {column}, lowpass_hz).value;
+  Eigen::RowVector3d last = track.row(0);
+  for (Eigen::Index k = 0; k < track.rows(); ++k)
+    if (track.row(k).allFinite()) {
+      side.path_mm += (track.row(k) - last).norm();
+      last = track.row(k);
     }
   return side;
+}
+
+/// Root mean square of speeds over the quietest half second; NaN where none is measured.
+double quietest_rms(const std::vector<double>& time_s, const std::vector<double>& speed) {
+  constexpr double window_s = 0.5;
+  double least = nan;
+  for (size_t from = 0; from < speed.size(); ++from) {
+    double squares = 0;
+    size_t to = from;
+    for (; to < speed.size() && time_s[to] <= time_s[from] + window_s; ++to)
+      squares += speed[to] * speed[to];
+    if (to == speed.size() && time_s.back() < time_s[from] + 0.9 * window_s) break;
+    const double rms = std::sqrt(squares / static_cast<double>(to - from));
+    if (!std::isnan(rms) && !(rms >= least)) least = rms;
+  }
+  return least;
+}
+
+/// The share of a speed's variance over time that jitter does not explain.
+double told_share(const std::vector<double>& speed, double jitter_variance) {
+  double n = 0, sum = 0, squares = 0;
+  for (const double v : speed)
+    if (!std::isnan(v)) ++n, sum += v, squares += v * v;
+  const double variance = squares / n - sum * sum / n / n;
+  return std::max(0.0, 1 - jitter_variance / variance);
 }
 
 double ratio(double right, double left) {
@@ -92,17 +129,41 @@ std::string pair_name(const std::string& left, const std::string& right) {
   return right + "/" + left.substr(left.rfind('_') + 1);
 }
 
-PairExcursion pair_of(const motion::Motion& motion, int left, int right, double jitter_m) {
+void judge_speeds(const motion::Motion& motion, const SpeedFloor& floor, double lowpass_hz,
+                  PairExcursion& pair) {
+  const auto left = speed_mm_s(motion, {pair.left}, lowpass_hz);
+  const auto right = speed_mm_s(motion, {pair.right}, lowpass_hz);
+  pair.speed_correlation = correlation(left, right);
+  if (!(floor.rms_mm_s > 0)) return;
+  const double quiet =
+      std::fmin(quietest_rms(motion.time_s, left), quietest_rms(motion.time_s, right));
+  const double wider = std::fmax(1, quiet / floor.rms_mm_s);
+  const SideExcursion &l = pair.left_side, &r = pair.right_side;
+  pair.peak_speed_floor_mm_s = wider * floor.peak_mm_s;
+  pair.path_floor_mm = wider * floor.path_mm;
+  pair.peak_speed_undecided =
+      !(std::abs(l.peak_speed_mm_s - r.peak_speed_mm_s) >= pair.peak_speed_floor_mm_s);
+  pair.path_undecided = !(std::abs(l.path_mm - r.path_mm) >= pair.path_floor_mm);
+  const double jitter_variance = std::pow(wider * floor.rms_mm_s, 2) / 3;  // along the way
+  constexpr double told = 0.9;
+  pair.speed_correlation_undecided =
+      !(std::sqrt(told_share(left, jitter_variance) * told_share(right, jitter_variance)) >= told);
+  if (l.path_mm < pair.path_floor_mm) pair.path_ratio = nan;
+  if (l.peak_speed_mm_s < pair.peak_speed_floor_mm_s) pair.speed_ratio = nan;
+}
+
+PairExcursion pair_of(const motion::Motion& motion, int left, int right, double jitter_m,
+                      const SpeedFloor& floor, double lowpass_hz) {
   PairExcursion pair;
   pair.left = left;
   pair.right = right;
-  pair.left_side = side_of(motion, left);
-  pair.right_side = side_of(motion, right);
+  pair.left_side = side_of(motion, left, lowpass_hz);
+  pair.right_side = side_of(motion, right, lowpass_hz);
   const SideExcursion &l = pair.left_side, &r = pair.right_side;
   pair.excursion_ratio = ratio(r.excursion_mm, l.excursion_mm);
   pair.path_ratio = ratio(r.path_mm, l.path_mm);
   pair.speed_ratio = ratio(r.peak_speed_mm_s, l.peak_speed_mm_s);
-  pair.speed_correlation = correlation(speed_mm_s(motion, {left}), speed_mm_s(motion, {right}));
+  judge_speeds(motion, floor, lowpass_hz, pair);
   pair.jitter_floor_mm = 1.96 * 2 * 1e3 * jitter_m;
   pair.undecided = jitter_m > 0 && !(std::abs(pair.difference_mm()) >= pair.floor_mm());
   return pair;
@@ -121,7 +182,7 @@ double change_of_distance_mm(const motion::Motion& motion, int a, int b) {
   return most;
 }
 
-Commissure commissure_of(const motion::Motion& motion) {
+Commissure commissure_of(const motion::Motion& motion, double lowpass_hz) {
   const auto either = [&](const char* name, const char* stand_in) {
     const int own = column_of(motion, name);
     return own >= 0 ? own : column_of(motion, stand_in);
@@ -133,8 +194,8 @@ Commissure commissure_of(const motion::Motion& motion) {
   if (mouth.left < 0 || mouth.right < 0) return mouth;
   mouth.left_mm = distance_from_rest_mm(motion, {mouth.left});
   mouth.right_mm = distance_from_rest_mm(motion, {mouth.right});
-  mouth.left_mm_s = speed_mm_s(motion, {mouth.left});
-  mouth.right_mm_s = speed_mm_s(motion, {mouth.right});
+  mouth.left_mm_s = speed_mm_s(motion, {mouth.left}, lowpass_hz);
+  mouth.right_mm_s = speed_mm_s(motion, {mouth.right}, lowpass_hz);
   const int lip = either("labiale_inferius", "ibug68_57");
   if (lip < 0) return mouth;
   mouth.left_from_midlip_mm = change_of_distance_mm(motion, mouth.left, lip);
@@ -152,22 +213,20 @@ std::vector<double> distance_from_rest_mm(const motion::Motion& motion,
   return out;
 }
 
-std::vector<double> speed_mm_s(const motion::Motion& motion, const std::vector<int>& columns) {
-  const size_t count = motion.positions.size();
-  std::vector<double> out(count, nan);
-  for (size_t k = 0; k < count && count > 1; ++k) {
-    const size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, count - 1);
-    out[k] = 1e3 * (place(motion, after, columns) - place(motion, before, columns)).norm() /
-             (motion.time_s[after] - motion.time_s[before]);
-    if (!place(motion, k, columns).allFinite()) out[k] = nan;
-  }
+std::vector<double> speed_mm_s(const motion::Motion& motion, const std::vector<int>& columns,
+                               double lowpass_hz) {
+  const SmoothTrack track = smoothed_mm(motion, columns, lowpass_hz);
+  std::vector<double> out;
+  for (Eigen::Index k = 0; k < track.rate.rows(); ++k) out.push_back(track.rate.row(k).norm());
   return out;
 }
 
-Excursions excursions_of(const motion::Motion& motion, double jitter_m) {
+Excursions excursions_of(const motion::Motion& motion, double jitter_m, double lowpass_hz) {
   Excursions all;
   all.jitter_m = jitter_m;
+  all.lowpass_hz = jitter_m > 0 ? lowpass_hz : 0;
   if (motion.positions.empty()) return all;
+  const SpeedFloor floor = speed_floor(motion.time_s, jitter_m, all.lowpass_hz);
   for (size_t i = 0; i < motion.names.size(); ++i) {
     const std::string left = full_name(motion.names[i]);
     const std::string right = face::mirrored_landmark(left);
@@ -176,10 +235,10 @@ Excursions excursions_of(const motion::Motion& motion, double jitter_m) {
     if (r < 0 || !motion.positions.front().row(l).allFinite() ||
         !motion.positions.front().row(r).allFinite())
       continue;
-    all.pairs.push_back(pair_of(motion, l, r, jitter_m));
+    all.pairs.push_back(pair_of(motion, l, r, jitter_m, floor, all.lowpass_hz));
     all.pairs.back().name = pair_name(left, right);
   }
-  all.commissure = commissure_of(motion);
+  all.commissure = commissure_of(motion, all.lowpass_hz);
   return all;
 }
 

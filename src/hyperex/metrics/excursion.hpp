@@ -10,28 +10,42 @@
 
 namespace hyperex::metrics {
 
+/// 98 % of the speed (in square) of real mouth corners that smile lies below it: docs/symmetry.md.
+constexpr double kUsualLowpass_hz = 6;
+
 /// Distance of a point (mean of `columns`) from its place in the first sample, mm a sample; NaN
 /// where not measured.
 std::vector<double> distance_from_rest_mm(const motion::Motion& motion,
                                           const std::vector<int>& columns);
-/// Its speed, mm/s: |x(k+1) - x(k-1)| / (t(k+1) - t(k-1)), one-sided at both ends; NaN where a
-/// sample that it takes is not measured, and for a motion of one sample.
-std::vector<double> speed_mm_s(const motion::Motion& motion, const std::vector<int>& columns);
+/// Its speed, mm/s, smoothed by lowpassed(): lowpass.hpp. `lowpass_hz` 0: |x(k+1) - x(k-1)| /
+/// (t(k+1)
+/// - t(k-1)), one-sided at both ends. NaN where a sample that it takes is not measured, and for a
+/// motion of one sample.
+std::vector<double> speed_mm_s(const motion::Motion& motion, const std::vector<int>& columns,
+                               double lowpass_hz = 0);
 
 struct SideExcursion {
   double excursion_mm = 0;     ///< largest distance from the place in the first sample
-  double path_mm = 0;          ///< length of the whole way, from sample to sample
-  double peak_speed_mm_s = 0;  ///< largest speed
+  double path_mm = 0;          ///< length of the whole way, smoothed, from sample to sample
+  double peak_speed_mm_s = 0;  ///< largest speed, smoothed; not at the ends (greatest_inside)
 };
 
 /// A point and its counterpart on the other side. Ratios are right over left (which side is
-/// affected is not known); NaN where the left is below a micrometre, or a micrometre a second.
+/// affected is not known); NaN where the left is below a micrometre, or a micrometre a second, or
+/// below its floor.
 struct PairExcursion {
   std::string name;           ///< "cheilion", "ibug68_48/54" (right/left)
   int left = -1, right = -1;  ///< columns of the motion
   SideExcursion left_side, right_side;
   double excursion_ratio = 0, path_ratio = 0, speed_ratio = 0;
   double speed_correlation = 0;  ///< Pearson's, of both speeds over time; NaN where one is constant
+  /// What jitter alone makes of a side that stands still (speed_floor.hpp), widened where the
+  /// quieter side's quietest half second moves more: trackers' jitter is not white. 0: none known.
+  double peak_speed_floor_mm_s = 0, path_floor_mm = 0;
+  bool peak_speed_undecided = false, path_undecided = false;  ///< the sides differ by less
+  /// Jitter lowers the correlation by more than a tenth: with n the share of jitter in a speed's
+  /// variance over time, sqrt((1 - n_L) (1 - n_R)) < 0.9.
+  bool speed_correlation_undecided = false;
   /// What the excursions of a symmetric motion differ by, in 95 % of motions, by jitter alone:
   /// 1.96 * 2 jitter (two places a side, to first order along the way); 0 where none is known.
   double jitter_floor_mm = 0;
@@ -56,11 +70,14 @@ struct Excursions {
   /// the distance from the middle of the lower lip (labiale_inferius, or ibug68_57) to the corner.
   Commissure commissure;
   double jitter_m = 0;
+  double lowpass_hz = 0;  ///< that speeds and paths were smoothed with; 0: not
 };
 
 /// Of every pair of points that a motion (head pose taken out) names: NAME_L and NAME_R, and the
 /// mirrored iBUG-68 points as ibug68_K, K or pK; those not measured in the first sample are left
-/// out. L and R are the subject's own sides.
-Excursions excursions_of(const motion::Motion& motion, double jitter_m = 0);
+/// out. L and R are the subject's own sides. Speeds and paths of a motion with jitter are smoothed
+/// with the cut-off `lowpass_hz` (>= 0; 0: not); an exact motion is left as it is.
+Excursions excursions_of(const motion::Motion& motion, double jitter_m = 0,
+                         double lowpass_hz = kUsualLowpass_hz);
 
 }  // namespace hyperex::metrics

@@ -44,6 +44,11 @@ Json pair_json(const PairExcursion& p) {
   json["peak_speed_mm_s"] = both(p.left_side.peak_speed_mm_s, p.right_side.peak_speed_mm_s);
   json["peak_speed_ratio_R_L"] = number(p.speed_ratio);
   json["speed_correlation"] = number(p.speed_correlation);
+  json["path_floor_mm"] = p.path_floor_mm;
+  json["path_undecided"] = p.path_undecided;
+  json["peak_speed_floor_mm_s"] = p.peak_speed_floor_mm_s;
+  json["peak_speed_undecided"] = p.peak_speed_undecided;
+  json["speed_correlation_undecided"] = p.speed_correlation_undecided;
   json["difference_mm"] = number(p.difference_mm());
   json["jitter_floor_mm"] = p.jitter_floor_mm;
   json["mesh_floor_mm"] = number(p.mesh_floor_mm);
@@ -148,20 +153,25 @@ void write_excursions_csv(const std::filesystem::path& file, const Excursions& e
   write_file_atomically(file, [&](std::ostream& stream) {
     stream << "point,excursion_L_mm,excursion_R_mm,excursion_ratio_R_L,path_L_mm,path_R_mm,"
               "path_ratio_R_L,peak_speed_L_mm_s,peak_speed_R_mm_s,peak_speed_ratio_R_L,"
-              "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,decided\n";
+              "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,decided,"
+              "path_floor_mm,peak_speed_floor_mm_s,path_decided,peak_speed_decided,"
+              "speed_correlation_decided\n";
     for (const PairExcursion& p : excursions.pairs)
-      fmt::print(stream, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.name,
+      fmt::print(stream, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.name,
                  field(p.left_side.excursion_mm), field(p.right_side.excursion_mm),
                  field(p.excursion_ratio), field(p.left_side.path_mm), field(p.right_side.path_mm),
                  field(p.path_ratio), field(p.left_side.peak_speed_mm_s),
                  field(p.right_side.peak_speed_mm_s), field(p.speed_ratio),
                  field(p.speed_correlation), field(p.difference_mm()), field(p.jitter_floor_mm),
-                 field(p.mesh_floor_mm), p.undecided ? 0 : 1);
+                 field(p.mesh_floor_mm), p.undecided ? 0 : 1, field(p.path_floor_mm),
+                 field(p.peak_speed_floor_mm_s), p.path_undecided ? 0 : 1,
+                 p.peak_speed_undecided ? 0 : 1, p.speed_correlation_undecided ? 0 : 1);
   });
 }
 
 Json summary_of(const SymmetryMeasures& measures) {
   Json json = curve_json(measures.curve);
+  json["lowpass_hz"] = measures.excursions.lowpass_hz;
   const Commissure& mouth = measures.excursions.commissure;
   json["commissure_from_midlip_mm"] = both(mouth.left_from_midlip_mm, mouth.right_from_midlip_mm);
   Json pairs = Json::array();

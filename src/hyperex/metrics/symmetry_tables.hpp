@@ -29,7 +29,9 @@ void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasure
 
 /// CSV, a row a pair of points: point; of L, R and as ratio_R_L: excursion_mm, path_mm,
 /// peak_speed_mm_s; speed_correlation; difference_mm (L - R of the excursions), jitter_floor_mm,
-/// mesh_floor_mm (empty where unknown), decided (1 or 0).
+/// mesh_floor_mm (empty where unknown), decided (1 or 0);
+/// path_floor_mm, peak_speed_floor_mm_s, path_decided, peak_speed_decided,
+/// speed_correlation_decided.
 void write_excursions_csv(const std::filesystem::path& file, const Excursions& excursions);
 
 /// For summary.json: jitter, the mesh's floor, how much of S(t) is undecided, commissure,

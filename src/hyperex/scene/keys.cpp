@@ -353,6 +353,9 @@ std::vector<Key> run_keys() {
                     "Jitter of the recorded points, a standard deviation a coordinate, which "
                     "sets the noise floor of S(t) (docs/symmetry.md). Below 0: that of the "
                     "tracked points at rest for motion.recording, else none."),
+      number<Scene>("output.lowpass_hz", none, AT(output.lowpass_hz), {0, 100},
+                    "Cut-off (Hz) of the zero-phase low-pass that speeds and paths of points with "
+                    "jitter are smoothed by (docs/symmetry.md). 0: not smoothed."),
       numbers<Scene>("output.contact_times_s", seconds, AT(output.contact_times_s), {0, 600}, 0, 12,
                      "Times of the pictures in contact_sheet.png. None: five spread over the run, "
                      "the peak among them."),

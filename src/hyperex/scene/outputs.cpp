@@ -187,7 +187,7 @@ metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& in
   const double jitter_m = inputs.jitter_m * scene.motion.gain;
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
-  all.excursions = metrics::excursions_of(p.landmarks, jitter_m);
+  all.excursions = metrics::excursions_of(p.landmarks, jitter_m, scene.output.lowpass_hz);
   all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m, twin.skin_displacement_m);
   all.no_mesh_floor = twin.why_not;
   if (twin.why_not.empty())

@@ -139,6 +139,7 @@ struct OutputOptions {
   double glb_max_mb = 20;         ///< of performance.glb; 0.1 to 10000
   bool full_paths = false;        ///< of input files, in summary.json and report.html
   double symmetry_floor = 1e-6;   ///< > 0, to 1
+  double lowpass_hz = 6;          ///< cut-off for speeds and paths, 0 (none) to 100
   double jitter_m = -1e-3;  ///< of the recorded points; below 0: from tracking, else none; to 20 mm
   std::vector<double> contact_times_s;  ///< up to 12, rising, 0 to 600; empty: spread_frames()
 };

@@ -6,6 +6,9 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
+
+#include "hyperex/metrics/speed_floor.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -91,6 +94,79 @@ TEST(Excursion, JitterLeavesSmallDifferencesUndecided) {
   const motion::Motion motion = smile(0.9);  // differ by 0.6 mm
   EXPECT_FALSE(excursions_of(motion, 0.99 * 0.6e-3 / 3.92).pairs[0].undecided);
   EXPECT_TRUE(excursions_of(motion, 1.01 * 0.6e-3 / 3.92).pairs[0].undecided);
+}
+
+/// Eight still tenths of a second, then there and back; the left corner's peak speed is
+/// `left_mm_s`.
+motion::Motion noisy_smile(double left_mm_s, double right_mm_s, double jitter_m, unsigned seed) {
+  motion::Motion motion;
+  motion.names = {"cheilion_L", "cheilion_R"};
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal(0, jitter_m);
+  const Vec3 way = Vec3(2, 3, -6) / 7;
+  for (int k = 0; k < 85; ++k) {
+    const double t = k / 30.0, course = t < 0.8 ? 0 : swing(t - 0.8) / (M_PI / end_s);
+    Points at(2, 3);
+    at << 0.025, 0.01, 0.002, -0.025, 0.01, 0.002;
+    at.row(0) += 1e-3 * left_mm_s * course * way.transpose();
+    at.row(1) += 1e-3 * right_mm_s * course * Eigen::RowVector3d(-way.x(), way.y(), way.z());
+    for (Eigen::Index p = 0; p < 2; ++p)
+      for (Eigen::Index axis = 0; axis < 3; ++axis) at(p, axis) += normal(engine);
+    motion.time_s.push_back(t);
+    motion.positions.push_back(at);
+  }
+  return motion;
+}
+
+TEST(Excursion, SpeedsOfANoisyRecordingAreThoseOfTheMotionWithinTheirFloor) {
+  constexpr double jitter_m = 0.15e-3, left_mm_s = 15.7, right_mm_s = 2.8;
+  int beyond = 0, correlations = 0, undecided = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const motion::Motion motion = noisy_smile(left_mm_s, right_mm_s, jitter_m, seed);
+    const Excursions all = excursions_of(motion, jitter_m);
+    const PairExcursion& p = all.pairs[0];
+    EXPECT_EQ(all.lowpass_hz, kUsualLowpass_hz);
+    EXPECT_LT(p.peak_speed_floor_mm_s, 9);
+    beyond += std::abs(p.left_side.peak_speed_mm_s - left_mm_s) > p.peak_speed_floor_mm_s;
+    beyond += std::abs(p.right_side.peak_speed_mm_s - right_mm_s) > p.peak_speed_floor_mm_s;
+    undecided += p.peak_speed_undecided;  // 15.7 is more than 2.8
+    // The truth is 1: nothing far from it is called decided.
+    EXPECT_TRUE(p.speed_correlation_undecided || p.speed_correlation >= 0.8);
+    correlations += p.speed_correlation_undecided;
+    // Without the filter the slow side's speed is noise.
+    EXPECT_GT(excursions_of(motion, jitter_m, 0).pairs[0].right_side.peak_speed_mm_s, 6);
+  }
+  EXPECT_LE(beyond, 2);  // of 40: floors for 95 %
+  EXPECT_EQ(correlations, 20);
+  EXPECT_LE(undecided, 2);
+}
+
+TEST(Excursion, AlikeSpeedsWithLittleNoiseCorrelateAndAreUndecidedInSize) {
+  const PairExcursion p = excursions_of(noisy_smile(30, 30, 0.1e-3, 5), 0.1e-3).pairs[0];
+  EXPECT_GT(p.speed_correlation, 0.9);
+  EXPECT_FALSE(p.speed_correlation_undecided);
+  EXPECT_TRUE(p.peak_speed_undecided);
+  EXPECT_TRUE(p.path_undecided);
+  EXPECT_NEAR(p.path_ratio, 1, 0.15);
+}
+
+TEST(Excursion, JitterAloneIsUndecidedThroughout) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const PairExcursion p = excursions_of(noisy_smile(0, 0, 0.3e-3, seed), 0.3e-3).pairs[0];
+    EXPECT_TRUE(p.undecided && p.path_undecided && p.peak_speed_undecided &&
+                p.speed_correlation_undecided);
+    EXPECT_TRUE(std::isnan(p.speed_ratio));  // noise over noise
+  }
+}
+
+TEST(Excursion, JitterThatLastsWidensTheFloors) {
+  // Noise of 0.3 mm that a tracker has smoothed itself: a fifth of it left from sample to sample.
+  motion::Motion motion = noisy_smile(0, 0, 0.3e-3, 3);
+  for (size_t k = 1; k < motion.positions.size(); ++k)
+    motion.positions[k] = 0.8 * motion.positions[k - 1] + 0.2 * motion.positions[k];
+  constexpr double jitter_m = 0.02e-3;  // as if the little that differs between samples were all
+  const PairExcursion p = excursions_of(motion, jitter_m).pairs[0];
+  EXPECT_GT(p.peak_speed_floor_mm_s, 1.5 * speed_floor(motion.time_s, jitter_m, 6).peak_mm_s);
 }
 
 TEST(Excursion, KnowsIbugPairsAndLeavesOutWhatStartsUnmeasured) {

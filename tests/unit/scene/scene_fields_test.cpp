@@ -118,6 +118,7 @@ vtu = false
 glb = true
 report = false
 symmetry_floor = 4.7e-5
+lowpass_hz = 7.5
 jitter_mm = 0.3
 contact_times_s = [0.48, 0.49]
 )"));
@@ -207,6 +208,7 @@ contact_times_s = [0.48, 0.49]
   EXPECT_TRUE(s.output.glb);
   EXPECT_FALSE(s.output.report);
   EXPECT_EQ(s.output.symmetry_floor, 4.7e-5);
+  EXPECT_EQ(s.output.lowpass_hz, 7.5);
   EXPECT_EQ(s.output.jitter_m, 0.0003);
   EXPECT_THAT(s.output.contact_times_s, ElementsAre(0.48, 0.49));
 }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/lowpass.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hyperex::metrics {
+
+namespace {
+
+using Eigen::Index;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+SmoothTrack unsmoothed(const std::vector<double>& time_s, const Points& track) {
+  SmoothTrack out{track, Points::Constant(track.rows(), 3, nan)};
+  const Index count = track.rows();
+  for (Index k = 0; k < count && count > 1; ++k) {
+    if (!track.row(k).allFinite()) continue;
+    const Index before = std::max<Index>(k - 1, 0), after = std::min(k + 1, count - 1);
+    out.rate.row(k) = (track.row(after) - track.row(before)) /
+                      (time_s[std::size_t(after)] - time_s[std::size_t(before)]);
+  }
+  return out;
+}
+
+/// Reinsch's equations of the samples measured, t and y: (R + lambda Q' W^-1 Q) g = Q' y, f = y -
+/// lambda W^-1 Q g, g the second derivatives at the inner samples.
+SmoothTrack spline(const Eigen::VectorXd& t, const Points& y, double lambda) {
+  const Index n = t.size(), inner = n - 2;
+  const Eigen::VectorXd h = t.tail(n - 1) - t.head(n - 1);
+  Eigen::VectorXd weight(n);  // the time that a sample stands for
+  weight(0) = h(0), weight(n - 1) = h(n - 2);
+  for (Index i = 1; i + 1 < n; ++i) weight(i) = (h(i - 1) + h(i)) / 2;
+  std::vector<Eigen::Triplet<double>> q, r;
+  for (Index j = 0; j < inner; ++j) {
+    q.emplace_back(j, j, 1 / h(j));
+    q.emplace_back(j + 1, j, -1 / h(j) - 1 / h(j + 1));
+    q.emplace_back(j + 2, j, 1 / h(j + 1));
+    r.emplace_back(j, j, (h(j) + h(j + 1)) / 3);
+    if (j + 1 < inner) {
+      r.emplace_back(j, j + 1, h(j + 1) / 6);
+      r.emplace_back(j + 1, j, h(j + 1) / 6);
+    }
+  }
+  Eigen::SparseMatrix<double> Q(n, inner), R(inner, inner);
+  Q.setFromTriplets(q.begin(), q.end());
+  R.setFromTriplets(r.begin(), r.end());
+  const Eigen::SparseMatrix<double> system =
+      R + lambda * (Q.transpose() * weight.cwiseInverse().asDiagonal() * Q);
+  // The natural order keeps the band; nothing is gained by another.
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
+                              Eigen::NaturalOrdering<int>>
+      factor(system);
+  const Eigen::MatrixXd bend = factor.solve(Q.transpose() * y);
+  SmoothTrack out{y - lambda * (weight.cwiseInverse().asDiagonal() * (Q * bend)), Points(n, 3)};
+  Points second = Points::Zero(n, 3);
+  second.middleRows(1, inner) = bend;
+  for (Index i = 0; i + 1 < n; ++i)
+    out.rate.row(i) = (out.value.row(i + 1) - out.value.row(i)) / h(i) -
+                      h(i) / 6 * (2 * second.row(i) + second.row(i + 1));
+  out.rate.row(n - 1) = (out.value.row(n - 1) - out.value.row(n - 2)) / h(n - 2) +
+                        h(n - 2) / 6 * (second.row(n - 2) + 2 * second.row(n - 1));
+  return out;
+}
+
+}  // namespace
+
+SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, double cutoff_hz) {
+  std::vector<Index> measured;
+  for (Index k = 0; k < track.rows(); ++k)
+    if (track.row(k).allFinite()) measured.push_back(k);
+  if (!(cutoff_hz > 0) || measured.size() < 3) return unsmoothed(time_s, track);
+  Eigen::VectorXd t(Index(measured.size()));
+  Points y(t.size(), 3);
+  for (Index i = 0; i < t.size(); ++i) {
+    const Index k = measured[std::size_t(i)];
+    t(i) = time_s[std::size_t(k)];
+    y.row(i) = track.row(k);
+  }
+  const SmoothTrack smooth = spline(t, y, std::pow(2 * std::numbers::pi * cutoff_hz, -4));
+  SmoothTrack out{Points::Constant(track.rows(), 3, nan), Points::Constant(track.rows(), 3, nan)};
+  for (Index i = 0; i < t.size(); ++i) {
+    out.value.row(measured[std::size_t(i)]) = smooth.value.row(i);
+    out.rate.row(measured[std::size_t(i)]) = smooth.rate.row(i);
+  }
+  return out;
+}
+
+double end_margin_s(double cutoff_hz) {
+  return cutoff_hz > 0 ? 0.5 / cutoff_hz : 0;
+}
+
+double greatest_inside(const std::vector<double>& time_s, const std::vector<double>& values,
+                       double cutoff_hz) {
+  double inside = nan, all = nan;
+  const double margin_s = end_margin_s(cutoff_hz);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    all = std::fmax(all, values[k]);
+    if (time_s[k] - time_s.front() >= margin_s && time_s.back() - time_s[k] >= margin_s)
+      inside = std::fmax(inside, values[k]);
+  }
+  return std::isnan(inside) ? all : inside;
+}
+
+}  // namespace hyperex::metrics
