@@ -111,7 +111,7 @@ std::vector<std::string> landmark_doubts(const io::Landmarks& given, const TriMe
   }
   for (const auto& [name, doubt] : order)
     sentences.push_back(
-        fmt::format("landmark {} is {}: {}", name, fmt::join(doubt.reasons, " and "), kRemedy));
+        fmt::format("landmark {} is {}: {}", name, fmt::join(doubt.reasons, ", and "), kRemedy));
   return sentences;
 }
 
