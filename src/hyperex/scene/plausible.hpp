@@ -26,8 +26,8 @@ std::string start_warning(const motion::Motion& stabilised, const io::Landmarks&
 /// its second frame.
 void check_length(const Scene& scene, const motion::Motion& m);
 
-/// A sentence where the simulated skin is far from the scan somewhere, with the landmark next to
-/// that place; empty where it lies on the scan.
+/// A sentence where the simulated skin is more than 5 mm from the scan somewhere on the face
+/// (within 25 mm of a landmark), with the landmark next to that place; empty where it is not.
 std::string skin_warning(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
 }  // namespace hyperex::scene
