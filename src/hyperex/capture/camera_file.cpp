@@ -88,8 +88,8 @@ class Reader {
 Camera read_camera_file(const fs::path& file) {
   toml::table table;
   const std::string text = read_file(file);
-  if (const int line = io::line_nested_too_deep_toml(text); line > 0)
-    throw InputError(InputProblem{file, line, "", "", "plain keys: " + io::too_deep()});
+  if (const auto refusal = io::refusal_of_toml(text); refusal.line > 0)
+    throw InputError(InputProblem{file, refusal.line, "", "", "plain keys: " + refusal.why});
   try {
     table = toml::parse(text);
   } catch (const toml::parse_error& error) {

@@ -25,23 +25,16 @@ class Scanner {
   }
 
   int toml() {
-    int dots = 0;
-    while (at_ < text_.size()) {
-      const char c = text_[at_];
-      if (c == '#') {
-        while (at_ < text_.size() && text_[at_] != '\n') step();
-      } else if (c == '"' || c == '\'') {
-        skip_toml_string(c);
-      } else if (c == '.') {
-        if (++dots >= most_nested) return line_;
-        step();
-      } else {
-        if (bracket_too_deep()) return line_;
-        // What can stand in a number or between two keys ends a dotted key.
-        if (std::string_view(",=[]{}\r\n").find(c) != std::string_view::npos) dots = 0;
-        step();
-      }
-    }
+    while (next_toml())
+      if (too_deep_) return line_;
+    return 0;
+  }
+
+  int bare_non_ascii() {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    do {
+      if (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) >= 0x80) return line_;
+    } while (next_toml());
     return 0;
   }
 
@@ -49,6 +42,28 @@ class Scanner {
   void step() {
     if (text_[at_] == '\n') ++line_;
     ++at_;
+  }
+
+  /// Past a comment, a string or a character; false at the end.
+  bool next_toml() {
+    if (at_ >= text_.size()) return false;
+    const char c = text_[at_];
+    if (c == '#') {
+      while (at_ < text_.size() && text_[at_] != '\n') step();
+      return true;
+    }
+    if (c == '"' || c == '\'') {
+      skip_toml_string(c);
+      return true;
+    }
+    // What can stand in a number or between two keys ends a dotted key.
+    if (c == '.')
+      ++dots_;
+    else if (std::string_view(",=[]{}\r\n").find(c) != std::string_view::npos)
+      dots_ = 0;
+    too_deep_ = bracket_too_deep() || dots_ >= most_nested;
+    if (!too_deep_) step();
+    return true;
   }
 
   bool bracket_too_deep() {
@@ -84,7 +99,8 @@ class Scanner {
 
   std::string_view text_;
   std::size_t at_ = 0;
-  int line_ = 1, depth_ = 0;
+  int line_ = 1, depth_ = 0, dots_ = 0;
+  bool too_deep_ = false;
 };
 
 }  // namespace
@@ -95,6 +111,17 @@ int line_nested_too_deep_json(std::string_view text) {
 
 int line_nested_too_deep_toml(std::string_view text) {
   return Scanner(text).toml();
+}
+
+int line_of_bare_non_ascii_toml(std::string_view text) {
+  return Scanner(text).bare_non_ascii();
+}
+
+TomlRefusal refusal_of_toml(std::string_view text) {
+  if (const int line = line_nested_too_deep_toml(text); line > 0) return {line, too_deep()};
+  if (const int line = line_of_bare_non_ascii_toml(text); line > 0)
+    return {line, "a key with other characters than A-Z, a-z, 0-9, _ and - needs quotes"};
+  return {};
 }
 
 std::string too_deep() {

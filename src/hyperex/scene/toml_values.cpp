@@ -55,8 +55,8 @@ bool has_backslash(const std::string& text, int line) {
 }  // namespace
 
 TomlValues parse_toml(const std::string& text) {
-  if (const int line = io::line_nested_too_deep_toml(text); line > 0)
-    throw TornToml{line, io::too_deep()};
+  if (const auto refusal = io::refusal_of_toml(text); refusal.line > 0)
+    throw TornToml{refusal.line, refusal.why};
   try {
     const toml::table table = toml::parse(text);
     TomlValues values;
@@ -72,7 +72,7 @@ TomlValues parse_toml(const std::string& text) {
 }
 
 std::optional<json> parse_toml_value(const std::string& value) {
-  if (io::line_nested_too_deep_toml(value) > 0) return std::nullopt;
+  if (io::refusal_of_toml(value).line > 0) return std::nullopt;
   try {
     const toml::table table = toml::parse("value = " + value);
     std::map<std::string, int> ignored;
