@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // For tests that walk through the table of keys: another value for each, and a scene that sets it.
+#include <fmt/format.h>
+
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -18,8 +21,11 @@ inline nlohmann::json other_value(const Key& key) {
       return standard.get<int>() + 1;
     case Kind::number: {
       const double low = key.range.low, high = key.range.high;
-      return standard == low + (high - low) * 0.5 ? low + (high - low) * 0.25
-                                                  : low + (high - low) * 0.5;
+      // In digits as a user writes them: 15 come back from the field.
+      const auto within = [&](double share) {
+        return std::strtod(fmt::format("{:.12g}", low + (high - low) * share).c_str(), nullptr);
+      };
+      return standard == within(0.5) ? within(0.25) : within(0.5);
     }
     case Kind::numbers:
       if (key.most == 2) return {key.range.low, key.range.high};
