@@ -46,7 +46,9 @@ TEST(FaceBacking, EyeballsLieBehindTheLidsAndAreSeenBetweenThem) {
     EXPECT_LT(eye.radius_m, 0.015);
     for (Eigen::Index v = 0; v < face.mesh.points.rows(); ++v) {
       const Vec3 off = face.mesh.points.row(v).transpose() - eye.centre;
-      if (off.dot(eye.gaze) > 0.35 * eye.radius_m) EXPECT_GT(off.norm(), eye.radius_m) << v;
+      if (off.dot(eye.gaze) > 0.35 * eye.radius_m) {
+        EXPECT_GT(off.norm(), eye.radius_m) << v;
+      }
     }
     // Not sunk: its front is within 4 mm of the plane of the lids' edges.
     const Vec3 lid = (face.landmarks.at(side ? "ibug68_43" : "ibug68_38") +
@@ -91,8 +93,9 @@ TEST(FaceBacking, AnEyeballsPartsLieOnItsSphereAndCoverIt) {
     area += triangle_areas(part).sum();
     const Points normals = vertex_normals(part);
     for (Eigen::Index v = 0; v < part.points.rows(); ++v)
-      if (normals.row(v).norm() > 0.5)
+      if (normals.row(v).norm() > 0.5) {
         EXPECT_GT(normals.row(v).dot(part.points.row(v) - eye.centre.transpose()), 0);
+      }
   }
   EXPECT_NEAR(area, 4 * M_PI * eye.radius_m * eye.radius_m, 0.02 * 4 * M_PI * 1.44e-4);
 }

@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, SymmetricMotion,
                                          Case{"subject_a_mouth_open.toml", "", "3.3"},
                                          Case{"subject_a_mouth_open_all.toml", "", "3.3"},
                                          Case{"subject_a_mouth_open_all.toml", "", "2.5"}),
-                         [](const auto& info) { return "case_" + std::to_string(info.index); });
+                         [](const auto& c) { return "case_" + std::to_string(c.index); });
 
 TEST(OneSidedMotion, IsDecided) {
   const auto summary = run_of(kExamples / "one_sided_smile.toml", {});
