@@ -108,8 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
     Variant, FaultyVariant,
     testing::Values(
         Fault{"Point", "drive = { points = [\"nobody\"] }\n",
-              "drive.points = [\"nobody\"]: expected names of points in the recording (nobody is "
-              "none)"},
+              "drive.points = [\"nobody\"]: expected names of points in the recording embedded "
+              "motion (nobody is none)"},
         Fault{"Region", "tissue = { region = [{ name = \"cheek_Q\", young_factor = 2 }] }\n",
               "tissue.region[0].name = \"cheek_Q\": expected the name of a region (hyperex presets "
               "lists "

@@ -5,6 +5,11 @@
 
 namespace hyperex::reenact {
 
+namespace {
+/// Below this a weight is the rounding of a place on an edge or at a corner.
+constexpr double kLeastWeight = 1e-6;
+}  // namespace
+
 std::vector<Match> skin_places(const tissue::TissueMesh& mesh,
                                const std::vector<std::string>& names, const Points& places) {
   constexpr double sure_m = 0.002;  // nearer to both lips, a vertex is of neither
@@ -21,7 +26,7 @@ CarrierMatrix carriers(const tissue::TissueMesh& mesh, const std::vector<Match>&
     for (int k = 0; k < 3; ++k) {
       const tissue::Anchor& anchor = mesh.anchors[places[i].point[k]];
       for (int a = 0; a < 3; ++a)
-        if (const double weight = places[i].weight[k] * anchor.weight[a]; weight != 0)
+        if (const double weight = places[i].weight[k] * anchor.weight[a]; weight > kLeastWeight)
           entries.emplace_back(static_cast<int>(i), anchor.node[a], weight);
     }
   CarrierMatrix matrix(static_cast<Eigen::Index>(places.size()), mesh.volume.surface_nodes());

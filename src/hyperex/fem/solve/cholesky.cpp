@@ -11,6 +11,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/one_thread.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
+#include "hyperex/fem/solve/metis_turn.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -90,6 +91,7 @@ Cholesky::Cholesky(const SparseMatrix& lower, std::string purpose, std::vector<i
     HX_ASSERT(static_cast<Eigen::Index>(order.size()) == lower.cols());
     impl_->common.method[0].ordering = CHOLMOD_GIVEN;
   }
+  const auto turn = metis_turn();
   impl_->factor =
       cholmod_analyze_p(&view, order.empty() ? nullptr : order.data(), nullptr, 0, &impl_->common);
   if (!impl_->factor || impl_->common.status < CHOLMOD_OK) impl_->fail();

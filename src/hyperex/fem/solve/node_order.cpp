@@ -6,6 +6,7 @@
 #include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
+#include "hyperex/fem/solve/metis_turn.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -47,7 +48,11 @@ NodeOrder order_by_nodes(const SparseMatrix& lower, const std::vector<int>& node
   }
   cholmod_sparse graph = cholmod_view(nodes, start.data(), item.data(), nullptr);
   Common common;
-  cholmod_factor* factor = cholmod_analyze(&graph, &common);
+  cholmod_factor* factor = nullptr;
+  {
+    const auto turn = metis_turn();
+    factor = cholmod_analyze(&graph, &common);
+  }
   if (!factor || common.status < CHOLMOD_OK) {
     cholmod_free_factor(&factor, &common);
     throw NumericalError("the order of elimination could not be found (out of memory)");
