@@ -8,6 +8,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/report/skin_view.hpp"
+#include "support/test_file.hpp"
 #include "unit/report/made_up_face.hpp"
 
 namespace hyperex::report {
@@ -17,7 +18,7 @@ using testing::made_up_face;
 using testing::Surface;
 
 std::filesystem::path scratch(const std::string& name) {
-  return std::filesystem::path(::testing::TempDir()) / name;
+  return test_file(name);
 }
 
 tinygltf::Model read_back(const std::filesystem::path& file) {

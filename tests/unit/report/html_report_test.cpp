@@ -8,6 +8,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "support/test_file.hpp"
 #include "unit/report/made_up_face.hpp"
 #include "unit/report/page_reader.hpp"
 
@@ -24,7 +25,7 @@ using testing::Surface;
 
 std::string written(const MadeUpFace& face, const DisplacementModes& modes, std::string title = "t",
                     json summary = json::object()) {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "report_test.html";
+  const auto file = test_file("report_test.html");
   write_html_report(file, {face.performance,
                            face.scan,
                            modes,
@@ -97,7 +98,7 @@ TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
   for (const auto& variant : made) input.variants.push_back(reported(face, variant));
   const auto mirror = testing::made_up_mirror(face);
   input.mirror = &mirror;
-  const auto file = std::filesystem::path(::testing::TempDir()) / "report_variants_test.html";
+  const auto file = test_file("report_variants_test.html");
   write_html_report(file, input);
   const std::string page = read_file(file);
   const json variants = json::parse(element(page, "hyperex-manifest")).at("variants");

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "hyperex/core/error.hpp"
+#include "support/test_file.hpp"
 #include "unit/report/made_up_tracking.hpp"
 
 namespace hyperex::report {
@@ -77,7 +78,7 @@ class Player {
 };
 
 std::filesystem::path write(const tracking::Tracking& tracking) {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "tracked.glb";
+  const auto file = test_file("tracked.glb");
   write_tracked_glb(file, tracking::canonical_model(), tracking, kCamera);
   return file;
 }

@@ -10,6 +10,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/report/tracking_channels.hpp"
+#include "support/test_file.hpp"
 #include "unit/report/made_up_tracking.hpp"
 #include "unit/report/page_reader.hpp"
 
@@ -24,7 +25,7 @@ using tracking::TrackedFrame;
 constexpr double kRadians = std::numbers::pi / 180;
 
 std::string written(const tracking::Tracking& tracking, const std::string& recording = "r") {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "tracking_page_test.html";
+  const auto file = test_file("tracking_page_test.html");
   write_tracking_page(file, {canonical_model(), tracking, recording, 92, {"a note"}});
   return read_file(file);
 }
