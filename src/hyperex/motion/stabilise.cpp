@@ -211,4 +211,14 @@ StabilisedMotion stabilise(const Motion& motion, const StabiliseOptions& options
   return result;
 }
 
+StabilisedMotion with_still_head(const Motion& motion) {
+  StabilisedMotion result;
+  result.motion = motion;
+  const std::size_t samples = motion.positions.size();
+  result.motion.head_pose.assign(samples, Eigen::Isometry3d::Identity());
+  result.shift_uncertainty_m.assign(samples, 0);
+  result.turn_uncertainty_rad.assign(samples, 0);
+  return result;
+}
+
 }  // namespace hyperex::motion

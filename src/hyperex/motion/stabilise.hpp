@@ -42,4 +42,8 @@ const std::vector<std::string>& default_rigid_points();
 /// rigid points are measured or those lie nearly on a line.
 StabilisedMotion stabilise(const Motion& motion, const StabiliseOptions& options = {});
 
+/// A motion whose head is known to be still, as that of a face model that expressions move: the
+/// identity at every sample, without uncertainty.
+StabilisedMotion with_still_head(const Motion& motion);
+
 }  // namespace hyperex::motion

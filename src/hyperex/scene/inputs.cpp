@@ -218,7 +218,10 @@ motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Loo
                     filled.gaps.size(), filled.gaps.front().point, filled.gaps.front().from_s));
   motion::StabiliseOptions options;
   options.rigid_points = scene.motion.rigid_points;
-  auto steady = motion::stabilise(filled.motion, options);
+  // Expressions move a face model, whose head stays where it is.
+  const bool expressions = !scene.motion.arkit.empty() || !scene.motion.openface.empty();
+  auto steady = expressions ? motion::with_still_head(filled.motion)
+                            : motion::stabilise(filled.motion, options);
   const auto greatest = [](const std::vector<double>& v) { return *std::ranges::max_element(v); };
   in.head_shift_uncertainty_mm = 1e3 * greatest(steady.shift_uncertainty_m);
   in.head_turn_uncertainty_deg = greatest(steady.turn_uncertainty_rad) * 180 / std::numbers::pi;
