@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tracking against a clip that this code draws: the whole way from pictures to pose and motion,
+// with no data from elsewhere. Bounds are about one and a half times what was measured.
+#include "support/rendered_clip.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hyperex/core/progress.hpp"
+#include "hyperex/tracking/fit/score.hpp"
+#include "hyperex/tracking/fit/track_source.hpp"
+
+namespace hyperex::tracking {
+namespace {
+
+const Tracking& tracked() {
+  static const Tracking tracking = [] {
+    Progress::silence(true);
+    test::RenderedClip clip;
+    return track(clip, canonical_model());
+  }();
+  return tracking;
+}
+
+/// Between the outer edges of the lips' middle (mm), tracked and true.
+std::pair<double, double> lip_opening_mm(const TrackedFrame& frame, const Truth& truth) {
+  const FaceModel& model = canonical_model();
+  const auto at = [&](const char* name) {
+    return landmark_at(model.landmarks.at(name), frame.vertices_m);
+  };
+  const auto& points = truth.landmarks_m[frame.index];
+  return {1e3 * (at("ibug68_51") - at("ibug68_57")).norm(),
+          1e3 * (points.row(51) - points.row(57)).norm()};
+}
+
+TEST(RenderedClip, PoseAndMotionAreFound) {
+  const Score s = score(canonical_model(), tracked().frames, test::RenderedClip::truth());
+  EXPECT_EQ(s.lost, 0);
+  EXPECT_LT(s.rotation_deg.median, 0.17);
+  EXPECT_LT(s.rotation_deg.p95, 0.28);
+  EXPECT_LT(s.translation_mm.median, 0.14);
+  EXPECT_LT(s.translation_mm.p95, 0.25);
+  EXPECT_LT(s.deformation_mm.median, 0.8);
+  EXPECT_LT(s.deformation_mm.p95, 3.4);
+  EXPECT_GT(s.jaw_correlation.value_or(0), 0.99);
+}
+
+TEST(RenderedClip, TheLipsOpenAsFarAsTheyDo) {
+  const Truth truth = test::RenderedClip::truth();
+  double most = 0;
+  for (const TrackedFrame& frame : tracked().frames) {
+    ASSERT_TRUE(frame.valid) << frame.index << ": " << frame.fault;
+    const auto [found, wanted] = lip_opening_mm(frame, truth);
+    EXPECT_NEAR(found, wanted, 0.8) << frame.index;
+    most = std::max(most, wanted);
+  }
+  EXPECT_GT(most, lip_opening_mm(tracked().frames.front(), truth).second + 15);
+}
+
+}  // namespace
+}  // namespace hyperex::tracking
