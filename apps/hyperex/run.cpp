@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -31,6 +32,21 @@ std::string solver_line(const nlohmann::ordered_json& summary) {
   return line + " of the largest displacement\n";
 }
 
+/// "corners of the mouth: left 3.8 mm, right 12.7 mm, 8.9 mm apart"; empty where they are not
+/// known.
+std::string corners_line(const nlohmann::ordered_json& symmetry) {
+  if (!symmetry.contains("commissure")) return "";
+  const auto& corners = symmetry["commissure"];
+  if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
+  const double left = corners["excursion_mm"]["L"], right = corners["excursion_mm"]["R"];
+  std::string line =
+      fmt::format("corners of the mouth: left {:.1f} mm, right {:.1f} mm, {:.1f} mm apart", left,
+                  right, std::abs(left - right));
+  if (corners.value("undecided", false) && corners.value("floor_mm", 0.0) > 0)
+    line += fmt::format(": undecided (below {:.1f} mm)", corners["floor_mm"].get<double>());
+  return line + "\n";
+}
+
 void run(const Options& options) {
   take_library_memory();
   auto overrides = options.overrides;
@@ -38,11 +54,12 @@ void run(const Options& options) {
   const auto summary = scene::run_scene(scene::read_scene(options.scene, overrides), options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
-      "{}"
+      "{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
-      summary["seconds"]["total"].get<double>(), solver_line(summary), options.out.string());
+      summary["seconds"]["total"].get<double>(), solver_line(summary),
+      corners_line(summary["symmetry"]), options.out.string());
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},
@@ -53,7 +70,7 @@ void run(const Options& options) {
       {"symmetry.csv", "S(t)"},
       {"variants.png", "where and how far the variants differ"},
       {"variants_symmetry.png", "S(t) of all variants"},
-      {"variants.csv", "the same as a table; each has its folder in variants/"},
+      {"variants.csv", "the variants as a table; each has its folder in variants/"},
       {"excursions.csv", "how far and how fast either side moves"},
       {"asymmetry.png", "the face against its reflection"},
       {"summary.json", "counts, times, options"}};

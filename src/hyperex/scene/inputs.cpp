@@ -265,10 +265,14 @@ void exaggerate(const Scene& scene, Look look, motion::Motion& m, Inputs& in) {
     if (std::isfinite(jitter_m)) in.jitter_m = jitter_m;
     in.notes.push_back(
         std::isfinite(jitter_m)
-            ? fmt::format(
-                  "jitter of the tracked points at rest: {:.2f} mm, the noise floor of S(t)",
-                  1e3 * jitter_m)
+            ? fmt::format("jitter of the tracked points in their quietest half second: {:.2f} mm; "
+                          "lasting errors of tracking are not in it",
+                          1e3 * jitter_m)
             : "the recording is too short to tell its jitter: S(t) has no noise floor");
+  } else if (!scene.motion.source.embedded && !scene.motion.source.file.empty()) {
+    in.notes.push_back(
+        "the recording's jitter is not known, so figures of symmetry are judged by the mesh alone; "
+        "state it with output.jitter_mm (hyperex symmetry --jitter-mm auto estimates it)");
   }
   m = motion::time_scaled(m, scene.motion.time_scale);
   if (scene.motion.recording.empty() || look == Look::whole) check_length(scene, m);

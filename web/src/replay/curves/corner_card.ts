@@ -19,9 +19,10 @@ function floorWords(replay: Replay, { floorMm, undecided }: Corners): string {
   const jitter = replay.symmetry?.jitter_mm ?? 0;
   const mesh = meshFloorWhy(replay);
   if (!(floorMm > 0)) return mesh || 'Largest distance from rest. No floor is known: the recording is exact.';
-  const why = jitter > 0 ? ` Jitter of the tracked points: ${jitter.toFixed(2)} mm.` : '';
   const verdict = undecided ? 'Undecided' : 'Decided';
-  return `Largest distance from rest. ${verdict}: a difference below ${mm(floorMm)} would not be told from jitter and mesh.${why}`;
+  const made = jitter > 0 ? 'what jitter and the mesh make' : 'what the mesh makes';
+  const why = jitter > 0 ? `Jitter of the tracked points: ${jitter.toFixed(2)} mm.` : 'Jitter of the recording was not weighed: none is known.';
+  return `Largest distance from rest. ${verdict}: a difference below ${mm(floorMm)} cannot be told from ${made}. ${why}`;
 }
 
 function meshFloorWhy(replay: Replay): string {
