@@ -127,6 +127,8 @@ test('what is below its floor is undecided, and warnings come first', { skip: Bo
   const cells = await page.locator('.excursions tbody td .undecided').allTextContents();
   assert.deepEqual(cells, ['undecided (below 0.9 mm)', 'undecided (below 5.5 mm/s)']);
   assert.deepEqual(await page.locator('#note-list li').allTextContents(), ['Warning: A landmark is off', 'The scan has a hole']);
+  // They are told where the page begins, too.
+  assert.equal(await page.locator('#facts a[href="#note-list"]').textContent(), '1 warning');
   const rows = await page.locator('#summary-tables > .table-cards tr').allTextContents();
   assert.deepEqual(rows, ['Largest displacement of the skin25.5 mm'], 'grouped, with units, and nothing that is empty');
   await close();

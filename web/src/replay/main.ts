@@ -25,6 +25,12 @@ function fillPage(replay: Replay): void {
     `largest displacement ${replay.maxDisplacementMm.toFixed(1)} mm`,
   ].join('  ·  ');
   const { summary, notes } = replay;
+  const warnings = Array.isArray(summary.warnings) ? summary.warnings.length : 0;
+  if (warnings > 0) {
+    const link = element('a', warnings === 1 ? '1 warning' : `${warnings} warnings`, 'warning');
+    link.setAttribute('href', '#note-list');
+    at('facts').append('  ·  ', link);
+  }
   at('summary').hidden = notes.length === 0 && Object.keys(summary).length === 0;
   fillNotes(notes, summary.warnings, at('note-list'));
   fillSummary(summary, at('summary-tables'));
