@@ -74,7 +74,7 @@ fuzz: ## fuzz every reader of files with libFuzzer, 10 minutes each (SECONDS_EAC
 	scripts/setup.sh --fuzz
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel $(JOBS)
-	JOBS=$(JOBS) tests/fuzz/run.sh $(or $(SECONDS_EACH),600)
+	JOBS=$(JOBS) RUNS_EACH=$(RUNS_EACH) tests/fuzz/run.sh $(or $(SECONDS_EACH),600)
 
 bench: ## measure everything, beside CalculiX, and write docs/performance.md (QUICK=1: a look)
 	scripts/setup.sh --bench

@@ -4,6 +4,7 @@
 # there are cores. What was found on the way stays in build/fuzz/corpus and serves the next time;
 # what fails is kept in build/fuzz/found, and named at the end.
 #   tests/fuzz/run.sh [SECONDS_EACH] [TARGET...]
+#   RUNS_EACH=20000 tests/fuzz/run.sh     that many inputs each from a fixed seed: the same every time
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 each_s=${1:-600}
@@ -15,8 +16,10 @@ mkdir -p build/fuzz/{corpus,found,log}
 "$bin/write_seeds" build/fuzz/seeds
 
 one() {
+  local limit=(-max_total_time="$2")
+  [[ -z "${RUNS_EACH:-}" ]] || limit=(-runs="$RUNS_EACH" -seed=1)
   mkdir -p "build/fuzz/corpus/$1"
-  if build/fuzz/bin/"fuzz_$1" -max_total_time="$2" -timeout=30 -rss_limit_mb=2048 -max_len=8192 \
+  if build/fuzz/bin/"fuzz_$1" "${limit[@]}" -timeout=30 -rss_limit_mb=2048 -max_len=8192 \
     -dict=tests/fuzz/words.dict -print_final_stats=1 -artifact_prefix="build/fuzz/found/$1-" \
     "build/fuzz/corpus/$1" "build/fuzz/seeds/$1" > "build/fuzz/log/$1" 2>&1; then
     printf '%-10s %s inputs, sound\n' "$1" \
