@@ -47,7 +47,7 @@ void colour_lips(Person& person) {
 
 /// A dark wall behind the lips, so that an open mouth is dark and has depth.
 void add_mouth(Person& person, const Vec3& lips) {
-  constexpr double behind_m = 0.03, half_width_m = 0.028, up_m = 0.012, down_m = 0.035;
+  constexpr double behind_m = 0.035, half_width_m = 0.024, up_m = 0.012, down_m = 0.025;
   const auto first = person.mesh.points.rows(), face = person.mesh.triangles.rows();
   person.mesh.points.conservativeResize(first + 4, 3);
   person.colours.conservativeResize(first + 4, 3);

@@ -34,7 +34,7 @@ std::pair<double, double> lip_opening_mm(const TrackedFrame& frame, const Truth&
 
 TEST(RenderedClip, PoseAndMotionAreFound) {
   const Score s = score(canonical_model(), tracked().frames, test::RenderedClip::truth());
-  EXPECT_EQ(s.lost, 0);
+  EXPECT_EQ(s.lost, 0u);
   EXPECT_LT(s.rotation_deg.median, 0.17);
   EXPECT_LT(s.rotation_deg.p95, 0.28);
   EXPECT_LT(s.translation_mm.median, 0.14);
