@@ -19,7 +19,9 @@ TEST_F(Vtu, ArraysComeBackFromTheFile) {
   write_vtu(path("a.vtu"), points, tets, {displacement}, {strain});
   const std::string file = testing::file_bytes(path("a.vtu"));
   EXPECT_THAT(file, ::testing::HasSubstr("NumberOfPoints=\"50000\" NumberOfCells=\"49997\""));
-  EXPECT_THAT(file, ::testing::HasSubstr("ComponentName4=\"YZ\""));
+  EXPECT_THAT(file, ::testing::HasSubstr(
+                        "ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" "
+                        "ComponentName3=\"XY\" ComponentName4=\"YZ\" ComponentName5=\"XZ\""));
 
   const auto read_points = unpacked<float>(file, "Points");
   ASSERT_EQ(read_points.size(), 3u * n);

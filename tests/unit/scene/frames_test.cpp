@@ -100,6 +100,15 @@ TEST(Frames, MarksElementsThatAreTurnedInsideOut) {
   EXPECT_LE(kpa.at("p95"), kpa.at("p99"));
 }
 
+TEST(Frames, GreatestPrincipalStrainIsTheGreatestEigenvalueOfTheTensor) {
+  Eigen::Matrix3d tensor;  // no two components alike
+  tensor << 0.010, 0.007, 0.002, 0.007, -0.020, 0.015, 0.002, 0.015, 0.030;
+  const auto summary = stress_summary(strained_box(tensor));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(tensor, Eigen::EigenvaluesOnly);
+  EXPECT_NEAR(summary["greatest_principal_strain"]["max"].get<double>(),
+              solved.eigenvalues().maxCoeff(), 1e-6);
+}
+
 TEST(Frames, PercentilesOfAnEvenStrainAreAllTheSame) {
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
   gradient(0, 2) = 0.06;  // principal strains 0.03, 0, -0.03

@@ -68,6 +68,19 @@ void expect_gradient_of(const FrameFit& fit, const Observation& seen, const Face
   }
 }
 
+TEST(Measure, JacobianOfTheProjectionAgreesWithFiniteDifferences) {
+  const capture::Intrinsics camera{525, 480, 319.5, 239.5, 640, 480};  // pixels that are not square
+  for (const Vec3& p : {Vec3(0.2, -0.15, 0.6), Vec3(-0.1, 0.25, 0.9), Vec3(0, 0, 0.5)}) {
+    const Eigen::Matrix<double, 2, 3> jacobian = project_jacobian(camera, p);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 step = 1e-6 * Vec3::Unit(k);
+      const Eigen::Vector2d numeric =
+          (project(camera, p + step) - project(camera, p - step)) / 2e-6;
+      EXPECT_LT((jacobian.col(k) - numeric).norm(), 1e-4) << k << " at " << p.transpose();
+    }
+  }
+}
+
 TEST(Measure, NetworkTermAgreesWithFiniteDifferencesAtFrozenWeights) {
   const FaceModel& model = canonical_model();
   const FrameFit fit(model, kCamera, model.mesh.points, 1, {});
