@@ -298,7 +298,7 @@ Json calculix(const FaceCase& face, const fem::Drive& drive, const Effort& effor
   for (const int steps : {effort.ccx_few, effort.ccx_many}) {
     model.motion_m =
         (drive.prescribed(rows, Eigen::all) * drive.s.middleCols(1, steps)).transpose();
-    s.push_back(test::run_calculix(model).seconds);
+    s.push_back(test::run_calculix(model, 1, 2).seconds);
   }
   return {{"few", effort.ccx_few},
           {"many", effort.ccx_many},

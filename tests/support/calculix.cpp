@@ -125,7 +125,7 @@ double calculix_gain(double greatest) {
   return 0.99 * std::pow(10, std::ceil(std::log10(greatest))) / greatest;
 }
 
-CalculixRun run_calculix(const CalculixModel& model, double gain) {
+CalculixRun run_calculix(const CalculixModel& model, double gain, int threads) {
   const auto ccx = find_calculix();
   if (!ccx) throw NumericalError("ccx is not on the PATH");
   const Scratch scratch;
@@ -135,8 +135,8 @@ CalculixRun run_calculix(const CalculixModel& model, double gain) {
     write_motion(out, model, gain);
   }
   const std::string command =
-      fmt::format("cd '{}' && OMP_NUM_THREADS=2 OPENBLAS_NUM_THREADS=1 '{}' -i job > log 2>&1",
-                  scratch.path.string(), ccx->string());
+      fmt::format("cd '{}' && OMP_NUM_THREADS={} OPENBLAS_NUM_THREADS=1 '{}' -i job > log 2>&1",
+                  scratch.path.string(), threads, ccx->string());
   CalculixRun run;
   const auto start = std::chrono::steady_clock::now();
   const int code = std::system(command.c_str());

@@ -36,8 +36,8 @@ std::optional<std::filesystem::path> find_calculix();
 /// Its *DYNAMIC, DIRECT, ALPHA=0: average-acceleration Newmark (beta 1/4, gamma 1/2). It prints
 /// seven digits of each number; as the model is linear, `gain` multiplies the motion on the way in
 /// and divides the results (calculix_gain). Throws NumericalError with the last lines of its log
-/// where it fails or writes too little.
-CalculixRun run_calculix(const CalculixModel& model, double gain = 1);
+/// where it fails or writes too little. `threads`: of ccx; they wait for one another actively.
+CalculixRun run_calculix(const CalculixModel& model, double gain = 1, int threads = 1);
 
 /// Brings displacements of up to `greatest` to 9.9 times a power of ten: seven digits then round by
 /// no more than 5.1e-8 of the greatest.
