@@ -280,11 +280,11 @@ Json calculix(const FaceCase& face, const fem::Drive& drive, const Effort& effor
   test::CalculixModel model;
   model.nodes = face.mesh().volume.nodes;
   model.tets = face.mesh().volume.tets;
-  model.young_pa = face.tissue().young_pa;
-  model.poisson = face.tissue().poisson;
-  model.density_kg_m3 = face.tissue().density_kg_m3;
-  model.beta_s =
-      face.tissue().viscosity_pa_s / fem::shear_modulus_pa(model.young_pa, model.poisson);
+  model.young_pa = face.tissue().uniform[tissue::young];
+  model.poisson = face.tissue().uniform[tissue::poisson];
+  model.density_kg_m3 = face.tissue().uniform[tissue::density];
+  model.beta_s = face.tissue().uniform[tissue::viscosity] /
+                 fem::shear_modulus_pa(model.young_pa, model.poisson);
   model.held_nodes = face.boundary().held_nodes();
   model.dt_s = face.dt_s();
   const auto& nodes = face.boundary().driven_nodes();

@@ -21,7 +21,7 @@ struct Options {
 };
 
 void run(const Options& options) {
-  check_folder_of(options.page);
+  check_outputs({options.page});
   std::filesystem::create_directories(options.setting.pictures);
   Progress::silence(true);                // of each simulation; several run at once
   spdlog::set_level(spdlog::level::err);  // notes of the scenes stand in their own reports

@@ -31,7 +31,7 @@ void draw_model_maps(const Study& study,
       "shapes at {:.1f} s, and the greatest distance over time between the skin of two models; "
       "red: "
       "the right crista philtri superior",
-      study.scene().output.contact_times_s.back());
+      study.scene().time.still_times_s.back());
   sheet.columns = 5;
   sheet.bar = render::ColourBar{{0, top}, "distance (mm)"};
   const auto marker = pictures.marker(study.inputs().landmarks.at("crista_philtri_superior_R"),

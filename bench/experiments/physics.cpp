@@ -58,7 +58,7 @@ PhysicsRow row_of(const Trial& trial, const SimulationResult& result, const Perf
 void add_pictures(const Study& study, const SimulationResult& result, render::ContactSheet& sheet) {
   const Performance& p = result.performance;
   const FacePictures pictures(study);
-  const std::vector<double>& times = study.scene().output.contact_times_s;
+  const std::vector<double>& times = study.scene().time.still_times_s;
   for (std::size_t s = 0; s < result.still_displacement_m.size(); ++s) {
     const PointsF& d = result.still_displacement_m[s];
     std::vector<render::Marker> markers;

@@ -16,8 +16,8 @@ namespace hyperex::bench {
 Study::Study(const std::filesystem::path& scene, const std::vector<std::string>& overrides)
     : scene_(scene::read_scene(scene, overrides)),
       inputs_(scene::read_inputs(scene_)),
-      mesh_(tissue::build_tissue_mesh(inputs_.scan.mesh, inputs_.landmarks,
-                                      scene::mesh_options(scene_), inputs_.scan.file.string())),
+      mesh_(tissue::build_tissue_mesh(inputs_.scan.mesh, inputs_.landmarks, scene_.mesh,
+                                      inputs_.scan.file.string())),
       frame_(tissue::face_frame(inputs_.landmarks)),
       fields_(inputs_, mesh_) {}
 
@@ -27,7 +27,7 @@ std::string Study::name() const {
 
 Tissue Study::tissue_of(const scene::Scene& scene) {
   if (const auto field = fields_.of(scene)) return field->element;
-  const auto uniform = tissue::uniform_parameters(scene::tissue_field_options(scene));
+  const auto uniform = tissue::uniform_parameters(scene.tissue);
   Tissue tissue;
   for (int p = 0; p < tissue::parameter_count; ++p)
     tissue[p].assign(std::size_t(mesh_.volume.tets.rows()), uniform[p]);
@@ -44,10 +44,10 @@ reenact::SimulationResult Study::simulate(const Trial& trial,
   // to the full one than a run that is looked at by eye.
   constexpr double tolerance = 1e-4;
   reenact::SimulationOptions options = scene::simulation_options(scene_, inputs_);
-  options.solver.element = trial.element;
+  options.model.element = trial.element;
   options.solver.tolerance = tolerance;
   if (!trial.reduced) options.solver.method = reenact::SolverMethod::direct;
-  options.tissue.viscous_form = trial.form;
+  options.model.viscous_form = trial.form;
   options.tissue.element = trial.tissue;
   return reenact::simulate(mesh_, inputs_.landmarks, motion, options);
 }

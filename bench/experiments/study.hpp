@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hyperex/metrics/symmetry.hpp"
+#include "hyperex/reenact/simulation.hpp"
 #include "hyperex/scene/inputs.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
 #include "hyperex/tissue/face_frame.hpp"
@@ -44,7 +45,7 @@ class Study {
   /// Of the scene, or of one of its variants.
   Tissue tissue_of(const scene::Scene& scene);
   Trial own_trial() {
-    return {tissue_of(scene_), scene_.tissue.element, scene_.tissue.viscous_form, true};
+    return {tissue_of(scene_), scene_.model.element, scene_.model.viscous_form, true};
   }
 
   reenact::SimulationResult simulate(const Trial& trial) const;

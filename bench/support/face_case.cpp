@@ -30,14 +30,15 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
   motion_ = inputs.motion;
   options_ = scene::simulation_options(scene, inputs);
 
-  tissue::TissueMeshOptions mesh = scene::mesh_options(scene);
+  tissue::TissueMeshOptions mesh = scene.mesh;
   if (size.element_size_m > 0) mesh.element_size_m = size.element_size_m;
   if (size.layers > 0) mesh.layers = size.layers;
   Stopwatch watch;
   mesh_ = tissue::build_tissue_mesh(inputs.scan.mesh, landmarks_, mesh, inputs.scan.file.string());
   mesh_s_ = watch.lap();
   const auto region = reenact::measured_region(mesh_, landmarks_, motion_, options_.region);
-  boundary_ = std::make_unique<reenact::Boundary>(mesh_, landmarks_, motion_, region, options_);
+  boundary_ = std::make_unique<reenact::Boundary>(mesh_, landmarks_, motion_, region,
+                                                  options_.drive, options_.support);
 
   curve_ = std::make_unique<motion::MotionCurve>(motion_.motion);
   start_s_ = motion_.motion.time_s.front();
@@ -60,11 +61,11 @@ Points FaceCase::points_at(double t_s) const {
 fem::Material FaceCase::material(double viscosity_factor) const {
   const auto tets = static_cast<std::size_t>(mesh_.volume.tets.rows());
   fem::Material m;
-  m.young_pa.assign(tets, options_.tissue.young_pa);
-  m.poisson.assign(tets, options_.tissue.poisson);
-  m.viscosity_pa_s.assign(tets, viscosity_factor * options_.tissue.viscosity_pa_s);
-  m.density_kg_m3.assign(tets, options_.tissue.density_kg_m3);
-  m.viscous_form = options_.tissue.viscous_form;
+  m.young_pa.assign(tets, options_.tissue.uniform[tissue::young]);
+  m.poisson.assign(tets, options_.tissue.uniform[tissue::poisson]);
+  m.viscosity_pa_s.assign(tets, viscosity_factor * options_.tissue.uniform[tissue::viscosity]);
+  m.density_kg_m3.assign(tets, options_.tissue.uniform[tissue::density]);
+  m.viscous_form = options_.model.viscous_form;
   return m;
 }
 

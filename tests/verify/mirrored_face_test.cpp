@@ -75,7 +75,7 @@ TEST_P(MirroredFace, MovesAsTheMirrorImage) {
 
   reenact::SimulationOptions options;
   options.solver.method = reenact::SolverMethod::direct;
-  options.solver.element = fem::ElementKind::tet4_star;
+  options.model.element = fem::ElementKind::tet4_star;
   options.time.step_s = 0.01;
   options.drive.points = reenact::test::seven_points();
   options.tissue.element = field.element;

@@ -8,6 +8,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/reenact/support.hpp"
 
 namespace hyperex::reenact {
 namespace {
@@ -16,29 +17,30 @@ enum Kind { fixed = 0, driven = 1 };
 
 Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                    const AlignedMotion& motion, const MeasuredRegion& region,
-                   const SimulationOptions& options)
+                   const DriveOptions& drive, const SupportOptions& support)
     : mesh_(mesh), rest_(motion.rest), jaw_(landmarks) {
-  set_driven(motion, landmarks, options.drive);
+  set_driven(motion, landmarks, drive);
   set_measured(region);
-  set_jaw_points(motion, options.support);
+  set_jaw_points(motion, support);
   const std::vector<char> moves_with_jaw = near_jaw(mesh, landmarks);
-  if (options.support.border_held)
+  if (support.border_held)
     for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
       if (mesh.on_border[v] && !moves_with_jaw[v])
         for (int level = 0; level <= mesh.volume.layers; ++level)
           fixed_nodes_.push_back(static_cast<int>(level * mesh.volume.surface_nodes()) + v);
-  set_bones(landmarks, options.support);
+  set_bones(landmarks, support);
   number_unknowns();
 }
 
 void Boundary::set_driven(const AlignedMotion& motion, const io::Landmarks& landmarks,
                           const DriveOptions& drive) {
   std::vector<DrivenPoint> points;
-  for (const std::string& name : drive.points) {
+  const std::vector<std::string>& names = drive.names_in(motion.motion);
+  for (const std::string& name : names) {
     const int row = motion.motion.index_of(name);
     if (row < 0)
       throw InputError(motion.motion.source,
-                       fmt::format("has no point {}, named in drive.points", name));
+                       fmt::format("has no point {}, which is to be driven", name));
     if (std::count(driven_rows_.begin(), driven_rows_.end(), row)) continue;
     driven_rows_.push_back(row);
     points.push_back({name, motion.rest.row(row).transpose()});
@@ -48,9 +50,8 @@ void Boundary::set_driven(const AlignedMotion& motion, const io::Landmarks& land
     if (it == landmarks.end())
       throw InputError(
           motion.motion.source,
-          fmt::format("{}, named in drive.still_points, is no landmark of the scan", name));
-    if (!std::count(drive.points.begin(), drive.points.end(), name))
-      points.push_back({name, it->second});
+          fmt::format("{}, which is to be held still, is no landmark of the scan", name));
+    if (!std::count(names.begin(), names.end(), name)) points.push_back({name, it->second});
   }
   const Vec3 up = tissue::face_frame(landmarks).y;
   const DriveField field(points, still_places(points, landmarks), mesh_, up,
@@ -96,7 +97,7 @@ void Boundary::set_jaw_points(const AlignedMotion& motion, const SupportOptions&
     const int row = motion.motion.index_of(name);
     if (row < 0)
       throw InputError(motion.motion.source,
-                       fmt::format("has no point {}, named in support.jaw_points", name));
+                       fmt::format("has no point {}, which is to carry the jaw", name));
     jaw_rows_.push_back(row);
   }
   if (!jaw_rows_.empty()) return;

@@ -5,7 +5,8 @@
 #include "hyperex/fem/form/system.hpp"
 #include "hyperex/reenact/drive.hpp"
 #include "hyperex/reenact/jaw.hpp"
-#include "hyperex/reenact/simulation.hpp"
+#include "hyperex/reenact/options.hpp"
+#include "hyperex/reenact/skin_measured.hpp"
 
 namespace hyperex::reenact {
 
@@ -15,8 +16,8 @@ namespace hyperex::reenact {
 class Boundary {
  public:
   Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-           const AlignedMotion& motion, const MeasuredRegion& region,
-           const SimulationOptions& options);
+           const AlignedMotion& motion, const MeasuredRegion& region, const DriveOptions& drive,
+           const SupportOptions& support);
 
   /// Adds the springs' stiffness (their blocks lie within the pattern of K).
   void add_springs(fem::SparseMatrix& stiffness) const;

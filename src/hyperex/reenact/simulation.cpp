@@ -18,6 +18,7 @@
 #include "hyperex/reenact/boundary.hpp"
 #include "hyperex/reenact/input_shapes.hpp"
 #include "hyperex/reenact/lip_contact.hpp"
+#include "hyperex/reenact/skin_measured.hpp"
 #include "hyperex/reenact/skin_places.hpp"
 #include "hyperex/reenact/solve.hpp"
 #include "hyperex/tissue/lips.hpp"
@@ -148,12 +149,12 @@ class Run {
   }
 
   void integrate() {
-    Boundary boundary(mesh_, landmarks_, motion_, region_, options_);
+    Boundary boundary(mesh_, landmarks_, motion_, region_, options_.drive, options_.support);
     Stopwatch watch;
     const auto tets = static_cast<std::size_t>(mesh_.volume.tets.rows());
-    const fem::Material material = options_.tissue.material(tets);
+    const fem::Material material = options_.tissue.material(tets, options_.model.viscous_form);
     fem::System system =
-        fem::assemble(mesh_.volume.nodes, mesh_.volume.tets, material, options_.solver.element);
+        fem::assemble(mesh_.volume.nodes, mesh_.volume.tets, material, options_.model.element);
     boundary.add_springs(system.stiffness);
     SimulationReport& report = result_.report;
     report.assemble_s = watch.lap();
@@ -162,7 +163,7 @@ class Run {
     const double steps = std::ceil(end_s_ / dt_s - 1e-9);
     if (steps > kMostSteps)
       throw InputError(motion_.motion.source,
-                       fmt::format("{:g} s in steps of time.step_s = {:g} are {:.0f} steps; "
+                       fmt::format("{:g} s in steps of {:g} s are {:.0f} steps; "
                                    "expected at most {:.0f}",
                                    end_s_, dt_s, steps, kMostSteps));
     report.steps = static_cast<int>(steps);
@@ -196,8 +197,8 @@ class Run {
     if (!solution.converged)
       report.notes.push_back(
           fmt::format("The reduced model stopped growing at {} vectors with an estimated error of "
-                      "{:.1e}, above "
-                      "solver.tolerance = {:g}: solver.method = \"direct\" has no such error.",
+                      "{:.1e}, above the wanted {:g}: solving for all unknowns at every step (the "
+                      "direct method) has no such error.",
                       solution.basis_size, solution.estimated_error, options_.solver.tolerance));
 
     Performance& p = result_.performance;
@@ -241,7 +242,7 @@ class Run {
     p.lip_cut_rest = mesh_.lip_cut;
     p.landmarks = landmark_tracks(mesh_, landmarks_, p.frame_time_s, p.skin_displacement_m);
     std::vector<int> rows;
-    for (const std::string& name : options_.drive.points)
+    for (const std::string& name : options_.drive.names_in(motion_.motion))
       if (const int row = motion_.motion.index_of(name); row >= 0) {
         rows.push_back(row);
         p.driven_names.push_back(name);
@@ -285,8 +286,8 @@ class Run {
     double most = -1;
     for (std::size_t f = 0; f < times.size(); ++f) {
       double score = 0;
-      if (options_.peak_time_s >= 0) {
-        score = 1 / (1 + std::abs(times[f] - options_.peak_time_s));
+      if (options_.time.peak_time_s >= 0) {
+        score = 1 / (1 + std::abs(times[f] - options_.time.peak_time_s));
       } else {
         const Points d = input_.at(times[f]);
         for (int row : rows) score += d.row(row).norm();
@@ -330,25 +331,6 @@ class Run {
 };
 
 }  // namespace
-
-fem::Material TissueValues::material(std::size_t tets) const {
-  fem::Material out;
-  const auto fill = [&](std::vector<double>& values, tissue::Parameter parameter, double uniform) {
-    HX_ASSERT(element[parameter].empty() || element[parameter].size() == tets);
-    if (element[parameter].empty())
-      values.assign(tets, uniform);
-    else
-      values = element[parameter];
-    HX_ASSERT(std::all_of(values.begin(), values.end(),
-                          [&](double value) { return tissue::is_allowed(parameter, value); }));
-  };
-  fill(out.young_pa, tissue::young, young_pa);
-  fill(out.poisson, tissue::poisson, poisson);
-  fill(out.viscosity_pa_s, tissue::viscosity, viscosity_pa_s);
-  fill(out.density_kg_m3, tissue::density, density_kg_m3);
-  out.viscous_form = viscous_form;
-  return out;
-}
 
 SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                           const AlignedMotion& motion, const SimulationOptions& options) {

@@ -18,9 +18,9 @@ double share_at(const Vec3& p, const std::vector<Vec3>& centres, const RegionOpt
   if (options.measured == Measured::all) return 1;
   double nearest = 1;
   for (const Vec3& c : centres) nearest = std::min(nearest, (p - c).norm());
-  if (nearest <= options.radius_m) return 1;
-  if (nearest >= options.radius_m + options.blend_m) return 0;
-  const double t = (nearest - options.radius_m) / options.blend_m;
+  if (nearest <= options.measured_radius_m) return 1;
+  if (nearest >= options.measured_radius_m + options.blend_m) return 0;
+  const double t = (nearest - options.measured_radius_m) / options.blend_m;
   return 1 - t * t * (3 - 2 * t);
 }
 
@@ -72,11 +72,11 @@ MeasuredRegion measured_region(const tissue::TissueMesh& mesh, const io::Landmar
   if (options.measured == Measured::none) return region;
 
   std::vector<Vec3> centres;
-  for (const std::string& name : options.points) {
+  for (const std::string& name : options.measured_points) {
     const int i = motion.motion.index_of(name);
     if (i < 0)
       throw InputError(motion.motion.source,
-                       fmt::format("has no point {}, named in region.measured_points", name));
+                       fmt::format("has no point {}, whose surroundings are to be measured", name));
     centres.push_back(motion.rest.row(i).transpose());
   }
   const tissue::FaceFrame frame = tissue::face_frame(landmarks);

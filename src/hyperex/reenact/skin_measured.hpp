@@ -6,18 +6,10 @@
 
 #include "hyperex/reenact/alignment.hpp"
 #include "hyperex/reenact/matching.hpp"
+#include "hyperex/reenact/options.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::reenact {
-
-enum class Measured { none, all, points };
-
-struct RegionOptions {
-  Measured measured = Measured::none;
-  std::vector<std::string> points;  ///< names; the skin around them is measured
-  double radius_m = 0.015;
-  double blend_m = 0.005;  ///< over which measured passes into physical
-};
 
 /// The part of the skin that follows the tracked triangles [4.15], and by how much.
 struct MeasuredRegion {

@@ -90,7 +90,7 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth) {
 
 Solution solve(fem::System system, const std::vector<int>& prescribed, const fem::Drive& drive,
                const std::vector<double>& times, const SolverOptions& options, double dt_s) {
-  const fem::NewmarkOptions time{dt_s, options.beta, options.gamma};
+  const fem::NewmarkOptions time{dt_s, options.newmark_beta, options.newmark_gamma};
   if (options.method == SolverMethod::direct)
     return solve_full(std::move(system), prescribed, drive, times, time, options.linear);
   const fem::ReducedOptions reduced{time, options.tolerance};

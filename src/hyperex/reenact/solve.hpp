@@ -2,8 +2,9 @@
 #pragma once
 #include <vector>
 
+#include "hyperex/fem/form/system.hpp"
 #include "hyperex/fem/time/drive.hpp"
-#include "hyperex/reenact/simulation.hpp"
+#include "hyperex/reenact/options.hpp"
 
 namespace hyperex::reenact {
 

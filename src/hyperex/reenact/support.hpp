@@ -9,14 +9,6 @@ namespace hyperex::reenact {
 /// What lies under a node of the inner surface.
 enum class Bone : char { none, skull, mandible };
 
-/// The tissue slides on the bone on a layer of loose tissue: springs per area between the inner
-/// surface and the bone, stiff across the layer, soft along it. Infinite (>= held_pa_per_m) means
-/// held.
-struct BoneLayer {
-  double across_pa_per_m = 0, along_pa_per_m = 0;
-};
-inline constexpr double held_pa_per_m = 1e12;
-
 /// Which bone lies under each inner node, from landmarks alone:
 ///  * skull: above the line from the base of the nose (ibug68_33) back to below the ears (mean of
 ///    ibug68_2 and 14), save within 8 mm of the lips;

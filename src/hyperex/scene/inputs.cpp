@@ -177,7 +177,8 @@ motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
         "the video is taken as not mirrored, as it does not tell; where it is (many selfie videos "
         "are), left and right are exchanged: say motion.mirrored = true, or false");
   for (const auto& note : source->notes()) in.notes.push_back("motion: " + note);
-  motion::Motion m = tracking::motion_of(model, tracking, scene.region.measured != Measured::none);
+  motion::Motion m =
+      tracking::motion_of(model, tracking, scene.region.measured != reenact::Measured::none);
   m.source = scene.motion.recording.string();
   return m;
 }
@@ -321,9 +322,9 @@ void check_names(const Scene& scene, const Inputs& in, const std::string& of = "
   add(check(scene.region.measured_points, "region.measured_points", true));
   add(check(scene.drive.still_points, "drive.still_points", false));
   std::vector<std::string> thick;
-  for (const auto& p : scene.mesh.thickness_points) thick.push_back(p.landmark);
+  for (const auto& p : scene.mesh.depths) thick.push_back(p.landmark);
   add(check(thick, "mesh.thickness_point", false));
-  for (const auto& problem : tissue::problems_of(tissue_field_options(scene), in.landmarks))
+  for (const auto& problem : tissue::problems_of(scene.tissue, in.landmarks))
     all.push_back(problem_at(scene, "tissue." + problem.key, problem.expected));
   for (InputProblem& problem : all) {
     const bool of_region =
@@ -338,13 +339,13 @@ void check_names(const Scene& scene, const Inputs& in, const std::string& of = "
 /// Files of tissue a vertex, of the scene and of its variants, each told of once.
 void note_tissue_files(const Scene& scene, Inputs& in) {
   const auto add = [&](const Scene& s) {
-    for (auto& note : tissue::notes_on_files(tissue_field_options(s), in.scan.mesh))
+    for (auto& note : tissue::notes_on_files(s.tissue, in.scan.mesh))
       if (std::find(in.notes.begin(), in.notes.end(), note) == in.notes.end())
         in.notes.push_back(std::move(note));
   };
   add(scene);
   for (const Variant& variant : scene.variants)
-    if (!(tissue_field_options(variant.scene) == tissue_field_options(scene))) add(variant.scene);
+    if (!(variant.scene.tissue == scene.tissue)) add(variant.scene);
 }
 
 /// Labels that nothing asked for: a name that the recording or the scene has serves there.
@@ -353,8 +354,8 @@ void note_unknown_landmarks(const Scene& scene, const io::Landmarks& given, Inpu
   std::erase_if(unknown, [&](const std::string& name) {
     return in.motion.motion.index_of(name) >= 0 ||
            std::count(scene.drive.still_points.begin(), scene.drive.still_points.end(), name) > 0 ||
-           std::any_of(scene.mesh.thickness_points.begin(), scene.mesh.thickness_points.end(),
-                       [&](const ThicknessPoint& p) { return p.landmark == name; }) ||
+           std::any_of(scene.mesh.depths.begin(), scene.mesh.depths.end(),
+                       [&](const tissue::DepthAt& p) { return p.landmark == name; }) ||
            std::any_of(scene.tissue.points.begin(), scene.tissue.points.end(),
                        [&](const tissue::TissuePoint& p) { return name.starts_with(p.landmark); });
   });
@@ -362,8 +363,8 @@ void note_unknown_landmarks(const Scene& scene, const io::Landmarks& given, Inpu
 }
 
 void note_missing_support(const Scene& scene, Inputs& in) {
-  const SupportOptions& s = scene.support;
-  if (!s.border_held && s.skull == Hold::free && s.mandible == Mandible::free &&
+  const reenact::SupportOptions& s = scene.support;
+  if (!s.border_held && s.skull == reenact::Hold::free && s.mandible == reenact::Mandible::free &&
       s.muscle_pa_per_m == 0)
     in.notes.push_back(
         "nothing holds the tissue: support.border, support.skull and support.mandible are free and "

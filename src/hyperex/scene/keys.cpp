@@ -2,6 +2,7 @@
 #include "hyperex/scene/keys.hpp"
 
 #include "hyperex/scene/fields.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -15,6 +16,28 @@ namespace {
 using io::LengthUnit;
 using MaybeUnit = std::optional<LengthUnit>;
 const Unit none{""}, millimetres{"mm", 1, 1000}, seconds{"s"}, stiffness{"kPa/mm", 1000000, 1};
+
+// The rooms' own options: their ranges are stated there.
+using Mesh = tissue::TissueMeshOptions;
+using Region = reenact::RegionOptions;
+using Support = reenact::SupportOptions;
+using Drive = reenact::DriveOptions;
+using Solver = reenact::SolverOptions;
+using Time = reenact::TimeOptions;
+using reenact::AlignmentMethod;
+using reenact::Hold;
+using reenact::Mandible;
+using reenact::Measured;
+using reenact::SolverMethod;
+
+/// The bounds of an option in the unit of its key.
+Range in(const Bounds& bounds, const Unit& unit) {
+  return {unit.from_si(bounds.least), unit.from_si(bounds.most)};
+}
+Range or_zero(Range range) {
+  range.or_zero = true;
+  return range;
+}
 
 std::vector<std::pair<std::string, MaybeUnit>> units_or(const std::string& otherwise) {
   return {{"mm", LengthUnit::millimetre},
@@ -78,7 +101,7 @@ std::vector<Key> input_keys() {
       number<Scene>("motion.max_gap_s", seconds, AT(motion.max_gap_s), {0, 10},
                     "The longest gap in a point's track that is interpolated; a longer one is "
                     "refused."),
-      number<Scene>("motion.gain", none, AT(motion.gain), {0, 5},
+      number<Scene>("motion.gain", none, AT(drive.gain), {0, 5},
                     "Multiplies all displacements; 1 as recorded."),
       rows<Scene, motion::PointGain>(
           "motion.point_gain", AT(motion.point_gains),
@@ -107,28 +130,47 @@ std::vector<Key> input_keys() {
                    "Points whose surroundings are measured. At least one where region.measured is "
                    "\"points\"."),
       number<Scene>("region.measured_radius_mm", millimetres, AT(region.measured_radius_m),
-                    {1, 200}, "How far the surroundings of a measured point reach."),
-      number<Scene>("region.blend_mm", millimetres, AT(region.blend_m), {0, 100},
+                    in(Region::measured_radius_m_in, millimetres),
+                    "How far the surroundings of a measured point reach."),
+      number<Scene>("region.blend_mm", millimetres, AT(region.blend_m),
+                    in(Region::blend_m_in, millimetres),
                     "Width of the transition from measured to physical."),
   };
 }
 
 const Unit kilopascals{"kPa", 1000, 1}, pascal_seconds{"Pa s"}, density_unit{"kg/m^3"};
-// From far below any tissue on: at 1e-300 the matrices are no longer positive definite.
-const Range young_range{1e-3, 1e6}, poisson_range{-0.99, 0.4999}, viscosity_range{0, 1e7},
-    density_range{1e-3, 20000};
+/// What the material may have, in the unit of the key.
+Range range_of(tissue::Parameter parameter) {
+  const tissue::ParameterInfo& info = tissue::parameter_info(parameter);
+  return {info.least / info.si, info.most / info.si};
+}
+
+/// A parameter of the whole tissue. Where it is not given the preset's holds, or the default, and
+/// is what the echo shows.
+Key uniform_parameter(std::string name, Unit unit, tissue::Parameter parameter,
+                      std::string description) {
+  Key key = number<Scene>(
+      std::move(name),
+      unit, [parameter](auto& scene) -> auto& { return scene.tissue.uniform[parameter]; },
+      range_of(parameter), std::move(description));
+  key.get = [unit, parameter](const Scene& scene) -> nlohmann::json {
+    const std::optional<double>& given = scene.tissue.uniform[parameter];
+    return unit.from_si(given ? *given : tissue::uniform_parameters(scene.tissue)[parameter]);
+  };
+  return key;
+}
 
 /// Parameters of a point or a region, each given or not.
 template <class Row>
 std::vector<Field<Row>> given_parameters() {
   using namespace tissue;
-  return {maybe_number<Row>("young_kpa", kilopascals, AT(value[young]), young_range,
+  return {maybe_number<Row>("young_kpa", kilopascals, AT(value[young]), range_of(young),
                             "Young's modulus there."),
-          maybe_number<Row>("viscosity_pa_s", pascal_seconds, AT(value[viscosity]), viscosity_range,
-                            "Viscosity there."),
-          maybe_number<Row>("poisson", none, AT(value[poisson]), poisson_range,
+          maybe_number<Row>("viscosity_pa_s", pascal_seconds, AT(value[viscosity]),
+                            range_of(viscosity), "Viscosity there."),
+          maybe_number<Row>("poisson", none, AT(value[poisson]), range_of(poisson),
                             "Poisson's ratio there."),
-          maybe_number<Row>("density_kg_m3", density_unit, AT(value[density]), density_range,
+          maybe_number<Row>("density_kg_m3", density_unit, AT(value[density]), range_of(density),
                             "Density there.")};
 }
 
@@ -179,42 +221,46 @@ std::vector<Field<tissue::TissueRegion>> region_columns() {
 
 std::vector<Key> model_keys() {
   return {
-      number<Scene>("mesh.element_size_mm", millimetres, AT(mesh.element_size_m), {0.5, 30},
+      number<Scene>("mesh.element_size_mm", millimetres, AT(mesh.element_size_m),
+                    in(Mesh::element_size_m_in, millimetres),
                     "Edge length of the tetrahedra along the skin."),
-      integer<Scene>("mesh.layers", AT(mesh.layers), {1, 8},
+      integer<Scene>("mesh.layers", AT(mesh.layers), in(Mesh::layers_in, none),
                      "Layers of elements between the skin and the inner surface."),
-      number<Scene>("mesh.thickness_mm", millimetres, AT(mesh.thickness_m), {1, 40, false, true},
+      number<Scene>("mesh.thickness_mm", millimetres, AT(mesh.thickness_m),
+                    or_zero(in(Mesh::thickness_m_in, millimetres)),
                     "Thickness of the soft tissue, the same everywhere. 0: from published depths "
                     "at landmarks, interpolated."),
-      choice<Scene, LipCut>(
+      choice<Scene, tissue::LipCut>(
           "mesh.cut_lips", AT(mesh.cut_lips),
-          {{"auto", LipCut::automatic}, {"always", LipCut::always}, {"never", LipCut::never}},
+          {{"auto", tissue::LipCut::automatic},
+           {"always", tissue::LipCut::always},
+           {"never", tissue::LipCut::never}},
           "Whether the scan is cut between the lips: \"auto\" cuts where they are joined."),
-      number<Scene>("mesh.trim_border_mm", millimetres, AT(mesh.trim_border_m), {0, 50},
+      number<Scene>("mesh.trim_border_mm", millimetres, AT(mesh.trim_border_m),
+                    in(Mesh::trim_border_m_in, millimetres),
                     "Takes off a strip of this width along the scan's outer border."),
-      rows<Scene, ThicknessPoint>(
-          "mesh.thickness_point", AT(mesh.thickness_points),
-          {text<ThicknessPoint>("landmark", AT(landmark), 1, "A landmark of the scan."),
-           number<ThicknessPoint>("thickness_mm", millimetres, AT(thickness_m), {1, 40},
-                                  "Thickness of the soft tissue there.")},
+      rows<Scene, tissue::DepthAt>(
+          "mesh.thickness_point", AT(mesh.depths),
+          {text<tissue::DepthAt>("landmark", AT(landmark), 1, "A landmark of the scan."),
+           number<tissue::DepthAt>("thickness_mm", millimetres, AT(depth_m),
+                                   in(Mesh::thickness_m_in, millimetres),
+                                   "Thickness of the soft tissue there.")},
           "Thickness at a landmark, in the place of the published depth there; interpolated in "
           "between. Only where mesh.thickness_mm is 0."),
-      number<Scene>("tissue.young_kpa", kilopascals, AT(tissue.young_pa), young_range,
-                    "Young's modulus E."),
-      number<Scene>(
-          "tissue.poisson", none, AT(tissue.poisson), {-0.99, 0.4999},
+      uniform_parameter("tissue.young_kpa", kilopascals, tissue::young, "Young's modulus E."),
+      uniform_parameter(
+          "tissue.poisson", none, tissue::poisson,
           "Poisson's ratio. With tissue.element = \"tet4\" the tissue moves too little near 0.5."),
-      number<Scene>("tissue.viscosity_pa_s", {"Pa s"}, AT(tissue.viscosity_pa_s), {0, 1e7},
-                    "Viscosity eta, of changes of shape."),
-      number<Scene>("tissue.density_kg_m3", {"kg/m^3"}, AT(tissue.density_kg_m3), density_range,
-                    "Density."),
+      uniform_parameter("tissue.viscosity_pa_s", pascal_seconds, tissue::viscosity,
+                        "Viscosity eta, of changes of shape."),
+      uniform_parameter("tissue.density_kg_m3", density_unit, tissue::density, "Density."),
       choice<Scene, fem::ViscousForm>(
-          "tissue.viscous_form", AT(tissue.viscous_form),
+          "tissue.viscous_form", AT(model.viscous_form),
           {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
           "The viscous tensor: Stokes' law, or the tensor printed in the source, which is not "
           "isotropic."),
       choice<Scene, fem::ElementKind>(
-          "tissue.element", AT(tissue.element),
+          "tissue.element", AT(model.element),
           {{"tet4", fem::ElementKind::tet4}, {"tet4-star", fem::ElementKind::tet4_star}},
           "The finite element: linear tetrahedra, plain, or with the change of volume averaged "
           "over patches, which does not lock near poisson = 0.5 (docs/elements.md)."),
@@ -251,11 +297,12 @@ std::vector<Key> model_keys() {
           "The inner surface over the skull: slides on it on a loose layer, is held, or is free."),
       number<Scene>(
           "support.skull_across_kpa_per_mm", stiffness, AT(support.skull_layer.across_pa_per_m),
-          {0, 1e6},
+          in(Support::stiffness_pa_per_m_in, stiffness),
           "Stiffness of the loose layer over the skull across it: pressure that parts the "
           "tissue from the bone by a millimetre."),
       number<Scene>("support.skull_along_kpa_per_mm", stiffness,
-                    AT(support.skull_layer.along_pa_per_m), {0, 1e6},
+                    AT(support.skull_layer.along_pa_per_m),
+                    in(Support::stiffness_pa_per_m_in, stiffness),
                     "The same along it: shear that lets the tissue slide by a millimetre."),
       choice<Scene, Mandible>(
           "support.mandible", AT(support.mandible),
@@ -263,13 +310,16 @@ std::vector<Key> model_keys() {
           "The inner surface over the mandible: follows the jaw as a rigid "
           "bone, is held, or is free."),
       number<Scene>("support.mandible_across_kpa_per_mm", stiffness,
-                    AT(support.mandible_layer.across_pa_per_m), {0, 1e6},
+                    AT(support.mandible_layer.across_pa_per_m),
+                    in(Support::stiffness_pa_per_m_in, stiffness),
                     "As support.skull_across_kpa_per_mm, over the mandible that is followed."),
       number<Scene>("support.mandible_along_kpa_per_mm", stiffness,
-                    AT(support.mandible_layer.along_pa_per_m), {0, 1e6},
+                    AT(support.mandible_layer.along_pa_per_m),
+                    in(Support::stiffness_pa_per_m_in, stiffness),
                     "As support.skull_along_kpa_per_mm, over the mandible that is followed."),
       number<Scene>(
-          "support.muscle_kpa_per_mm", stiffness, AT(support.muscle_pa_per_m), {0, 1e6},
+          "support.muscle_kpa_per_mm", stiffness, AT(support.muscle_pa_per_m),
+          in(Support::stiffness_pa_per_m_in, stiffness),
           "How firmly the deep side of the tissue, save over the mandible, follows the "
           "motion interpolated between the driven points, as the muscles there do; 0: not."),
       names<Scene>("support.jaw_points", AT(support.jaw_points), 0,
@@ -285,7 +335,8 @@ std::vector<Key> run_keys() {
           "Points of the recording that drive the skin. With motion.candide and no points named: "
           "those of the default that the model has."),
       number<Scene>(
-          "drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m), {0, 30},
+          "drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m),
+          in(Drive::patch_radius_m_in, millimetres),
           "Radius of the patch of skin that a driven point moves where the lips part; half "
           "as much again where they stay closed. 0 takes the nearest node alone."),
       names<Scene>("drive.still_points", AT(drive.still_points), 0,
@@ -304,23 +355,27 @@ std::vector<Key> run_keys() {
           "How linear systems are solved: by a Cholesky factor; by conjugate gradients on "
           "overlapping subdomains, which takes less memory and more time; or the first where it "
           "fits the memory, else the second."),
-      number<Scene>("solver.tolerance", none, AT(solver.tolerance), {1e-9, 0.1},
+      number<Scene>("solver.tolerance", none, AT(solver.tolerance), in(Solver::tolerance_in, none),
                     "Error allowed to the reduced model by its own estimate, over the largest "
                     "displacement."),
-      number<Scene>("solver.newmark_beta", none, AT(solver.newmark_beta), {0.25, 1},
-                    "beta of Newmark's method."),
-      number<Scene>("solver.newmark_gamma", none, AT(solver.newmark_gamma), {0.5, 1},
+      number<Scene>("solver.newmark_beta", none, AT(solver.newmark_beta),
+                    in(Solver::newmark_beta_in, none), "beta of Newmark's method."),
+      number<Scene>("solver.newmark_gamma", none, AT(solver.newmark_gamma),
+                    in(Solver::newmark_gamma_in, none),
                     "gamma (delta) of Newmark's method; above 0.5 it damps. At most twice "
                     "solver.newmark_beta."),
       flag<Scene>("solver.verify", AT(solver.verify),
                   "Run the full model beside the reduced one and tell its true error."),
-      number<Scene>("time.step_s", seconds, AT(time.step_s), {1e-6, 0.1}, "The time step."),
-      number<Scene>("time.end_s", seconds, AT(time.end_s), {0, 600},
+      number<Scene>("time.step_s", seconds, AT(time.step_s), in(Time::step_s_in, seconds),
+                    "The time step."),
+      number<Scene>("time.end_s", seconds, AT(time.end_s), in(Time::end_s_in, seconds),
                     "Where the simulation ends; the last sample of the recording is held. 0: at "
                     "the end of the recording."),
-      number<Scene>("time.frame_rate_hz", {"Hz"}, AT(time.frame_rate_hz), {1, 1000},
+      number<Scene>("time.frame_rate_hz", {"Hz"}, AT(time.frame_rate_hz),
+                    in(Time::frame_rate_hz_in, none),
                     "Frames written a second; frames need not fall on steps."),
-      number<Scene>("output.peak_time_s", seconds, AT(output.peak_time_s), {-1, 600},
+      number<Scene>("output.peak_time_s", seconds, AT(time.peak_time_s),
+                    in(Time::peak_time_s_in, seconds),
                     "Time of skin_peak.ply. Below 0: where the driven points have moved most in "
                     "the mean."),
       flag<Scene>(
@@ -356,7 +411,8 @@ std::vector<Key> run_keys() {
       number<Scene>("output.lowpass_hz", none, AT(output.lowpass_hz), {0, 100},
                     "Cut-off (Hz) of the zero-phase low-pass that speeds and paths of points with "
                     "jitter are smoothed by (docs/symmetry.md). 0: not smoothed."),
-      numbers<Scene>("output.contact_times_s", seconds, AT(output.contact_times_s), {0, 600}, 0, 12,
+      numbers<Scene>("output.contact_times_s", seconds, AT(time.still_times_s),
+                     in(Time::still_times_s_in, seconds), 0, 12,
                      "Times of the pictures in contact_sheet.png. None: five spread over the run, "
                      "the peak among them."),
   };

@@ -101,7 +101,7 @@ MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs, const tissu
       mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), twin.why_not);
   if (!motion) return twin;
   reenact::SimulationOptions options = simulation_options(scene, inputs);
-  options.solver.method = SolverMethod::reduced;
+  options.solver.method = reenact::SolverMethod::reduced;
   options.solver.verify = false;
   options.time.still_times_s.clear();
   if (field) options.tissue.element = mirrored_elements(*field, mesh, plane);

@@ -73,11 +73,11 @@ struct Still {
 std::vector<Still> stills_of(const Results& r) {
   std::vector<Still> stills;
   const Performance& p = r.simulation.performance;
-  if (r.scene.output.contact_times_s.empty())
+  if (r.scene.time.still_times_s.empty())
     for (const std::size_t f : spread_frames(p.frame_time_s.size(), std::size_t(p.peak_frame)))
       stills.push_back({p.frame_time_s[f], &p.skin_displacement_m[f]});
   const std::vector<double> shown =
-      shown_times_s(r.scene.output.contact_times_s, run_end_s(r.scene, r.inputs));
+      shown_times_s(r.scene.time.still_times_s, run_end_s(r.scene, r.inputs));
   for (std::size_t s = 0; s < shown.size(); ++s)
     stills.push_back({shown[s], &r.simulation.still_displacement_m[s]});
   return stills;
@@ -184,7 +184,7 @@ metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& in
                                             const metrics::RestAsymmetry& at_rest,
                                             const reenact::Performance& p,
                                             const MirroredTwin& twin) {
-  const double jitter_m = inputs.jitter_m * scene.motion.gain;
+  const double jitter_m = inputs.jitter_m * scene.drive.gain;
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
   all.excursions = metrics::excursions_of(p.landmarks, jitter_m, scene.output.lowpass_hz);

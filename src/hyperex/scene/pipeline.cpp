@@ -28,29 +28,15 @@ using Json = nlohmann::ordered_json;
 
 reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& inputs) {
   reenact::SimulationOptions o;
-  o.solver = {scene.tissue.element,   scene.solver.method,       scene.solver.linear,
-              scene.solver.tolerance, scene.solver.newmark_beta, scene.solver.newmark_gamma,
-              scene.solver.verify};
-  const tissue::TissueParameters uniform = uniform_parameters(tissue_field_options(scene));
-  o.tissue.young_pa = uniform[tissue::young];
-  o.tissue.poisson = uniform[tissue::poisson];
-  o.tissue.viscosity_pa_s = uniform[tissue::viscosity];
-  o.tissue.density_kg_m3 = uniform[tissue::density];
-  o.tissue.viscous_form = scene.tissue.viscous_form;
-  o.support.border_held = scene.support.border_held;
-  o.support.skull = scene.support.skull;
-  o.support.mandible = scene.support.mandible;
-  o.support.skull_layer = scene.support.skull_layer;
-  o.support.mandible_layer = scene.support.mandible_layer;
-  o.support.muscle_pa_per_m = scene.support.muscle_pa_per_m;
-  o.support.jaw_points = scene.support.jaw_points;
-  o.drive = {inputs.driven, scene.drive.still_points, scene.drive.patch_radius_m,
-             scene.motion.gain};
-  o.region = {scene.region.measured, scene.region.measured_points, scene.region.measured_radius_m,
-              scene.region.blend_m};
-  o.time = {scene.time.step_s, scene.time.end_s, scene.time.frame_rate_hz,
-            scene.output.contact_times_s};
-  o.peak_time_s = scene.output.peak_time_s;
+  o.model = scene.model;
+  o.tissue.uniform = uniform_parameters(scene.tissue);
+  o.support = scene.support;
+  o.drive = scene.drive;
+  o.drive.all_points = false;
+  o.drive.points = inputs.driven;
+  o.region = scene.region;
+  o.solver = scene.solver;
+  o.time = scene.time;
   return o;
 }
 
@@ -85,7 +71,7 @@ Json summary_of(const Results& r) {
   s["tets"] = p.tets.rows();
   s["free_dofs"] = report.free_dofs;
   s["skin_vertices"] = p.skin_rest.points.rows();
-  s["element"] = fem::to_string(r.scene.tissue.element);
+  s["element"] = fem::to_string(r.scene.model.element);
   s["solver"] = report.basis_size > 0 ? "reduced" : "direct";
   s["linear_solver"] = fem::to_string(report.linear_solver);
   s["input_shapes"] = report.input_shapes;
@@ -150,43 +136,6 @@ void warn(const std::vector<std::string>& notes, Results& results) {
 
 }  // namespace
 
-tissue::TissueFieldOptions tissue_field_options(const Scene& scene) {
-  const TissueOptions& t = scene.tissue;
-  tissue::TissueFieldOptions o;
-  o.preset = t.preset;
-  o.interpolation = t.interpolation;
-  o.mirror = t.mirror;
-  o.points = t.points;
-  o.per_vertex = t.per_vertex;
-  o.regions = t.regions;
-  const auto given = [&](tissue::Parameter parameter, double value) {
-    const std::string key = std::string("tissue.") + tissue::parameter_info(parameter).key;
-    if (t.preset.empty() || scene.origins.contains(key)) o.uniform[parameter] = value;
-  };
-  given(tissue::young, t.young_pa);
-  given(tissue::viscosity, t.viscosity_pa_s);
-  given(tissue::poisson, t.poisson);
-  given(tissue::density, t.density_kg_m3);
-  return o;
-}
-
-tissue::TissueMeshOptions mesh_options(const Scene& scene) {
-  tissue::TissueMeshOptions o;
-  o.element_size_m = scene.mesh.element_size_m;
-  o.layers = scene.mesh.layers;
-  o.thickness_m = scene.mesh.thickness_m;
-  o.cut_lips = scene.mesh.cut_lips;
-  o.trim_border_m = scene.mesh.trim_border_m;
-  if (!scene.mesh.thickness_points.empty()) {
-    o.depths = tissue::published_depths();
-    for (const auto& p : scene.mesh.thickness_points) {
-      std::erase_if(o.depths, [&](const tissue::DepthAt& d) { return d.landmark == p.landmark; });
-      o.depths.push_back({p.landmark, p.thickness_m});
-    }
-  }
-  return o;
-}
-
 Checked check_scene(const Scene& scene) {
   const Inputs inputs = read_inputs(scene, Look::quick);
   std::vector<std::string> notes = inputs.notes;
@@ -230,7 +179,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   tissue::TissueMesh mesh;
   {
     Progress progress("meshing the soft tissue", 0);
-    mesh = tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, mesh_options(scene),
+    mesh = tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, scene.mesh,
                                      inputs.scan.file.string());
   }
   seconds["mesh"] = stage.lap();

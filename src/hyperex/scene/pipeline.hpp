@@ -24,10 +24,6 @@ struct Checked {
 /// Throws InputError with every problem found.
 Checked check_scene(const Scene& scene);
 
-/// Mesh options as tissue/ understands them.
-tissue::TissueMeshOptions mesh_options(const Scene& scene);
-/// What makes the tissue differ from place to place, as tissue/ understands it.
-tissue::TissueFieldOptions tissue_field_options(const Scene& scene);
 /// Options of the simulation as reenact/ understands them, the tissue uniform.
 reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& inputs);
 

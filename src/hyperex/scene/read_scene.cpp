@@ -260,11 +260,11 @@ void Reader::complain_given(const std::string& key, const std::string& expected)
 }
 
 void Reader::check_together() {
-  if (scene.region.measured == Measured::points && scene.region.measured_points.empty())
+  if (scene.region.measured == reenact::Measured::points && scene.region.measured_points.empty())
     complain_given("region.measured_points", "one or more names, as region.measured is \"points\"");
-  if (scene.mesh.thickness_m != 0 && !scene.mesh.thickness_points.empty())
+  if (scene.mesh.thickness_m != 0 && !scene.mesh.depths.empty())
     complain_given("mesh.thickness_mm", "0, as [[mesh.thickness_point]] is given");
-  if (scene.region.measured == Measured::none && !scene.drive.all_points &&
+  if (scene.region.measured == reenact::Measured::none && !scene.drive.all_points &&
       scene.drive.points.empty())
     complain_given("drive.points", "one or more names, or \"all\", as region.measured is \"none\"");
   if (scene.solver.newmark_gamma > 2 * scene.solver.newmark_beta)

@@ -34,8 +34,7 @@ Eigen::VectorXd values_of(const Scene& scene, const tissue::TissueField* field, 
                           Eigen::Index vertices) {
   const double si = tissue::parameter_info(parameter).si;
   if (field) return field->skin[parameter] / si;
-  return Eigen::VectorXd::Constant(vertices,
-                                   uniform_parameters(tissue_field_options(scene))[parameter] / si);
+  return Eigen::VectorXd::Constant(vertices, uniform_parameters(scene.tissue)[parameter] / si);
 }
 
 /// Maps of the parameters that differ from place to place in any face: a list of the same keys for

@@ -8,7 +8,7 @@
 namespace hyperex::scene {
 
 std::optional<tissue::TissueField> TissueFields::of(const Scene& scene, const std::string& owner) {
-  const tissue::TissueFieldOptions options = tissue_field_options(scene);
+  const tissue::TissueFieldOptions options = scene.tissue;
   if (!is_graded(options)) return std::nullopt;
   Progress progress("spreading the tissue's parameters over the face", 0);
   if (needs_registration(options) && !with_face_) {

@@ -33,8 +33,7 @@ render::Image sheet_of(const Results& r, int parameter) {
   const TriMesh local{frame.local_points(r.mesh.skin.points), r.mesh.skin.triangles};
   std::vector<tissue::FieldProblem> problems;
   std::vector<render::Marker> markers;
-  for (const auto& point :
-       tissue::resolve_points(tissue_field_options(r.scene), r.inputs.landmarks, problems))
+  for (const auto& point : tissue::resolve_points(r.scene.tissue, r.inputs.landmarks, problems))
     if (point.value[parameter])
       markers.push_back(
           {frame.local(r.inputs.landmarks.at(point.landmark)), render::palette::driven, 4});

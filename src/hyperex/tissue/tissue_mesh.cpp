@@ -265,8 +265,12 @@ Eigen::VectorXd thickness_over(const TriMesh& outer, const io::Landmarks& landma
                                const TissueMeshOptions& options) {
   if (options.thickness_m > 0)
     return Eigen::VectorXd::Constant(outer.points.rows(), options.thickness_m);
-  return depth_field(outer.points, options.depths.empty() ? published_depths() : options.depths,
-                     landmarks);
+  std::vector<DepthAt> depths = published_depths();
+  for (const DepthAt& own : options.depths) {
+    std::erase_if(depths, [&](const DepthAt& d) { return d.landmark == own.landmark; });
+    depths.push_back(own);
+  }
+  return depth_field(outer.points, depths, landmarks);
 }
 
 /// The layer under `outer`; a few triangles folded into corners, under which none fits, are given

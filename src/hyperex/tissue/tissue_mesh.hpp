@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/bounds.hpp"
 #include "hyperex/geometry/insert_line.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
@@ -16,11 +17,14 @@ enum class LipCut { automatic, always, never };
 
 struct TissueMeshOptions {
   double element_size_m = 0.0033;  ///< edges at the mouth; they grow smoothly away from it
-  int layers = 2;
-  double thickness_m = 0;       ///< > 0: the same everywhere
-  std::vector<DepthAt> depths;  ///< used where thickness_m is 0; empty: published_depths()
+  int layers = 2;                  ///< of elements between the skin and the inner surface
+  double thickness_m = 0;  ///< > 0: the same everywhere; 0: published_depths(), interpolated
+  /// Used where thickness_m is 0: in the place of the published depths at the same landmarks.
+  std::vector<DepthAt> depths;
   LipCut cut_lips = LipCut::automatic;
   double trim_border_m = 0;  ///< this much is taken off the scan's outer border
+  static constexpr Bounds element_size_m_in{0.0005, 0.03}, layers_in{1, 8},
+      thickness_m_in{0.001, 0.04}, trim_border_m_in{0, 0.05};  ///< a thickness may be 0 besides
 };
 
 /// Where a point of the skin sits on the simulated outer surface.

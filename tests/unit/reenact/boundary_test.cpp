@@ -19,7 +19,7 @@ class BoundaryTest : public testing::Test {
   Boundary boundary() const {
     return Boundary(face_.mesh, face_.landmarks, motion_,
                     measured_region(face_.mesh, face_.landmarks, motion_, options_.region),
-                    options_);
+                    options_.drive, options_.support);
   }
   Points displacement(int sample) const { return motion_.motion.positions[sample] - motion_.rest; }
   Eigen::Index unknowns() const { return 3 * face_.mesh.volume.nodes.rows(); }
@@ -174,13 +174,13 @@ TEST_F(BoundaryTest, UnknownNamesAreRefused) {
     return std::string();
   };
   options_.drive.points = {"nobody"};
-  EXPECT_THAT(refusal(), testing::HasSubstr("drive.points"));
+  EXPECT_THAT(refusal(), testing::HasSubstr("which is to be driven"));
   options_.drive.points = test::seven_points();
   options_.drive.still_points = {"nobody"};
-  EXPECT_THAT(refusal(), testing::HasSubstr("drive.still_points"));
+  EXPECT_THAT(refusal(), testing::HasSubstr("which is to be held still"));
   options_.drive.still_points.clear();
   options_.support.jaw_points = {"nobody"};
-  EXPECT_THAT(refusal(), testing::HasSubstr("support.jaw_points"));
+  EXPECT_THAT(refusal(), testing::HasSubstr("which is to carry the jaw"));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ class InputShapesOf : public testing::Test {
   Boundary boundary(const AlignedMotion& motion) const {
     return Boundary(face_.mesh, face_.landmarks, motion,
                     measured_region(face_.mesh, face_.landmarks, motion, options_.region),
-                    options_);
+                    options_.drive, options_.support);
   }
   static std::function<Points(double)> way(const AlignedMotion& motion) {
     return [curve = motion::MotionCurve(motion.motion), rest = motion.rest](double t) {
@@ -73,8 +73,8 @@ TEST_F(InputShapesOf, GiveWhatTheBoundaryPrescribesAtAllSteps) {
 
 TEST_F(InputShapesOf, GiveMeasuredRegionsAndEverySupport) {
   options_.region.measured = Measured::points;
-  options_.region.points = {"ibug68_8", "ibug68_48"};
-  options_.region.radius_m = 0.02;
+  options_.region.measured_points = {"ibug68_8", "ibug68_48"};
+  options_.region.measured_radius_m = 0.02;
   for (const Mandible mandible : {Mandible::follow, Mandible::held, Mandible::free})
     for (const double muscle : {0.0, 5e6}) {
       options_.support.mandible = mandible;

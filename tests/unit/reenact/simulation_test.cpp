@@ -11,6 +11,7 @@
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/reenact/boundary.hpp"
+#include "hyperex/reenact/support.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 #include "reenact/small_face.hpp"
@@ -121,7 +122,7 @@ TEST_F(Simulation, DrivenNodesTakeTheInputExactlyAndTheLastSampleIsHeld) {
   EXPECT_EQ(r.performance.frame_time_s.size(), 18u);
   Boundary boundary(face_.mesh, face_.landmarks, motion,
                     measured_region(face_.mesh, face_.landmarks, motion, options_.region),
-                    options_);
+                    options_.drive, options_.support);
   const motion::MotionCurve curve(motion.motion);
   Eigen::VectorXd values(boundary.prescribed().size());
   Eigen::VectorXd force(3 * face_.mesh.volume.nodes.rows());
@@ -198,7 +199,7 @@ TEST_F(Simulation, OpensTheMouth) {
   EXPECT_GT(moved("ibug68_66"), 0.010) << "the lower lip";
   EXPECT_LT(moved("ibug68_62"), 0.005) << "the upper lip";
   EXPECT_LT(moved("ibug68_27"), 0.001) << "the nasion";
-  EXPECT_GT(r.report.lip_gap_mm, 7) << "the patches around the lips take in some of each";
+  EXPECT_GT(r.report.lip_gap_mm, 6) << "the patches around the lips take in some of each";
   EXPECT_NEAR(r.report.greatest_opening_deg, 10, 1);
   EXPECT_EQ(r.report.steps, 40);
   EXPECT_GT(r.report.free_dofs, 1000);
@@ -206,7 +207,7 @@ TEST_F(Simulation, OpensTheMouth) {
   EXPECT_EQ(p.driven_points_rest.rows(), 7);
   EXPECT_EQ(p.skin_rest.points, face_.mesh.skin.points);
   EXPECT_EQ(p.tet_young_pa.size(), static_cast<std::size_t>(face_.mesh.volume.tets.rows()));
-  options_.peak_time_s = 0.1;
+  options_.time.peak_time_s = 0.1;
   EXPECT_EQ(run().performance.peak_frame, 3);
 }
 
@@ -242,24 +243,20 @@ TEST_F(Simulation, WhatTheMandibleDoesMatters) {
 TEST_F(Simulation, ViscosityMakesItLag) {
   let_everything_go();
   options_.support.border_held = true;
-  options_.tissue.viscosity_pa_s = 20;
+  options_.tissue.uniform[tissue::viscosity] = 20;
   const SimulationResult thin = run();
-  options_.tissue.viscosity_pa_s = 20000;
+  options_.tissue.uniform[tissue::viscosity] = 20000;
   const SimulationResult thick = run();
-  // At the end the input is back at rest; viscous tissue is not.
-  const auto left = [](const SimulationResult& r) {
-    return greatest(r.performance.skin_displacement_m.back());
-  };
-  EXPECT_NE(left(thin), left(thick));
-  EXPECT_GT(
-      (thin.performance.skin_displacement_m[6] - thick.performance.skin_displacement_m[6]).norm(),
-      1e-3 * thin.performance.skin_displacement_m[6].norm());
+  // On the way and at the end, where the driven skin is the same and the rest has not followed.
+  const auto &a = thin.performance.skin_displacement_m, &b = thick.performance.skin_displacement_m;
+  for (const std::size_t frame : {std::size_t(6), a.size() - 1})
+    EXPECT_GT((a[frame] - b[frame]).norm(), 1e-3 * a[6].norm()) << frame;
 }
 
 TEST_F(Simulation, PartsMeasuredFollowTheTriangles) {
   options_.region.measured = Measured::points;
-  options_.region.points = {"ibug68_8"};
-  options_.region.radius_m = 0.02;
+  options_.region.measured_points = {"ibug68_8"};
+  options_.region.measured_radius_m = 0.02;
   const SimulationResult r = run();
   const MeasuredRegion region =
       measured_region(face_.mesh, face_.landmarks, motion_, options_.region);

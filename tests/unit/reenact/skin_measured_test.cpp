@@ -59,8 +59,8 @@ TEST_F(Region, AllIsAllMeasuredAndLipsNeverCross) {
 
 TEST_F(Region, AroundPointsBlendsOut) {
   options_.measured = Measured::points;
-  options_.points = {ibug(8), ibug(57)};
-  options_.radius_m = 0.012;
+  options_.measured_points = {ibug(8), ibug(57)};
+  options_.measured_radius_m = 0.012;
   options_.blend_m = 0.01;
   const MeasuredRegion r = region();
   const Points& skin = face_.mesh.skin.points;
@@ -68,7 +68,7 @@ TEST_F(Region, AroundPointsBlendsOut) {
   std::vector<std::pair<double, double>> by_distance;
   for (Eigen::Index v = 0; v < skin.rows(); ++v) {
     double d = 1;
-    for (const auto& name : options_.points)
+    for (const auto& name : options_.measured_points)
       d = std::min(d, (skin.row(v).transpose() - face_.landmarks.at(name)).norm());
     if (d <= 0.012) {
       EXPECT_EQ(r.share[v], 1);
@@ -131,7 +131,7 @@ TEST_F(Region, LipsOfAMeshWithoutNamesNeverCross) {
 
 TEST_F(Region, RefusesUnknownNamesAndTooFewPoints) {
   options_.measured = Measured::points;
-  options_.points = {"nobody"};
+  options_.measured_points = {"nobody"};
   try {
     region();
     FAIL();
@@ -141,7 +141,7 @@ TEST_F(Region, RefusesUnknownNamesAndTooFewPoints) {
   const AlignedMotion two = test::motion_of({{"a", {0, 0, 0}}, {"b", {0.1, 0, 0}}}, 1, 30,
                                             [](auto&, auto&, int) { return Vec3::Zero(); });
   options_.measured = Measured::all;
-  options_.points.clear();
+  options_.measured_points.clear();
   EXPECT_THROW(measured_region(face_.mesh, face_.landmarks, two, options_), InputError);
 }
 

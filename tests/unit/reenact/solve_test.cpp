@@ -21,15 +21,11 @@ class SolveFace : public testing::Test {
     options.drive.points = test::seven_points();
     Boundary boundary(face_.mesh, face_.landmarks, motion_,
                       measured_region(face_.mesh, face_.landmarks, motion_, options.region),
-                      options);
+                      options.drive, options.support);
     const auto tets = static_cast<std::size_t>(face_.mesh.volume.tets.rows());
-    fem::Material material;
-    material.young_pa.assign(tets, options.tissue.young_pa);
-    material.poisson.assign(tets, options.tissue.poisson);
-    material.viscosity_pa_s.assign(tets, options.tissue.viscosity_pa_s);
-    material.density_kg_m3.assign(tets, options.tissue.density_kg_m3);
-    system_ = fem::assemble(face_.mesh.volume.nodes, face_.mesh.volume.tets, material,
-                            fem::ElementKind::tet4_star);
+    system_ = fem::assemble(face_.mesh.volume.nodes, face_.mesh.volume.tets,
+                            options.tissue.material(tets, options.model.viscous_form),
+                            options.model.element);
     boundary.add_springs(system_.stiffness);
     prescribed_ = boundary.prescribed();
     const motion::MotionCurve curve(motion_.motion);
@@ -113,8 +109,8 @@ TEST_F(SolveFace, BetaAndGammaReachBothMethods) {
   const double most = greatest(full.displacement);
   for (const auto& [beta, gamma] : {std::pair{0.25, 0.5}, {0.3025, 0.6}, {0.5, 0.9}}) {
     SolverOptions options;
-    options.beta = beta;
-    options.gamma = gamma;
+    options.newmark_beta = beta;
+    options.newmark_gamma = gamma;
     // With strong numerical damping the estimate falls short: 5e-6 for a true 5e-5.
     options.tolerance = gamma < 0.8 ? 1e-5 : 1e-4;
     const Solution reduced = run(options);
@@ -137,8 +133,8 @@ TEST_F(SolveFace, GammaAboveAHalfDamps) {
   const auto ringing = [&](double beta, double gamma) {
     SolverOptions options;
     options.method = SolverMethod::direct;
-    options.beta = beta;
-    options.gamma = gamma;
+    options.newmark_beta = beta;
+    options.newmark_gamma = gamma;
     fem::Drive struck = drive_;
     struck.s *= 0;
     struck.rate *= 0;

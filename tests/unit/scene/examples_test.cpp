@@ -57,21 +57,21 @@ class Experiment : public testing::TestWithParam<const char*> {
 
 TEST_P(Experiment, OneIsMeasuredThroughout) {
   if (data_is_missing(file(1))) GTEST_SKIP() << "no ../shared/data";
-  EXPECT_EQ(read_scene(file(1)).region.measured, Measured::all);
+  EXPECT_EQ(read_scene(file(1)).region.measured, reenact::Measured::all);
 }
 
 TEST_P(Experiment, TwoHasTheSourcesParameters) {
   if (data_is_missing(file(2))) GTEST_SKIP() << "no ../shared/data";
   const Scene scene = read_scene(file(2));
-  const auto tissue = tissue::uniform_parameters(tissue_field_options(scene));
+  const auto tissue = tissue::uniform_parameters(scene.tissue);
   EXPECT_DOUBLE_EQ(tissue[tissue::young], 192.4e3);
   EXPECT_DOUBLE_EQ(tissue[tissue::viscosity], 476.8);
   EXPECT_DOUBLE_EQ(tissue[tissue::poisson], 0.495);
   EXPECT_DOUBLE_EQ(tissue[tissue::density], 1100);
-  EXPECT_FALSE(tissue::is_graded(tissue_field_options(scene)));
+  EXPECT_FALSE(tissue::is_graded(scene.tissue));
   EXPECT_DOUBLE_EQ(scene.time.step_s, 0.002);
   EXPECT_DOUBLE_EQ(scene.time.end_s, 2.7);
-  EXPECT_EQ(scene.output.contact_times_s, (std::vector<double>{0, 0.7, 1.3, 2, 2.7}));
+  EXPECT_EQ(scene.time.still_times_s, (std::vector<double>{0, 0.7, 1.3, 2, 2.7}));
 }
 
 TEST_P(Experiment, ThreeHasThreeModelsThatDifferAtOnePoint) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::scene {
@@ -27,7 +28,7 @@ TEST(ReadScene, SmallestSceneHasTheDefaults) {
   const SceneFolder folder;
   const Scene scene = read_scene(folder.write("scene.toml", smallest));
   EXPECT_TRUE(scene.scan.source.embedded);
-  EXPECT_EQ(scene.tissue.young_pa, 192400);
+  EXPECT_EQ(tissue::uniform_parameters(scene.tissue)[tissue::young], 192400);
   EXPECT_EQ(scene.drive.points.size(), 7u);
   EXPECT_EQ(scene.file, folder / "scene.toml");
   EXPECT_EQ(scene.origins.size(), 2u);
@@ -157,14 +158,14 @@ TEST(ReadScene, VariantsAreTheSceneWithTheirChanges) {
                                                          "[[variant]]\nname = \"more of it\"\n"
                                                          "[variant.motion]\ngain = 2\n"));
   ASSERT_EQ(scene.variants.size(), 2u);
-  EXPECT_EQ(scene.tissue.young_pa, 192400);
+  EXPECT_EQ(tissue::uniform_parameters(scene.tissue)[tissue::young], 192400);
   EXPECT_EQ(scene.variants[0].name, "stiff");
-  EXPECT_EQ(scene.variants[0].scene.tissue.young_pa, 400e3);
-  EXPECT_EQ(scene.variants[0].scene.tissue.poisson, 0.3);
-  EXPECT_EQ(scene.variants[0].scene.motion.gain, 1);
+  EXPECT_EQ(scene.variants[0].scene.tissue.uniform[tissue::young], 400e3);
+  EXPECT_EQ(scene.variants[0].scene.tissue.uniform[tissue::poisson], 0.3);
+  EXPECT_EQ(scene.variants[0].scene.drive.gain, 1);
   EXPECT_EQ(scene.variants[0].changes.dump(), "{\"tissue.young_kpa\":400}");
-  EXPECT_EQ(scene.variants[1].scene.motion.gain, 2);
-  EXPECT_EQ(scene.variants[1].scene.tissue.young_pa, 192400);
+  EXPECT_EQ(scene.variants[1].scene.drive.gain, 2);
+  EXPECT_FALSE(scene.variants[1].scene.tissue.uniform[tissue::young]) << "left open";
   EXPECT_TRUE(scene.variants[1].scene.variants.empty());
 }
 

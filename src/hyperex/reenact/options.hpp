@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Everything that a simulation can be told: each option, its default and its range stand here and
+// nowhere else. Scene files and bindings fill these structs.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hyperex/core/bounds.hpp"
+#include "hyperex/fem/element/element_kind.hpp"
+#include "hyperex/fem/material/linear_viscoelastic.hpp"
+#include "hyperex/fem/solve/linear_solver.hpp"
+#include "hyperex/motion/motion.hpp"
+#include "hyperex/tissue/field/options.hpp"
+
+namespace hyperex::reenact {
+
+enum class Measured { none, all, points };
+
+/// Which part of the skin follows the recording directly; the rest is physical.
+struct RegionOptions {
+  Measured measured = Measured::none;
+  std::vector<std::string> measured_points;  ///< at least one where measured is `points`
+  double measured_radius_m = 0.015;          ///< of the skin around them
+  double blend_m = 0.005;                    ///< over which measured passes into physical
+  static constexpr Bounds measured_radius_m_in{0.001, 0.2}, blend_m_in{0, 0.1};
+};
+
+enum class Hold { held, sliding, free };
+enum class Mandible { follow, held, free };
+
+/// The tissue slides on the bone on a layer of loose tissue: springs per area between the inner
+/// surface and the bone, stiff across the layer, soft along it.
+struct BoneLayer {
+  double across_pa_per_m = 0, along_pa_per_m = 0;
+};
+
+struct SupportOptions {
+  bool border_held = true;
+  Hold skull = Hold::sliding;
+  Mandible mandible = Mandible::follow;
+  BoneLayer skull_layer{1e7, 1e7};     ///< used where skull is sliding
+  BoneLayer mandible_layer{3e7, 1e7};  ///< used where the mandible is followed
+  /// The muscles under the skin follow the interpolated motion of the driven points: springs per
+  /// area at the inner surface, everywhere but over the mandible. 0: none.
+  double muscle_pa_per_m = 5e6;
+  std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
+  static constexpr Bounds stiffness_pa_per_m_in{0, 1e12};  ///< of each of the five
+};
+
+struct DriveOptions {
+  bool all_points = false;  ///< every point of the motion, whatever `points` holds
+  std::vector<std::string> points = {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57",
+                                     "ibug68_8",  "ibug68_58", "ibug68_56"};
+  std::vector<std::string> still_points;  ///< landmarks of the skin that are kept where they are
+  double patch_radius_m = 0.008;          ///< of the skin that a point moves; 0: the nearest node
+  double gain = 1;                        ///< on all displacements
+  static constexpr Bounds patch_radius_m_in{0, 0.03};
+
+  /// Names of the points of `motion` that drive, as given; not checked to be in it.
+  const std::vector<std::string>& names_in(const motion::Motion& motion) const {
+    return all_points ? motion.names : points;
+  }
+};
+
+/// What the tissue is made of, and the elements that stand for it.
+struct ModelOptions {
+  fem::ElementKind element = fem::ElementKind::tet4_star;
+  fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
+};
+
+/// One value everywhere, or where `element` is not empty (tissue/field) one a tetrahedron.
+struct TissueValues {
+  tissue::TissueParameters uniform = tissue::default_parameters;
+  std::array<std::vector<double>, tissue::parameter_count> element{};  ///< of all or of none
+
+  /// Of `tets` tetrahedra. Values are allowed ones (tissue::is_allowed): asserted.
+  fem::Material material(std::size_t tets, fem::ViscousForm viscous_form) const;
+};
+
+enum class SolverMethod {
+  reduced,  ///< projected onto the motions that the input makes, to a checked tolerance
+  direct    ///< all unknowns at every step
+};
+
+struct SolverOptions {
+  SolverMethod method = SolverMethod::reduced;
+  fem::LinearSolver linear = fem::LinearSolver::automatic;
+  double tolerance = 1e-3;     ///< of the reduced model, over the greatest displacement
+  double newmark_beta = 0.25;  ///< 2 beta >= gamma
+  double newmark_gamma = 0.5;
+  bool verify = false;  ///< run the full model too and measure the reduced one's error
+  static constexpr Bounds tolerance_in{1e-9, 0.1}, newmark_beta_in{0.25, 1},
+      newmark_gamma_in{0.5, 1};
+};
+
+struct TimeOptions {
+  double step_s = 0.002;
+  double end_s = 0;  ///< 0: the end of the motion; past it, its last sample is held
+  double frame_rate_hz = 30;
+  double peak_time_s = -1;            ///< below 0: where the driven points moved most in the mean
+  std::vector<double> still_times_s;  ///< extra shapes wanted, for pictures
+  static constexpr Bounds step_s_in{1e-6, 0.1}, end_s_in{0, 600}, frame_rate_hz_in{1, 1000},
+      peak_time_s_in{-1, 600}, still_times_s_in{0, 600};
+};
+
+/// The input at all steps is kept: more would fill the memory.
+inline constexpr double kMostSteps = 2e6;
+
+struct SimulationOptions {
+  ModelOptions model;
+  TissueValues tissue;
+  SupportOptions support;
+  DriveOptions drive;
+  RegionOptions region;
+  SolverOptions solver;
+  TimeOptions time;
+};
+
+/// Throws InputError naming each option that is out of its range, with its value and the range.
+void check(const SimulationOptions& options);
+
+}  // namespace hyperex::reenact
