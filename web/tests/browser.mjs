@@ -3,11 +3,12 @@
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
+/** WebGL is drawn in software, as there may be no GPU. Pages are put together without WebGL, which is less work. */
 export const launch = () =>
   chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: [
-      '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
+      '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing',
       '--disable-background-networking', '--disable-component-update', '--no-first-run',
     ],
   });

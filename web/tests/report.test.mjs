@@ -38,7 +38,8 @@ async function goTo(page, frame) {
 for (const report of reports) {
   describe(basename(report), () => {
     let page, complaints, close;
-    before(async () => ({ page, complaints, close } = await open(report)));
+    // A small window: software draws every pixel of it. Full sizes are below.
+    before(async () => ({ page, complaints, close } = await open(report, { viewport: { width: 960, height: 560 } })));
     after(() => close?.());
 
     test('shows a face, not a blank canvas', async () => {
