@@ -29,7 +29,7 @@ Progress::Progress(std::string label, long total)
 }
 
 Progress::~Progress() {
-  if (shown_) draw(total_, true);
+  if (shown_ || lasted_) draw(total_, true);
   if (standing_) taken = false;
 }
 
@@ -42,6 +42,8 @@ void Progress::update(long done) {
   const bool terminal = ::isatty(2);
   if (seconds_since(last_draw_) < (terminal ? 0.1 : 1.0)) return;
   if (!terminal && shown_) return;
+  lasted_ = true;
+  if (!terminal && total_ > 0 && done >= total_) return;  // the line at the end says it
   draw(done, false);
 }
 

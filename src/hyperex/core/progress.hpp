@@ -26,7 +26,7 @@ class Progress {
   void draw(long done, bool last);
   std::string label_;
   long total_;
-  bool standing_ = false, shown_ = false;
+  bool standing_ = false, shown_ = false, lasted_ = false;
   std::chrono::steady_clock::time_point start_, last_draw_;
 };
 

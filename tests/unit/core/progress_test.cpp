@@ -34,6 +34,18 @@ TEST(Progress, LongWorkShowsOneLineUnderWayAndOneAtTheEnd) {
   EXPECT_THAT(text, ::testing::HasSubstr("100 %"));
 }
 
+TEST(Progress, WorkToldOfAtItsEndAloneShowsOneLine) {
+  ::testing::internal::CaptureStderr();
+  {
+    Progress progress("simulating", 2);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+    progress.update(2);
+  }
+  const std::string text = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+  EXPECT_THAT(text, ::testing::HasSubstr("100 %"));
+}
+
 TEST(Progress, SilencedShowsNothing) {
   Progress::silence(true);
   const std::string text = shown(1050);
