@@ -81,6 +81,15 @@ std::vector<std::string> read_names(const std::filesystem::path& file, int line,
   return names;
 }
 
+/// "0,033", as spreadsheets write it in many languages.
+bool has_decimal_comma(std::string_view cell) {
+  std::string text(cell.substr(0, 40));
+  const auto comma = text.find(',');
+  if (comma == std::string::npos) return false;
+  text[comma] = '.';
+  return parse_number(text).has_value();
+}
+
 double read_cell(const CsvTable& table, int line, std::size_t column, std::string_view cell,
                  const TextReader& number_of) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -91,7 +100,11 @@ double read_cell(const CsvTable& table, int line, std::size_t column, std::strin
   if (!number || std::isinf(*number))
     throw InputError({table.file, line,
                       fmt::format("column {} ({})", column + 1, quotable(table.names[column])),
-                      quotable(cell), "a finite number, nan or nothing"});
+                      quotable(cell),
+                      has_decimal_comma(cell) ? std::string("a finite number with a point, not a "
+                                                            "comma, before its decimals (save as "
+                                                            "CSV in English, or replace , by .)")
+                                              : "a finite number, nan or nothing"});
   return std::isnan(*number) ? nan : *number;
 }
 
@@ -156,7 +169,12 @@ CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of
     }
     if (cells.size() != table.names.size())
       throw InputError({file, lines.number(), "", fmt::format("{} cells", cells.size()),
-                        fmt::format("{}, as the first line names them", table.names.size())});
+                        fmt::format("{}, as the first line names them{}", table.names.size(),
+                                    separator == ',' && cells.size() > table.names.size() &&
+                                            cells.size() <= 2 * table.names.size()
+                                        ? "; are its decimals behind commas? Then cells must be "
+                                          "separated by semicolons, and decimals by points"
+                                        : "")});
     for (std::size_t c = 0; c < cells.size(); ++c)
       values.push_back(read_cell(table, lines.number(), c, cells[c], number_of));
     table.lines.push_back(lines.number());
