@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "hyperex/capture/buffered.hpp"
 #include "hyperex/capture/camera_file.hpp"
@@ -17,15 +18,27 @@ namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 
-/// The first folder in `folder` that is a recording; empty where there is none.
-std::string recording_inside(const fs::path& folder) {
-  std::string first;
+/// Of a folder that is no recording itself which of its folders are: "; it holds one: PATH", or
+/// "; it holds 3 recordings, name one of them: NAME, NAME or NAME". Empty where there is none.
+std::string recordings_inside(const fs::path& folder) {
+  constexpr std::size_t most = 5;
+  std::vector<fs::path> found;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (fs::exists(entry.path() / "rgb.txt", ignored) &&
-        (first.empty() || entry.path().string() < first))
-      first = entry.path().string();
-  return first;
+    if (fs::exists(entry.path() / "rgb.txt", ignored)) found.push_back(entry.path());
+  if (found.empty()) return "";
+  std::sort(found.begin(), found.end());
+  if (found.size() == 1) return "; it holds one: " + found.front().string();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
+    names.push_back(found[i].filename().string());
+  std::string last = "...";
+  if (found.size() <= most) {
+    last = "or " + names.back();
+    names.pop_back();
+  }
+  return fmt::format("; it holds {} recordings, name one of them: {} {}", found.size(),
+                     fmt::join(names, ", "), last);
 }
 
 class TumFolder : public FrameSource {
@@ -62,11 +75,10 @@ class TumFolder : public FrameSource {
         options.camera_file.empty() ? folder_ / "camera.toml" : options.camera_file;
     if (!fs::exists(file) && !fs::exists(folder_ / "rgb.txt") &&
         !fs::exists(folder_ / "associations.txt")) {
-      const std::string inside = recording_inside(folder_);
       throw InputError(folder_,
                        "is no recording: expected rgb/, depth/, rgb.txt, depth.txt and camera.toml "
                        "(docs/tracking.md)" +
-                           (inside.empty() ? "" : "; it holds one: " + inside));
+                           recordings_inside(folder_));
     }
     if (!fs::exists(file))
       throw InputError(file,

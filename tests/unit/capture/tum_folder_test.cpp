@@ -9,6 +9,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "hyperex/core/error.hpp"
 #include "recording.hpp"
 
 namespace hyperex::capture {
@@ -281,6 +282,33 @@ TEST_F(TumFolderTest, RefusesAFolderThatIsNone) {
   write_recording(folder_.path(), 3);
   fs::remove(folder_ / "camera.toml");
   EXPECT_THAT(input_error([&] { read(); }), HasSubstr("camera.toml: missing"));
+}
+
+TEST_F(TumFolderTest, AFolderOfRecordingsNamesTheChoice) {
+  Folder parent;
+  const auto refusal = [&] {
+    try {
+      open_tum_folder(parent.path());
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("not refused");
+  };
+  EXPECT_THAT(refusal(), testing::EndsWith("(docs/tracking.md)"));
+  const auto add = [&](const std::string& name) {
+    fs::create_directory(parent.path() / name);
+    write_recording(parent.path() / name, 1);
+  };
+  add("talk");
+  EXPECT_THAT(refusal(), testing::EndsWith("; it holds one: " + (parent.path() / "talk").string()));
+  add("smile");
+  add("open");
+  EXPECT_THAT(refusal(),
+              testing::EndsWith("; it holds 3 recordings, name one of them: open, smile or talk"));
+  for (const char* name : {"a", "b", "c"}) add(name);
+  EXPECT_THAT(
+      refusal(),
+      testing::EndsWith("; it holds 6 recordings, name one of them: a, b, c, open, smile ..."));
 }
 
 TEST_F(TumFolderTest, ACameraFileOfTheUsersGoesFirst) {
