@@ -29,9 +29,7 @@ std::string text(const Vec3& v) {
 }
 
 void run(const Options& options) {
-  std::filesystem::path picture = options.picture;
-  if (picture.empty()) picture = std::filesystem::path(options.out).replace_extension(".png");
-  check_outputs({options.out, picture}, {options.scan});
+  check_outputs({options.out, options.picture}, {options.scan});
   take_library_memory();
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
@@ -39,23 +37,26 @@ void run(const Options& options) {
     std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
   const auto colours = tracking::picture_colours(scan);
   const auto found = tracking::find_scan_landmarks(scan.mesh, colours, options.scan.string());
-  const auto image = tracking::draw_scan_landmarks(
-      scan.mesh, colours, found, "Landmarks of " + options.scan.filename().string());
-  render::write_png(picture, image);
+  if (!options.picture.empty())
+    render::write_png(options.picture, tracking::draw_scan_landmarks(
+                                           scan.mesh, colours, found,
+                                           "Landmarks of " + options.scan.filename().string()));
   try {
     io::write_landmarks(options.out, found.landmarks, scan.unit);
   } catch (...) {
     std::error_code ignored;
-    std::filesystem::remove(picture, ignored);
+    if (!options.picture.empty()) std::filesystem::remove(options.picture, ignored);
     throw;
   }
   const Eigen::Matrix3d& scan_from_face = found.scan_from_canonical.rotation;
   std::cout << fmt::format(
       "{} landmarks from {} pictures, which lie {:.1f} mm (median) from where all agree\n"
       "the face looks along {}, its top is along {}\n"
-      "written to {}; look at {}\n",
+      "written to {}; {}\n",
       found.landmarks.size(), found.views, 1e3 * found.spread_m, text(scan_from_face.col(2)),
-      text(scan_from_face.col(1)), options.out.string(), picture.string());
+      text(scan_from_face.col(1)), options.out.string(),
+      options.picture.empty() ? "--picture FILE.png draws them"
+                              : "look at " + options.picture.string());
 }
 
 }  // namespace
@@ -69,11 +70,11 @@ void add_landmarks(CLI::App& program) {
   command->add_option("SCAN", options->scan, "PLY, OBJ, STL, glTF or GLB, with or without colour")
       ->required();
   command->add_option("--out", options->out, "Where to write them (.json)")->required();
-  command->add_option("--picture", options->picture,
-                      "Where to draw them (.png; default: --out with that ending)");
+  command->add_option("--picture", options->picture, "Draw them on the scan (.png) here");
   command->add_option("--unit", options->unit, "Unit of the scan, where it should not be guessed")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
-  command->footer("Example: hyperex landmarks scan.ply --out scan_landmarks.json");
+  command->footer(
+      "Example: hyperex landmarks scan.ply --out scan_landmarks.json --picture scan_landmarks.png");
   command->callback([options] { run(*options); });
 }
 

@@ -26,15 +26,23 @@ double median_error_mm(const io::Landmarks& found, const io::Landmarks& truth) {
   return errors[errors.size() / 2];
 }
 
-TEST_F(LandmarksCommand, WritesLandmarksInTheScansUnitAndAPicture) {
+TEST_F(LandmarksCommand, WritesLandmarksInTheScansUnit) {
   write_mm(in("face.ply"), good_face());
   const Outcome outcome = call("landmarks face.ply --out l.json --unit mm");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("landmarks from 14 pictures"),
-                                          HasSubstr("written to l.json; look at l.png")));
+                                          HasSubstr("written to l.json; --picture")));
   EXPECT_THAT(read_file(in("l.json")), HasSubstr("\"units\": \"mm\""));
   EXPECT_LT(median_error_mm(io::read_landmarks(in("l.json")), good_landmarks()), 4);
-  EXPECT_GT(fs::file_size(in("l.png")), 10000u);
+  const auto files = [&] {  // and nothing that was not asked for
+    return std::distance(fs::directory_iterator(in("")), fs::directory_iterator());
+  };
+  EXPECT_EQ(files(), 2);
+  const Outcome drawn = call("landmarks face.ply --out l.json --unit mm --picture p.png");
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_THAT(drawn.out, HasSubstr("written to l.json; look at p.png"));
+  EXPECT_GT(fs::file_size(in("p.png")), 10000u);
+  EXPECT_EQ(files(), 3);
 }
 
 TEST_F(LandmarksCommand, RefusesInOneLineAndLeavesNothing) {
