@@ -168,14 +168,15 @@ ModelPair pair_of(const Study& study, const std::string& name, const Performance
     }
   pair.rms_at_end_mm =
       1e3 * std::sqrt(area.dot(d.at_peak_m.array().square().matrix()) / area.sum());
-  pair.share_near_cphs = metrics::share_within(d.greatest_m, rest, cphs, kNear_m, area);
-  pair.share_near_mouth = metrics::share_within(d.greatest_m, rest, mouth, kNear_m, area);
+  pair.share_near_cphs = metrics::share_within(d.greatest_m, rest, cphs.transpose(), kNear_m, area);
+  pair.share_near_mouth =
+      metrics::share_within(d.greatest_m, rest, mouth.transpose(), kNear_m, area);
   pair.half_radius_mm = 1e3 * half_radius_m(d.greatest_m, rest, cphs, area);
   const Eigen::VectorXd change = 1e3 * d.change_at_peak_m;
   const Eigen::VectorXd moved =
       1e3 * one.skin_displacement_m[std::size_t(last)].cast<double>().rowwise().norm();
   pair.change_mm = mean_within(change, rest, cphs, kClose_m, area);
-  pair.change_near_mm = mean_within(change, rest, cphs, kNear_m, area);
+  pair.change_near_mm = mean_within(change, rest, cphs.transpose(), kNear_m, area);
   pair.moved_mm = mean_within(moved, rest, cphs, kClose_m, area);
   pair.most_less_mm = change.minCoeff();
   pair.most_more_mm = change.maxCoeff();
@@ -236,10 +237,11 @@ ModelsFace face_of(const Setting& setting, bool subject_a, std::vector<CurvePane
   const Eigen::VectorXd area = metrics::vertex_areas(base.skin_rest);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(area.size());
   const auto& landmarks = study.inputs().landmarks;
-  face.area_share =
-      metrics::share_within(ones, base.skin_rest.points, landmarks.at(kChanged), kNear_m, area);
+  face.area_share = metrics::share_within(ones, base.skin_rest.points,
+                                          landmarks.at(kChanged).transpose(), kNear_m, area);
   const Vec3 mouth = (landmarks.at(tissue::ibug(48)) + landmarks.at(tissue::ibug(54))) / 2;
-  face.area_share_mouth = metrics::share_within(ones, base.skin_rest.points, mouth, kNear_m, area);
+  face.area_share_mouth =
+      metrics::share_within(ones, base.skin_rest.points, mouth.transpose(), kNear_m, area);
   for (std::size_t m = 1; m < 3; ++m) {
     face.pairs.push_back(pair_of(study, fmt::format("1 and {}", m + 1), base, runs[m].performance));
     face.pairs.back().young_change_pa =

@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/metrics/variant_difference.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "hyperex/geometry/surface_topology.hpp"
 
 namespace hyperex::metrics {
+namespace {
+
+double distance_to_closed_line(const Eigen::RowVector3d& point, const Points& line) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < line.rows(); ++i) {
+    const Eigen::RowVector3d from = line.row(i), along = line.row((i + 1) % line.rows()) - from;
+    const double squared = along.squaredNorm();
+    const double at = squared > 0 ? std::clamp((point - from).dot(along) / squared, 0.0, 1.0) : 0.0;
+    least = std::min(least, (point - from - at * along).norm());
+  }
+  return least;
+}
+
+}  // namespace
 
 VariantDifference variant_difference(const std::vector<PointsF>& a, const std::vector<PointsF>& b,
                                      int peak_frame) {
@@ -41,15 +57,16 @@ double greatest_displacement_m(const std::vector<PointsF>& frames) {
   return double(most);
 }
 
-double share_within(const Eigen::VectorXd& distance, const Points& rest, const Vec3& centre,
+double share_within(const Eigen::VectorXd& distance, const Points& rest, const Points& outline,
                     double radius_m, const Eigen::VectorXd& weight) {
   if (distance.size() != rest.rows() || (weight.size() != 0 && weight.size() != rest.rows()))
     throw std::invalid_argument("share_within: a distance and a weight a vertex are needed");
+  if (outline.rows() == 0) throw std::invalid_argument("share_within: a line is needed");
   double near = 0, all = 0;
   for (Eigen::Index i = 0; i < distance.size(); ++i) {
     const double part = (weight.size() ? weight[i] : 1) * distance[i] * distance[i];
     all += part;
-    if ((rest.row(i).transpose() - centre).norm() <= radius_m) near += part;
+    if (distance_to_closed_line(rest.row(i), outline) <= radius_m) near += part;
   }
   return near / all;
 }

@@ -25,11 +25,12 @@ VariantDifference variant_difference(const std::vector<PointsF>& a, const std::v
 /// Of any vertex in any frame, m; 0 where there is none.
 double greatest_displacement_m(const std::vector<PointsF>& frames);
 
-/// Share of the summed squared distance that lies within `radius_m` (straight, at rest) of
-/// `centre`:  sum_near w d^2 / sum w d^2. `weight`: a value a vertex, such as vertex_areas(), so
-/// that the share does not depend on where the mesh is fine; empty: all vertices alike. NaN where
-/// all distances are 0. Throws std::invalid_argument where sizes differ.
-double share_within(const Eigen::VectorXd& distance, const Points& rest, const Vec3& centre,
+/// Share of the summed squared distance that lies within `radius_m` (straight, at rest) of a closed
+/// line through `outline`, which one point alone may be:  sum_near w d^2 / sum w d^2. `weight`: a
+/// value a vertex, such as vertex_areas(), so that the share does not depend on where the mesh is
+/// fine; empty: all vertices alike. NaN where all distances are 0. Throws std::invalid_argument
+/// where sizes differ or there is no line.
+double share_within(const Eigen::VectorXd& distance, const Points& rest, const Points& outline,
                     double radius_m, const Eigen::VectorXd& weight = {});
 
 /// A third of the area of the triangles around each vertex, m^2.

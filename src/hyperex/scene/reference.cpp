@@ -109,7 +109,8 @@ std::string variants_text() {
       "there too, by area, the root mean square distance, the mean change of the "
       "displacement's length (below 0: moves less), the mean displacement of the face's left and "
       "right and its asymmetry; what is added to xi_L - xi_R; share of the summed squared distance "
-      "within 25 mm of the mouth's middle; lag (ms) and hysteresis of a response point behind a "
+      "within 25 mm of the outline of the lips; lag (ms) and hysteresis of a response point behind "
+      "a "
       "driven one (docs/symmetry.md), left out where the motion does not come back; and the "
       "integral of |xi_L - xi_R| over time.\n",
       may);

@@ -95,6 +95,13 @@ void measure_sides(const metrics::Asymmetry& map, const TriMesh& rest, const Poi
   c.mean_displacement_right_mm = sum_mm[1] / all[1];
 }
 
+/// The border of the lips, corners included, as ibug68_48 to 59 go round it.
+Points lip_outline(const io::Landmarks& landmarks) {
+  Points outline(12, 3);
+  for (int k = 0; k < 12; ++k) outline.row(k) = landmarks.at(tissue::ibug(48 + k)).transpose();
+  return outline;
+}
+
 /// The value of the greatest size; 0 where there is none.
 double at_greatest(const std::vector<double>& values) {
   const int at = metrics::greatest_sample(values);
@@ -251,9 +258,8 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
   const metrics::SymmetryCurve& s = run.symmetry.curve;
   c.added_xi_difference = at_greatest(metrics::added_difference(s, base.symmetry.curve));
   c.added_xi_floor = metrics::added_mesh_floor(s, base.symmetry.curve);
-  const Vec3 mouth = (landmarks.at(tissue::ibug(48)) + landmarks.at(tissue::ibug(54))) / 2;
-  c.share_near_mouth = metrics::share_within(c.difference.greatest_m, own.skin_rest.points, mouth,
-                                             kNearMouth_m, area);
+  c.share_near_mouth = metrics::share_within(c.difference.greatest_m, own.skin_rest.points,
+                                             lip_outline(landmarks), kNearMouth_m, area);
   c.lag.lag_s = c.lag.correlation = c.hysteresis = std::nan("");
   if (!pair.driven.empty() && !pair.response.empty()) {
     const auto input = metrics::along_farthest(driven_track(base, pair.driven));

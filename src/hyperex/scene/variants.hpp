@@ -54,7 +54,7 @@ struct VariantComparison {
     return std::abs(added_xi_difference) > added_xi_floor ? 1 : 0;
   }
   /// Share of the summed squared distances (greatest over time, weighted with area) within 25 mm of
-  /// the middle of the mouth; NaN where all are 0.
+  /// the outline of the lips; NaN where all are 0.
   double share_near_mouth = 0;
   /// Of the response point behind the driven point; NaN where the motion does not come back: a
   /// shape that is still on its way tells no lag from a bent path.

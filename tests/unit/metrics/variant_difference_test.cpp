@@ -48,11 +48,26 @@ TEST(ShareWithin, CountsSquaresNearThePlace) {
   Points rest(3, 3);
   rest << 0, 0, 0, 0.02, 0, 0, 0.03, 0, 0;
   const Eigen::VectorXd distance = Eigen::Vector3d(1, 2, 3) * 1e-3;
-  EXPECT_NEAR(share_within(distance, rest, Vec3::Zero(), 0.025), 5.0 / 14, 1e-12);
-  EXPECT_NEAR(share_within(distance, rest, Vec3::Zero(), 0.025, Eigen::Vector3d(2, 1, 0.5)),
+  EXPECT_NEAR(share_within(distance, rest, Points::Zero(1, 3), 0.025), 5.0 / 14, 1e-12);
+  EXPECT_NEAR(share_within(distance, rest, Points::Zero(1, 3), 0.025, Eigen::Vector3d(2, 1, 0.5)),
               6 / 10.5, 1e-12);
-  EXPECT_TRUE(std::isnan(share_within(Eigen::Vector3d::Zero(), rest, Vec3::Zero(), 1)));
-  EXPECT_THROW(share_within(Eigen::Vector2d::Zero(), rest, Vec3::Zero(), 1), std::invalid_argument);
+  EXPECT_TRUE(std::isnan(share_within(Eigen::Vector3d::Zero(), rest, Points::Zero(1, 3), 1)));
+  EXPECT_THROW(share_within(Eigen::Vector2d::Zero(), rest, Points::Zero(1, 3), 1),
+               std::invalid_argument);
+  EXPECT_THROW(share_within(distance, rest, Points(0, 3), 1), std::invalid_argument);
+}
+
+// A mouth 60 mm wide: what lies 20 mm outside of a corner is near it, and 50 mm from the middle.
+TEST(ShareWithin, MeasuresFromTheOutline) {
+  Points outline(4, 3), rest(3, 3);
+  outline << -0.03, 0, 0, 0, 0.01, 0, 0.03, 0, 0, 0, -0.01, 0;
+  rest << 0.05, 0, 0,    // 20 mm from the left corner
+      -0.015, 0.029, 0,  // 22.8 mm from the upper edge, between two of its points, 24.2 from those
+      0, -0.04, 0;       // 30 mm below
+  const Eigen::VectorXd distance = Eigen::Vector3d(1, 2, 3) * 1e-3;
+  EXPECT_NEAR(share_within(distance, rest, outline, 0.0235), 5.0 / 14, 1e-12);
+  EXPECT_NEAR(share_within(distance, rest, outline, 0.0201), 1.0 / 14, 1e-12);
+  EXPECT_NEAR(share_within(distance, rest, outline, 0.031), 1, 1e-12);
 }
 
 TEST(VertexAreas, SumToTheSurface) {
