@@ -220,7 +220,7 @@ describe(`curves of ${basename(report)}`, () => {
     const heads = await table.locator('thead th').allTextContents();
     assert.deepEqual(heads.slice(1, 12).map((h) => /(mm|%|ms|1|s)(, \w+)?$/.test(h)), Array(11).fill(true), heads.join());
     const rows = await table.locator('tbody tr').evaluateAll((all) =>
-      all.map((row) => ({ name: row.querySelector('.face').textContent, cells: [...row.cells].slice(1).map((c) => c.textContent) })));
+      all.map((row) => ({ name: row.querySelector('.face').textContent, cells: [...row.cells].slice(1).map((c) => c.firstChild.textContent) })));
     assert.deepEqual(rows.map((row) => row.name), names);
     data.summary.variants.table.forEach((row, i) => keys.forEach((key, k) => {
       const text = rows[i].cells[k];
@@ -317,9 +317,28 @@ describe('figures that are rare', () => {
     assert.equal(rows[1][names.indexOf('Lag (ms)')], '');
   });
 
+  test('what a variant adds to ξL − ξR stands beside its floor and its verdict', async () => {
+    const cells = (row) => page.locator('.variants tbody tr').nth(row).locator('td').allTextContents();
+    assert.equal((await cells(1))[6], '0.0031undecided, floor 0.0123');
+    assert.equal((await cells(2))[6], '0.0456floor 0.0123');
+    const text = await page.locator('.variants').textContent();
+    assert.match(text, /undecided below its floor/);
+    assert.doesNotMatch(text, /exact/);
+  });
+
+  test('numbers that stand for none are words in the summary', async () => {
+    const shown = (key) => page.locator(`th[title="${key}"] + td`).textContent();
+    assert.equal(await shown('symmetry.lowpass_hz'), 'not filtered');
+    assert.equal(await shown('options.output.lowpass_hz'), '6 Hz');
+    assert.equal(await shown('options.output.jitter_mm'), 'automatic');
+    assert.equal(await shown('options.output.peak_time_s'), 'automatic');
+    assert.equal(await shown('options.time.end_s'), 'end of the recording');
+    assert.equal(await shown('options.time.step_s'), '0.005 s');
+  });
+
   test('changes are told in words', async () => {
     const told = await page.locator('.variants tbody tr').evaluateAll((rows) =>
-      rows.map((row) => [...row.querySelectorAll('small')].map((s) => s.textContent)));
+      rows.map((row) => [...row.querySelectorAll('th small')].map((s) => s.textContent)));
     const place = 'differs most near corner of the mouth (cheilion), right, which moves 16.00 instead of 20.00 mm';
     assert.deepEqual(told.slice(0, 4), [
       ['the scene without a variant'],

@@ -24,11 +24,14 @@ export async function rarePage() {
     hysteresis: 3.2e-6,
     changes: { 'tissue.region': [{ scar: ['cheilion_R', 'alare_R'], width_mm: 8, young_factor: 20 }, { name: 'lips', viscosity_pa_s: 900 }] },
   });
+  Object.assign(table[1], { added_xi_difference: 0.0031, added_xi_floor: 0.0123, added_xi_decided: 0 });
+  Object.assign(table[2], { added_xi_difference: 0.0456, added_xi_floor: 0.0123, added_xi_decided: 1 });
   table[3].changes = { 'tissue.point': [{ landmark: 'cheek', side: 'L', young_kpa: 80 }], 'motion.gain': 0.5 };
-  data.summary.options = { tissue: { young_kpa: 192.4 }, solver: { method: 'reduced' }, motion: { gain: 1 } };
+  data.summary.options = { tissue: { young_kpa: 192.4 }, solver: { method: 'reduced' }, motion: { gain: 1 },
+    time: { end_s: 0, step_s: 0.005 }, output: { peak_time_s: -1, jitter_mm: -1, lowpass_hz: 6 } };
   data.summary.checks = [{ name: 'first', worst_mm: 0.25 }, { worst_mm: 0.5 }];
   data.summary.symmetry = {
-    jitter_mm: 0,
+    jitter_mm: 0, lowpass_hz: 0,
     excursions: [pair('alare', 0.5, 0.6, true), pair('cheilion', 6.78, 4.2), pair('ibug68_7/9', 12, 11), pair('cheek', 0, 1)],
   };
   table[2].excursions = [pair('cheilion', 5, 3), pair('alare', 6, 0.25)];

@@ -28,7 +28,7 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
   ]],
   ['Symmetry', [
     ['symmetry.verdict', 'Verdict on ξ'],
-    ['symmetry.lowpass_hz', 'Speeds filtered below', 'Hz'],
+    ['symmetry.lowpass_hz', 'Speeds low-pass filtered at', 'Hz'],
     ['symmetry.S_most', 'Largest S'],
     ['symmetry.S_most_at_s', 'at', 's'],
     ['symmetry.undecided_samples', 'Undecided samples'],
@@ -50,7 +50,7 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
     ['inverted_tets', 'of them turned inside out in some frame'],
     ['mesh_quality.least_dihedral_deg', 'Least dihedral angle', '°'],
     ['mesh_quality.skin_to_scan_mean_mm', 'Skin to scan, mean', 'mm'],
-    ['mesh_quality.skin_to_scan_max_mm', 'Skin to scan, largest', 'mm'],
+    ['mesh_quality.skin_to_scan_face_max_mm', 'Skin to scan, largest on the face', 'mm'],
   ]],
   ['Simulation', [
     ['element', 'Element'],
@@ -66,7 +66,23 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
 ];
 
 /** Shown elsewhere on the page. */
-const elsewhere = new Set(['program', 'title', 'variants', 'notes', 'warnings', 'symmetry.excursions', 'symmetry.commissure', 'symmetry.jitter_mm']);
+const elsewhere = new Set(['program', 'title', 'variants', 'notes', 'warnings', 'symmetry.excursions', 'symmetry.commissure', 'symmetry.jitter_mm', 'mesh_quality.skin_to_scan_max_mm']);
+
+/** Numbers that stand for no number: what they mean. Keys of summary.json, or of the scene's options. */
+const meanings: Record<string, [stands: (value: number) => boolean, words: string]> = {
+  'symmetry.lowpass_hz': [(v) => v === 0, 'not filtered'],
+  'options.output.lowpass_hz': [(v) => v === 0, 'off'],
+  'options.output.jitter_mm': [(v) => v < 0, 'automatic'],
+  'options.output.peak_time_s': [(v) => v < 0, 'automatic'],
+  'options.time.end_s': [(v) => v === 0, 'end of the recording'],
+  'options.mesh.thickness_mm': [(v) => v === 0, 'from published depths'],
+  'options.support.muscle_kpa_per_mm': [(v) => v === 0, 'off'],
+};
+
+const meaningOf = (key: string, value: unknown): string | null => {
+  const meaning = meanings[key];
+  return meaning && typeof value === 'number' && meaning[0](value) ? meaning[1] : null;
+};
 
 const isEmpty = (value: unknown): boolean =>
   value === null || value === undefined || value === '' || (typeof value === 'number' && !Number.isFinite(value)) ||
@@ -119,15 +135,20 @@ function table(caption: string, rows: Row[]): HTMLElement {
     const head = element('th', name);
     head.scope = 'row';
     head.title = key;
-    const shown = typeof value === 'number' || Array.isArray(value) ? unit : '';
+    const words = meaningOf(key, value);
+    const shown = words !== null ? '' : typeof value === 'number' || Array.isArray(value) ? unit : '';
     row.append(head);
     const cell = row.insertCell();
-    cell.textContent = textOf(value, unit) + (shown ? (shown === '°' ? '°' : ` ${shown}`) : '');
-    if (typeof value === 'string') cell.className = 'text';
+    cell.textContent = (words ?? textOf(value, unit)) + (shown ? (shown === '°' ? '°' : ` ${shown}`) : '');
+    if (typeof value === 'string' || words !== null) cell.className = 'text';
   }
   card.append(made);
   return card;
 }
+
+/** The rows of a section of the scene, under their whole keys. */
+const optionsOf = (section: string, values: Json): Row[] =>
+  rowsOf(values, new Set()).map((row) => ({ ...row, key: `options.${section}.${row.key}` }));
 
 function folded(title: string, tables: HTMLElement[]): HTMLElement {
   const details = element('details', '', 'all-figures');
@@ -169,7 +190,7 @@ export function fillSummary(summary: Json, into: HTMLElement): void {
   if (!isObject(options) || isEmpty(options)) return;
   const sections = Object.entries(options).filter(([, value]) => !isEmpty(value));
   const single = Object.fromEntries(sections.filter(([, value]) => !isObject(value)));
-  const tables = sections.flatMap(([key, value]) => (isObject(value) ? [table(nameAndUnit(key).name, rowsOf(value, new Set()))] : []));
+  const tables = sections.flatMap(([key, value]) => (isObject(value) ? [table(nameAndUnit(key).name, optionsOf(key, value))] : []));
   if (Object.keys(single).length > 0) tables.unshift(table('scene', rowsOf(single, new Set())));
   into.append(folded('Options of the scene', tables));
 }

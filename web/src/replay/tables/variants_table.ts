@@ -4,7 +4,7 @@ import type { Replay } from '../data';
 import { button, element } from '../../page/dom';
 import { chooseFace } from '../face/face_chooser';
 import { faceColour } from '../../page/face_colour';
-import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
+import { columnNotes, figureCard, figureCell, figureText, headCell, isNumber, type Column } from './figure_table';
 import { landmarkName } from '../../page/format';
 import type { Shown } from '../shown';
 import { changesOf, variantsOf, type VariantRow, type Variants } from '../variants';
@@ -36,11 +36,11 @@ const columns: Column[] = [
   },
   {
     key: 'added_xi_difference', head: 'Added ξL − ξR', unit: '1', digits: 4,
-    says: 'what the variant adds to ξL − ξR where it adds most: the tissue alone, whatever the mesh makes uneven.',
+    says: 'what the variant adds to ξL − ξR where it adds most: the tissue alone. Below its floor, which is what the mesh alone can make of it, it is undecided.',
   },
   {
     key: 'share_within_25_mm_of_mouth', head: 'Near the mouth', unit: '%', digits: 1, factor: 100,
-    says: 'share of the summed squared distance, weighted by area, within 25 mm of the middle between the mouth corners.',
+    says: 'share of the summed squared distance, weighted by area, within 25 mm of the outline of the lips.',
   },
   {
     key: 'lag_ms', head: 'Lag', unit: 'ms', digits: 2,
@@ -60,15 +60,14 @@ const insideOut: Column = {
   says: 'tetrahedra turned inside out in some frame: there the motion is too large for the model.',
 };
 
-function linesOf(replay: Replay, { driven_point, response_point }: Variants): string[] {
+function linesOf({ driven_point, response_point, table }: Variants): string[] {
   const points = driven_point && response_point
     ? [`Input of lag and hysteresis: ${landmarkName(driven_point)}, the driven point that moves most; response: ` +
        `${landmarkName(response_point)}, which moves most of those off the driven patches.`]
     : [];
-  const { noise = [] } = replay.symmetry ?? {};
-  const decided = noise.length > 0
-    ? 'Changes of symmetry under the noise floor of S(t) are undecided.'
-    : 'The motion is exact, so that all variants follow the very same input; where S(t) of two is under the floor, their difference is undecided.';
+  const decided = table.some((row) => isNumber(row.added_xi_floor))
+    ? 'All faces follow the very same motion, so its jitter does not count here. What a variant adds to ξL − ξR is undecided below its floor, which is what the mesh alone can make of it.'
+    : 'All faces follow the very same motion. What the mesh alone adds to ξL − ξR is not known, so a small added difference is undecided.';
   return ['Each variant against base. Press a name to see that face.', ...points, decided];
 }
 
@@ -83,6 +82,12 @@ function fitted(column: Column, rows: VariantRow[]): Column {
 function placeOf({ farthest_near: near, displacement_there_mm: here, base_displacement_there_mm: there }: VariantRow): string[] {
   if (typeof near !== 'string' || near === '' || !isNumber(here) || !isNumber(there)) return [];
   return [`differs most near ${landmarkName(near)}, which moves ${here.toFixed(2)} instead of ${there.toFixed(2)} mm`];
+}
+
+/** Stands below what a variant adds to ξL − ξR. */
+function floorOf({ added_xi_floor: floor, added_xi_decided: decided }: VariantRow, column: Column): HTMLElement {
+  const text = `floor ${figureText(floor, column)}`;
+  return decided === 0 ? element('small', `undecided, ${text}`, 'undecided') : element('small', text);
 }
 
 function nameCell(
@@ -124,11 +129,12 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
     used.forEach((column, c) => {
       const made = figureCell(row[column.key], column);
       const value = row[column.key];
-      if (column.key === 'added_xi_difference' && i > 0 && Number(row.added_xi_decided ?? 1) === 0) {
-        made.replaceChildren(element('span', 'undecided', 'undecided'));
-        made.title = `${made.title}: below what the mesh alone makes`;
-        line.append(made);
-        return;
+      if (column.key === 'added_xi_difference' && i > 0 && isNumber(row.added_xi_floor)) {
+        made.append(floorOf(row, column));
+        if (row.added_xi_decided === 0) {
+          line.append(made);
+          return;
+        }
       }
       if (column !== insideOut) made.className = 'quantity';
       if (isNumber(value) && most[c] > 0) made.style.setProperty('--share', String(Math.abs(value) / most[c]));
@@ -143,11 +149,12 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
   });
   shown.onChange(show);
   show();
-  const { card, body: folding } = figureCard('Variants', linesOf(replay, variants), table, () => [
-    ['face', 'what differs', ...used.map(({ head: name, unit }) => `${name} (${unit})`)],
+  const { card, body: folding } = figureCard('Variants', linesOf(variants), table, () => [
+    ['face', 'what differs', ...used.map(({ head: name, unit }) => `${name} (${unit})`), 'Floor of what is added to ξL − ξR (1)'],
     ...rows.map((row, i) => [
       row.name, changesOf(replay, i).join('; '),
       ...used.map(({ key, factor = 1 }) => (isNumber(row[key]) ? row[key] * factor : null)),
+      isNumber(row.added_xi_floor) ? row.added_xi_floor : null,
     ]),
   ]);
   card.classList.add('variants');
