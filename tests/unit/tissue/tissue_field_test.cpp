@@ -353,12 +353,9 @@ TEST_F(Field, APaintedRegionChangesAsMuchAsItIsPainted) {
   }
   colours.setConstant(255);
   io::write_ply(ply, scan, io::LengthUnit::metre, {}, colours);
-  try {
-    maker_->make(options);
-    FAIL() << "white alone is an empty region";
-  } catch (const FieldError& error) {
-    EXPECT_EQ(error.problem.key, "region[0].painted");
-  }
+  // Told where the files are read, before anything is simulated.
+  EXPECT_THAT(refusal(options), HasSubstr("nothing is painted red"));
+  EXPECT_THROW(notes_on_files(options, scan), InputError);
   io::write_ply(ply, scan, io::LengthUnit::metre, {});
   EXPECT_THAT(refusal(options), HasSubstr("nothing painted"));
   std::ofstream(csv) << "weight\n0.5\n2\n";

@@ -129,7 +129,8 @@ Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& sca
   Eigen::VectorXd share;
   for (const auto& column : table.columns)
     if (column.name == "weight") share = column.values;
-  if (share.size() == 0 && !has_extension(file, ".csv")) {
+  const bool by_colour = share.size() == 0 && !has_extension(file, ".csv");
+  if (by_colour) {
     io::Scan painted = io::read_scan(file);
     share = redness(painted.vertex_colour);
     table.mesh = std::move(painted.mesh);
@@ -146,6 +147,12 @@ Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& sca
       throw InputError(file, fmt::format("weight = {:g} at vertex {} (counted from 0): expected a "
                                          "number from 0 to 1",
                                          share[v], v));
+  constexpr double least = 1e-6;
+  if (share.maxCoeff() < least)
+    throw InputError(file, by_colour
+                               ? "nothing is painted red: expected the region in pure red, on "
+                                 "white, grey or black"
+                               : "every weight is 0: expected 1 where the region is");
   return OnScan(file, table.mesh, scan, notes)(share, 0);
 }
 
