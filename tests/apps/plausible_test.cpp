@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
@@ -89,7 +90,73 @@ TEST_F(Plausible, ExchangedSidesOfARecordingAreRefused) {
   const Outcome checked = call("check scene.toml");
   EXPECT_EQ(checked.status, 2);
   EXPECT_THAT(checked.err, AllOf(HasSubstr("motion.csv: left and right are exchanged"),
-                                 HasSubstr("mm rms from the scan's landmarks")));
+                                 HasSubstr("mm rms from those of the same names on the scan")));
+}
+
+TEST_F(Plausible, WithoutLandmarksSidesAndStartAreHeldAgainstAnAverageFace) {
+  replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
+  const Outcome good = call("check scene.toml");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(good.out, AllOf(Not(HasSubstr("warning")), HasSubstr("against an average face")));
+  write_motion(40, 41, [](motion::Motion&) {});
+  const Outcome started = call("check scene.toml");
+  EXPECT_EQ(started.status, 0) << started.err;
+  EXPECT_THAT(started.out,
+              AllOf(HasSubstr("warning: the recording seems to start in an expression"),
+                    HasSubstr("nearer to an average face")));
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (auto& sample : m.positions) sample.col(0) *= -1;
+  });
+  const Outcome exchanged = call("check scene.toml");
+  EXPECT_EQ(exchanged.status, 2);
+  EXPECT_THAT(exchanged.err, HasSubstr("motion.csv: left and right are exchanged"));
+}
+
+TEST_F(Plausible, AMisspeltLandmarkIsTold) {
+  io::Landmarks landmarks = good_landmarks();
+  landmarks["cheilon_L"] = landmarks["cheilion_L"];
+  landmarks.erase("cheilion_L");
+  landmarks["my_own_mark"] = landmarks["nasion"];
+  io::write_landmarks(in("face_landmarks.json"), landmarks, io::LengthUnit::millimetre);
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out,
+              AllOf(HasSubstr("warning: landmark cheilon_L is not known and left aside; did you "
+                              "mean cheilion_L?"),
+                    HasSubstr("one landmark's name is not known and left aside: my_own_mark")));
+}
+
+TEST_F(Plausible, AFilesJitterIsEstimated) {
+  write_motion(0, 81, [](motion::Motion&) {});
+  EXPECT_THAT(call("check scene.toml").out, HasSubstr("no jitter shows in the recorded points"));
+  write_motion(0, 81, [](motion::Motion& m) {
+    std::mt19937 generator(1);
+    std::normal_distribution<double> noise(0, 0.2e-3);
+    for (auto& sample : m.positions)
+      for (double& x : sample.reshaped()) x += noise(generator);
+  });
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  const std::string told = "estimated from their fourth differences in time: ";
+  const auto at = checked.out.find(told);
+  ASSERT_NE(at, std::string::npos) << checked.out;
+  EXPECT_NEAR(std::stod(checked.out.substr(at + told.size())), 0.2, 0.03);
+  EXPECT_THAT(call("check scene.toml --set output.jitter_mm=0.1").out, Not(HasSubstr(told)));
+  const Outcome run = call("run scene.toml --out out");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NEAR(summary()["symmetry"]["jitter_mm"].get<double>(), 0.2, 0.03);
+}
+
+TEST_F(Plausible, AFileWithoutPaintFailsInCheckAsInRun) {
+  io::VertexColours white(good_face().points.rows(), 4);
+  white.setConstant(255);
+  io::write_ply(in("white.ply"), good_face(), io::LengthUnit::millimetre, {}, white);
+  const std::string paint = " --set 'tissue.region=[{painted = \"white.ply\", young_factor = 2}]'";
+  for (const std::string command : {"check scene.toml", "run scene.toml --out out"}) {
+    const Outcome outcome = call(command + paint);
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_THAT(outcome.err, HasSubstr("white.ply: nothing is painted red")) << command;
+  }
 }
 
 TEST_F(Plausible, ABadFitOfTheRecordingIsTold) {

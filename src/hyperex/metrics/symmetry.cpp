@@ -77,6 +77,13 @@ Points10 find_points(const motion::Motion& motion) {
   return found;
 }
 
+std::set<int> columns_of(const Points10& points) {
+  std::set<int> columns;
+  for (const auto& side : points.of)
+    for (const Columns& some : side) columns.insert(some.begin(), some.end());
+  return columns;
+}
+
 Vec3 position(const Points& sample, const Columns& columns) {
   Vec3 sum = Vec3::Zero();
   for (const int column : columns) sum += sample.row(column).transpose();
@@ -183,11 +190,17 @@ std::vector<double> symmetry_noise(const motion::Motion& landmarks, double jitte
   return noise;
 }
 
+std::vector<int> symmetry_columns(const motion::Motion& landmarks) {
+  try {
+    const std::set<int> columns = columns_of(find_points(landmarks));
+    return {columns.begin(), columns.end()};
+  } catch (const InputError&) {  // a point is missing
+    return {};
+  }
+}
+
 double jitter_at_rest(const motion::Motion& landmarks, double window_s) {
-  const Points10 points = find_points(landmarks);
-  std::set<int> columns;
-  for (const auto& side : points.of)
-    for (const Columns& some : side) columns.insert(some.begin(), some.end());
+  const std::set<int> columns = columns_of(find_points(landmarks));
   const auto& time = landmarks.time_s;
   double least = std::numeric_limits<double>::quiet_NaN();
   for (size_t first = 0; first < time.size(); ++first) {

@@ -50,6 +50,9 @@ struct SymmetryCurve {
 SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor = 1e-6,
                           double jitter_m = 0);
 
+/// The columns of the points that S(t) takes, in rising order; empty where one is not there.
+std::vector<int> symmetry_columns(const motion::Motion& landmarks);
+
 /// A value a sample; NaN where not measured. Points and errors as symmetry_of.
 std::vector<Stretches> stretches_of(const motion::Motion& landmarks);
 

@@ -9,6 +9,7 @@
 
 #include "hyperex/core/progress.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "hyperex/motion/jitter.hpp"
 #include "hyperex/motion/landmark_motion.hpp"
 
 namespace hyperex::motion {
@@ -243,23 +244,6 @@ std::vector<KnownLandmark> known_landmarks(const Motion& motion) {
         break;
       }
   return known;
-}
-
-double jitter_of_differences(const Motion& motion, const std::vector<int>& columns) {
-  constexpr std::array<double, 5> kFourth = {1, -4, 6, -4, 1};  // squares sum up to 70
-  std::vector<double> sizes;
-  for (std::size_t k = 0; k + kFourth.size() <= motion.positions.size(); ++k)
-    for (const int column : columns) {
-      Eigen::RowVector3d bend = Eigen::RowVector3d::Zero();
-      for (std::size_t j = 0; j < kFourth.size(); ++j)
-        bend += kFourth[j] * motion.positions[k + j].row(column);
-      if (bend.allFinite())
-        for (Eigen::Index axis = 0; axis < 3; ++axis) sizes.push_back(std::abs(bend[axis]));
-    }
-  if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + long(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / (0.6745 * std::sqrt(70.0));
 }
 
 std::vector<UncertainPose> expressive_poses(const Motion& motion,

@@ -35,17 +35,12 @@ std::vector<KnownLandmark> known_landmarks(const Motion& motion);
 /// C from landmark_motion.hpp. How strong the expression is, u and l, is found for each sample by
 /// restricted maximum likelihood (Patterson and Thompson, Biometrika 58 (1971)), then smoothed over
 /// time (Gaussian, 0.1 s), so that the pose is as smooth as the points. The jitter s of a
-/// coordinate comes from the motion's fourth differences and is at least 0.0001 mm. At rest u and l
-/// are small and all landmarks count; where brows rise, u is large and the lower face carries the
-/// pose, and the other way round. The covariance is worked out with l at least u: what of raised
-/// brows is taken for the head's leaves no trace in the lower face.
-/// `landmarks`: those of known_landmarks(), three or more in each sample and not on a line.
+/// coordinate comes from the motion's fourth differences (jitter.hpp) and is at least 0.0001 mm. At
+/// rest u and l are small and all landmarks count; where brows rise, u is large and the lower face
+/// carries the pose, and the other way round. The covariance is worked out with l at least u: what
+/// of raised brows is taken for the head's leaves no trace in the lower face. `landmarks`: those of
+/// known_landmarks(), three or more in each sample and not on a line.
 std::vector<UncertainPose> expressive_poses(const Motion& motion,
                                             const std::vector<KnownLandmark>& landmarks);
-
-/// The standard deviation of a coordinate's jitter: median of the absolute fourth differences of
-/// all `columns`, over 0.6745 sqrt(70); a smooth motion has next to none. 0 for fewer than five
-/// samples.
-double jitter_of_differences(const Motion& motion, const std::vector<int>& columns);
 
 }  // namespace hyperex::motion

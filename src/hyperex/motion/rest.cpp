@@ -12,7 +12,7 @@ namespace hyperex::motion {
 namespace {
 
 constexpr double kAtRest_m = 1e-3;
-constexpr double kStretch_s = 0.3, kStart_s = 0.1, kMoved_m = 3e-3, kNearer = 0.65;
+constexpr double kStretch_s = 0.3, kStart_s = 0.1, kNearer = 0.65;
 constexpr std::size_t kFewest = 5;
 constexpr double kLeastSpread = 0.05;
 
@@ -131,7 +131,8 @@ RestedMotion with_rest(const Motion& motion, const RestStretch& stretch) {
 }
 
 std::optional<StartedInExpression> started_in_expression(const Motion& motion,
-                                                         const io::Landmarks& at_rest) {
+                                                         const io::Landmarks& at_rest,
+                                                         double least_moved_m) {
   const Common common = common_of(motion, at_rest);
   const auto& t = motion.time_s;
   if (common.names.size() < kFewest || spread_off_line(common.rest) < kLeastSpread ||
@@ -158,7 +159,7 @@ std::optional<StartedInExpression> started_in_expression(const Motion& motion,
   const Points moved = start - there;
   Eigen::Index point = 0;
   const double farthest = moved.rowwise().norm().maxCoeff(&point);
-  if (farthest < kMoved_m) return std::nullopt;
+  if (farthest < least_moved_m) return std::nullopt;
   const double share = (start - common.rest).cwiseProduct(moved).sum() / moved.squaredNorm();
   if (share <= kNearer) return std::nullopt;
   return StartedInExpression{nearest, common.names[std::size_t(point)], farthest};

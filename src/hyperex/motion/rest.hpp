@@ -40,12 +40,13 @@ struct StartedInExpression {
 /// the person at rest in any position and size (the landmarks of the scan). Shapes are compared
 /// after a similarity. Of all stretches of 0.3 s the one nearest to rest is taken; the motion
 /// starts in an expression where between its first sample (the mean of the first 0.1 s) and that
-/// stretch some point moves 3 mm or more, and rest lies nearer to the stretch on the line between
-/// both shapes: s = (start - rest) . (start - stretch) / |start - stretch|^2 > 0.65. That the
-/// scan's points are not quite the recording's shifts both alike, and s by its part along the line
-/// alone. Nothing for fewer than five common points, a motion shorter than two stretches, or points
-/// on a line.
+/// stretch some point moves `least_moved_m` or more, and rest lies nearer to the stretch on the
+/// line between both shapes: s = (start - rest) . (start - stretch) / |start - stretch|^2 > 0.65.
+/// That the scan's points are not quite the recording's shifts both alike, and s by its part along
+/// the line alone. Nothing for fewer than five common points, a motion shorter than two stretches,
+/// or points on a line.
 std::optional<StartedInExpression> started_in_expression(const Motion& motion,
-                                                         const io::Landmarks& at_rest);
+                                                         const io::Landmarks& at_rest,
+                                                         double least_moved_m = 3e-3);
 
 }  // namespace hyperex::motion

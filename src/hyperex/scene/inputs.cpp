@@ -10,7 +10,6 @@
 
 #include "hyperex/capture/mirrored.hpp"
 #include "hyperex/capture/open_source.hpp"
-#include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
@@ -21,9 +20,10 @@
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/scene/plausible.hpp"
+#include "hyperex/scene/recording_jitter.hpp"
+#include "hyperex/scene/unknown_names.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"
-#include "hyperex/tissue/field/regions.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "hyperex/tissue/landmarks.hpp"
@@ -238,6 +238,21 @@ motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Loo
   return steady;
 }
 
+/// What a recording shows without the scan's landmarks.
+void check_without_landmarks(const Scene& scene, const motion::Motion& m, Inputs& in) {
+  const FaceAtRest average = average_face();
+  const bool whole = scene.motion.recording.empty();  // of a camera's there is its first face only
+  check_sides(m, average);
+  if (whole) {
+    if (const auto warning = start_warning(m, average); !warning.empty())
+      in.warnings.push_back(warning);
+  }
+  in.notes.push_back(
+      whole ? "whether left and right are exchanged and whether the recording starts at rest was "
+              "checked against an average face, as the scan's landmarks are not known"
+            : "not checked: whether the recording starts at rest, which a run tells");
+}
+
 /// A wrong name is told by where it stands in the scene.
 void check_point_gains(const Scene& scene, const motion::Motion& m) {
   std::vector<InputProblem> problems;
@@ -259,44 +274,9 @@ void check_point_gains(const Scene& scene, const motion::Motion& m) {
 void exaggerate(const Scene& scene, Look look, motion::Motion& m, Inputs& in) {
   check_point_gains(scene, m);
   m = motion::with_point_gains(m, scene.motion.point_gains);
-  if (scene.output.jitter_m >= 0) {
-    in.jitter_m = scene.output.jitter_m;
-  } else if (!scene.motion.recording.empty() && look == Look::whole) {
-    const double jitter_m = metrics::jitter_at_rest(m);
-    if (std::isfinite(jitter_m)) in.jitter_m = jitter_m;
-    in.notes.push_back(
-        std::isfinite(jitter_m)
-            ? fmt::format("jitter of the tracked points in their quietest half second: {:.2f} mm; "
-                          "lasting errors of tracking are not in it",
-                          1e3 * jitter_m)
-            : "the recording is too short to tell its jitter: S(t) has no noise floor");
-  } else if (!scene.motion.source.embedded && !scene.motion.source.file.empty()) {
-    in.notes.push_back(
-        "the recording's jitter is not known, so figures of symmetry are judged by the mesh alone; "
-        "state it with output.jitter_mm (hyperex symmetry --jitter-mm auto estimates it)");
-  }
+  settle_jitter(scene, look, m, in);
   m = motion::time_scaled(m, scene.motion.time_scale);
   if (scene.motion.recording.empty() || look == Look::whole) check_length(scene, m);
-}
-
-/// `shown` as problems show it, in quotes; for "right_cheek" and "cheek_r" it is cheek_R. Empty
-/// where it is a region, and where none is alike.
-std::string nearest_region(std::string shown) {
-  std::erase(shown, '"');
-  if (tissue::is_region(shown)) return "";
-  for (const auto& [word, side] : {std::pair{"right_", "_R"}, {"left_", "_L"}})
-    if (shown.starts_with(word)) shown = shown.substr(std::string(word).size()) + side;
-  // A side is never guessed: the whole part is alike to either.
-  const bool sided = shown.size() > 2 && shown[shown.size() - 2] == '_';
-  const std::string side = sided ? shown.substr(shown.size() - 2) : "";
-  const std::string part = shown.substr(0, shown.size() - side.size());
-  std::vector<std::string> parts;
-  for (const auto& region : tissue::facial_regions()) parts.push_back(region.name);
-  const bool known = std::find(parts.begin(), parts.end(), part) != parts.end();
-  const std::string near = known ? part : nearest(part, parts);
-  if (near.empty() || side.empty()) return near;
-  const bool left = side == "_L" || side == "_l", right = side == "_R" || side == "_r";
-  return near + (left ? "_L" : right ? "_R" : "");
 }
 
 /// Names that do not exist, and tissue that cannot be. `of` precedes the keys: "variant[0].".
@@ -359,6 +339,7 @@ void note_unknown_landmarks(const Scene& scene, const io::Landmarks& given, Inpu
            std::any_of(scene.tissue.points.begin(), scene.tissue.points.end(),
                        [&](const tissue::TissuePoint& p) { return name.starts_with(p.landmark); });
   });
+  for (std::string& warning : misspelt_landmarks(unknown)) in.warnings.push_back(warning);
   if (!unknown.empty()) in.notes.push_back(tissue::unknown_landmarks_note(unknown));
 }
 
@@ -442,10 +423,12 @@ Inputs read_inputs(const Scene& scene, Look look) {
         "the scene names no landmarks, so a run looks for them on the scan, as hyperex landmarks "
         "does; not checked: whether they are found, how the recording fits them, and the names of "
         "points and landmarks");
+    if (steadied) check_without_landmarks(scene, steadied->motion, in);
     note_missing_support(scene, in);
     return in;
   }
-  check_sides(steadied->motion, in.landmarks);
+  const FaceAtRest at_rest{in.landmarks, "the scan"};
+  check_sides(steadied->motion, at_rest);
   in.motion = reenact::align(steadied->motion, in.landmarks, scene.alignment.method);
   in.jitter_m *= in.motion.scan_from_motion.scale;
   in.notes.push_back(fmt::format(
@@ -458,7 +441,7 @@ Inputs read_inputs(const Scene& scene, Look look) {
   if (!scene.scan.landmarks.empty())
     for (const auto& doubt : tissue::landmark_doubts(given, in.scan.mesh)) warn(doubt);
   warn(misfit_warning(in.motion));
-  warn(start_warning(steadied->motion, in.landmarks));
+  warn(start_warning(steadied->motion, at_rest));
   note_unknown_landmarks(scene, given, in);
   note_missing_support(scene, in);
   in.driven = driven_points(scene, in.motion.motion);

@@ -44,7 +44,7 @@ namespace {
 /// A share of the tetrahedra below which inverted ones are no warning.
 constexpr double kFewInverted = 1e-3;
 
-Json quality_json(const tissue::TissueMesh& mesh) {
+Json quality_json(const tissue::TissueMesh& mesh, const SkinOff& off) {
   const tissue::MeshQuality& q = mesh.quality;
   Json shares = Json::object();
   for (std::size_t b = 0; b < q.least_dihedral_shares.size(); ++b)
@@ -57,10 +57,11 @@ Json quality_json(const tissue::TissueMesh& mesh) {
           {"least_dihedral_share", shares},
           {"worst_radius_ratio", q.worst_radius_ratio},
           {"skin_to_scan_mean_mm", mesh.mean_distance_mm},
+          {"skin_to_scan_face_max_mm", off.distance_mm},
           {"skin_to_scan_max_mm", mesh.max_distance_mm}};
 }
 
-Json summary_of(const Results& r) {
+Json summary_of(const Results& r, const SkinOff& off) {
   const auto& report = r.simulation.report;
   const auto& p = r.simulation.performance;
   Json s;
@@ -96,7 +97,7 @@ Json summary_of(const Results& r) {
   s["at_peak"] = stress_summary(p);
   s["head_shift_uncertainty_mm"] = r.inputs.head_shift_uncertainty_mm;
   s["head_turn_uncertainty_deg"] = r.inputs.head_turn_uncertainty_deg;
-  s["mesh_quality"] = quality_json(r.mesh);
+  s["mesh_quality"] = quality_json(r.mesh, off);
   s["symmetry"] = metrics::summary_of(r.symmetry);
   return s;
 }
@@ -220,8 +221,8 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   results.notes.insert(results.notes.end(), mesh.notes.begin(), mesh.notes.end());
   results.notes.insert(results.notes.end(), inputs.warnings.begin(), inputs.warnings.end());
   results.warnings = inputs.warnings;
-  if (const auto warning = skin_warning(mesh, inputs.landmarks); !warning.empty())
-    warn({warning}, results);
+  const SkinOff off = skin_off_scan(mesh, inputs.landmarks);
+  if (const auto warning = skin_warning(off); !warning.empty()) warn({warning}, results);
   const Eigen::Index tets = mesh.volume.tets.rows();
   if (const int few = simulation.report.inverted_tets;
       few > 0 && few <= kFewInverted * double(tets))
@@ -231,7 +232,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   if (const auto& note = results.symmetry.map->plane.note; !note.empty()) warn({note}, results);
   if (!twin.why_not.empty())
     results.notes.push_back("the mesh's own floor of symmetry is not known: " + twin.why_not);
-  Json summary = summary_of(results);
+  Json summary = summary_of(results, off);
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.
   std::optional<report::GlbReport> glb;

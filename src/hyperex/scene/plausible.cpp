@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/rest.hpp"
 
@@ -15,7 +16,7 @@ constexpr double kMirroredRms_m = 6e-3, kMirroredShare = 0.5;
 constexpr double kMisfit_mm = 10, kLeastScale = 0.8, kMostScale = 1.25;
 // Of faces 1.7 to 2.1 mm (embedded face, Spacetime, AnimFace); ears, necks and ragged borders reach
 // 10 mm (subject A 38 mm from the nearest landmark, humface 27 mm) and are no part of the face.
-constexpr double kSkinOff_m = 5e-3, kOfTheFace_m = 0.025;
+constexpr double kSkinOff_mm = 5, kOfTheFace_m = 0.025;
 
 /// Rows of the points that both sides name, measured in the first sample.
 std::pair<Points, Points> common_points(const motion::Motion& m, const io::Landmarks& landmarks) {
@@ -43,8 +44,19 @@ double misfit_m(const Points& recorded, const Points& scanned) {
 
 }  // namespace
 
-void check_sides(const motion::Motion& stabilised, const io::Landmarks& landmarks) {
-  auto [recorded, scanned] = common_points(stabilised, landmarks);
+FaceAtRest average_face() {
+  static const io::Landmarks landmarks = [] {
+    const face::CanonicalFace& face = face::canonical_face();
+    io::Landmarks all;
+    for (const auto& entry : face.landmarks)
+      all[entry.first] = face.landmark(entry.first, face.mesh.points);
+    return all;
+  }();
+  return {landmarks, "an average face", 6e-3};
+}
+
+void check_sides(const motion::Motion& stabilised, const FaceAtRest& face) {
+  auto [recorded, scanned] = common_points(stabilised, face.landmarks);
   if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return;
   const double as_is = misfit_m(recorded, scanned);
   recorded.col(0) *= -1;
@@ -52,10 +64,10 @@ void check_sides(const motion::Motion& stabilised, const io::Landmarks& landmark
   if (as_is <= kMirroredRms_m || mirrored >= kMirroredShare * as_is) return;
   motion::refuse(
       stabilised,
-      fmt::format("left and right are exchanged: the points are {:.1f} mm rms from the scan's "
-                  "landmarks of the same names, and {:.1f} mm with one axis negated; L and R are "
-                  "the subject's own sides, and the axes right-handed",
-                  1e3 * as_is, 1e3 * mirrored));
+      fmt::format("left and right are exchanged: the points are {:.1f} mm rms from those of "
+                  "the same names on {}, and {:.1f} mm with one axis negated; L and R are the "
+                  "subject's own sides, and the axes right-handed",
+                  1e3 * as_is, face.whose, 1e3 * mirrored));
 }
 
 std::string misfit_warning(const reenact::AlignedMotion& aligned) {
@@ -69,15 +81,16 @@ std::string misfit_warning(const reenact::AlignedMotion& aligned) {
       aligned.rms_mm, scale, kMisfit_mm, kLeastScale, kMostScale);
 }
 
-std::string start_warning(const motion::Motion& stabilised, const io::Landmarks& landmarks) {
-  const auto started = motion::started_in_expression(stabilised, landmarks);
+std::string start_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
+  const auto started =
+      motion::started_in_expression(stabilised, face.landmarks, face.least_moved_m);
   if (!started) return "";
   return fmt::format(
       "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is nearer "
-      "to the scan, which is at rest, than at the start ({} differs by {:.1f} mm); displacements "
+      "to {}, which is at rest, than at the start ({} differs by {:.1f} mm); displacements "
       "are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
-      started->stretch.from_s, started->stretch.to_s, started->point, 1e3 * started->distance_m,
-      started->stretch.from_s, started->stretch.to_s);
+      started->stretch.from_s, started->stretch.to_s, face.whose, started->point,
+      1e3 * started->distance_m, started->stretch.from_s, started->stretch.to_s);
 }
 
 void check_length(const Scene& scene, const motion::Motion& m) {
@@ -100,28 +113,28 @@ void check_length(const Scene& scene, const motion::Motion& m) {
                                   lasts_s, scene.time.frame_rate_hz));
 }
 
-std::string skin_warning(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
-  double worst_m = kSkinOff_m, beside_m = 0;
-  std::string beside;
+SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  SkinOff worst;
   for (Eigen::Index v = 0; v < mesh.skin.points.rows(); ++v) {
     const auto& anchor = mesh.anchors[std::size_t(v)];
     Vec3 simulated = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
       simulated += anchor.weight[k] * mesh.volume.outer.points.row(anchor.node[k]).transpose();
     const Vec3 scanned = mesh.skin.points.row(v);
-    const double off_m = (simulated - scanned).norm();
-    if (off_m <= worst_m) continue;
+    const double off_mm = 1e3 * (simulated - scanned).norm();
+    if (off_mm <= worst.distance_mm) continue;
     const auto [name, distance_m] = nearest_landmark(landmarks, scanned);
-    if (distance_m > kOfTheFace_m) continue;
-    worst_m = off_m;
-    beside_m = distance_m;
-    beside = name;
+    if (distance_m <= kOfTheFace_m) worst = {off_mm, name, 1e3 * distance_m};
   }
-  if (beside.empty()) return "";
+  return worst;
+}
+
+std::string skin_warning(const SkinOff& off) {
+  if (off.distance_mm <= kSkinOff_mm) return "";
   return fmt::format(
       "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: there the motion is "
       "not the scan's own; a smaller mesh.element_size_mm or a cleaner scan helps",
-      1e3 * worst_m, 1e3 * beside_m, beside);
+      off.distance_mm, off.beside_mm, off.landmark);
 }
 
 }  // namespace hyperex::scene

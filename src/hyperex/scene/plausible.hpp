@@ -9,10 +9,21 @@ namespace hyperex::scene {
 
 // Whether what a scene names belongs together. Numbers in the .cpp are calibrated on real data.
 
-/// Throws InputError where the recording fits the scan far better with left and right exchanged: at
+/// The face at rest that a recording is held against.
+struct FaceAtRest {
+  const io::Landmarks& landmarks;
+  std::string whose;            ///< "the scan", "an average face": for messages
+  double least_moved_m = 3e-3;  ///< from the start to rest, to be called a start in an expression
+};
+
+/// The canonical face, for a recording whose scan has no landmarks yet. As it is not the person's
+/// own, only a start 6 mm from rest counts.
+FaceAtRest average_face();
+
+/// Throws InputError where the recording fits the face far better with left and right exchanged: at
 /// its common points, after a similarity, more than 6 mm apart (root mean square), and less than
 /// half of that with its points mirrored.
-void check_sides(const motion::Motion& stabilised, const io::Landmarks& landmarks);
+void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// A sentence where the recording fits the scan badly: of another face, in another unit, or with
 /// points that only share their names; empty where it fits.
@@ -20,14 +31,22 @@ std::string misfit_warning(const reenact::AlignedMotion& aligned);
 
 /// A sentence where the recording seems to begin in the middle of an expression
 /// (motion::started_in_expression); empty where it does not.
-std::string start_warning(const motion::Motion& stabilised, const io::Landmarks& landmarks);
+std::string start_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before
 /// its second frame.
 void check_length(const Scene& scene, const motion::Motion& m);
 
-/// A sentence where the simulated skin is more than 5 mm from the scan somewhere on the face
-/// (within 25 mm of a landmark), with the landmark next to that place; empty where it is not.
-std::string skin_warning(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+/// Where the simulated skin is farthest from the scan on the face, which is what lies within 25 mm
+/// of a landmark: ears, neck and border may be far off.
+struct SkinOff {
+  double distance_mm = 0;  ///< 0 where there is no landmark
+  std::string landmark;    ///< the nearest one to that place
+  double beside_mm = 0;    ///< how far it is from there
+};
+SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+
+/// A sentence where that is more than 5 mm; empty where it is not.
+std::string skin_warning(const SkinOff& off);
 
 }  // namespace hyperex::scene

@@ -63,7 +63,7 @@ struct OutputOptions {
   bool full_paths = false;        ///< of input files, in summary.json and report.html
   double symmetry_floor = 1e-6;   ///< > 0, to 1
   double lowpass_hz = 6;          ///< cut-off for speeds and paths, 0 (none) to 100
-  double jitter_m = -1e-3;  ///< of the recorded points; below 0: from tracking, else none; to 20 mm
+  double jitter_m = -1e-3;  ///< of the recorded points; below 0: estimated from them; to 20 mm
 };
 
 /// Where a value came from.

@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 
+#include "hyperex/motion/jitter.hpp"
 #include "hyperex/motion/landmark_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"

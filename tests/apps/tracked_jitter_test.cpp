@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The jitter of a recording that was tracked into a file, against what the truth says it is.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "apps/program.hpp"
+#include "hyperex/geometry/transform.hpp"
+#include "hyperex/metrics/symmetry.hpp"
+#include "hyperex/motion/jitter.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/stabilise.hpp"
+
+namespace hyperex {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kRecordings = fs::path(HYPEREX_SHARED_DIR) / "data/rgbd";
+
+class TrackedJitter : public ProgramTest, public testing::WithParamInterface<std::string> {};
+
+/// Root mean square of what the tracked points' errors change by from frame to frame, over sqrt(2):
+/// the jitter, as errors that last change slowly.
+double true_jitter_m(const motion::Motion& tracked, const motion::Motion& truth,
+                     const std::vector<int>& columns) {
+  const auto rows_of = [&](const motion::Motion& m, const Points& sample) {
+    Points some(Eigen::Index(columns.size()), 3);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      some.row(Eigen::Index(i)) = sample.row(m.index_of(tracked.names[std::size_t(columns[i])]));
+    return some;
+  };
+  const Similarity onto = fit_similarity(rows_of(truth, truth.positions.front()),
+                                         rows_of(tracked, tracked.positions.front()));
+  double squares = 0, count = 0;
+  Points last;
+  for (std::size_t k = 0; k < tracked.positions.size(); ++k) {
+    const Points error =
+        rows_of(tracked, tracked.positions[k]) - onto.apply(rows_of(truth, truth.positions[k]));
+    if (k > 0) squares += (error - last).squaredNorm(), count += double(error.size());
+    last = error;
+  }
+  return std::sqrt(squares / count / 2);
+}
+
+TEST_P(TrackedJitter, IsEstimatedFromTheFileAlone) {
+  const fs::path recording = kRecordings / GetParam();
+  if (!fs::exists(recording)) GTEST_SKIP() << "no " << recording;
+  ASSERT_EQ(call("track '" + recording.string() + "' --out m.csv").status, 0);
+  const motion::Motion tracked = motion::stabilise(motion::read_motion(in("m.csv"))).motion;
+  const motion::Motion truth =
+      motion::stabilise(motion::read_motion(recording / "truth_landmarks68_camera_m.csv")).motion;
+  std::vector<int> columns;
+  for (const int k : {48, 54, 36, 45, 40, 41, 46, 47, 31, 35, 50, 52})
+    columns.push_back(tracked.index_of("ibug68_" + std::to_string(k)));
+  const double estimate_m = motion::jitter_of_motion(tracked, columns),
+               true_m = true_jitter_m(tracked, truth, columns),
+               at_rest_m = metrics::jitter_at_rest(tracked);
+  std::printf("%s: estimated %.3f mm, by the truth %.3f mm, quietest half second %.3f mm\n",
+              GetParam().c_str(), 1e3 * estimate_m, 1e3 * true_m, 1e3 * at_rest_m);
+  EXPECT_NEAR(estimate_m / true_m, 1, 0.15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Recordings, TrackedJitter,
+                         testing::Values("subject_A_still", "subject_A_mouth_open",
+                                         "subject_A_talk"),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace hyperex
