@@ -18,7 +18,7 @@ class Variants : public ProgramTest {
   void run(const std::string& out, const std::string& more) {
     const Outcome outcome =
         call("run '" HYPEREX_SOURCE_DIR "/examples/variants.toml' --out " + out +
-             " --set motion.time_scale=0.25 --set mesh.element_size_mm=5 --set output.vtu=false"
+             " --set motion.time_scale=0.25 --set mesh.element_size_mm=7 --set output.vtu=false"
              " --set output.glb=false --set output.report=false"
              " --set 'output.contact_times_s=[0]' " +
              more);
@@ -55,7 +55,7 @@ TEST_F(Variants, AreAsIfRunAlone) {
 TEST_F(Variants, ColumnsOfASideHoldThatSide) {
   std::ofstream(in("cheeks.toml"))
       << "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\", time_scale = 0.25 }\n"
-         "mesh = { element_size_mm = 5 }\n"
+         "mesh = { element_size_mm = 7 }\n"
          "output = { vtu = false, glb = false, report = false, contact_times_s = [0] }\n"
          "[[variant]]\nname = \"right\"\n"
          "tissue = { region = [{ name = \"cheek_R\", young_factor = 10 }] }\n"
