@@ -7,10 +7,10 @@
 #include <array>
 #include <map>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 #include <unordered_map>
 
+#include "hyperex/geometry/directed_edges.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 
 namespace hyperex {
@@ -34,15 +34,15 @@ std::vector<int> first_at_same_place(const Points& points) {
 /// Drops triangles until every directed edge is used at most once: this also drops those turned
 /// against their neighbours, of which a scan has few.
 std::size_t drop_non_manifold(std::vector<Tri>& tris, std::vector<int>& source) {
-  std::set<std::pair<int, int>> used;
+  DirectedEdges used(3 * tris.size());
   std::vector<Tri> kept;
   std::vector<int> kept_source;
   for (std::size_t f = 0; f < tris.size(); ++f) {
     const Tri& t = tris[f];
     bool free_edges = true;
-    for (int k = 0; k < 3; ++k) free_edges &= !used.count({t[k], t[(k + 1) % 3]});
+    for (int k = 0; k < 3; ++k) free_edges &= !used.contains(t[k], t[(k + 1) % 3]);
     if (!free_edges) continue;
-    for (int k = 0; k < 3; ++k) used.insert({t[k], t[(k + 1) % 3]});
+    for (int k = 0; k < 3; ++k) used.insert(t[k], t[(k + 1) % 3]);
     kept.push_back(t);
     kept_source.push_back(source[f]);
   }

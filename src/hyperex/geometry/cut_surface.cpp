@@ -40,11 +40,14 @@ CutSurface cut_along(const TriMesh& mesh, const std::vector<int>& path) {
   out.source_triangle.resize(mesh.triangles.rows());
   std::iota(out.source_triangle.begin(), out.source_triangle.end(), 0);
   if (path.size() < 3) return out;
-  std::map<Edge, int> triangle_left_of;
+  std::vector<char> on_path(mesh.points.rows(), 0);
+  for (const int v : path) on_path[v] = 1;
+  std::map<Edge, int> triangle_left_of;  // of the edges between vertices of the path
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k)
-      triangle_left_of[{mesh.triangles(f, k), mesh.triangles(f, (k + 1) % 3)}] =
-          static_cast<int>(f);
+      if (const Edge edge{mesh.triangles(f, k), mesh.triangles(f, (k + 1) % 3)};
+          on_path[edge.first] && on_path[edge.second])
+        triangle_left_of[edge] = static_cast<int>(f);
   const auto fans = vertex_triangles(mesh.triangles, mesh.points.rows());
   const auto right_of = [&](int a, int b) {
     const auto it = triangle_left_of.find({b, a});

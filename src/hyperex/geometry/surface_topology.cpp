@@ -6,26 +6,20 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace hyperex {
-namespace {
-std::uint64_t edge_key(int a, int b) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) |
-         static_cast<std::uint32_t>(b);
-}
-}  // namespace
+#include "hyperex/geometry/directed_edges.hpp"
 
+namespace hyperex {
 std::vector<std::vector<int>> boundary_loops(const Triangles& triangles) {
-  std::unordered_map<std::uint64_t, int> directed;
-  directed.reserve(3 * triangles.rows());
+  DirectedEdges directed(3 * static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-    for (int k = 0; k < 3; ++k) ++directed[edge_key(triangles(f, k), triangles(f, (k + 1) % 3))];
+    for (int k = 0; k < 3; ++k) directed.insert(triangles(f, k), triangles(f, (k + 1) % 3));
   // A border half-edge runs against its triangle, so that the loop keeps the surface on its right;
   // we store the triangle's own direction.
   std::map<int, std::vector<int>> next;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
-      if (!directed.count(edge_key(b, a))) next[a].push_back(b);
+      if (!directed.contains(b, a)) next[a].push_back(b);
     }
   std::vector<std::vector<int>> loops;
   while (!next.empty()) {

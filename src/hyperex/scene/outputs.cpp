@@ -19,6 +19,7 @@
 #include "hyperex/scene/asymmetry_picture.hpp"
 #include "hyperex/scene/face_box.hpp"
 #include "hyperex/scene/frames.hpp"
+#include "hyperex/scene/thinned_scan.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
@@ -36,8 +37,17 @@ void write_peak(const Results& r, const std::filesystem::path& directory) {
   const TriMesh skin{moved(p, d), p.skin_rest.triangles};
   const metrics::Asymmetry& asymmetry = *r.symmetry.map;
   const Eigen::VectorXf map_mm = metrics::asymmetry_mm(asymmetry.plane, asymmetry.pairs, d);
-  io::write_ply(directory / "skin_peak.ply", skin, r.inputs.scan.unit,
-                {{"displacement_mm", 1e3F * d.rowwise().norm()}, {"asymmetry_mm", map_mm}});
+  if (const auto& full = r.mesh.full) {
+    const PointsF all = on_full_skin(*full, d);
+    io::write_ply(directory / "skin_peak.ply",
+                  {full->skin.points + all.cast<double>(), full->skin.triangles},
+                  r.inputs.scan.unit,
+                  {{"displacement_mm", 1e3F * all.rowwise().norm()},
+                   {"asymmetry_mm", Eigen::VectorXf(on_full_skin(*full, map_mm))}});
+  } else {
+    io::write_ply(directory / "skin_peak.ply", skin, r.inputs.scan.unit,
+                  {{"displacement_mm", 1e3F * d.rowwise().norm()}, {"asymmetry_mm", map_mm}});
+  }
   const metrics::AsymmetrySummary& frame = asymmetry.frames[static_cast<std::size_t>(p.peak_frame)];
   std::string note = fmt::format(
       "the face less its reflection, less the same at rest, at {:.2f} s; face rms {:.2f} mm, mouth "

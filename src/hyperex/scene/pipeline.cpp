@@ -16,9 +16,11 @@
 #include "hyperex/scene/earlier_run.hpp"
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/frames.hpp"
+#include "hyperex/scene/landmark_search.hpp"
 #include "hyperex/scene/outputs.hpp"
 #include "hyperex/scene/plausible.hpp"
 #include "hyperex/scene/report_page.hpp"
+#include "hyperex/scene/thinned_scan.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
 #include "hyperex/scene/variants.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -71,7 +73,8 @@ Json summary_of(const Results& r, const SkinOff& off) {
   s["nodes"] = p.nodes.rows();
   s["tets"] = p.tets.rows();
   s["free_dofs"] = report.free_dofs;
-  s["skin_vertices"] = p.skin_rest.points.rows();
+  s["skin_vertices"] = (r.mesh.full ? r.mesh.full->skin : p.skin_rest).points.rows();
+  if (r.mesh.full) s["thinned_skin_vertices"] = p.skin_rest.points.rows();
   s["element"] = fem::to_string(r.scene.model.element);
   s["solver"] = report.basis_size > 0 ? "reduced" : "direct";
   s["linear_solver"] = fem::to_string(report.linear_solver);
@@ -174,14 +177,12 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   for (const auto& note : inputs.notes) spdlog::info("{}", note);
   for (const auto& warning : inputs.warnings) spdlog::warn("{}", warning);
 
-  constexpr Eigen::Index many = 100000;
-  if (inputs.scan.mesh.points.rows() > many)
-    spdlog::info("meshing under {} vertices of skin takes a while", inputs.scan.mesh.points.rows());
   tissue::TissueMesh mesh;
   {
     Progress progress("meshing the soft tissue", 0);
     mesh = tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, scene.mesh,
-                                     inputs.scan.file.string());
+                                     inputs.scan.file.string(), on_seams(inputs.scan));
+    if (mesh.full) inputs.scan = thinned_scan(inputs.scan, *mesh.full, mesh.skin);
   }
   seconds["mesh"] = stage.lap();
   for (const auto& note : mesh.notes) spdlog::info("{}", note);
@@ -195,6 +196,8 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
+  std::optional<LandmarkSearch> search;  // beside the simulation
+  if (!scene.scan.landmarks.empty()) search.emplace(inputs);
   const metrics::RestAsymmetry at_rest = rest_asymmetry(mesh, inputs);
   reenact::SimulationResult simulation;
   MirroredTwin twin;
@@ -229,6 +232,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
     results.notes.push_back(fmt::format(
         "{} of {} tetrahedra turned inside out in some frame, too few to matter", few, tets));
   warn(warnings_of(simulation.report, tets), results);
+  if (search) warn(search->doubts(results.warnings), results);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty()) warn({note}, results);
   if (!twin.why_not.empty())
     results.notes.push_back("the mesh's own floor of symmetry is not known: " + twin.why_not);

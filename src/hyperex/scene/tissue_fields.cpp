@@ -4,6 +4,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/thinned_scan.hpp"
 
 namespace hyperex::scene {
 
@@ -16,9 +17,13 @@ std::optional<tissue::TissueField> TissueFields::of(const Scene& scene, const st
     maker_.reset();
     with_face_ = true;
   }
-  if (!maker_) maker_.emplace(mesh_, inputs_.landmarks, face_ ? &*face_ : nullptr);
+  if (mesh_.full && !whole_) whole_.emplace(with_full_skin(mesh_));
+  if (!maker_)
+    maker_.emplace(whole_ ? *whole_ : mesh_, inputs_.landmarks, face_ ? &*face_ : nullptr);
   try {
-    return maker_->make(options);
+    tissue::TissueField field = maker_->make(options);
+    if (mesh_.full) keep_thinned(field, *mesh_.full);
+    return field;
   } catch (const tissue::FieldError& error) {
     InputProblem problem = problem_at(scene, "tissue." + error.problem.key, error.problem.expected);
     problem.key = owner + problem.key;

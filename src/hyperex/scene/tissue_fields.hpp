@@ -23,6 +23,7 @@ class TissueFields {
  private:
   const Inputs& inputs_;
   const tissue::TissueMesh& mesh_;
+  std::optional<tissue::TissueMesh> whole_;  ///< of a thinned scan: files name its own vertices
   std::optional<tissue::RegisteredFace> face_;
   std::optional<tissue::TissueFieldMaker> maker_;
   bool with_face_ = false;

@@ -65,16 +65,22 @@ void doubt_pairs(const io::Landmarks& given, Doubts& doubts) {
   }
 }
 
+/// The most surprising one, if any is beyond the bounds.
+const LandmarkSurprise* worst_of(const std::vector<LandmarkSurprise>& surprises, double most) {
+  const LandmarkSurprise* worst = nullptr;
+  for (const auto& surprise : surprises)
+    if (surprise.distance_m > kSurprise_m && surprise.deviations > most &&
+        (worst == nullptr || surprise.deviations > worst->deviations))
+      worst = &surprise;
+  return worst;
+}
+
 /// The worst is left out before the next is judged: it would draw its neighbours along.
 void doubt_surprises(io::Landmarks given, Doubts& doubts) {
   for (;;) {
-    const LandmarkSurprise* worst = nullptr;
     const auto surprises = landmark_surprises(given);
-    const double most = surprises.size() <= kFew ? kDeviationsOfFew : kDeviations;
-    for (const auto& surprise : surprises)
-      if (surprise.distance_m > kSurprise_m && surprise.deviations > most &&
-          (worst == nullptr || surprise.deviations > worst->deviations))
-        worst = &surprise;
+    const LandmarkSurprise* worst =
+        worst_of(surprises, surprises.size() <= kFew ? kDeviationsOfFew : kDeviations);
     if (worst == nullptr) return;
     add(doubts, worst->name, worst->distance_m,
         fmt::format("{:.1f} mm from where the other landmarks put it", 1e3 * worst->distance_m));
@@ -92,6 +98,20 @@ void doubt_surface(const io::Landmarks& given, const TriMesh& scan, Doubts& doub
 }
 
 }  // namespace
+
+std::vector<std::string> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found) {
+  std::vector<std::string> sentences;
+  io::Landmarks left = given;
+  for (;;) {
+    const auto surprises = landmark_surprises(left, found);
+    const LandmarkSurprise* worst = worst_of(surprises, kDeviations);
+    if (worst == nullptr) return sentences;
+    sentences.push_back(fmt::format(
+        "landmark {} is {:.1f} mm from where the landmarks found on the scan put it: {}",
+        worst->name, 1e3 * worst->distance_m, kRemedy));
+    left.erase(worst->name);
+  }
+}
 
 std::vector<std::string> landmark_doubts(const io::Landmarks& given, const TriMesh& scan) {
   Doubts doubts;

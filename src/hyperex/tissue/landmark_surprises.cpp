@@ -3,7 +3,7 @@
 
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/transform.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/tissue/known_landmarks.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 
 namespace hyperex::tissue {
@@ -12,8 +12,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 // How faces differ from the canonical one, m (metres of the canonical face): alike on both sides,
-// and one side from the other; over which distance that changes.
-constexpr double kAlike_m = 5e-3, kUnlike_m = 2e-3, kReach_m = 0.035;
+// and one side from the other. The same of landmarks that a person and the program have set.
+constexpr double kAlike_m = 5e-3, kUnlike_m = 2e-3, kSetAlike_m = 4e-3, kSetUnlike_m = 1e-3;
+constexpr double kReach_m = 0.035;  // over which distance that changes
 // How well the place that a name means is known: the point of the chin (where it is most prominent,
 // or its lower end: 15 mm apart on a real face), outline of the jaw, brows and cheeks, all else.
 constexpr double kChin_m = 8e-3, kJaw_m = 3e-3, kBrow_m = 2e-3, kPlace_m = 1.5e-3;
@@ -31,31 +32,12 @@ double place_m(const std::string& name) {
   return k <= 16 ? kJaw_m : k <= 26 ? kBrow_m : kPlace_m;
 }
 
-struct Known {
-  std::vector<std::string> names;
-  Points canonical, given;
-};
-
-Known known_of(const io::Landmarks& given) {
-  const auto& face = canonical_face();
-  Known known;
-  for (const auto& [name, position] : given)
-    if (face.landmarks.contains(name)) known.names.push_back(name);
-  known.canonical.resize(Eigen::Index(known.names.size()), 3);
-  known.given = known.canonical;
-  for (Eigen::Index i = 0; i < known.canonical.rows(); ++i) {
-    known.canonical.row(i) = face.landmark(known.names[std::size_t(i)], face.mesh.points);
-    known.given.row(i) = given.at(known.names[std::size_t(i)]);
-  }
-  return known;
-}
-
 /// 3 x 3 block of the smooth field's covariance between two places of the canonical face.
-Eigen::Matrix3d covariance(const Vec3& a, const Vec3& b) {
+Eigen::Matrix3d covariance(const Vec3& a, const Vec3& b, double alike_m, double unlike_m) {
   const auto near = [](const Vec3& d) {
     return std::exp(-d.squaredNorm() / (2 * kReach_m * kReach_m));
   };
-  const double alike = kAlike_m * kAlike_m / 2, unlike = kUnlike_m * kUnlike_m / 2;
+  const double alike = alike_m * alike_m / 2, unlike = unlike_m * unlike_m / 2;
   const Vec3 mirror(-1, 1, 1);
   const double here = near(a - b), there = near(a - b.cwiseProduct(mirror));
   Eigen::Matrix3d block = (alike + unlike) * here * Eigen::Matrix3d::Identity();
@@ -64,7 +46,7 @@ Eigen::Matrix3d covariance(const Vec3& a, const Vec3& b) {
 }
 
 /// 3n x 3n: the field, the unknown similarity, and how well each place is known.
-Matrix covariances(const Known& known) {
+Matrix covariances(const KnownLandmarks& known, double alike_m, double unlike_m) {
   const Eigen::Index n = known.canonical.rows();
   const Vec3 middle = known.canonical.colwise().mean();
   Matrix k(3 * n, 3 * n), trend = Matrix::Zero(3 * n, 7);
@@ -72,7 +54,8 @@ Matrix covariances(const Known& known) {
     const Vec3 x = known.canonical.row(i).transpose();
     const Vec3 arm = (x - middle) / 0.1;
     for (Eigen::Index j = 0; j < n; ++j)
-      k.block<3, 3>(3 * i, 3 * j) = covariance(x, known.canonical.row(j).transpose());
+      k.block<3, 3>(3 * i, 3 * j) =
+          covariance(x, known.canonical.row(j).transpose(), alike_m, unlike_m);
     const double noise = place_m(known.names[std::size_t(i)]);
     k.diagonal().segment<3>(3 * i).array() += noise * noise;
     trend.block<3, 3>(3 * i, 0).setIdentity();
@@ -84,20 +67,16 @@ Matrix covariances(const Known& known) {
   return k + kFree * trend * trend.transpose();
 }
 
-}  // namespace
-
-std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given) {
-  const Known known = known_of(given);
-  const std::size_t n = known.names.size();
-  if (n < kFewest || spread_off_line(known.given) < kLeastSpread) return {};
-  const Similarity scan_from_canonical = fit_similarity(known.canonical, known.given);
-  const Points seen = scan_from_canonical.inverse().apply(known.given);
-  const Matrix precision =
-      covariances(known).llt().solve(Matrix::Identity(3 * Eigen::Index(n), 3 * Eigen::Index(n)));
-  const Points offset = seen - known.canonical;
+/// Each landmark's offset as the others predict it. `expected`: without any offset, scan frame.
+std::vector<LandmarkSurprise> surprises_of(const KnownLandmarks& known, const Matrix& precision,
+                                           const Points& expected,
+                                           const Similarity& scan_from_canonical) {
+  const Similarity canonical_from_scan = scan_from_canonical.inverse();
+  const Points offset =
+      canonical_from_scan.apply(known.given) - canonical_from_scan.apply(expected);
   const Eigen::VectorXd pull =
       precision * Eigen::Map<const Eigen::VectorXd>(offset.data(), offset.size());
-
+  const std::size_t n = known.names.size();
   std::vector<LandmarkSurprise> surprises;
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<Eigen::Index> rows;  // of the landmark, first, and of its other names
@@ -108,14 +87,47 @@ std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given) {
     const Matrix left_out = Matrix(precision(rows, rows)).inverse();  // covariance of the error
     const Vec3 error = (left_out * pull(rows)).head<3>();
     const Eigen::Matrix3d spread = left_out.topLeftCorner<3, 3>();
+    const Vec3 given = known.given.row(Eigen::Index(i)).transpose();
     LandmarkSurprise surprise;
     surprise.name = known.names[i];
-    surprise.expected = scan_from_canonical * Vec3(seen.row(Eigen::Index(i)).transpose() - error);
-    surprise.distance_m = (known.given.row(Eigen::Index(i)).transpose() - surprise.expected).norm();
+    surprise.expected = scan_from_canonical * Vec3(canonical_from_scan * given - error);
+    surprise.distance_m = (given - surprise.expected).norm();
     surprise.deviations = std::sqrt(error.dot(spread.llt().solve(error)));
     surprises.push_back(surprise);
   }
   return surprises;
+}
+
+bool too_few(const KnownLandmarks& known) {
+  return known.names.size() < kFewest || spread_off_line(known.given) < kLeastSpread;
+}
+
+Matrix inverse(const Matrix& positive) {
+  return positive.llt().solve(Matrix::Identity(positive.rows(), positive.cols()));
+}
+
+}  // namespace
+
+std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given) {
+  const KnownLandmarks known = known_landmarks(given);
+  if (too_few(known)) return {};
+  const Similarity scan_from_canonical = fit_similarity(known.canonical, known.given);
+  return surprises_of(known, inverse(covariances(known, kAlike_m, kUnlike_m)),
+                      scan_from_canonical.apply(known.canonical), scan_from_canonical);
+}
+
+std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given,
+                                                 const io::Landmarks& found) {
+  io::Landmarks both;
+  for (const auto& [name, position] : given)
+    if (found.contains(name)) both[name] = position;
+  const KnownLandmarks known = known_landmarks(both);
+  if (too_few(known)) return {};
+  Points there = known.given;
+  for (Eigen::Index i = 0; i < there.rows(); ++i)
+    there.row(i) = found.at(known.names[std::size_t(i)]);
+  return surprises_of(known, inverse(covariances(known, kSetAlike_m, kSetUnlike_m)), there,
+                      fit_similarity(known.canonical, there));
 }
 
 }  // namespace hyperex::tissue

@@ -11,6 +11,7 @@
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/tissue/known_landmarks.hpp"
 #include "hyperex/tissue/negated_axes.hpp"
 #include "hyperex/tissue/register_face.hpp"
 
@@ -25,26 +26,6 @@ constexpr double kLeastSpread = 0.04;
 constexpr double kLargestSurprise_m = 0.04;
 // A pair is exchanged when turning it round takes away at least this much of the misfit.
 constexpr double kExchangedShare = 0.5, kExchangedRms_m = 0.006;
-
-/// Landmarks known to the canonical face, in rows.
-struct Known {
-  std::vector<std::string> names;
-  Points canonical, given;
-};
-
-Known known_of(const io::Landmarks& given) {
-  const CanonicalFace& face = canonical_face();
-  Known known;
-  for (const auto& [name, position] : given)
-    if (face.landmarks.contains(name)) known.names.push_back(name);
-  known.canonical.resize(Eigen::Index(known.names.size()), 3);
-  known.given = known.canonical;
-  for (std::size_t i = 0; i < known.names.size(); ++i) {
-    known.canonical.row(Eigen::Index(i)) = face.landmark(known.names[i], face.mesh.points);
-    known.given.row(Eigen::Index(i)) = given.at(known.names[i]);
-  }
-  return known;
-}
 
 /// A handful of names, then how many more.
 std::string listed(const std::vector<std::string>& names) {
@@ -110,7 +91,7 @@ std::vector<std::string> offset_problems(const io::Landmarks& given, const TriMe
 
 /// Whether points i and j are exchanged: with them turned round, they come far closer to where all
 /// the others put them; where there are few others, all come far closer to one another.
-bool pair_is_exchanged(const Known& known, Eigen::Index i, Eigen::Index j) {
+bool pair_is_exchanged(const KnownLandmarks& known, Eigen::Index i, Eigen::Index j) {
   const Eigen::Index count = known.given.rows();
   if (count < 8) {
     Points turned = known.given;
@@ -136,7 +117,7 @@ bool pair_is_exchanged(const Known& known, Eigen::Index i, Eigen::Index j) {
 }
 
 /// Pairs with left and right exchanged.
-std::vector<std::string> exchange_problems(const Known& known) {
+std::vector<std::string> exchange_problems(const KnownLandmarks& known) {
   std::vector<std::string> problems;
   const double before = misfit(known.canonical, known.given);
   Points all_turned = known.given;
@@ -162,7 +143,7 @@ std::vector<std::string> exchange_problems(const Known& known) {
 }
 
 /// Landmarks far from where the others put them.
-std::vector<std::string> slip_problems(const Known& known) {
+std::vector<std::string> slip_problems(const KnownLandmarks& known) {
   std::vector<std::string> problems;
   const Eigen::Index count = known.given.rows();
   if (count < 5) return problems;
@@ -195,7 +176,7 @@ std::vector<std::string> slip_problems(const Known& known) {
 }
 
 /// Does the face, as the landmarks place it, look out of the scan's surface?
-bool looks_outwards(const Known& known, const TriMesh& scan, const SurfaceTree& tree) {
+bool looks_outwards(const KnownLandmarks& known, const TriMesh& scan, const SurfaceTree& tree) {
   const Similarity scan_from_canonical = fit_similarity(known.canonical, known.given);
   const Vec3 forward = scan_from_canonical.rotation * Vec3::UnitZ();
   double sum = 0;
@@ -238,7 +219,7 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
     if (!face.landmarks.contains(name))
       problems.push_back("landmark " + name +
                          " is needed and missing, and cannot be placed: its name is unknown");
-  const Known known = known_of(given);
+  const KnownLandmarks known = known_landmarks(given);
   const bool enough = known.names.size() >= 3 && spread_off_line(known.given) >= kLeastSpread;
   if (!enough && !missing.empty()) {
     const auto unknown = unknown_landmarks(given);

@@ -4,23 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <stdexcept>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/clean_mesh.hpp"
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/geometry/cut_surface.hpp"
 #include "hyperex/geometry/geodesic.hpp"
 #include "hyperex/geometry/hole_filling.hpp"
 #include "hyperex/geometry/remesh.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/lips.hpp"
+#include "hyperex/tissue/skin_builder.hpp"
 #include "hyperex/tissue/unfold.hpp"
 
 namespace hyperex::tissue {
@@ -58,131 +55,6 @@ std::vector<int> outer_border(const TriMesh& mesh) {
     }
   return best;
 }
-
-/// The cleaned scan, cut where asked, and the same cut in the scan as given.
-class SkinBuilder {
- public:
-  SkinBuilder(const TriMesh& scan, const io::Landmarks& landmarks, const std::string& source,
-              TissueMesh& out)
-      : scan_(scan), landmarks_(landmarks), source_(source), out_(out) {
-    try {
-      clean_ = clean_mesh(scan);
-    } catch (const std::invalid_argument& e) {
-      throw InputError(source, e.what());
-    }
-    for (const auto& note : clean_.notes) out_.notes.push_back("scan: " + note);
-    out_.skin = scan;
-    out_.scan_vertices = scan.points.rows();
-    out_.source_triangle.resize(scan.triangles.rows());
-    std::iota(out_.source_triangle.begin(), out_.source_triangle.end(), 0);
-  }
-
-  void cut(LipCut mode) {
-    if (mode == LipCut::never) return;
-    const bool open = mouth_is_open(clean_.mesh, landmarks_);
-    if (open) {
-      if (mode == LipCut::always) out_.notes.push_back("the mouth is open already: not cut");
-      return;
-    }
-    const Vec3 forward = face_frame(landmarks_).z;
-    const auto attempt = [&](const Points& line, const char* course) {
-      const CutSurface surface = cut_along_line(clean_.mesh, line, forward);
-      apply(surface);
-      out_.notes.push_back(fmt::format(
-          "the lips are joined in the scan and were cut from corner to corner {}, {:.0f} mm long",
-          course, 1e3 * length_of(out_.lip_cut)));
-    };
-    if (const auto crease = lip_line_of_crease(clean_.mesh, landmarks_)) {
-      try {
-        return attempt(*crease, "along the crease between them");
-      } catch (
-          const std::invalid_argument&) {  // the landmarks' line may still go round what it met
-      }
-    }
-    try {
-      attempt(lip_line_of_landmarks(landmarks_),
-              "along a curve through the landmarks of the inner lips (no clear crease was found)");
-    } catch (const std::invalid_argument& e) {
-      throw InputError(source_, fmt::format("the closed lips could not be cut ({}); expected a "
-                                            "surface without holes between the mouth corners",
-                                            e.what()));
-    }
-  }
-
-  const TriMesh& mesh() const { return clean_.mesh; }
-
-  /// Values at the working copy's vertices, taken to those of the skin; 0 where it has none.
-  std::vector<double> on_skin(const std::vector<double>& values) const {
-    std::vector<double> out(out_.skin.points.rows(), 0.0);
-    std::map<std::array<double, 3>, double> at_place;  // the scan may hold a vertex several times
-    const auto place = [&](Eigen::Index v) {
-      const auto p = out_.skin.points.row(v);
-      return std::array{p[0], p[1], p[2]};
-    };
-    for (std::size_t v = 0; v < values.size(); ++v) {
-      if (v < clean_.source_vertex.size())
-        at_place[place(clean_.source_vertex[v])] = values[v];
-      else
-        out[out_.scan_vertices + static_cast<Eigen::Index>(v - clean_.source_vertex.size())] =
-            values[v];
-    }
-    for (Eigen::Index v = 0; v < out_.scan_vertices; ++v)
-      if (const auto it = at_place.find(place(v)); it != at_place.end()) out[v] = it->second;
-    return out;
-  }
-
- private:
-  static double length_of(const Points& line) {
-    double length = 0;
-    for (Eigen::Index i = 0; i + 1 < line.rows(); ++i)
-      length += (line.row(i + 1) - line.row(i)).norm();
-    return length;
-  }
-
-  /// Brings the cut of the working copy into the scan as given.
-  void apply(const CutSurface& cut) {
-    const Eigen::Index old = clean_.mesh.points.rows();
-    const auto added = static_cast<Eigen::Index>(cut.appended.size());
-    out_.skin.points.conservativeResize(out_.scan_vertices + added, 3);
-    for (Eigen::Index i = 0; i < added; ++i) {
-      const EdgePoint& e = cut.appended[i];
-      out_.appended.push_back({clean_.source_vertex[e.a], clean_.source_vertex[e.b], e.t});
-      out_.skin.points.row(out_.scan_vertices + i) = cut.mesh.points.row(old + i);
-    }
-    const Eigen::Index clean_triangles = clean_.mesh.triangles.rows();
-    out_.skin.triangles.conservativeResize(
-        scan_.triangles.rows() + cut.mesh.triangles.rows() - clean_triangles, 3);
-    for (Eigen::Index f = 0; f < cut.mesh.triangles.rows(); ++f) {
-      const int parent = cut.source_triangle[f], scan_parent = clean_.source_triangle[parent];
-      const Eigen::Index row =
-          f < clean_triangles ? scan_parent : scan_.triangles.rows() + f - clean_triangles;
-      for (int k = 0; k < 3; ++k)
-        out_.skin.triangles(row, k) = scan_corner(cut.mesh.triangles(f, k), parent, scan_parent);
-      if (f >= clean_triangles) out_.source_triangle.push_back(scan_parent);
-    }
-    out_.lip_cut.resize(cut.left_rim.size(), 3);
-    for (std::size_t i = 0; i < cut.left_rim.size(); ++i)
-      out_.lip_cut.row(i) = cut.mesh.points.row(cut.left_rim[i]);
-    clean_.mesh = cut.mesh;
-  }
-
-  /// The skin's vertex for one of the cut working copy, in the scan triangle that it came from: the
-  /// scan's own one, of which there may be several at a place.
-  int scan_corner(int vertex, int clean_triangle, int scan_triangle) const {
-    const auto old = static_cast<int>(clean_.source_vertex.size());
-    if (vertex >= old) return static_cast<int>(out_.scan_vertices) + vertex - old;
-    for (int k = 0; k < 3; ++k)
-      if (clean_.mesh.triangles(clean_triangle, k) == vertex)
-        return scan_.triangles(scan_triangle, k);
-    throw std::logic_error("a piece of a triangle has a foreign corner");
-  }
-
-  const TriMesh& scan_;
-  const io::Landmarks& landmarks_;
-  std::string source_;
-  TissueMesh& out_;
-  CleanMesh clean_;
-};
 
 /// Small holes closed, the outer border trimmed by `trim_m`.
 TriMesh mend(TriMesh mesh, const io::Landmarks& landmarks, double trim_m,
@@ -300,10 +172,12 @@ VolumeMesh thicken(TriMesh outer, const io::Landmarks& landmarks, const TissueMe
 }
 
 TissueMesh build(const TriMesh& scan, const io::Landmarks& landmarks,
-                 const TissueMeshOptions& options, const std::string& source) {
+                 const TissueMeshOptions& options, const std::string& source,
+                 const std::vector<char>& held) {
   TissueMesh out;
   SkinBuilder skin(scan, landmarks, source, out);
   skin.cut(options.cut_lips);
+  skin.thin(options.element_size_m, held);
   out.skin_upper_margin = skin.on_skin(upper_lip_margin(skin.mesh(), landmarks));
   const TriMesh mended = mend(skin.mesh(), landmarks, options.trim_border_m, out.notes);
 
@@ -328,9 +202,10 @@ TissueMesh build(const TriMesh& scan, const io::Landmarks& landmarks,
 }  // namespace
 
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
-                             const TissueMeshOptions& options, const std::string& source) {
+                             const TissueMeshOptions& options, const std::string& source,
+                             const std::vector<char>& held) {
   try {
-    return build(scan, landmarks, options, source);
+    return build(scan, landmarks, options, source, held);
   } catch (const std::invalid_argument& e) {  // of a step that knows no file: cleaning, say
     throw InputError(source, e.what());
   }

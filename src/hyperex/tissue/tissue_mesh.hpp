@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "hyperex/core/bounds.hpp"
 #include "hyperex/geometry/insert_line.hpp"
+#include "hyperex/geometry/thin_mesh.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/tissue/thickness.hpp"
@@ -27,6 +29,21 @@ struct TissueMeshOptions {
       thickness_m_in{0.001, 0.04}, trim_border_m_in{0, 0.05};  ///< a thickness may be 0 besides
 };
 
+/// A scan with more vertices is thinned to edges of a third of an element (thin_mesh) before it is
+/// meshed and drawn.
+constexpr Eigen::Index thinned_above_vertices = 60000;
+
+/// The skin of a scan that was thinned, as TissueMesh::skin would else have it.
+struct FullSkin {
+  TriMesh skin;
+  Eigen::Index scan_vertices = 0;
+  std::vector<EdgePoint> appended;
+  std::vector<int> source_triangle;
+  std::vector<int> kept;           ///< of each vertex of the thinned skin, the one of `skin` it is
+  std::vector<int> kept_triangle;  ///< of each triangle of it, the one whose corners moved to it
+  std::vector<MeshPlace> places;   ///< of each vertex of `skin` on the thinned skin
+};
+
 /// Where a point of the skin sits on the simulated outer surface.
 struct Anchor {
   std::array<int, 3> node{};  ///< outer nodes of the volume mesh
@@ -37,7 +54,9 @@ struct Anchor {
 struct TissueMesh {
   /// The scan as given; where its lips were cut, triangles of the scan are replaced by a piece of
   /// themselves, and new vertices and the other pieces are appended.
+  /// Of a scan with very many vertices a thinned one, which counts as the scan from there on.
   TriMesh skin;
+  std::shared_ptr<const FullSkin> full;  ///< where the scan was thinned
   Eigen::Index scan_vertices = 0;
   std::vector<EdgePoint> appended;   ///< where each appended vertex lies on the scan
   std::vector<int> source_triangle;  ///< of each skin triangle, the scan's that it is (a piece of)
@@ -56,9 +75,11 @@ struct TissueMesh {
 
 /// Cleans a working copy, cuts joined lips, mends small holes, remeshes with a size that grows away
 /// from the mouth, and builds the layer. `landmarks` must hold the 68 iBUG points
-/// (complete_landmarks). `source` names the scan in errors. Throws InputError where the scan cannot
-/// serve.
+/// (complete_landmarks). `source` names the scan in errors. `held`, per
+/// scan vertex: stays where the scan is thinned (empty: none). Throws InputError where the scan
+/// cannot serve.
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
-                             const TissueMeshOptions& options, const std::string& source);
+                             const TissueMeshOptions& options, const std::string& source,
+                             const std::vector<char>& held = {});
 
 }  // namespace hyperex::tissue

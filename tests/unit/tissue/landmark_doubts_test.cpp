@@ -159,5 +159,31 @@ TEST(LandmarkDoubts, HoldsOnRealFaces) {
   }
 }
 
+/// As another hand sets them: brows and jaw 5 mm off, alike on both sides.
+io::Landmarks set_otherwise(io::Landmarks landmarks) {
+  for (auto& [name, p] : landmarks) {
+    if (!name.starts_with("ibug68_")) continue;
+    const int k = std::stoi(name.substr(7));
+    if (k < 17) p += Vec3(0, 0.003, -0.004);
+    if (k >= 17 && k < 27) p += Vec3(0, 0.005, 0);
+  }
+  return landmarks;
+}
+
+TEST(LandmarkDoubts, AgainstLandmarksFoundOnTheScanTellABrowMovedByTenMillimetres) {
+  const EmbeddedFace face = embedded_face();
+  const io::Landmarks found = set_otherwise(face.landmarks);
+  EXPECT_THAT(landmark_doubts(face.landmarks, found), IsEmpty()) << "another hand is no mistake";
+  for (const char* name : {"ibug68_19", "ibug68_24", "ibug68_51", "ibug68_33", "ibug68_39"})
+    for (const Vec3& by : {Vec3(0.01, 0, 0), Vec3(-0.006, -0.008, 0)}) {
+      io::Landmarks given = face.landmarks;
+      std::erase_if(given, [&](const auto& entry) { return !entry.first.starts_with("ibug68_"); });
+      given.at(name) += by;
+      const auto doubts = landmark_doubts(given, found);
+      ASSERT_EQ(doubts.size(), 1u) << name;
+      EXPECT_THAT(doubts[0], HasSubstr(std::string(name) + " is ")) << doubts[0];
+    }
+}
+
 }  // namespace
 }  // namespace hyperex::tissue
