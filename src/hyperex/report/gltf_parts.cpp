@@ -12,8 +12,21 @@ namespace hyperex::report {
 using Eigen::Index;
 
 namespace {
-/// Bytes of an index and a vector in a sparse accessor, and of a vector in another.
-constexpr std::size_t kSparse = 16, kDense = 12;
+constexpr std::size_t kVector = 12;  // bytes
+/// Of an index of a sparse accessor.
+std::size_t index_bytes(std::size_t vertices) {
+  return vertices <= 65536 ? 2 : 4;
+}
+
+std::size_t longer_than(const PointsF& rows, float least) {
+  return static_cast<std::size_t>((rows.rowwise().norm().array() >= least).count());
+}
+
+/// What few_vectors() takes.
+std::size_t few_bytes(const PointsF& rows, float least) {
+  const auto vertices = static_cast<std::size_t>(rows.rows());
+  return std::min(kVector * vertices, (kVector + index_bytes(vertices)) * longer_than(rows, least));
+}
 }  // namespace
 
 GltfArrays::GltfArrays(tinygltf::Model& model) : model_(model) {
@@ -58,22 +71,36 @@ int GltfArrays::vectors(const PointsF& rows, bool with_range) {
   return at;
 }
 
-int GltfArrays::few_vectors(const PointsF& rows, float least) {
+int GltfArrays::few_vectors(const PointsF& rows, float least, bool with_range) {
   std::vector<std::uint32_t> indices;
   for (Index v = 0; v < rows.rows(); ++v)
     if (rows.row(v).norm() >= least) indices.push_back(static_cast<std::uint32_t>(v));
   const auto vertices = static_cast<std::size_t>(rows.rows());
-  if (indices.empty() || kSparse * indices.size() >= kDense * vertices) return vectors(rows, false);
+  if (indices.empty() || few_bytes(rows, least) >= kVector * vertices)
+    return vectors(rows, with_range);
   PointsF values(static_cast<Index>(indices.size()), 3);
   for (std::size_t i = 0; i < indices.size(); ++i) values.row(Index(i)) = rows.row(indices[i]);
   const int at = accessor(-1, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, vertices);
+  if (with_range) {  // of all: those that are not stored are 0
+    for (int k = 0; k < 3; ++k) {
+      auto& out = model_.accessors[static_cast<std::size_t>(at)];
+      out.minValues.push_back(std::min(0.F, values.col(k).minCoeff()));
+      out.maxValues.push_back(std::max(0.F, values.col(k).maxCoeff()));
+    }
+  }
   auto& sparse = model_.accessors[static_cast<std::size_t>(at)].sparse;
   sparse.isSparse = true;
   sparse.indices.byteOffset = sparse.values.byteOffset = 0;
   sparse.count = static_cast<int>(indices.size());
-  sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-  sparse.indices.bufferView = view(indices.data(), 4 * indices.size());
-  sparse.values.bufferView = view(values.data(), 12 * indices.size());
+  if (index_bytes(vertices) == 2) {
+    const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
+    sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    sparse.indices.bufferView = view(narrow.data(), 2 * narrow.size());
+  } else {
+    sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    sparse.indices.bufferView = view(indices.data(), 4 * indices.size());
+  }
+  sparse.values.bufferView = view(values.data(), kVector * indices.size());
   return at;
 }
 
@@ -114,13 +141,8 @@ int GltfArrays::rows_as_vectors(const Eigen::MatrixXf& rows) {
 }
 
 namespace {
-/// Of a normal's change: about half a degree.
-constexpr float kLeastNormal = 0.01F;
-
-std::size_t longer_than(const PointsF& rows, float least) {
-  return static_cast<std::size_t>((rows.rowwise().norm().array() >= least).count());
-}
-
+/// Of a normal's change: about a degree.
+constexpr float kLeastNormal = 0.02F;
 }  // namespace
 
 PointsF spread(const PointsF& skin, const std::vector<int>& vertices) {
@@ -137,23 +159,23 @@ PoseTargets pose_targets(const TriMesh& rest, const std::vector<PointsF>& displa
   const PointsF rest_normals = vertex_normals(at_rest, rest.triangles);
   std::map<int, PointsF> normals;
   double spent = 0;
+  PoseTargets targets;
+  targets.least_move_m = least_move_m(tolerance_m);
   const auto take = [&](int frame) {
     PointsF change =
         vertex_normals(at_rest + displacements[std::size_t(frame)], rest.triangles) - rest_normals;
-    const auto vertices = static_cast<std::size_t>(change.rows());
     const double bytes =
-        copies * double(kDense * vertices +
-                        std::min(kDense * vertices, kSparse * longer_than(change, kLeastNormal))) +
+        copies * double(few_bytes(displacements[std::size_t(frame)], targets.least_move_m) +
+                        few_bytes(change, kLeastNormal)) +
         double(sizeof(float) * time_s.size()) + kJson;
     if (spent + bytes > max_bytes && !normals.empty()) return false;
     spent += bytes;
     normals[frame] = std::move(change);
     return true;
   };
-  PoseTargets targets;
   targets.keys = pose_keys(displacements, modes, tolerance_m, take);
   for (const int frame : targets.keys.frames) {
-    targets.positions.push_back(displacements[std::size_t(frame)]);
+    targets.positions.push_back(pose_of(displacements[std::size_t(frame)], targets.least_move_m));
     targets.normals.push_back(std::move(normals.at(frame)));
   }
   targets.names = pose_names(targets.keys, time_s);
@@ -165,7 +187,8 @@ void add_morph_targets(tinygltf::Mesh& mesh, GltfArrays& arrays, const PoseTarge
   tinygltf::Value::Array names;
   for (std::size_t k = 0; k < targets.positions.size(); ++k) {
     mesh.primitives[0].targets.push_back(
-        {{"POSITION", arrays.vectors(spread(targets.positions[k], vertices), true)},
+        {{"POSITION",
+          arrays.few_vectors(spread(targets.positions[k], vertices), targets.least_move_m, true)},
          {"NORMAL", arrays.few_vectors(spread(targets.normals[k], vertices), kLeastNormal)}});
     mesh.weights.push_back(targets.keys.weights(0, Index(k)));
     names.emplace_back(targets.names[k]);

@@ -22,9 +22,9 @@ class GltfArrays {
   int accessor(int view, int component, int type, std::size_t count, bool normalised = false);
   /// Vertex attributes; `with_range`: with least and greatest values, as positions need.
   int vectors(const PointsF& rows, bool with_range);
-  /// Vertex attributes most of which are nearly 0: those shorter than `least` are 0 and, where that
-  /// is smaller, not stored (a sparse accessor).
-  int few_vectors(const PointsF& rows, float least);
+  /// Vertex attributes many of which are nearly 0: where that is smaller, those shorter than
+  /// `least` are 0 and not stored (a sparse accessor).
+  int few_vectors(const PointsF& rows, float least, bool with_range = false);
   std::size_t bytes() const { return model_.buffers[0].data.size(); }
   int triangles(const Triangles& rows);
   /// Key times of an animation, counted from `start_s`.
@@ -43,6 +43,7 @@ struct PoseTargets {
   PoseKeys keys;
   std::vector<PointsF> positions, normals;  ///< of each key, what is added to those at rest
   std::vector<std::string> names;
+  float least_move_m = 0;  ///< positions are added to by this or not at all
 };
 
 /// Of the surface at rest and its displacements over time. Keys after the first are left out

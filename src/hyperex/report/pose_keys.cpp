@@ -53,13 +53,15 @@ void settle(const Eigen::MatrixXd& gram, const Eigen::VectorXd& along, Eigen::Ve
 
 class Chooser {
  public:
-  Chooser(const std::vector<PointsF>& displacements, const DisplacementModes& modes)
+  Chooser(const std::vector<PointsF>& displacements, const DisplacementModes& modes, float least_m)
       : displacements_(displacements),
+        least_m_(least_m),
         coordinates_(coordinates_of(modes)),
         weights_(coordinates_.rows(), 0) {}
 
   void add(int frame) {
     frames_.push_back(frame);
+    poses_.push_back(pose_of(displacements_[std::size_t(frame)], least_m_));
     const auto k = static_cast<Index>(frames_.size());
     weights_.conservativeResize(Eigen::NoChange, k);
     weights_.col(k - 1).setZero();
@@ -82,8 +84,7 @@ class Chooser {
   double error_m(int frame) const {
     PointsF rest = displacements_[std::size_t(frame)];
     for (std::size_t i = 0; i < frames_.size(); ++i)
-      if (const auto w = float(weights_(frame, Index(i))); w != 0)
-        rest -= w * displacements_[std::size_t(frames_[i])];
+      if (const auto w = float(weights_(frame, Index(i))); w != 0) rest -= w * poses_[i];
     return std::sqrt(double(rest.rowwise().squaredNorm().maxCoeff()));
   }
 
@@ -124,18 +125,29 @@ class Chooser {
   Eigen::MatrixXd residual() const { return coordinates_ - weights_ * keys_; }
 
   const std::vector<PointsF>& displacements_;
+  float least_m_;
   Eigen::MatrixXd coordinates_, weights_, keys_;
   std::vector<int> frames_;
+  std::vector<PointsF> poses_;  // of these frames, as they are stored
 };
 
 }  // namespace
+
+float least_move_m(double tolerance_m) {
+  return float(tolerance_m / 20);
+}
+
+PointsF pose_of(const PointsF& displacement, float least_m) {
+  return (displacement.rowwise().norm().array() >= least_m).cast<float>().matrix().asDiagonal() *
+         displacement;
+}
 
 PoseKeys pose_keys(const std::vector<PointsF>& displacements, const DisplacementModes& modes,
                    double tolerance_m, const std::function<bool(int)>& take) {
   PoseKeys none;
   none.weights.resize(static_cast<Index>(displacements.size()), 0);
   if (modes.modes.empty()) return none;
-  Chooser chooser(displacements, modes);
+  Chooser chooser(displacements, modes, least_move_m(tolerance_m));
   for (;;) {
     auto [frame, error_m] = chooser.worst(false);
     if (error_m <= tolerance_m) std::tie(frame, error_m) = chooser.worst(true);

@@ -20,6 +20,11 @@ struct PoseKeys {
   double max_error_m = 0;   ///< largest distance of any vertex in any frame from its true place
 };
 
+/// What a key leaves out for the file's sake: vertices that move less than a twentieth of the
+/// tolerance stand still in it. Counted in max_error_m.
+float least_move_m(double tolerance_m);
+PointsF pose_of(const PointsF& displacement, float least_m);
+
 /// Keys are chosen one by one: the frame that the keys so far show worst becomes the next, until no
 /// vertex is farther than `tolerance_m` from its place in any frame, or `take(frame)` refuses it.
 /// The weights of a frame are the least-squares ones within 0 to 1, by coordinate descent in the

@@ -9,6 +9,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/report/skin_view.hpp"
 #include "support/test_file.hpp"
+#include "unit/report/gltf_vectors.hpp"
 #include "unit/report/made_up_face.hpp"
 
 namespace hyperex::report {
@@ -16,6 +17,7 @@ namespace {
 
 using testing::made_up_face;
 using testing::Surface;
+using testing::vectors_of;
 
 std::filesystem::path scratch(const std::string& name) {
   return test_file(name);
@@ -36,21 +38,6 @@ auto rows_of(const tinygltf::Model& model, int accessor) {
   const auto* data = reinterpret_cast<const T*>(model.buffers[0].data.data() + view.byteOffset);
   using Rows = Eigen::Matrix<T, Eigen::Dynamic, Columns, Columns == 1 ? 0 : Eigen::RowMajor>;
   return Rows(Eigen::Map<const Rows>(data, static_cast<Eigen::Index>(a.count), Columns));
-}
-
-/// Vectors of an accessor, whether all are stored or only those that are not 0.
-PointsF vectors_of(const tinygltf::Model& model, int accessor) {
-  const auto& a = model.accessors.at(accessor);
-  if (!a.sparse.isSparse) return rows_of<float, 3>(model, accessor);
-  const auto bytes = [&](int view) {
-    return model.buffers[0].data.data() + model.bufferViews.at(view).byteOffset;
-  };
-  const auto* index = reinterpret_cast<const unsigned*>(bytes(a.sparse.indices.bufferView));
-  const auto* value = reinterpret_cast<const float*>(bytes(a.sparse.values.bufferView));
-  PointsF rows = PointsF::Zero(static_cast<Eigen::Index>(a.count), 3);
-  for (int i = 0; i < a.sparse.count; ++i)
-    rows.row(index[i]) << value[3 * i], value[3 * i + 1], value[3 * i + 2];
-  return rows;
 }
 
 /// What a player shows in a frame, from the file alone.
@@ -106,7 +93,9 @@ TEST(Glb, KeysArePosesWithTheirTimesForNamesAndWeightsFromZeroToOne) {
     const auto frame = std::lround(30 * std::stod(name.substr(5)));  // frames come at 30 Hz
     EXPECT_EQ(weights[frame * keys + k], 1) << "the face in that frame is the key";
     const auto at = model.meshes[0].primitives[0].targets[std::size_t(k)].at("POSITION");
-    EXPECT_TRUE(vectors_of(model, at) == face.performance.skin_displacement_m[std::size_t(frame)]);
+    const PointsF& pose = face.performance.skin_displacement_m[std::size_t(frame)];
+    // What moves less than a twentieth of the tolerance may be left out.
+    EXPECT_LE((vectors_of(model, at) - pose).rowwise().norm().maxCoeff(), 1e-4 / 20);
   }
 }
 
@@ -125,6 +114,34 @@ TEST(Glb, LeavesKeysOutWhereTheFileWouldBeTooLargeAndTellsTheError) {
   EXPECT_GT(small.bytes, 2e5) << "as many as fit";
   EXPECT_LT(small.keys, whole.keys);
   EXPECT_GT(small.max_error_m, 2e-4);
+}
+
+TEST(Glb, StoresWhatMovesAndCountsTheRestAsError) {
+  auto face = made_up_face(Surface::plain);
+  constexpr double tolerance_m = 1e-4;
+  Eigen::Index moving = 0, vertices = 0;
+  for (PointsF& frame : face.performance.skin_displacement_m) {
+    vertices = frame.rows();
+    moving = vertices / 4;
+    frame.bottomRows(vertices - moving).setConstant(2e-6F);  // 3.5 um: for no eye
+  }
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const auto file = scratch("few_move.glb");
+  const GlbReport report =
+      write_glb(file, face.performance, face.scan, modes, {.tolerance_m = tolerance_m});
+  EXPECT_LE(report.max_error_m, tolerance_m);
+  EXPECT_GE(report.max_error_m, 3.4e-6) << "what was left out is told";
+  const auto model = read_back(file);
+  for (const auto& target : model.meshes[0].primitives[0].targets) {
+    const auto& position = model.accessors.at(std::size_t(target.at("POSITION")));
+    ASSERT_TRUE(position.sparse.isSparse);
+    EXPECT_LE(position.sparse.count, int(moving));
+    const PointsF values = vectors_of(model, target.at("POSITION"));
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_FLOAT_EQ(float(position.minValues.at(k)), values.col(k).minCoeff());
+      EXPECT_FLOAT_EQ(float(position.maxValues.at(k)), values.col(k).maxCoeff());
+    }
+  }
 }
 
 TEST(Glb, SplitsVerticesAtSeamsAndKeepsThePicture) {

@@ -9,6 +9,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "support/test_file.hpp"
+#include "unit/report/gltf_vectors.hpp"
 #include "unit/report/made_up_tracking.hpp"
 
 namespace hyperex::report {
@@ -54,7 +55,8 @@ class Player {
     Rows at_rest = rows(face.attributes.at("POSITION"));
     const Eigen::VectorXf weights = at("weights", time_s);
     for (std::size_t k = 0; k < face.targets.size(); ++k)
-      at_rest += weights[Eigen::Index(k)] * rows(face.targets[k].at("POSITION"));
+      at_rest +=
+          weights[Eigen::Index(k)] * testing::vectors_of(model, face.targets[k].at("POSITION"));
     const Eigen::Vector4f q = at("rotation", time_s);
     const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
     const Vec3 shift = at("translation", time_s).cast<double>();
