@@ -379,7 +379,7 @@ io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
       tracking::find_scan_landmarks(scan.mesh, tracking::picture_colours(scan), scan.file.string());
   notes.push_back(fmt::format(
       "{}: {} were found on the scan in {} pictures, which lie {:.1f} mm (median) from where all "
-      "agree; hyperex landmarks draws them",
+      "agree; hyperex landmarks --picture draws them",
       why, found.landmarks.size(), found.views, 1e3 * found.spread_m));
   return std::move(found.landmarks);
 }

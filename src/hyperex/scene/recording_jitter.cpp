@@ -58,14 +58,19 @@ void from_differences(const motion::Motion& m, Inputs& in) {
 }  // namespace
 
 void settle_jitter(const Scene& scene, Look look, const motion::Motion& m, Inputs& in) {
-  if (scene.output.jitter_m >= 0)
+  if (scene.output.jitter_m >= 0) {
     in.jitter_m = scene.output.jitter_m;
-  else if (scene.motion.source.embedded)
+    if (in.jitter_m > 0)
+      in.notes.push_back(
+          fmt::format("jitter of the recorded points, as output.jitter_mm states it: {:.2f} mm",
+                      1e3 * in.jitter_m));
+  } else if (scene.motion.source.embedded) {
     return;
-  else if (scene.motion.recording.empty())
+  } else if (scene.motion.recording.empty()) {
     from_differences(m, in);
-  else if (look == Look::whole)
+  } else if (look == Look::whole) {
     from_tracking(m, in);
+  }
 }
 
 }  // namespace hyperex::scene

@@ -21,7 +21,7 @@ function floorWords(replay: Replay, { floorMm, undecided }: Corners): string {
   if (!(floorMm > 0)) return mesh || 'Largest distance from rest. No floor is known: the recording is exact.';
   const verdict = undecided ? 'Undecided' : 'Decided';
   const made = jitter > 0 ? 'what jitter and the mesh make' : 'what the mesh makes';
-  const why = jitter > 0 ? `Jitter of the tracked points: ${jitter.toFixed(2)} mm.` : 'Jitter of the recording was not weighed: none is known.';
+  const why = jitter > 0 ? `Jitter of the recorded points: ${jitter.toFixed(2)} mm; the notes say where it comes from.` : 'No jitter of the recording was weighed: none is stated, and none shows.';
   return `Largest distance from rest. ${verdict}: a difference below ${mm(floorMm)} cannot be told from ${made}. ${why}`;
 }
 
