@@ -159,6 +159,19 @@ TEST_F(Plausible, AFileWithoutPaintFailsInCheckAsInRun) {
   }
 }
 
+TEST_F(Plausible, TheWarningOnTheSkinAndTheSummarySayOneNumber) {
+  put(in("coarse.toml"),
+      "scan.file = \"embedded\"\nmotion.file = \"embedded\"\nmesh.element_size_mm = 12\n"
+      "mesh.layers = 1\ntime = { step_s = 0.01, end_s = 0.2, frame_rate_hz = 10 }\n");
+  const Outcome run = call("run coarse.toml --out out");
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::string told = "the simulated skin is up to ";
+  const auto at = run.err.find(told);
+  ASSERT_NE(at, std::string::npos) << run.err;
+  EXPECT_NEAR(std::stod(run.err.substr(at + told.size())),
+              summary()["mesh_quality"]["skin_to_scan_face_max_mm"].get<double>(), 0.051);
+}
+
 TEST_F(Plausible, ABadFitOfTheRecordingIsTold) {
   write_motion(0, 16, [](motion::Motion& m) {
     for (auto& sample : m.positions) sample *= 1.5;
