@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hyperex/metrics/symmetry.hpp"
-#include "hyperex/reenact/simulation.hpp"
+#include "hyperex/reenact/simulator.hpp"
 #include "hyperex/scene/inputs.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
 #include "hyperex/tissue/face_frame.hpp"

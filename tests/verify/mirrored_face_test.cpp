@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hyperex/core/progress.hpp"
-#include "hyperex/reenact/simulation.hpp"
+#include "hyperex/reenact/simulator.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"

@@ -13,27 +13,41 @@
 namespace hyperex::reenact {
 namespace {
 enum Kind { fixed = 0, driven = 1 };
-}  // namespace
 
-Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                   const AlignedMotion& motion, const MeasuredRegion& region,
-                   const DriveOptions& drive, const SupportOptions& support)
-    : mesh_(mesh), rest_(motion.rest), jaw_(landmarks) {
-  set_driven(motion, landmarks, drive);
-  set_measured(region);
-  set_jaw_points(motion, support);
-  const std::vector<char> moves_with_jaw = near_jaw(mesh, landmarks);
-  if (support.border_held)
-    for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
-      if (mesh.on_border[v] && !moves_with_jaw[v])
-        for (int level = 0; level <= mesh.volume.layers; ++level)
-          fixed_nodes_.push_back(static_cast<int>(level * mesh.volume.surface_nodes()) + v);
-  set_bones(landmarks, support);
-  number_unknowns();
+/// Columns of the points that drive among those of all P points; still points have none.
+Eigen::MatrixXd spread(const Eigen::MatrixXd& of_driven, const std::vector<int>& rows,
+                       Eigen::Index points) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(of_driven.rows(), points);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    all.col(rows[i]) = of_driven.col(static_cast<Eigen::Index>(i));
+  return all;
 }
 
-void Boundary::set_driven(const AlignedMotion& motion, const io::Landmarks& landmarks,
-                          const DriveOptions& drive) {
+/// Where a node is measured, it follows the tracked triangle and no patch.
+void add_measured(const MeasuredRegion& region, DrivenSkin& driven, Eigen::Index points) {
+  std::map<int, Eigen::RowVectorXd> rows;
+  for (std::size_t j = 0; j < driven.nodes.size(); ++j)
+    rows[driven.nodes[j]] = driven.weights.row(static_cast<Eigen::Index>(j));
+  for (std::size_t v = 0; v < region.outer.size(); ++v) {
+    if (region.outer_share[v] < 1) continue;
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(points);
+    for (int k = 0; k < 3; ++k) row[region.outer[v].point[k]] += region.outer[v].weight[k];
+    rows[static_cast<int>(v)] = row;
+  }
+  driven.nodes.clear();
+  driven.weights.resize(static_cast<Eigen::Index>(rows.size()), points);
+  for (const auto& [node, row] : rows) {
+    driven.weights.row(static_cast<Eigen::Index>(driven.nodes.size())) = row;
+    driven.nodes.push_back(node);
+  }
+}
+
+}  // namespace
+
+DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                       const AlignedMotion& motion, const MeasuredRegion& region,
+                       const DriveOptions& drive) {
+  DrivenSkin driven;
   std::vector<DrivenPoint> points;
   const std::vector<std::string>& names = drive.names_in(motion.motion);
   for (const std::string& name : names) {
@@ -41,8 +55,8 @@ void Boundary::set_driven(const AlignedMotion& motion, const io::Landmarks& land
     if (row < 0)
       throw InputError(motion.motion.source,
                        fmt::format("has no point {}, which is to be driven", name));
-    if (std::count(driven_rows_.begin(), driven_rows_.end(), row)) continue;
-    driven_rows_.push_back(row);
+    if (std::count(driven.rows.begin(), driven.rows.end(), row)) continue;
+    driven.rows.push_back(row);
     points.push_back({name, motion.rest.row(row).transpose()});
   }
   for (const std::string& name : drive.still_points) {
@@ -54,42 +68,41 @@ void Boundary::set_driven(const AlignedMotion& motion, const io::Landmarks& land
     if (!std::count(names.begin(), names.end(), name)) points.push_back({name, it->second});
   }
   const Vec3 up = tissue::face_frame(landmarks).y;
-  const DriveField field(points, still_places(points, landmarks), mesh_, up,
-                         lip_parting(motion, driven_rows_, up));
+  const DriveField field(points, still_places(points, landmarks), mesh, up,
+                         lip_parting(motion, driven.rows, up));
   const DrivenPatches patches =
-      driven_patches(field, mesh_, drive.patch_radius_m, motion.motion.source);
-  set_field(field);
-  driven_nodes_ = patches.nodes;
-  driven_weights_ = Eigen::MatrixXd::Zero(patches.nodes.size(), rest_.rows());
-  for (std::size_t i = 0; i < driven_rows_.size(); ++i)  // still points move nothing: no column
-    driven_weights_.col(driven_rows_[i]) = patches.weights.col(i);
+      driven_patches(field, mesh, drive.patch_radius_m, motion.motion.source);
+  const tissue::VolumeMesh& volume = mesh.volume;
+  driven.field_weights =
+      spread(field.weights(volume.nodes.bottomRows(volume.surface_nodes()), mesh.upper_margin),
+             driven.rows, motion.rest.rows());
+  driven.nodes = patches.nodes;
+  driven.weights = spread(patches.weights, driven.rows, motion.rest.rows());
+  add_measured(region, driven, motion.rest.rows());
+  return driven;
 }
 
-void Boundary::set_field(const DriveField& field) {
-  const tissue::VolumeMesh& volume = mesh_.volume;
-  const Eigen::MatrixXd weights =
-      field.weights(volume.nodes.bottomRows(volume.surface_nodes()), mesh_.upper_margin);
-  field_weights_ = Eigen::MatrixXd::Zero(weights.rows(), rest_.rows());
-  for (std::size_t i = 0; i < driven_rows_.size(); ++i)
-    field_weights_.col(driven_rows_[i]) = weights.col(i);
-}
+Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                   const AlignedMotion& motion, const MeasuredRegion& region,
+                   const DriveOptions& drive, const SupportOptions& support)
+    : Boundary(
+          mesh, landmarks, motion,
+          std::make_shared<const DrivenSkin>(driven_skin(mesh, landmarks, motion, region, drive)),
+          support) {}
 
-void Boundary::set_measured(const MeasuredRegion& region) {
-  std::map<int, Eigen::RowVectorXd> rows;
-  for (std::size_t j = 0; j < driven_nodes_.size(); ++j)
-    rows[driven_nodes_[j]] = driven_weights_.row(j);
-  for (std::size_t v = 0; v < region.outer.size(); ++v) {
-    if (region.outer_share[v] < 1) continue;
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(rest_.rows());
-    for (int k = 0; k < 3; ++k) row[region.outer[v].point[k]] += region.outer[v].weight[k];
-    rows[static_cast<int>(v)] = row;
-  }
-  driven_nodes_.clear();
-  driven_weights_.resize(rows.size(), rest_.rows());
-  for (const auto& [node, row] : rows) {
-    driven_weights_.row(driven_nodes_.size()) = row;
-    driven_nodes_.push_back(node);
-  }
+Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                   const AlignedMotion& motion, std::shared_ptr<const DrivenSkin> driven,
+                   const SupportOptions& support)
+    : mesh_(mesh), rest_(motion.rest), jaw_(landmarks), driven_(std::move(driven)) {
+  set_jaw_points(motion, support);
+  const std::vector<char> moves_with_jaw = near_jaw(mesh, landmarks);
+  if (support.border_held)
+    for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
+      if (mesh.on_border[v] && !moves_with_jaw[v])
+        for (int level = 0; level <= mesh.volume.layers; ++level)
+          fixed_nodes_.push_back(static_cast<int>(level * mesh.volume.surface_nodes()) + v);
+  set_bones(landmarks, support);
+  number_unknowns();
 }
 
 void Boundary::set_jaw_points(const AlignedMotion& motion, const SupportOptions& support) {
@@ -102,7 +115,7 @@ void Boundary::set_jaw_points(const AlignedMotion& motion, const SupportOptions&
   }
   if (!jaw_rows_.empty()) return;
   for (int k = 6; k <= 10; ++k)
-    for (int row : driven_rows_)
+    for (int row : driven_->rows)
       if (motion.motion.names[row] == tissue::ibug(k)) jaw_rows_.push_back(row);
   if (!jaw_rows_.empty()) return;
   for (const char* name : {"ibug68_8", "pogonion"})
@@ -146,8 +159,8 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
 void Boundary::number_unknowns() {
   std::map<int, std::pair<int, int>> nodes;
   for (int node : fixed_nodes_) nodes[node] = {fixed, 0};
-  for (std::size_t j = 0; j < driven_nodes_.size(); ++j)
-    nodes[driven_nodes_[j]] = {driven, static_cast<int>(j)};
+  for (std::size_t j = 0; j < driven_->nodes.size(); ++j)
+    nodes[driven_->nodes[j]] = {driven, static_cast<int>(j)};
   for (const auto& [node, source] : nodes) {
     for (int axis = 0; axis < 3; ++axis) prescribed_.push_back(3 * node + axis);
     source_.push_back(source);
@@ -188,15 +201,16 @@ void Boundary::prescribe(const Points& point_displacement, const JawMotion& jaw,
       values.segment<3>(3 * i).setZero();
     else
       values.segment<3>(3 * i).noalias() =
-          (driven_weights_.row(row) * point_displacement).transpose();
+          (driven_->weights.row(row) * point_displacement).transpose();
   }
   force.setZero();
   for (const Spring& s : springs_) {
     if (s.target == Spring::rest) continue;
     const Vec3 x = mesh_.volume.nodes.row(s.node);
-    const Vec3 to = s.target == Spring::jaw
-                        ? Vec3(jaw.turn * x + jaw.slide)
-                        : Vec3((field_weights_.row(s.row) * point_displacement).transpose());
+    const Vec3 to =
+        s.target == Spring::jaw
+            ? Vec3(jaw.turn * x + jaw.slide)
+            : Vec3((driven_->field_weights.row(s.row) * point_displacement).transpose());
     force.segment<3>(3 * s.node) += s.stiffness * to;
   }
 }
@@ -206,8 +220,8 @@ std::vector<char> Boundary::acting_points() const {
                                  [](const Spring& s) { return s.target == Spring::field; });
   std::vector<char> acts(rest_.rows(), 0);
   for (Eigen::Index p = 0; p < rest_.rows(); ++p)
-    acts[p] = (driven_weights_.rows() > 0 && !driven_weights_.col(p).isZero(0)) ||
-              (field && !field_weights_.col(p).isZero(0));
+    acts[p] = (driven_->weights.rows() > 0 && !driven_->weights.col(p).isZero(0)) ||
+              (field && !driven_->field_weights.col(p).isZero(0));
   return acts;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "hyperex/fem/form/system.hpp"
@@ -10,6 +11,21 @@
 
 namespace hyperex::reenact {
 
+/// The skin and the field that follow the motion's points: patches around the driven points,
+/// measured nodes, and the interpolated field at the inner surface. What the support does not
+/// change.
+struct DrivenSkin {
+  std::vector<int> rows;          ///< of the motion's points that drive
+  std::vector<int> nodes;         ///< outer nodes whose displacement is prescribed, rising
+  Eigen::MatrixXd weights;        ///< |nodes| x P: displacement = weights * that of the points
+  Eigen::MatrixXd field_weights;  ///< |inner nodes| x P, likewise
+};
+
+/// Throws InputError for points that do not exist or lie far off the skin.
+DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                       const AlignedMotion& motion, const MeasuredRegion& region,
+                       const DriveOptions& drive);
+
 /// Everything that is prescribed to the tissue over time: patches of skin and measured nodes follow
 /// the tracked points, held nodes stay, nodes over the mandible follow the jaw, springs pull
 /// towards the bones.
@@ -17,6 +33,10 @@ class Boundary {
  public:
   Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
            const AlignedMotion& motion, const MeasuredRegion& region, const DriveOptions& drive,
+           const SupportOptions& support);
+  /// With what was found before. `mesh` must outlive this.
+  Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+           const AlignedMotion& motion, std::shared_ptr<const DrivenSkin> driven,
            const SupportOptions& support);
 
   /// Adds the springs' stiffness (their blocks lie within the pattern of K).
@@ -39,25 +59,21 @@ class Boundary {
   /// Per point of the motion: whether its displacement acts on the tissue other than by the jaw.
   std::vector<char> acting_points() const;
   bool jaw_acts() const;
-  const std::vector<int>& driven_nodes() const { return driven_nodes_; }
+  const std::vector<int>& driven_nodes() const { return driven_->nodes; }
   std::vector<int> held_nodes() const;
   Eigen::Index node_count() const { return mesh_.volume.nodes.rows(); }
   int skull_count() const { return skull_count_; }
   int mandible_count() const { return mandible_count_; }
   /// Rows of the motion's points that drive.
-  const std::vector<int>& driven_rows() const { return driven_rows_; }
+  const std::vector<int>& driven_rows() const { return driven_->rows; }
 
  private:
   struct Spring {
     int node;
     Eigen::Matrix3d stiffness;  // N/m
     enum Target { rest, jaw, field } target;
-    int row;  // of field_weights_
+    int row;  // of the field
   };
-  void set_driven(const AlignedMotion& motion, const io::Landmarks& landmarks,
-                  const DriveOptions& drive);
-  void set_field(const DriveField& field);
-  void set_measured(const MeasuredRegion& region);
   void set_bones(const io::Landmarks& landmarks, const SupportOptions& support);
   void set_jaw_points(const AlignedMotion& motion, const SupportOptions& support);
   void number_unknowns();
@@ -65,10 +81,9 @@ class Boundary {
   const tissue::TissueMesh& mesh_;
   const Points rest_;  // of the motion's points
   Jaw jaw_;
-  std::vector<int> driven_rows_, jaw_rows_, driven_nodes_, fixed_nodes_;
-  Eigen::MatrixXd driven_weights_;  // |driven_nodes_| x P
+  std::shared_ptr<const DrivenSkin> driven_;
+  std::vector<int> jaw_rows_, fixed_nodes_;
   std::vector<Spring> springs_;
-  Eigen::MatrixXd field_weights_;  // |inner nodes| x P
   std::vector<int> prescribed_;
   std::vector<std::pair<int, int>> source_;  // per prescribed node: kind (0 fixed, 1 driven), row
   int skull_count_ = 0, mandible_count_ = 0;

@@ -24,6 +24,7 @@ struct RegionOptions {
   double measured_radius_m = 0.015;          ///< of the skin around them
   double blend_m = 0.005;                    ///< over which measured passes into physical
   static constexpr Bounds measured_radius_m_in{0.001, 0.2}, blend_m_in{0, 0.1};
+  bool operator==(const RegionOptions&) const = default;
 };
 
 enum class Hold { held, sliding, free };
@@ -33,6 +34,7 @@ enum class Mandible { follow, held, free };
 /// surface and the bone, stiff across the layer, soft along it.
 struct BoneLayer {
   double across_pa_per_m = 0, along_pa_per_m = 0;
+  bool operator==(const BoneLayer&) const = default;
 };
 
 struct SupportOptions {
@@ -46,6 +48,7 @@ struct SupportOptions {
   double muscle_pa_per_m = 5e6;
   std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
   static constexpr Bounds stiffness_pa_per_m_in{0, 1e12};  ///< of each of the five
+  bool operator==(const SupportOptions&) const = default;
 };
 
 struct DriveOptions {
@@ -61,12 +64,14 @@ struct DriveOptions {
   const std::vector<std::string>& names_in(const motion::Motion& motion) const {
     return all_points ? motion.names : points;
   }
+  bool operator==(const DriveOptions&) const = default;
 };
 
 /// What the tissue is made of, and the elements that stand for it.
 struct ModelOptions {
   fem::ElementKind element = fem::ElementKind::tet4_star;
   fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
+  bool operator==(const ModelOptions&) const = default;
 };
 
 /// One value everywhere, or where `element` is not empty (tissue/field) one a tetrahedron.
@@ -76,6 +81,7 @@ struct TissueValues {
 
   /// Of `tets` tetrahedra. Values are allowed ones (tissue::is_allowed): asserted.
   fem::Material material(std::size_t tets, fem::ViscousForm viscous_form) const;
+  bool operator==(const TissueValues&) const = default;
 };
 
 enum class SolverMethod {
@@ -92,6 +98,7 @@ struct SolverOptions {
   bool verify = false;  ///< run the full model too and measure the reduced one's error
   static constexpr Bounds tolerance_in{1e-9, 0.1}, newmark_beta_in{0.25, 1},
       newmark_gamma_in{0.5, 1};
+  bool operator==(const SolverOptions&) const = default;
 };
 
 struct TimeOptions {
@@ -102,6 +109,7 @@ struct TimeOptions {
   std::vector<double> still_times_s;  ///< extra shapes wanted, for pictures
   static constexpr Bounds step_s_in{1e-6, 0.1}, end_s_in{0, 600}, frame_rate_hz_in{1, 1000},
       peak_time_s_in{-1, 600}, still_times_s_in{0, 600};
+  bool operator==(const TimeOptions&) const = default;
 };
 
 /// The input at all steps is kept: more would fill the memory.
@@ -115,6 +123,7 @@ struct SimulationOptions {
   RegionOptions region;
   SolverOptions solver;
   TimeOptions time;
+  bool operator==(const SimulationOptions&) const = default;
 };
 
 /// Throws InputError naming each option that is out of its range, with its value and the range.

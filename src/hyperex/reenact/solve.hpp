@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <vector>
 
-#include "hyperex/fem/form/system.hpp"
-#include "hyperex/fem/time/drive.hpp"
+#include "hyperex/fem/reduced/reduced_model.hpp"
+#include "hyperex/fem/time/newmark.hpp"
 #include "hyperex/reenact/options.hpp"
 
 namespace hyperex::reenact {
 
-/// Displacements of all unknowns at wanted times, with what it took to find them.
+/// Displacements of all unknowns at wanted times.
 struct Solution {
   Eigen::MatrixXd displacement;  ///< 3 |nodes| x |times|, m
   int free_dofs = 0, basis_size = 0;
@@ -16,12 +17,21 @@ struct Solution {
   double estimated_error = -1;  ///< of the reduced model, over the greatest displacement
   double verified_error = -1;   ///< against the full model, where asked for: over these times
   bool converged = true;
-  double analyse_s = 0, factor_s = 0, basis_s = 0, step_s = 0;
 };
 
-/// `times_in_steps`: rising, from 0 to the drive's last step; linear between steps.
-Solution solve(fem::System system, const std::vector<int>& prescribed, const fem::Drive& drive,
-               const std::vector<double>& times_in_steps, const SolverOptions& options,
-               double dt_s);
+/// Called with the share of the steps that are done, 0 to 1; may throw, which ends the run.
+using StepProgress = std::function<void(double share)>;
+
+/// From rest through all steps of the drive. `times_in_steps`: rising, from 0 to the last step;
+/// linear between steps.
+Solution run_full(fem::Newmark& newmark, const fem::Drive& drive,
+                  const std::vector<double>& times_in_steps, const StepProgress& progress = {});
+/// `response`: of the same model.
+Solution run_reduced(const fem::ReducedModel& model, const fem::Response& response,
+                     const std::vector<double>& times_in_steps);
+
+/// Greatest distance of any node (three rows each) between the two in any column, over the greatest
+/// displacement of any node in `truth`.
+double greatest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth);
 
 }  // namespace hyperex::reenact

@@ -5,7 +5,7 @@
 
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/reenact/simulation.hpp"
+#include "hyperex/reenact/simulator.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/tissue/face_frame.hpp"
 
@@ -89,23 +89,29 @@ std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
   return element;
 }
 
-MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs, const tissue::TissueMesh& mesh,
-                           const tissue::TissueField* field,
-                           const metrics::MidsagittalPlane& plane) {
+MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
+                           const tissue::TissueField* field, const metrics::MidsagittalPlane& plane,
+                           const reenact::Simulator& run, const MirroredTwin* of_base) {
   MirroredTwin twin;
   if (scene.region.measured != reenact::Measured::none) {
     twin.why_not = "a region of the skin follows the recording itself";
     return twin;
   }
-  const auto motion =
-      mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), twin.why_not);
+  auto motion = mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), twin.why_not);
   if (!motion) return twin;
   reenact::SimulationOptions options = simulation_options(scene, inputs);
   options.solver.method = reenact::SolverMethod::reduced;
   options.solver.verify = false;
   options.time.still_times_s.clear();
-  if (field) options.tissue.element = mirrored_elements(*field, mesh, plane);
-  reenact::SimulationResult result = reenact::simulate(mesh, inputs.landmarks, *motion, options);
+  if (field) options.tissue.element = mirrored_elements(*field, run.mesh(), plane);
+  if (of_base && of_base->simulator) {
+    twin.simulator = std::make_shared<reenact::Simulator>(*of_base->simulator);
+  } else {
+    twin.simulator = std::make_shared<reenact::Simulator>(run);
+    twin.simulator->set_motion(std::move(*motion));
+  }
+  twin.simulator->set_options(std::move(options));
+  reenact::SimulationResult result = twin.simulator->run();
   twin.landmarks = std::move(result.performance.landmarks);
   twin.skin_displacement_m = std::move(result.performance.skin_displacement_m);
   return twin;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hyperex/metrics/midsagittal.hpp"
-#include "hyperex/reenact/performance.hpp"
+#include "hyperex/reenact/simulator.hpp"
 #include "hyperex/scene/inputs.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
@@ -17,6 +18,7 @@ struct MirroredTwin {
   std::string why_not;       ///< a sentence where there is none, else empty
   motion::Motion landmarks;  ///< as Performance::landmarks of the run, same names and times
   std::vector<PointsF> skin_displacement_m;
+  std::shared_ptr<reenact::Simulator> simulator;  ///< of the mirrored motion; null: no twin
 };
 
 /// Each point moves as the mirror image of its counterpart: with M its reflection's linear part,
@@ -34,9 +36,11 @@ std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
     const metrics::MidsagittalPlane& plane);
 
 /// `field`: where the run's tissue differs from place to place, else null. By the reduced model,
-/// whichever the run takes. Throws NumericalError as simulate().
-MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs, const tissue::TissueMesh& mesh,
-                           const tissue::TissueField* field,
-                           const metrics::MidsagittalPlane& plane);
+/// whichever the run takes. `run`: a simulator of the run's mesh and motion, whose stages it begins
+/// with; `of_base`: where `run` is a variant's, base's twin, whose stages it takes instead. Throws
+/// NumericalError as Simulator::run().
+MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
+                           const tissue::TissueField* field, const metrics::MidsagittalPlane& plane,
+                           const reenact::Simulator& run, const MirroredTwin* of_base = nullptr);
 
 }  // namespace hyperex::scene

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "hyperex/metrics/symmetry_tables.hpp"
-#include "hyperex/reenact/simulation.hpp"
+#include "hyperex/reenact/simulator.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
 #include "hyperex/scene/inputs.hpp"

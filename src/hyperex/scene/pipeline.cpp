@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "hyperex/core/files.hpp"
@@ -165,6 +166,14 @@ Json tissue_json(const tissue::TissueField& field) {
   return out;
 }
 
+reenact::SimulationResult run_with_bar(reenact::Simulator& simulator) {
+  constexpr long parts = 1000;
+  Progress progress("simulating", parts);
+  reenact::RunCallbacks callbacks;
+  callbacks.progress = [&](double share) { progress.update(static_cast<long>(share * parts)); };
+  return simulator.run(callbacks);
+}
+
 Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   Stopwatch total, stage;
   Json seconds;
@@ -177,13 +186,15 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   for (const auto& note : inputs.notes) spdlog::info("{}", note);
   for (const auto& warning : inputs.warnings) spdlog::warn("{}", warning);
 
-  tissue::TissueMesh mesh;
+  std::shared_ptr<const tissue::TissueMesh> made;
   {
     Progress progress("meshing the soft tissue", 0);
-    mesh = tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, scene.mesh,
-                                     inputs.scan.file.string(), on_seams(inputs.scan));
-    if (mesh.full) inputs.scan = thinned_scan(inputs.scan, *mesh.full, mesh.skin);
+    made = std::make_shared<const tissue::TissueMesh>(
+        tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, scene.mesh,
+                                  inputs.scan.file.string(), on_seams(inputs.scan)));
+    if (made->full) inputs.scan = thinned_scan(inputs.scan, *made->full, made->skin);
   }
+  const tissue::TissueMesh& mesh = *made;
   seconds["mesh"] = stage.lap();
   for (const auto& note : mesh.notes) spdlog::info("{}", note);
   spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
@@ -199,11 +210,15 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   std::optional<LandmarkSearch> search;  // beside the simulation
   if (!scene.scan.landmarks.empty()) search.emplace(inputs);
   const metrics::RestAsymmetry at_rest = rest_asymmetry(mesh, inputs);
+  reenact::Simulator simulator(made, inputs.landmarks, inputs.motion, std::move(options));
+  const reenact::Simulator before_run = simulator;
   reenact::SimulationResult simulation;
   MirroredTwin twin;
-  run_both(
-      [&] { simulation = reenact::simulate(mesh, inputs.landmarks, inputs.motion, options); },
-      [&] { twin = simulate_twin(scene, inputs, mesh, field ? &*field : nullptr, at_rest.plane); });
+  run_both([&] { simulation = run_with_bar(simulator); },
+           [&] {
+             twin =
+                 simulate_twin(scene, inputs, field ? &*field : nullptr, at_rest.plane, before_run);
+           });
   stage.lap();
   seconds["assemble"] = simulation.report.assemble_s;
   seconds["analyse"] = simulation.report.analyse_s;
@@ -244,7 +259,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
            [&] {
              if (variants.empty()) return;
              Stopwatch own;
-             simulate_variants(variants, mesh, *results.symmetry.map);
+             simulate_variants(variants, simulator, twin, *results.symmetry.map);
              seconds["variants"] = own.lap();
              summary["variants"] = write_variants(results, variants, mesh, directory);
            });

@@ -178,8 +178,8 @@ std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& input
   return runs;
 }
 
-void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& mesh,
-                       const metrics::RestAsymmetry& at_rest) {
+void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& base,
+                       const MirroredTwin& base_twin, const metrics::RestAsymmetry& at_rest) {
   Progress progress("simulating variants", static_cast<long>(runs.size()));
   std::mutex telling;
   long done = 0;
@@ -188,9 +188,12 @@ void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& 
     try {
       reenact::SimulationOptions options = simulation_options(run.scene, run.inputs);
       if (run.field) options.tissue.element = run.field->element;
-      run.simulation = reenact::simulate(mesh, run.inputs.landmarks, run.inputs.motion, options);
-      const MirroredTwin twin = simulate_twin(run.scene, run.inputs, mesh,
-                                              run.field ? &*run.field : nullptr, at_rest.plane);
+      reenact::Simulator simulator = base;
+      simulator.set_options(std::move(options));
+      run.simulation = simulator.run();
+      const MirroredTwin twin =
+          simulate_twin(run.scene, run.inputs, run.field ? &*run.field : nullptr, at_rest.plane,
+                        simulator, &base_twin);
       run.symmetry =
           symmetry_measures(run.scene, run.inputs, at_rest, run.simulation.performance, twin);
     } catch (const NumericalError& error) {

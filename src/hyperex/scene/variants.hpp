@@ -28,9 +28,10 @@ struct VariantRun {
 std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& inputs,
                                          TissueFields& fields);
 
-/// Simulates all at once. Throws NumericalError naming the variant that cannot be solved.
-void simulate_variants(std::vector<VariantRun>& runs, const tissue::TissueMesh& mesh,
-                       const metrics::RestAsymmetry& at_rest);
+/// Simulates all at once, each from the stages that base's simulator and its twin's have.
+/// Throws NumericalError naming the variant that cannot be solved.
+void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& base,
+                       const MirroredTwin& base_twin, const metrics::RestAsymmetry& at_rest);
 
 /// A run against the scene's own. "Peak" is the scene's own.
 struct VariantComparison {

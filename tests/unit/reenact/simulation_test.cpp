@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/reenact/simulation.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/reenact/boundary.hpp"
+#include "hyperex/reenact/simulator.hpp"
 #include "hyperex/reenact/support.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/face_frame.hpp"

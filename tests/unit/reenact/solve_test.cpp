@@ -11,6 +11,21 @@
 namespace hyperex::reenact {
 namespace {
 
+/// As a simulator does it, on matrices and a drive of the test's own.
+Solution solve(const fem::System& system, const std::vector<int>& prescribed,
+               const fem::Drive& drive, const std::vector<double>& times,
+               const SolverOptions& options, double dt_s) {
+  const fem::NewmarkOptions newmark{dt_s, options.newmark_beta, options.newmark_gamma};
+  fem::Newmark full(system, prescribed, newmark, options.linear);
+  if (options.method == SolverMethod::direct) return run_full(full, drive, times);
+  fem::ReducedModel model(system, prescribed, options.linear);
+  Solution out = run_reduced(model, model.run(drive, {newmark, options.tolerance}), times);
+  if (options.verify)
+    out.verified_error =
+        greatest_difference(out.displacement, run_full(full, drive, times).displacement);
+  return out;
+}
+
 class SolveFace : public testing::Test {
  protected:
   static constexpr double kDt = 0.005;

@@ -208,9 +208,11 @@ Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps
   return d;
 }
 
-ReducedModel::ReducedModel(System system, std::vector<int> prescribed, LinearSolver wanted)
+ReducedModel::ReducedModel(System system, std::vector<int> prescribed, LinearSolver wanted,
+                           std::shared_ptr<const NodeOrder> order)
     : system_(std::move(system)),
-      factor_(system_.stiffness, std::move(prescribed), "reduced model", system_.nodes, wanted) {}
+      factor_(system_.stiffness, std::move(prescribed), "reduced model", system_.nodes, wanted,
+              std::move(order)) {}
 
 void ReducedModel::refill(System system) {
   system_ = std::move(system);

@@ -48,11 +48,14 @@ struct Response {
 /// One factorisation of K_oo serves every drive. Numbers do not depend on the number of threads.
 class ReducedModel {
  public:
-  /// Throws NumericalError where K_oo is not positive definite.
+  /// Throws NumericalError where K_oo is not positive definite. `order`: PartitionedFactor.
   ReducedModel(System system, std::vector<int> prescribed,
-               LinearSolver wanted = LinearSolver::automatic);
+               LinearSolver wanted = LinearSolver::automatic,
+               std::shared_ptr<const NodeOrder> order = nullptr);
   /// Other values on the same patterns: keeps the ordering.
   void refill(System system);
+  /// The system given, to be filled with other values: of no use before refill().
+  System release() { return std::move(system_); }
 
   /// The response from rest (d = d' = 0 on the free unknowns at step 0, d'' in equilibrium).
   Response run(const Drive& drive, const ReducedOptions& options);
@@ -61,7 +64,8 @@ class ReducedModel {
   double analyse_seconds() const { return factor_.analyse_seconds(); }
   double factor_seconds() const { return factor_.factor_seconds(); }
   double factor_entries() const { return factor_.factor_entries(); }
-  LinearSolver solver() const { return factor_.solver(); }           ///< cholesky or iterative
+  LinearSolver solver() const { return factor_.solver(); }  ///< cholesky or iterative
+  const std::shared_ptr<const NodeOrder>& order() const { return factor_.order(); }
   int last_iterations() const { return factor_.last_iterations(); }  ///< of the last growth
 
  private:

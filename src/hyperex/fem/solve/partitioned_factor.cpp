@@ -6,19 +6,24 @@
 #include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/stopwatch.hpp"
-#include "hyperex/fem/solve/node_order.hpp"
 
 namespace hyperex::fem {
 
 PartitionedFactor::PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed,
-                                     std::string purpose, const Points& nodes, LinearSolver wanted)
-    : partition_(static_cast<int>(a.cols()), std::move(prescribed)), purpose_(std::move(purpose)) {
+                                     std::string purpose, const Points& nodes, LinearSolver wanted,
+                                     std::shared_ptr<const NodeOrder> order)
+    : partition_(static_cast<int>(a.cols()), std::move(prescribed)),
+      purpose_(std::move(purpose)),
+      order_(std::move(order)) {
   make(a, nullptr, nodes, wanted);
 }
 
 PartitionedFactor::PartitionedFactor(SparseMatrix&& a, std::vector<int> prescribed,
-                                     std::string purpose, const Points& nodes, LinearSolver wanted)
-    : partition_(static_cast<int>(a.cols()), std::move(prescribed)), purpose_(std::move(purpose)) {
+                                     std::string purpose, const Points& nodes, LinearSolver wanted,
+                                     std::shared_ptr<const NodeOrder> order)
+    : partition_(static_cast<int>(a.cols()), std::move(prescribed)),
+      purpose_(std::move(purpose)),
+      order_(std::move(order)) {
   make(a, &a, nodes, wanted);
 }
 
@@ -37,15 +42,16 @@ void PartitionedFactor::pick(const SparseMatrix& a, const SparseMatrix& lower, c
                              LinearSolver wanted, double spare_bytes) {
   std::vector<int> node_of(free().size());
   for (std::size_t i = 0; i < node_of.size(); ++i) node_of[i] = free()[i] / 3;
-  NodeOrder order = order_by_nodes(lower, node_of);
-  forecast_ = {order.entries, order.flops, static_cast<double>(lower.nonZeros())};
+  if (!order_) order_ = std::make_shared<const NodeOrder>(order_by_nodes(lower, node_of));
+  HX_ASSERT(order_->unknowns.size() == free().size());
+  forecast_ = {order_->entries, order_->flops, static_cast<double>(lower.nonZeros())};
   const bool can_choose = nodes.rows() > 0;
   HX_ASSERT(can_choose || wanted != LinearSolver::iterative);
   if (can_choose && pick_linear_solver(wanted, forecast_, available_memory_bytes() + spare_bytes) ==
                         LinearSolver::iterative)
     iterative_.emplace(a, partition_, nodes, purpose_);
   else
-    cholesky_.emplace(lower, purpose_, std::move(order.unknowns));
+    cholesky_.emplace(lower, purpose_, order_->unknowns);
 }
 
 void PartitionedFactor::refactor(const SparseMatrix& a) {

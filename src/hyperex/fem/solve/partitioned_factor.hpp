@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "hyperex/fem/solve/cholesky.hpp"
 #include "hyperex/fem/solve/iterative_solver.hpp"
 #include "hyperex/fem/solve/linear_solver.hpp"
+#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/fem/solve/partition.hpp"
 
 namespace hyperex::fem {
@@ -21,11 +23,14 @@ class PartitionedFactor {
   /// thrown where A_oo is not positive definite, to rounding: "static solution: ...".
   /// `nodes`: positions (m), which the iterative solver needs; without them (no rows) it is not
   /// picked, and asking for it is an error of the caller: asserted.
+  /// `order`: order() of a factor of the same pattern and prescribed unknowns; null: found here.
   PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed, std::string purpose,
-                    const Points& nodes = {}, LinearSolver wanted = LinearSolver::automatic);
+                    const Points& nodes = {}, LinearSolver wanted = LinearSolver::automatic,
+                    std::shared_ptr<const NodeOrder> order = nullptr);
   /// The same for a matrix that nobody else needs: it goes as soon as its factor can do without.
   PartitionedFactor(SparseMatrix&& a, std::vector<int> prescribed, std::string purpose,
-                    const Points& nodes = {}, LinearSolver wanted = LinearSolver::automatic);
+                    const Points& nodes = {}, LinearSolver wanted = LinearSolver::automatic,
+                    std::shared_ptr<const NodeOrder> order = nullptr);
 
   /// Other values on the same pattern: ordering and analysis are kept.
   void refactor(const SparseMatrix& a);
@@ -37,6 +42,7 @@ class PartitionedFactor {
   double factor_seconds() const { return factor_s_; }  ///< of the last factorisation
 
   LinearSolver solver() const;  ///< cholesky or iterative
+  const std::shared_ptr<const NodeOrder>& order() const { return order_; }
   const FactorForecast& forecast() const { return forecast_; }
   /// Numbers stored by the factor or, together, by those of the subdomains.
   double factor_entries() const;
@@ -63,6 +69,7 @@ class PartitionedFactor {
   std::string purpose_;
   double analyse_s_ = 0, factor_s_ = 0;
   FactorForecast forecast_;
+  std::shared_ptr<const NodeOrder> order_;
   std::optional<Cholesky> cholesky_;
   std::optional<IterativeSolver> iterative_;
 };

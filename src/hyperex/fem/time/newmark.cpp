@@ -43,10 +43,12 @@ struct Newmark::Impl {
   Eigen::VectorXd x_o;
   Kinematics own;  // of the prescribed unknowns, where only their displacement is given
 
-  Impl(System s, std::vector<int> prescribed, const NewmarkOptions& options, LinearSolver wanted)
+  Impl(System s, std::vector<int> prescribed, const NewmarkOptions& options, LinearSolver wanted,
+       std::shared_ptr<const NodeOrder> order)
       : by(options),
         inertia(s),
-        factor(step_matrix(s, by), std::move(prescribed), "time integration", s.nodes, wanted),
+        factor(step_matrix(s, by), std::move(prescribed), "time integration", s.nodes, wanted,
+               std::move(order)),
         stiffness_oc(coupling(s.stiffness, factor.partition())),
         stiffness(taken(s.stiffness)),
         mass(taken(s.mass)) {
@@ -127,9 +129,10 @@ struct Newmark::Impl {
 };
 
 Newmark::Newmark(System system, std::vector<int> prescribed, const NewmarkOptions& options,
-                 LinearSolver wanted) {
+                 LinearSolver wanted, std::shared_ptr<const NodeOrder> order) {
   HX_ASSERT(options.dt_s > 0 && options.gamma >= 0.5 && 2 * options.beta >= options.gamma);
-  impl_ = std::make_unique<Impl>(std::move(system), std::move(prescribed), options, wanted);
+  impl_ = std::make_unique<Impl>(std::move(system), std::move(prescribed), options, wanted,
+                                 std::move(order));
 }
 Newmark::~Newmark() = default;
 Newmark::Newmark(Newmark&&) noexcept = default;
@@ -199,6 +202,12 @@ double Newmark::factor_entries() const {
 }
 LinearSolver Newmark::solver() const {
   return impl_->factor.solver();
+}
+const std::shared_ptr<const NodeOrder>& Newmark::order() const {
+  return impl_->factor.order();
+}
+const std::vector<int>& Newmark::prescribed() const {
+  return impl_->factor.prescribed();
 }
 int Newmark::last_iterations() const {
   return impl_->factor.last_iterations();

@@ -5,6 +5,7 @@
 
 #include "hyperex/fem/form/system.hpp"
 #include "hyperex/fem/solve/linear_solver.hpp"
+#include "hyperex/fem/solve/node_order.hpp"
 
 namespace hyperex::fem {
 
@@ -29,9 +30,10 @@ struct Kinematics {
 class Newmark {
  public:
   /// `prescribed`: sorted unique unknowns 3 n + axis. Throws NumericalError where A_oo is not
-  /// positive definite. All start values are zero.
+  /// positive definite. All start values are zero. `order`: PartitionedFactor.
   Newmark(System system, std::vector<int> prescribed, const NewmarkOptions& options,
-          LinearSolver wanted = LinearSolver::automatic);
+          LinearSolver wanted = LinearSolver::automatic,
+          std::shared_ptr<const NodeOrder> order = nullptr);
   ~Newmark();
   Newmark(Newmark&&) noexcept;
 
@@ -62,7 +64,9 @@ class Newmark {
   double factor_seconds() const;
   double factor_entries() const;  ///< stored numbers of the factor, 8 bytes each
   LinearSolver solver() const;    ///< cholesky or iterative
-  int last_iterations() const;    ///< of the last step; 0: direct
+  const std::shared_ptr<const NodeOrder>& order() const;
+  const std::vector<int>& prescribed() const;
+  int last_iterations() const;  ///< of the last step; 0: direct
 
  private:
   struct Impl;

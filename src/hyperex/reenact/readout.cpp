@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/readout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/tissue/face_frame.hpp"
+
+namespace hyperex::reenact {
+namespace {
+
+std::vector<std::string> names_of(const io::Landmarks& landmarks) {
+  std::vector<std::string> names;
+  for (const auto& entry : landmarks) names.push_back(entry.first);
+  return names;
+}
+
+Points places_of(const io::Landmarks& landmarks) {
+  Points places(landmarks.size(), 3);
+  Eigen::Index i = 0;
+  for (const auto& entry : landmarks) places.row(i++) = entry.second.transpose();
+  return places;
+}
+
+}  // namespace
+
+Readout::Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks)
+    : mesh_(mesh),
+      names_(names_of(landmarks)),
+      rest_(places_of(landmarks)),
+      places_(skin_places(mesh, names_, rest_)),
+      contact_(mesh, landmarks) {}
+
+PointsF Readout::skin(const MeasuredRegion& region, const Points& nodes,
+                      const Points& points) const {
+  PointsF out(mesh_.skin.points.rows(), 3);
+  for (Eigen::Index v = 0; v < out.rows(); ++v) {
+    const double share = region.share[v];
+    Vec3 d = Vec3::Zero();
+    if (share < 1) {
+      const tissue::Anchor& anchor = mesh_.anchors[v];
+      for (int k = 0; k < 3; ++k) d += anchor.weight[k] * nodes.row(anchor.node[k]).transpose();
+    }
+    if (share > 0) d = (1 - share) * d + share * region.skin[v].displacement(points);
+    out.row(v) = d.transpose().cast<float>();
+  }
+  return out;
+}
+
+motion::Motion Readout::landmark_tracks(const std::vector<double>& time_s,
+                                        const std::vector<PointsF>& frames) const {
+  motion::Motion tracks;
+  tracks.time_s = time_s;
+  tracks.names = names_;
+  for (const PointsF& frame : frames) {
+    Points at = rest_;
+    for (std::size_t m = 0; m < places_.size(); ++m)
+      for (int k = 0; k < 3; ++k)
+        at.row(m) += places_[m].weight[k] * frame.row(places_[m].point[k]).cast<double>();
+    tracks.positions.push_back(at);
+  }
+  return tracks;
+}
+
+Readout::Lips Readout::lips(const motion::Motion& tracks,
+                            const std::vector<PointsF>& frames) const {
+  const int upper = tracks.index_of(tissue::ibug(62)), lower = tracks.index_of(tissue::ibug(66));
+  const auto gap = [&](const Points& at) { return 1e3 * (at.row(upper) - at.row(lower)).norm(); };
+  Lips most;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Points skin = mesh_.skin.points + frames[f].cast<double>();
+    most.overlap_mm = std::max(most.overlap_mm, 1e3 * contact_.depth(skin));
+    most.gap_mm = std::max(most.gap_mm, gap(tracks.positions[f]) - gap(tracks.positions.front()));
+  }
+  return most;
+}
+
+std::vector<double> driven_off_m(const tissue::TissueMesh& mesh, const Performance& performance,
+                                 const std::vector<int>& rows, const PointCurve& wanted) {
+  const auto places = skin_places(mesh, performance.driven_names, performance.driven_points_rest);
+  std::vector<double> off_m(rows.size(), 0);
+  for (std::size_t f = 0; f < performance.frame_time_s.size(); ++f) {
+    const Points there = wanted.at(performance.frame_time_s[f]);
+    const Points skin = performance.skin_displacement_m[f].cast<double>();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      off_m[i] = std::max(off_m[i],
+                          (places[i].displacement(skin) - there.row(rows[i]).transpose()).norm());
+  }
+  return off_m;
+}
+
+int peak_frame(const std::vector<double>& time_s, double peak_time_s, const std::vector<int>& rows,
+               const PointCurve& points) {
+  int best = 0;
+  double most = -1;
+  for (std::size_t f = 0; f < time_s.size(); ++f) {
+    double score = 0;
+    if (peak_time_s >= 0) {
+      score = 1 / (1 + std::abs(time_s[f] - peak_time_s));
+    } else {
+      const Points d = points.at(time_s[f]);
+      for (const int row : rows) score += d.row(row).norm();
+    }
+    if (score > most + 1e-12) {
+      most = score;
+      best = static_cast<int>(f);
+    }
+  }
+  return best;
+}
+
+}  // namespace hyperex::reenact

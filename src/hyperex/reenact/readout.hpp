@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/reenact/lip_contact.hpp"
+#include "hyperex/reenact/performance.hpp"
+#include "hyperex/reenact/point_curve.hpp"
+#include "hyperex/reenact/skin_measured.hpp"
+#include "hyperex/reenact/skin_places.hpp"
+
+namespace hyperex::reenact {
+
+/// What is read off a moving face: the skin, its landmarks, the lips. Depends on the face alone
+/// and serves any number of runs. Const members may be called from several threads.
+class Readout {
+ public:
+  /// `mesh` must outlive this.
+  Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+
+  /// Displacement of the skin (|skin| x 3, m): of the tissue's nodes (|nodes| x 3) or, where
+  /// measured, of the tracked points (P x 3).
+  PointsF skin(const MeasuredRegion& region, const Points& nodes, const Points& points) const;
+  /// The landmarks as the moved skin carries them, a sample a frame.
+  motion::Motion landmark_tracks(const std::vector<double>& time_s,
+                                 const std::vector<PointsF>& frames) const;
+
+  /// Over the frames: the greatest depth by which the lips pass through each other beyond rest, and
+  /// the greatest distance between upper and lower lip (ibug68_62, 66) over the first frame's.
+  struct Lips {
+    double overlap_mm = 0, gap_mm = 0;
+  };
+  Lips lips(const motion::Motion& tracks, const std::vector<PointsF>& frames) const;
+
+ private:
+  const tissue::TissueMesh& mesh_;
+  std::vector<std::string> names_;
+  Points rest_;                // of the landmarks
+  std::vector<Match> places_;  // of them on the skin
+  LipContact contact_;
+};
+
+/// Per driven point, over the frames: the greatest distance (m) from where it is driven.
+/// `rows`, `names`: of the driven points in the motion.
+std::vector<double> driven_off_m(const tissue::TissueMesh& mesh, const Performance& performance,
+                                 const std::vector<int>& rows, const PointCurve& wanted);
+
+/// The frame nearest to `peak_time_s`; below 0: that in which the points of `rows` moved most in
+/// the mean.
+int peak_frame(const std::vector<double>& time_s, double peak_time_s, const std::vector<int>& rows,
+               const PointCurve& points);
+
+}  // namespace hyperex::reenact

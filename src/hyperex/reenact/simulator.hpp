@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hyperex/reenact/alignment.hpp"
+#include "hyperex/reenact/options.hpp"
+#include "hyperex/reenact/performance.hpp"
+#include "hyperex/tissue/tissue_mesh.hpp"
+
+namespace hyperex::reenact {
+
+/// Driven points that end farther than this from where they are driven are named in a note.
+inline constexpr double kDrivenWithin_m = 1e-4;
+
+/// What happened, for the summary. Seconds are those of the last run: 0 for what it could keep.
+struct SimulationReport {
+  int free_dofs = 0, steps = 0, driven_nodes = 0, skull_nodes = 0, mandible_nodes = 0;
+  int input_shapes = 0, basis_size = 0;                            ///< basis_size 0: full model
+  fem::LinearSolver linear_solver = fem::LinearSolver::automatic;  ///< the one picked
+  double estimated_error = -1;  ///< of the reduced model, over the greatest displacement
+  double verified_error = -1;   ///< measured against the full model; below 0: not measured
+  double boundary_s = 0, assemble_s = 0, analyse_s = 0, factor_s = 0, basis_s = 0, simulate_s = 0,
+         skin_s = 0;
+  int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
+  double greatest_opening_deg = 0;  ///< of the jaw
+  double driven_off_mm = 0;  ///< greatest distance of any driven point from where it is driven
+  double lip_overlap_mm =
+      0;                  ///< greatest depth by which the lips pass through each other, over rest
+  double lip_gap_mm = 0;  ///< greatest distance between the lips (ibug68_62, 66), over rest
+  std::vector<std::string> notes;
+};
+
+struct SimulationResult {
+  Performance performance;
+  std::vector<PointsF> still_displacement_m;  ///< of the skin at the still times
+  SimulationReport report;
+};
+
+/// What a long run tells, and how it is ended early; both may be empty. Called on run()'s thread.
+struct RunCallbacks {
+  std::function<void(double share)> progress;  ///< 0 to 1 of the steps of the direct method
+  std::function<bool()> cancelled;             ///< asked at each step and between the stages
+};
+/// Thrown by run() where RunCallbacks::cancelled said so; the simulator stays usable.
+class Cancelled : public std::runtime_error {
+ public:
+  Cancelled() : std::runtime_error("cancelled") {}
+};
+
+/// A face that is simulated again and again (section 5 of the method): a measured region follows
+/// the tracked triangles, the rest of the face is a layer of viscoelastic tissue driven by patches
+/// of skin, supported by border and bones. Each stage is computed when a run first needs it and
+/// kept until something that it depends on is set:
+///
+///   stage                    depends on
+///   measured region          motion, region
+///   driven skin              measured region, drive (not its gain)
+///   boundary                 driven skin, support
+///   pattern of the matrices  model.element
+///   order of elimination     pattern, which unknowns are prescribed, solver.linear
+///   factor                   order, tissue, model, stiffness of the support
+///   input                    boundary, motion, drive.gain, time.step_s, end_s, solver.tolerance
+///   reduced motion           factor, input, solver
+///   frames of the skin       reduced motion, time
+///
+/// A run after set_tissue() factors again, but neither matches, orders nor analyses. Equal options
+/// give equal numbers, whatever was set and run before. One caller at a time; copies are
+/// independent and may run in other threads.
+class Simulator {
+ public:
+  /// Throws InputError where options are out of range (check()).
+  Simulator(std::shared_ptr<const tissue::TissueMesh> mesh, io::Landmarks landmarks,
+            AlignedMotion motion, SimulationOptions options = {});
+  /// Shares the stages that a factor does not need to itself: what a variant begins with.
+  Simulator(const Simulator& other);
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator) noexcept;
+  ~Simulator();
+
+  const SimulationOptions& options() const;
+  const tissue::TissueMesh& mesh() const;
+  const io::Landmarks& landmarks() const;
+  const AlignedMotion& motion() const;
+
+  /// Each throws InputError where a value is out of range, and then changes nothing.
+  void set_options(SimulationOptions options);
+  void set_tissue(TissueValues tissue);
+  void set_support(SupportOptions support);
+  void set_drive(DriveOptions drive);
+  void set_motion(AlignedMotion motion);
+
+  /// Throws InputError for points that do not exist, NumericalError where the model cannot be
+  /// solved, Cancelled.
+  SimulationResult run(const RunCallbacks& callbacks = {});
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One run of a face that is not simulated again. `mesh` must outlive the call.
+SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                          const AlignedMotion& motion, const SimulationOptions& options,
+                          const RunCallbacks& callbacks = {});
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a simulator keeps between runs, and that keeping it changes no number.
+#include "hyperex/reenact/simulator.hpp"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+
+#include "hyperex/core/error.hpp"
+#include "reenact/small_face.hpp"
+
+namespace hyperex::reenact {
+namespace {
+
+class SimulatorOfAFace : public testing::Test {
+ protected:
+  SimulatorOfAFace() { options_.time.step_s = 0.01; }
+  Simulator made(const SimulationOptions& options) const {
+    return Simulator(mesh_, landmarks_, motion_, options);
+  }
+  static void expect_equal(const SimulationResult& a, const SimulationResult& b) {
+    ASSERT_EQ(a.performance.skin_displacement_m.size(), b.performance.skin_displacement_m.size());
+    for (std::size_t f = 0; f < a.performance.skin_displacement_m.size(); ++f) {
+      EXPECT_EQ(a.performance.skin_displacement_m[f], b.performance.skin_displacement_m[f]) << f;
+      EXPECT_EQ(a.performance.node_displacement_m[f], b.performance.node_displacement_m[f]) << f;
+    }
+    EXPECT_EQ(a.performance.landmarks.positions.back(), b.performance.landmarks.positions.back());
+    EXPECT_EQ(a.performance.tet_young_pa, b.performance.tet_young_pa);
+    EXPECT_EQ(a.report.basis_size, b.report.basis_size);
+    EXPECT_EQ(a.report.driven_nodes, b.report.driven_nodes);
+    EXPECT_EQ(a.report.inverted_tets, b.report.inverted_tets);
+  }
+  /// Runs, sets `next`, and runs again: as a simulator made with `next`.
+  void expect_as_anew(const SimulationOptions& next) {
+    Simulator simulator = made(options_);
+    const SimulationResult before = simulator.run();
+    simulator.set_options(next);
+    const SimulationResult after = simulator.run();
+    expect_equal(after, made(next).run());
+    EXPECT_NE(after.performance.skin_displacement_m[6], before.performance.skin_displacement_m[6])
+        << "what was set has an effect";
+  }
+
+  const test::SmallFace face_ = test::small_face();
+  const std::shared_ptr<const tissue::TissueMesh> mesh_ =
+      std::make_shared<const tissue::TissueMesh>(face_.mesh);
+  const io::Landmarks landmarks_ = face_.landmarks;
+  const AlignedMotion motion_ = test::mouth_opening(face_.landmarks, 10, 13, 30);
+  SimulationOptions options_;
+};
+
+TEST_F(SimulatorOfAFace, AnotherRunIsEqualAndComputesNothing) {
+  Simulator simulator = made(options_);
+  const SimulationResult once = simulator.run(), again = simulator.run();
+  expect_equal(once, again);
+  EXPECT_GT(once.report.factor_s, 0);
+  EXPECT_GT(once.report.analyse_s, 0);
+  for (const double spent :
+       {again.report.assemble_s, again.report.analyse_s, again.report.factor_s})
+    EXPECT_EQ(spent, 0);
+}
+
+TEST_F(SimulatorOfAFace, OtherTissueFactorsAgainAndKeepsTheOrder) {
+  Simulator simulator = made(options_);
+  simulator.run();
+  TissueValues stiff = options_.tissue;
+  stiff.element = {};
+  for (int p = 0; p < tissue::parameter_count; ++p)
+    stiff.element[p].assign(std::size_t(mesh_->volume.tets.rows()), stiff.uniform[p]);
+  for (std::size_t t = 0; t < stiff.element[tissue::young].size(); t += 2)
+    stiff.element[tissue::young][t] *= 10;
+  simulator.set_tissue(stiff);
+  const SimulationResult result = simulator.run();
+  EXPECT_EQ(result.report.analyse_s, 0);
+  EXPECT_GT(result.report.factor_s, 0);
+  SimulationOptions next = options_;
+  next.tissue = stiff;
+  expect_equal(result, made(next).run());
+}
+
+TEST_F(SimulatorOfAFace, EachPartSetIsAsASimulatorMadeWithIt) {
+  const auto with = [&](auto change) {
+    SimulationOptions next = options_;
+    change(next);
+    return next;
+  };
+  expect_as_anew(with([](auto& o) { o.tissue.uniform[tissue::viscosity] = 9000; }));
+  expect_as_anew(with([](auto& o) { o.model.element = fem::ElementKind::tet4; }));
+  expect_as_anew(with([](auto& o) { o.model.viscous_form = fem::ViscousForm::printed; }));
+  expect_as_anew(with([](auto& o) { o.support.muscle_pa_per_m = 0; }));
+  expect_as_anew(with([](auto& o) { o.support.mandible = Mandible::free; }));
+  expect_as_anew(with([](auto& o) { o.support.skull = Hold::held; }));  // others are prescribed
+  expect_as_anew(with([](auto& o) { o.support.border_held = false; }));
+  expect_as_anew(with([](auto& o) { o.drive.gain = 0.5; }));
+  expect_as_anew(with([](auto& o) { o.drive.points.pop_back(); }));
+  expect_as_anew(with([](auto& o) { o.drive.all_points = true; }));
+  expect_as_anew(with([](auto& o) { o.drive.patch_radius_m = 0.02; }));
+  expect_as_anew(with([](auto& o) { o.drive.still_points = {"ibug68_33"}; }));
+  expect_as_anew(with([](auto& o) { o.time.step_s = 0.005; }));
+  expect_as_anew(with([](auto& o) { o.solver.newmark_gamma = 0.9, o.solver.newmark_beta = 0.5; }));
+  expect_as_anew(with([](auto& o) { o.solver.tolerance = 1e-7; }));
+  expect_as_anew(with([](auto& o) {
+    o.region.measured = Measured::points;
+    o.region.measured_points = {"ibug68_8"};
+  }));
+}
+
+TEST_F(SimulatorOfAFace, TheDirectMethodToo) {
+  options_.solver.method = SolverMethod::direct;
+  SimulationOptions next = options_;
+  next.tissue.uniform[tissue::young] *= 3;
+  next.tissue.uniform[tissue::viscosity] *= 30;
+  expect_as_anew(next);
+  next.time.step_s = 0.02;
+  expect_as_anew(next);
+  Simulator simulator = made(options_);
+  expect_equal(simulator.run(), simulator.run());
+}
+
+TEST_F(SimulatorOfAFace, TimesOfFramesAndStillsTakeNoNewSolution) {
+  Simulator simulator = made(options_);
+  simulator.run();
+  options_.time.frame_rate_hz = 60;
+  options_.time.still_times_s = {0.123};
+  simulator.set_options(options_);
+  const SimulationResult result = simulator.run();
+  EXPECT_EQ(result.report.factor_s, 0);
+  const SimulationResult anew = made(options_).run();
+  expect_equal(result, anew);
+  EXPECT_EQ(result.still_displacement_m[0], anew.still_displacement_m[0]);
+}
+
+TEST_F(SimulatorOfAFace, AnotherMotionIsFollowed) {
+  const AlignedMotion wider = test::mouth_opening(landmarks_, 14, 13, 30);
+  Simulator simulator = made(options_);
+  simulator.run();
+  simulator.set_motion(wider);
+  expect_equal(simulator.run(), Simulator(mesh_, landmarks_, wider, options_).run());
+}
+
+TEST_F(SimulatorOfAFace, CopiesRunOnTheirOwnInOtherThreads) {
+  Simulator base = made(options_);
+  const SimulationResult before = base.run();
+  SimulationOptions next = options_;
+  next.tissue.uniform[tissue::viscosity] *= 20;
+  Simulator copy = base;
+  copy.set_options(next);
+  SimulationResult of_copy, of_base;
+  std::thread other([&] { of_copy = copy.run(); });
+  base.set_tissue(options_.tissue);
+  of_base = base.run();
+  other.join();
+  EXPECT_GT(of_copy.report.factor_s, 0) << "a factor of its own";
+  expect_equal(of_base, before);
+  expect_equal(of_copy, made(next).run());
+}
+
+TEST_F(SimulatorOfAFace, AValueOutOfRangeChangesNothing) {
+  Simulator simulator = made(options_);
+  SupportOptions support = options_.support;
+  support.muscle_pa_per_m = -1;
+  EXPECT_THROW(simulator.set_support(support), InputError);
+  EXPECT_EQ(simulator.options(), options_);
+  options_.time.step_s = 0;
+  EXPECT_THROW(made(options_), InputError);
+}
+
+TEST_F(SimulatorOfAFace, TellsItsProgressAndCanBeCancelled) {
+  options_.solver.method = SolverMethod::direct;
+  Simulator simulator = made(options_);
+  std::vector<double> shares;
+  RunCallbacks callbacks;
+  callbacks.progress = [&](double share) { shares.push_back(share); };
+  const SimulationResult whole = simulator.run(callbacks);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.back(), 1);
+  callbacks.cancelled = [&, asked = 0]() mutable { return ++asked == 10; };
+  EXPECT_THROW(simulator.run(callbacks), Cancelled);
+  expect_equal(simulator.run(), whole);
+}
+
+TEST_F(SimulatorOfAFace, AMatrixThatCannotBeFactoredLeavesItUsable) {
+  Simulator simulator = made(options_);
+  const SimulationResult before = simulator.run();
+  SimulationOptions loose = options_;
+  loose.drive.points = {"ibug68_8"};
+  loose.drive.patch_radius_m = 0;
+  loose.support = {false, Hold::free, Mandible::free, {}, {}, 0, {}};
+  simulator.set_options(loose);
+  try {
+    simulator.run();
+  } catch (const NumericalError&) {
+  }
+  simulator.set_options(options_);
+  expect_equal(simulator.run(), before);
+}
+
+}  // namespace
+}  // namespace hyperex::reenact
