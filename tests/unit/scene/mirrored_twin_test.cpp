@@ -47,9 +47,10 @@ TEST_P(SymmetricMotion, EndsWhereItIsDrivenAndIsUndecided) {
   EXPECT_TRUE(corners.at("undecided").get<bool>());
   EXPECT_NEAR(corners.at("excursion_ratio_R_L").get<double>(), 1, 0.005);
   EXPECT_GT(corners.at("excursion_mm").at("L").get<double>(), 3);
-  if (std::string(file) == "demo.toml")  // a symmetric face: 0.0104 is the resolution
+  if (std::string(file) == "demo.toml") {  // a symmetric face: 0.0104 is the resolution
     EXPECT_LT(symmetry.at("mesh_floor").at("xi_there").get<double>(), 2 * 0.0104)
         << "the mesh adds no more than the resolution";
+  }
   for (const auto& pair : symmetry.at("excursions"))
     EXPECT_TRUE(pair.at("undecided").get<bool>()) << pair;
 }
