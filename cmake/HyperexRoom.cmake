@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # GCC 12's -Wrestrict misfires on std::string + in every optimised build (GCC bug 105651).
-set(HYPEREX_WARNINGS -Wall -Wextra -Wshadow -Wno-restrict)
+set(HYPEREX_WARNINGS -Wall -Wextra -Wshadow $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 option(HYPEREX_WERROR "Warnings are errors: for CI, as newer compilers warn of other things" OFF)
 if(HYPEREX_WERROR)
   list(APPEND HYPEREX_WARNINGS -Werror)

@@ -11,7 +11,7 @@ each_s=${1:-600}
 shift || true
 bin=build/fuzz/bin
 targets=("$@")
-((${#targets[@]})) || mapfile -t targets < <(cd "$bin" && ls -1 fuzz_* | sed 's/^fuzz_//')
+((${#targets[@]})) || mapfile -t targets < <(cd "$bin" && ls -1 fuzz_* | sed 's/^fuzz_//' | grep -vx reader)
 mkdir -p build/fuzz/{corpus,found,log}
 "$bin/write_seeds" build/fuzz/seeds
 

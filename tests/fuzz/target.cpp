@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One target of libFuzzer: the reader HYPEREX_FUZZ_READER, set by CMake.
+// The targets of libFuzzer: run as fuzz_NAME, by a link, it feeds the reader NAME.
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "fuzz/readers.hpp"
 
@@ -26,13 +27,20 @@ struct Folder {
     std::filesystem::remove_all(path, ignored);
   }
 };
+
+const hyperex::fuzz::Reader* fed = nullptr;
 }  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int*, char*** arguments) {
+  const std::string name = std::filesystem::path((*arguments)[0]).filename();
+  fed = &hyperex::fuzz::reader(name.substr(name.find('_') + 1));
+  spdlog::set_level(spdlog::level::off);
+  return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Folder folder;
-  static const hyperex::fuzz::Reader& reader = hyperex::fuzz::reader(HYPEREX_FUZZ_READER);
-  spdlog::set_level(spdlog::level::off);
-  hyperex::fuzz::try_input(reader, folder.path,
+  hyperex::fuzz::try_input(*fed, folder.path,
                            std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }
