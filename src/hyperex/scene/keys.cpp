@@ -2,7 +2,7 @@
 #include "hyperex/scene/keys.hpp"
 
 #include "hyperex/scene/fields.hpp"
-#include "hyperex/tissue/field/tissue_field.hpp"
+#include "hyperex/tissue/field/presets.hpp"
 
 namespace hyperex::scene {
 namespace {

@@ -59,4 +59,15 @@ const TissuePreset* find_preset(const std::string& name) {
   return nullptr;
 }
 
+TissueParameters uniform_parameters(const TissueFieldOptions& options) {
+  TissueParameters values = default_parameters;
+  const TissuePreset* preset = find_preset(options.preset);
+  for (int p = 0; p < parameter_count; ++p) {
+    if (preset && preset->uniform[p]) values[p] = *preset->uniform[p];
+    if (options.uniform[p]) values[p] = *options.uniform[p];
+    if (preset && preset->factor[p]) values[p] *= *preset->factor[p];
+  }
+  return values;
+}
+
 }  // namespace hyperex::tissue

@@ -19,4 +19,7 @@ const std::vector<TissuePreset>& tissue_presets();
 /// Null where there is none of that name.
 const TissuePreset* find_preset(const std::string& name);
 
+/// The value of each parameter where nothing makes it differ: options, else preset, else default.
+TissueParameters uniform_parameters(const TissueFieldOptions& options);
+
 }  // namespace hyperex::tissue

@@ -128,17 +128,6 @@ std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
   return problems;
 }
 
-TissueParameters uniform_parameters(const TissueFieldOptions& options) {
-  TissueParameters values = default_parameters;
-  const TissuePreset* preset = find_preset(options.preset);
-  for (int p = 0; p < parameter_count; ++p) {
-    if (preset && preset->uniform[p]) values[p] = *preset->uniform[p];
-    if (options.uniform[p]) values[p] = *options.uniform[p];
-    if (preset && preset->factor[p]) values[p] *= *preset->factor[p];
-  }
-  return values;
-}
-
 bool is_graded(const TissueFieldOptions& options) {
   const TissuePreset* preset = find_preset(options.preset);
   return !options.points.empty() || !options.regions.empty() || !options.per_vertex.empty() ||

@@ -7,6 +7,7 @@
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/tissue/field/options.hpp"
+#include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 #include "hyperex/tissue/field/side_tree.hpp"
 #include "hyperex/tissue/register_face.hpp"
@@ -18,9 +19,6 @@ namespace hyperex::tissue {
 /// of those.
 std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
                                       const io::Landmarks& landmarks);
-
-/// The value of each parameter where nothing makes it differ: options, else preset, else default.
-TissueParameters uniform_parameters(const TissueFieldOptions& options);
 
 /// False where the options give the same values everywhere, which uniform_parameters() are.
 bool is_graded(const TissueFieldOptions& options);
