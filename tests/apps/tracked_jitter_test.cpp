@@ -63,7 +63,7 @@ TEST_P(TrackedJitter, IsEstimatedFromTheFileAlone) {
 INSTANTIATE_TEST_SUITE_P(Recordings, TrackedJitter,
                          testing::Values("subject_A_still", "subject_A_mouth_open",
                                          "subject_A_talk"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& tested) { return tested.param; });
 
 }  // namespace
 }  // namespace hyperex
