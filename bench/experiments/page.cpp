@@ -157,8 +157,8 @@ std::string models_section(const std::vector<ModelsFace>& faces, const std::stri
   page +=
       "\n**Of the mesh or of the tissue?** The same on other meshes. The embedded face and its "
       "motion "
-      "are symmetric, so all of\nits D_1 is the mesh's: patches of driven nodes end elsewhere on "
-      "either side, and some of the four distances end\nbeside them. " +
+      "are symmetric, so all of\nits D_1 is the mesh's, whose elements are not the same on either "
+      "side. On a real face most of it is the face's own\nshape (docs/symmetry.md). " +
       of_each(faces,
               [](const ModelsFace& f) {
                 return std::string(by_mesh(f.meshes) ? "D_1 changes by more than its size"
