@@ -161,13 +161,13 @@ std::string models_section(const std::vector<ModelsFace>& faces, const std::stri
       "side. On a real face most of it is the face's own\nshape (docs/symmetry.md). " +
       of_each(faces,
               [](const ModelsFace& f) {
-                return std::string(by_mesh(f.meshes) ? "D_1 changes by more than its size"
-                                                     : "D_1 keeps its size") +
+                return std::string(by_mesh(f.meshes) ? "D_1 changes its sign with the mesh"
+                                                     : "D_1 keeps its sign") +
                        (tissue_stays(f.meshes)
                             ? ", what the tissue adds keeps its sign and, to a factor of two, its "
                               "size"
-                            : ", and so does what the tissue adds: S(t) tells nothing of such "
-                              "small changes there");
+                            : ", what the tissue adds changes its sign or by more than a factor of "
+                              "two: S(t) tells nothing of such small changes there");
               }) +
       ".\n\n"
       "| face | element size, mm | tetrahedra | D_1 at the end, x 1000 | D_2 - D_1, x 1000 | D_3 - "

@@ -235,7 +235,6 @@ double longest_lag_ms(const std::vector<PhysicsFace>& faces) {
 }
 
 void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector<Point>& points) {
-  const auto on_axis = [](const ModelsFace& f) { return f.s_least > -10 && f.s_most < -4; };
   points.push_back({"S(t) between -10 and -4",
                     of_each(faces,
                             [](const ModelsFace& f) {
@@ -243,8 +242,11 @@ void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector
                                                  f.s_most);
                             }),
                     of_each(faces,
-                            [&](const ModelsFace& f) {
-                              if (!on_axis(f)) return "no, higher";
+                            [](const ModelsFace& f) {
+                              const bool lower = f.s_least <= -10, higher = f.s_most >= -4;
+                              if (lower && higher) return "no, lower and higher";
+                              if (lower || higher)
+                                return lower ? "in part, else lower" : "in part, else higher";
                               return by_mesh(f.meshes) ? "yes, by chance of its mesh" : "yes";
                             }),
                     "where S lies is the asymmetry of the face, of its motion and of its mesh, not "
