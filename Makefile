@@ -45,10 +45,12 @@ asan: ## the tests again under the address and undefined-behaviour sanitizers
 
 # GCC 12's thread sanitizer knows fewer random addresses than newer kernels use.
 FIXED_ADDRESSES := $(shell setarch -R true 2> /dev/null && echo setarch -R)
+# Programs of tests are run while they are built: they list their tests.
+tsan: export TSAN_OPTIONS = suppressions='$(CURDIR)/tests/support/races.supp' print_suppressions=0
 tsan: ## capture, live tracking, variants and interrupts under the thread sanitizer
 	scripts/setup.sh --tests
 	cmake --preset tsan -DHYPEREX_TESTS=ON
-	cmake --build --preset tsan --parallel $(JOBS) --target \
+	$(FIXED_ADDRESSES) cmake --build --preset tsan --parallel $(JOBS) --target \
 	  hyperex test_core test_capture test_capture_openni test_tracking_live test_apps
 	$(FIXED_ADDRESSES) ctest --preset tsan --parallel $(JOBS) --no-tests=error \
 	  -R '^(core|capture|capture_openni|tracking_live)\.|^apps\.(Interrupted|TrackLive|Variants)'
