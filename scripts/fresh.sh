@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Tries a stranger's first minutes: an empty Debian 12 (only its essential packages, apt, git, make,
 # sudo and certificates), a clean clone of this commit in it, then `make demo` and `make test` as
-# root and `make demo` as an ordinary user with sudo. Says what each step took, and how much is
+# root and again as an ordinary user with sudo. Says what each step took, and how much is
 # downloaded. Needs root.
 #   scripts/fresh.sh             with this machine's caches: packages, compiled objects
 #   scripts/fresh.sh --cold      as on a stranger's machine: no caches
@@ -161,6 +161,7 @@ chroot "$root" chown -R visitor:visitor "$repository"
 chroot "$root" env -i "${environment[@]}" apt-get remove --yes libcli11-dev > /dev/null 2>&1 || true
 step "make demo as user with sudo" as_user "$demo"
 demo_is_there
+[[ "$test" == true ]] || step "make test as user with sudo" as_user "$test"
 
 echo
 echo "== An empty Debian 12: all passed ($([[ $cold == 1 ]] && echo 'no caches' || echo "with this machine's caches"))"
