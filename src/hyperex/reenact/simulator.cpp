@@ -132,6 +132,13 @@ struct Simulator::Impl {
       drop_input();
   }
 
+  template <class Part>
+  void set_part(Part SimulationOptions::*part, Part value) {
+    SimulationOptions next = options;
+    next.*part = std::move(value);
+    set(std::move(next));
+  }
+
   void set(AlignedMotion next) {
     motion = std::make_shared<const AlignedMotion>(std::move(next));
     drop_region();
@@ -286,10 +293,9 @@ struct Simulator::Impl {
     for (const Shot& shot : shots)
       times.push_back(
           std::clamp(shot.time_s / options.time.step_s, 0.0, static_cast<double>(report.steps)));
-    const double before_s = report.assemble_s + report.analyse_s + report.factor_s;
     const Solution solution = solved(times);
-    report.simulate_s = watch.lap() - report.basis_s -
-                        (report.assemble_s + report.analyse_s + report.factor_s - before_s);
+    report.simulate_s =
+        watch.lap() - report.basis_s - (report.assemble_s + report.analyse_s + report.factor_s);
     result.performance.node_displacement_m.resize(result.performance.frame_time_s.size());
     for (std::size_t i = 0; i < shots.size(); ++i)
       store(shots[i],
@@ -455,19 +461,13 @@ void Simulator::set_options(SimulationOptions options) {
   impl_->set(std::move(options));
 }
 void Simulator::set_tissue(TissueValues tissue) {
-  SimulationOptions next = impl_->options;
-  next.tissue = std::move(tissue);
-  impl_->set(std::move(next));
+  impl_->set_part(&SimulationOptions::tissue, std::move(tissue));
 }
 void Simulator::set_support(SupportOptions support) {
-  SimulationOptions next = impl_->options;
-  next.support = std::move(support);
-  impl_->set(std::move(next));
+  impl_->set_part(&SimulationOptions::support, std::move(support));
 }
 void Simulator::set_drive(DriveOptions drive) {
-  SimulationOptions next = impl_->options;
-  next.drive = std::move(drive);
-  impl_->set(std::move(next));
+  impl_->set_part(&SimulationOptions::drive, std::move(drive));
 }
 void Simulator::set_motion(AlignedMotion motion) {
   impl_->set(std::move(motion));
