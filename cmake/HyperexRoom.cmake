@@ -14,30 +14,35 @@ function(hx_room name)
   set(target hx_${name})
   if(ROOM_SOURCES)
     add_library(${target} STATIC ${ROOM_SOURCES})
-    target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/src)
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
     target_compile_options(${target} PRIVATE ${HYPEREX_WARNINGS})
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    # For shared libraries and for Python; calls within a file may be inlined as in a program.
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(${target} PRIVATE
+      $<$<AND:$<CXX_COMPILER_ID:GNU,Clang>,$<COMPILE_LANGUAGE:CXX>>:-fno-semantic-interposition>)
     target_link_libraries(${target} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
   else()
     add_library(${target} INTERFACE)
-    target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR}/src)
+    target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(${target} INTERFACE ${ROOM_LINKS})
   endif()
 endfunction()
 
 # The tests of one room: an executable test_NAME, each of its cases one CTest.
 #   hx_test(io SOURCES ply_test.cpp LINKS hx_io)
-# Cases may read real data under ${CMAKE_SOURCE_DIR}/../shared and must skip where it is absent.
+# Cases may read real data under ${PROJECT_SOURCE_DIR}/../shared and must skip where it is absent.
 # Each bears its folder under tests/ as label: ctest -L unit/io, and the time by room at ctest's end.
 function(hx_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${T_SOURCES})
-  target_include_directories(test_${name} PRIVATE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/tests)
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests)
   target_compile_options(test_${name} PRIVATE ${HYPEREX_WARNINGS})
   target_compile_definitions(test_${name} PRIVATE
-    HYPEREX_SOURCE_DIR="${CMAKE_SOURCE_DIR}" HYPEREX_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared"
-    HYPEREX_PROGRAM="${CMAKE_BINARY_DIR}/bin/hyperex")
+    HYPEREX_SOURCE_DIR="${PROJECT_SOURCE_DIR}" HYPEREX_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
+    HYPEREX_PROGRAM="${PROJECT_BINARY_DIR}/bin/hyperex")
   target_link_libraries(test_${name} PRIVATE ${T_LINKS} GTest::gtest_main GTest::gmock)
-  file(RELATIVE_PATH room ${CMAKE_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
+  file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
   include(GoogleTest)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 600 LABELS ${room})
