@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The reduced model: its basis, its error as estimated and against the full model at every step,
-// what a run costs once the basis exists, and from an edit of the tissue to the first frame.
-#include "hyperex/fem/reduced/dense.hpp"
+// and what an edit of the tissue costs a program, up to all frames of the skin.
+#include <cmath>
+
 #include "hyperex/fem/reduced/reduced_model.hpp"
-#include "hyperex/fem/reduced/reduced_newmark.hpp"
 #include "support/face_case.hpp"
 #include "support/machine.hpp"
 #include "support/timing.hpp"
@@ -83,92 +83,39 @@ Json sweep(const FaceCase& face, const fem::System& system, DriveOf drive_of,
   return {{"greatest_displacement_m", greatest(truth)}, {"rows", rows}};
 }
 
-/// Stepping and reading out with a basis that is there. The basis is taken from a response; its
-/// projections are made again here, which is not part of the time.
-Json run_with_basis(const FaceCase& face, const fem::System& system, const fem::Drive& drive,
-                    const fem::Response& response, int repeats) {
-  fem::Response run = response;
-  const Eigen::MatrixXd v = response.shapes.leftCols(response.basis_size);
-  const Eigen::MatrixXd shapes = response.shapes.rightCols(drive.shapes());
-  const auto projected = [&](const fem::SparseMatrix& m, const Eigen::MatrixXd& of) {
-    return Eigen::MatrixXd(v.transpose() * fem::symmetric_product(m, of));
-  };
-  const Eigen::MatrixXd k = projected(system.stiffness, v), c = projected(system.damping, v),
-                        m = projected(system.mass, v);
-  const Eigen::MatrixXd static_ = v.transpose() * drive.force - projected(system.stiffness, shapes);
-  const Eigen::MatrixXd viscous = projected(system.damping, shapes),
-                        inertial = projected(system.mass, shapes);
-  const std::vector<double> at = face.frames_in_steps();
-
-  std::vector<double> step_s, nodes_s, skin_s, all_s;
-  double apart = 0;
-  for (int i = 0; i <= repeats; ++i) {
-    Stopwatch watch;
-    Eigen::MatrixXd force = static_ * drive.s;
-    force.noalias() -= viscous * drive.rate;
-    force.noalias() -= inertial * drive.second;
-    const fem::ReducedMotion motion =
-        fem::integrate_reduced(k, c, m, force, fem::NewmarkOptions{face.dt_s()});
-    const double stepped = watch.lap();
-    run.course << motion.d, drive.s;
-    watch.lap();
-    const Eigen::MatrixXd nodes = run.displacement(at);
-    const double read = watch.lap();
-    const std::vector<PointsF> skin = face.carry_to_skin(nodes);
-    const double carried = watch.lap();
-    apart = (run.course - response.course).cwiseAbs().maxCoeff() /
-            response.course.cwiseAbs().maxCoeff();
-    if (i == 0) continue;
-    step_s.push_back(stepped);
-    nodes_s.push_back(read);
-    skin_s.push_back(carried);
-    all_s.push_back(stepped + read + carried);
-  }
-  return {{"steps", drive.steps()},
-          {"frames", at.size()},
-          {"skin_vertices", face.mesh().skin.points.rows()},
-          {"stepping_s", median(step_s)},
-          {"nodes_s", median(nodes_s)},
-          {"skin_s", median(skin_s)},
-          {"total_s", median(all_s)},
-          {"courses_apart", apart}};
-}
-
-/// From other tissue values on the same mesh to a frame on the skin.
-Json edit_to_frame(const FaceCase& face, fem::ElementKind kind, const fem::Drive& drive,
-                   int repeats) {
-  const auto& volume = face.mesh().volume;
-  const fem::Assembler assembler(volume.nodes, volume.tets, kind);
-  fem::System system;
-  face.assemble(assembler, face.material(), system);
-  fem::ReducedModel model(system, face.prescribed());
-  fem::Newmark newmark(system, face.prescribed(), {face.dt_s()});
-  fem::ReducedOptions options;
-  options.time.dt_s = face.dt_s();
-  std::vector<double> parts[4], all, direct;
+/// From other tissue values on the same face to all frames of the skin, through the Simulator that
+/// programs use, and a run once more with nothing changed: reading out alone.
+Json edit_to_frames(const FaceCase& face, fem::ElementKind kind, int repeats) {
+  reenact::Simulator simulator = face.simulator();
+  reenact::SimulationOptions options = simulator.options();
+  options.model.element = kind;
+  simulator.set_options(options);
+  simulator.run();
+  std::vector<double> assemble, factor, basis, all, again;
+  std::size_t frames = 0;
   for (int i = 0; i < repeats; ++i) {
-    fem::Material material = face.material(1 + 0.1 * (i + 1));
-    for (double& young : material.young_pa) young *= 1 - 0.05 * (i + 1);
-    Stopwatch watch;
-    face.assemble(assembler, material, system);
-    parts[0].push_back(watch.lap());
-    model.refill(system);
-    parts[1].push_back(watch.lap());
-    const fem::Response response = model.run(drive, options);
-    parts[2].push_back(watch.lap());
-    const auto skin = face.carry_to_skin(response.displacement({drive.steps() / 2.0}));
-    parts[3].push_back(watch.lap());
-    all.push_back(parts[0][i] + parts[1][i] + parts[2][i] + parts[3][i]);
-
-    watch.lap();
-    newmark.refill(system);
-    newmark.step(drive.prescribed_at(1), drive.force_at(1));
-    face.carry_to_skin(newmark.displacement());
-    direct.push_back(parts[0][i] + watch.lap());
+    reenact::TissueValues tissue = options.tissue;
+    tissue.uniform[tissue::young] *= std::pow(0.95, i + 1);
+    tissue.uniform[tissue::viscosity] *= std::pow(1.1, i + 1);
+    reenact::SimulationReport report;
+    all.push_back(seconds_of([&] {
+      simulator.set_tissue(tissue);
+      const reenact::SimulationResult result = simulator.run();
+      report = result.report;
+      frames = result.performance.skin_displacement_m.size();
+    }));
+    assemble.push_back(report.assemble_s);
+    factor.push_back(report.factor_s);
+    basis.push_back(report.basis_s);
+    again.push_back(seconds_of([&] { simulator.run(); }));
   }
-  return {{"assemble_s", median(parts[0])}, {"refactor_s", median(parts[1])},
-          {"basis_s", median(parts[2])},    {"frame_s", median(parts[3])},
-          {"total_s", median(all)},         {"direct_total_s", median(direct)}};
+  return {{"assemble_s", median(assemble)},
+          {"refactor_s", median(factor)},
+          {"basis_s", median(basis)},
+          {"again_s", median(again)},
+          {"total_s", median(all)},
+          {"frames", frames},
+          {"skin_vertices", face.mesh().skin.points.rows()}};
 }
 
 Json measure(bool quick) {
@@ -191,8 +138,7 @@ Json measure(bool quick) {
     e["basis_size"] = response.basis_size;
     e["input_shapes"] = drive.shapes();
     e["input_shapes_s"] = median_seconds(3, [&] { face.drive(1e-3); });
-    e["run"] = run_with_basis(face, system, drive, response, quick ? 5 : 15);
-    e["edit"] = edit_to_frame(face, kind, drive, quick ? 3 : 5);
+    e["edit"] = edit_to_frames(face, kind, quick ? 3 : 9);
     const auto motion = [&](double tolerance) { return face.drive(tolerance); };
     e["motion"] = sweep(face, system, motion, tolerances);
     const auto hard = [&](double tolerance) { return face.sine(0.27, tolerance); };
@@ -208,5 +154,10 @@ Json measure(bool quick) {
 /// reduced_bench FILE.json [--quick]
 int main(int argc, char** argv) {
   using namespace hyperex::bench;
+  if (argc > 2 && std::string(argv[2]) == "--edit") {
+    const FaceCase face(Face::subject_a_if_there);
+    write_json(edit_to_frames(face, hyperex::fem::ElementKind::tet4_star, 21), argv[1]);
+    return 0;
+  }
   write_json(measure(argc > 2 && std::string(argv[2]) == "--quick"), argc > 1 ? argv[1] : "-");
 }

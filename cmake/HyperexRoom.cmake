@@ -44,6 +44,10 @@ function(hx_test name)
   target_link_libraries(test_${name} PRIVATE ${T_LINKS} GTest::gtest_main GTest::gmock)
   file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
   include(GoogleTest)
+  set(timeout 600)
+  if(HYPEREX_TSAN)  # a whole run takes minutes there
+    set(timeout 2400)
+  endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 600 LABELS ${room})
+                       PROPERTIES TIMEOUT ${timeout} LABELS ${room})
 endfunction()

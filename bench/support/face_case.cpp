@@ -30,14 +30,15 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
   motion_ = inputs.motion;
   options_ = scene::simulation_options(scene, inputs);
 
-  tissue::TissueMeshOptions mesh = scene.mesh;
-  if (size.element_size_m > 0) mesh.element_size_m = size.element_size_m;
-  if (size.layers > 0) mesh.layers = size.layers;
+  tissue::TissueMeshOptions meshing = scene.mesh;
+  if (size.element_size_m > 0) meshing.element_size_m = size.element_size_m;
+  if (size.layers > 0) meshing.layers = size.layers;
   Stopwatch watch;
-  mesh_ = tissue::build_tissue_mesh(inputs.scan.mesh, landmarks_, mesh, inputs.scan.file.string());
+  mesh_ = std::make_shared<const tissue::TissueMesh>(
+      tissue::build_tissue_mesh(inputs.scan.mesh, landmarks_, meshing, inputs.scan.file.string()));
   mesh_s_ = watch.lap();
-  const auto region = reenact::measured_region(mesh_, landmarks_, motion_, options_.region);
-  boundary_ = std::make_unique<reenact::Boundary>(mesh_, landmarks_, motion_, region,
+  const auto region = reenact::measured_region(mesh(), landmarks_, motion_, options_.region);
+  boundary_ = std::make_unique<reenact::Boundary>(mesh(), landmarks_, motion_, region,
                                                   options_.drive, options_.support);
 
   curve_ = std::make_unique<motion::MotionCurve>(motion_.motion);
@@ -54,12 +55,16 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
     }
 }
 
+reenact::Simulator FaceCase::simulator() const {
+  return {mesh_, landmarks_, motion_, options_};
+}
+
 Points FaceCase::points_at(double t_s) const {
   return options_.drive.gain * (curve_->at(start_s_ + t_s) - curve_->at(start_s_));
 }
 
 fem::Material FaceCase::material(double viscosity_factor) const {
-  const auto tets = static_cast<std::size_t>(mesh_.volume.tets.rows());
+  const auto tets = static_cast<std::size_t>(mesh().volume.tets.rows());
   fem::Material m;
   m.young_pa.assign(tets, options_.tissue.uniform[tissue::young]);
   m.poisson.assign(tets, options_.tissue.uniform[tissue::poisson]);
@@ -76,7 +81,7 @@ void FaceCase::assemble(const fem::Assembler& assembler, const fem::Material& ma
 }
 
 fem::System FaceCase::system(fem::ElementKind kind, double viscosity_factor) const {
-  const fem::Assembler assembler(mesh_.volume.nodes, mesh_.volume.tets, kind);
+  const fem::Assembler assembler(mesh().volume.nodes, mesh().volume.tets, kind);
   fem::System system;
   assemble(assembler, material(viscosity_factor), system);
   return system;
@@ -103,29 +108,6 @@ fem::Drive FaceCase::sine(double period_s, double solver_tolerance) const {
   const motion::MotionCurve curve(recorded);
   return shapes([&](double t) -> Points { return curve.at(start_s_ + t); }, solver_tolerance,
                 steps_);
-}
-
-std::vector<double> FaceCase::frames_in_steps() const {
-  std::vector<double> at;
-  const int frames =
-      std::max(1, static_cast<int>(std::ceil(steps_ * dt_s_ * options_.time.frame_rate_hz - 1e-6)));
-  for (int f = 0; f < frames; ++f) at.push_back(f / options_.time.frame_rate_hz / dt_s_);
-  return at;
-}
-
-std::vector<PointsF> FaceCase::carry_to_skin(const Eigen::MatrixXd& nodes) const {
-  std::vector<PointsF> frames;
-  for (Eigen::Index f = 0; f < nodes.cols(); ++f) {
-    const Eigen::Map<const Points> d(nodes.col(f).data(), nodes.rows() / 3, 3);
-    PointsF& skin = frames.emplace_back(mesh_.skin.points.rows(), 3);
-    for (Eigen::Index v = 0; v < skin.rows(); ++v) {
-      const tissue::Anchor& anchor = mesh_.anchors[v];
-      Eigen::RowVector3d at = anchor.weight[0] * d.row(anchor.node[0]);
-      for (int k = 1; k < 3; ++k) at += anchor.weight[k] * d.row(anchor.node[k]);
-      skin.row(v) = at.cast<float>();
-    }
-  }
-  return frames;
 }
 
 double greatest_apart(const Eigen::Ref<const Eigen::VectorXd>& a,

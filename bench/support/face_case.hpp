@@ -8,6 +8,7 @@
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/reenact/boundary.hpp"
 #include "hyperex/reenact/input_shapes.hpp"
+#include "hyperex/reenact/simulator.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::bench {
@@ -28,7 +29,9 @@ class FaceCase {
   explicit FaceCase(Face face, const MeshSize& size = {});
 
   std::string name() const { return name_; }
-  const tissue::TissueMesh& mesh() const { return mesh_; }
+  /// The same as a program has it.
+  reenact::Simulator simulator() const;
+  const tissue::TissueMesh& mesh() const { return *mesh_; }
   const reenact::Boundary& boundary() const { return *boundary_; }
   const std::vector<int>& prescribed() const { return boundary_->prescribed(); }
   double dt_s() const { return dt_s_; }
@@ -48,11 +51,6 @@ class FaceCase {
   /// The shape of the motion at its peak, times sin(2 pi t / period), as a recording of it.
   fem::Drive sine(double period_s, double solver_tolerance) const;
 
-  /// When frames are wanted, in steps.
-  std::vector<double> frames_in_steps() const;
-  /// The skin that displacements of the nodes (a column a frame) carry: |skin| x 3 a frame.
-  std::vector<PointsF> carry_to_skin(const Eigen::MatrixXd& nodes) const;
-
  private:
   Points points_at(double t_s) const;
   fem::Drive shapes(const std::function<Points(double)>& points, double tolerance, int steps) const;
@@ -61,7 +59,7 @@ class FaceCase {
   io::Landmarks landmarks_;
   reenact::AlignedMotion motion_;
   reenact::SimulationOptions options_;
-  tissue::TissueMesh mesh_;
+  std::shared_ptr<const tissue::TissueMesh> mesh_;
   std::unique_ptr<reenact::Boundary> boundary_;
   std::unique_ptr<motion::MotionCurve> curve_;
   double dt_s_ = 0, start_s_ = 0, peak_s_ = 0, mesh_s_ = 0;

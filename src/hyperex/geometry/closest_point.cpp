@@ -98,7 +98,9 @@ struct SurfaceTree::Impl {
     found.triangle = triangle;
     const ClosestPoint& best = search.best;
     if (found.squared_distance > best.squared_distance) return false;
-    if (found.squared_distance == best.squared_distance && triangle > best.triangle) return false;
+    if (found.squared_distance == best.squared_distance && best.triangle >= 0 &&
+        triangle > best.triangle)
+      return false;
     search.best = found;
     // A little wider than the best distance, so that every triangle at that distance is visited.
     const double radius = std::sqrt(found.squared_distance) * (1 + 1e-5) + search.self->slack;
@@ -144,11 +146,12 @@ SurfaceTree::~SurfaceTree() = default;
 SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
 SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
 
-ClosestPoint SurfaceTree::query(const Vec3& p) const {
+ClosestPoint SurfaceTree::query(const Vec3& p, double within) const {
   Impl::Search search{impl_.get(), p, {}};
-  search.best.squared_distance = std::numeric_limits<double>::infinity();
+  search.best.squared_distance = within * within;
   const Eigen::Vector3f about = (p - impl_->centre).cast<float>();
-  RTCPointQuery query{about[0], about[1], about[2], 0, std::numeric_limits<float>::infinity()};
+  const auto reach = static_cast<float>(within * (1 + 1e-5) + impl_->slack);
+  RTCPointQuery query{about[0], about[1], about[2], 0, reach};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(impl_->scene, &query, &context, nullptr, &search);

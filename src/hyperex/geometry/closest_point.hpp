@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -35,8 +36,9 @@ class SurfaceTree {
   SurfaceTree(SurfaceTree&&) noexcept;
   SurfaceTree& operator=(SurfaceTree&&) noexcept;
 
-  /// `p` finite.
-  ClosestPoint query(const Vec3& p) const;
+  /// `p` finite. `within`: triangles farther than that (length unit of the mesh) are not looked at;
+  /// ClosestPoint::triangle is -1 where there is none as near.
+  ClosestPoint query(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const;
   /// One answer a row, computed in parallel; the same numbers as query().
   std::vector<ClosestPoint> query_all(const Points& points) const;
 

@@ -23,37 +23,52 @@ LipContact::LipContact(const tissue::TissueMesh& mesh, const io::Landmarks& land
   for (Eigen::Index v = 0; v < skin.rows(); ++v)
     if (near[v] && mesh.skin_upper_margin[v] < 0) lower_.push_back(static_cast<int>(v));
   std::vector<Eigen::Index> kept;
+  std::vector<int> place(static_cast<std::size_t>(skin.rows()), -1);  // among the upper ones
   for (Eigen::Index f = 0; f < mesh.skin.triangles.rows(); ++f) {
     bool keep = true;
     for (int k = 0; k < 3; ++k) {
       const int v = mesh.skin.triangles(f, k);
       keep &= near[v] && mesh.skin_upper_margin[v] > 0;
     }
-    if (keep) kept.push_back(f);
+    if (!keep) continue;
+    kept.push_back(f);
+    for (const int v : mesh.skin.triangles.row(f))
+      if (place[v] < 0) {
+        place[v] = static_cast<int>(upper_.size());
+        upper_.push_back(v);
+      }
   }
-  upper_.resize(kept.size(), 3);
-  for (std::size_t i = 0; i < kept.size(); ++i) upper_.row(i) = mesh.skin.triangles.row(kept[i]);
-  at_rest_ = raw_depth(skin);
+  upper_rest_.triangles.resize(kept.size(), 3);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      upper_rest_.triangles(i, k) = place[mesh.skin.triangles(kept[i], k)];
+  upper_rest_.points = skin(upper_, Eigen::all);
+  lower_rest_ = skin(lower_, Eigen::all);
+  at_rest_ = raw_depth(lower_rest_, upper_rest_);
 }
 
-double LipContact::depth(const Points& skin) const {
-  return std::max(0.0, raw_depth(skin) - at_rest_);
+double LipContact::depth(const PointsF& displacement) const {
+  TriMesh upper = upper_rest_;
+  upper.points += displacement(upper_, Eigen::all).cast<double>();
+  const Points lower = lower_rest_ + displacement(lower_, Eigen::all).cast<double>();
+  return std::max(0.0, raw_depth(lower, upper) - at_rest_);
 }
 
-double LipContact::raw_depth(const Points& skin) const {
-  if (lower_.empty() || upper_.rows() == 0) return 0;
-  const TriMesh upper{skin, upper_};
+double LipContact::raw_depth(const Points& lower, const TriMesh& upper) const {
+  if (lower.rows() == 0 || upper.triangles.rows() == 0) return 0;
   const SurfaceTree tree(upper);
   double deepest = 0;
-  for (int v : lower_) {
-    const Vec3 p = skin.row(v);
-    const ClosestPoint c = tree.query(p);
+  for (const Vec3& p : lower.rowwise()) {
+    const ClosestPoint c = tree.query(p, deepest_m);
+    if (c.triangle < 0) continue;
     // A foot on the rim of the lip says nothing about inside and outside.
     if (c.weights.minCoeff() < 1e-6) continue;
-    const Vec3 a = skin.row(upper_(c.triangle, 0)), b = skin.row(upper_(c.triangle, 1)),
-               d = skin.row(upper_(c.triangle, 2));
-    const double height = (p - c.point).dot((b - a).cross(d - a).normalized());
-    if (height < 0 && -height < deepest_m) deepest = std::max(deepest, -height);
+    const auto corner = [&](int k) -> Vec3 {
+      return upper.points.row(upper.triangles(c.triangle, k));
+    };
+    const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+    const double height = (p - c.point).dot(normal);
+    if (height < 0) deepest = std::max(deepest, -height);
   }
   return deepest;
 }

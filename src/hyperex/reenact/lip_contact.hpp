@@ -15,12 +15,14 @@ class LipContact {
   LipContact(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
   /// Greatest depth (m) of a vertex of the lower lip behind the surface of the upper lip, less the
   /// same at rest (the resolution of the scan); 0 where they are apart.
-  double depth(const Points& skin) const;
+  /// `displacement`: of the skin, |skin| x 3, m. May be called from several threads.
+  double depth(const PointsF& displacement) const;
 
  private:
-  double raw_depth(const Points& skin) const;
-  std::vector<int> lower_;  // skin vertices
-  Triangles upper_;         // triangles of the skin
+  double raw_depth(const Points& lower, const TriMesh& upper) const;
+  std::vector<int> lower_, upper_;  // vertices of the skin
+  Points lower_rest_;
+  TriMesh upper_rest_;
   double at_rest_ = 0;
 };
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/reenact/readout.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hyperex/tissue/face_frame.hpp"
 
@@ -31,9 +34,15 @@ Readout::Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks)
       places_(skin_places(mesh, names_, rest_)),
       contact_(mesh, landmarks) {}
 
+PointsF in_single_precision(const Points& points) {
+  return points.unaryExpr([](double x) {
+    return std::abs(x) < std::numeric_limits<float>::min() ? 0.0F : static_cast<float>(x);
+  });
+}
+
 PointsF Readout::skin(const MeasuredRegion& region, const Points& nodes,
                       const Points& points) const {
-  PointsF out(mesh_.skin.points.rows(), 3);
+  Points out(mesh_.skin.points.rows(), 3);
   for (Eigen::Index v = 0; v < out.rows(); ++v) {
     const double share = region.share[v];
     Vec3 d = Vec3::Zero();
@@ -42,9 +51,9 @@ PointsF Readout::skin(const MeasuredRegion& region, const Points& nodes,
       for (int k = 0; k < 3; ++k) d += anchor.weight[k] * nodes.row(anchor.node[k]).transpose();
     }
     if (share > 0) d = (1 - share) * d + share * region.skin[v].displacement(points);
-    out.row(v) = d.transpose().cast<float>();
+    out.row(v) = d.transpose();
   }
-  return out;
+  return in_single_precision(out);
 }
 
 motion::Motion Readout::landmark_tracks(const std::vector<double>& time_s,
@@ -66,25 +75,40 @@ Readout::Lips Readout::lips(const motion::Motion& tracks,
                             const std::vector<PointsF>& frames) const {
   const int upper = tracks.index_of(tissue::ibug(62)), lower = tracks.index_of(tissue::ibug(66));
   const auto gap = [&](const Points& at) { return 1e3 * (at.row(upper) - at.row(lower)).norm(); };
+  std::vector<double> depth_mm(frames.size());
+  tbb::parallel_for(std::size_t(0), frames.size(),
+                    [&](std::size_t f) { depth_mm[f] = 1e3 * contact_.depth(frames[f]); });
   Lips most;
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    const Points skin = mesh_.skin.points + frames[f].cast<double>();
-    most.overlap_mm = std::max(most.overlap_mm, 1e3 * contact_.depth(skin));
+    most.overlap_mm = std::max(most.overlap_mm, depth_mm[f]);
     most.gap_mm = std::max(most.gap_mm, gap(tracks.positions[f]) - gap(tracks.positions.front()));
   }
   return most;
 }
 
-std::vector<double> driven_off_m(const tissue::TissueMesh& mesh, const Performance& performance,
-                                 const std::vector<int>& rows, const PointCurve& wanted) {
-  const auto places = skin_places(mesh, performance.driven_names, performance.driven_points_rest);
+DrivenPoints::DrivenPoints(const tissue::TissueMesh& mesh, const AlignedMotion& motion,
+                           const std::vector<std::string>& wanted) {
+  for (const std::string& name : wanted)
+    if (const int row = motion.motion.index_of(name); row >= 0) {
+      rows.push_back(row);
+      names.push_back(name);
+    }
+  rest = motion.rest(rows, Eigen::all);
+  places = skin_places(mesh, names, rest);
+}
+
+std::vector<double> DrivenPoints::off_m(const Performance& performance,
+                                        const PointCurve& wanted) const {
   std::vector<double> off_m(rows.size(), 0);
   for (std::size_t f = 0; f < performance.frame_time_s.size(); ++f) {
     const Points there = wanted.at(performance.frame_time_s[f]);
-    const Points skin = performance.skin_displacement_m[f].cast<double>();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      off_m[i] = std::max(off_m[i],
-                          (places[i].displacement(skin) - there.row(rows[i]).transpose()).norm());
+    const PointsF& skin = performance.skin_displacement_m[f];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      Vec3 moved = Vec3::Zero();
+      for (int k = 0; k < 3; ++k)
+        moved += places[i].weight[k] * skin.row(places[i].point[k]).transpose().cast<double>();
+      off_m[i] = std::max(off_m[i], (moved - there.row(rows[i]).transpose()).norm());
+    }
   }
   return off_m;
 }

@@ -40,10 +40,24 @@ class Readout {
   LipContact contact_;
 };
 
-/// Per driven point, over the frames: the greatest distance (m) from where it is driven.
-/// `rows`, `names`: of the driven points in the motion.
-std::vector<double> driven_off_m(const tissue::TissueMesh& mesh, const Performance& performance,
-                                 const std::vector<int>& rows, const PointCurve& wanted);
+/// As floats. What a float could hold with fewer digits alone becomes 0: some libraries' threads
+/// flush such numbers and others do not, and which thread works must not show.
+PointsF in_single_precision(const Points& points);
+
+/// The points of a motion that drive, and where they lie on the skin.
+struct DrivenPoints {
+  /// `wanted`: names; those that the motion does not have are left out.
+  DrivenPoints(const tissue::TissueMesh& mesh, const AlignedMotion& motion,
+               const std::vector<std::string>& wanted);
+
+  std::vector<int> rows;  ///< in the motion
+  std::vector<std::string> names;
+  Points rest;                ///< positions at rest (n x 3, m)
+  std::vector<Match> places;  ///< on the skin
+
+  /// Of each, over the frames: the greatest distance (m) from where it is driven.
+  std::vector<double> off_m(const Performance& performance, const PointCurve& wanted) const;
+};
 
 /// The frame nearest to `peak_time_s`; below 0: that in which the points of `rows` moved most in
 /// the mean.

@@ -2,6 +2,7 @@
 #include "hyperex/reenact/simulator.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,7 @@ struct Simulator::Impl {
   // copies may share is const.
   std::shared_ptr<const Readout> readout;  // of the face alone
   std::shared_ptr<const MeasuredRegion> region;
+  std::shared_ptr<const DrivenPoints> driven_points;
   std::shared_ptr<const DrivenSkin> driven;
   std::shared_ptr<const Boundary> boundary;
   std::shared_ptr<const fem::Assembler> assembler;
@@ -101,6 +103,7 @@ struct Simulator::Impl {
   }
   void drop_driven() {
     driven.reset();
+    driven_points.reset();
     drop_boundary();
   }
   void drop_region() {
@@ -297,11 +300,12 @@ struct Simulator::Impl {
     report.simulate_s =
         watch.lap() - report.basis_s - (report.assemble_s + report.analyse_s + report.factor_s);
     result.performance.node_displacement_m.resize(result.performance.frame_time_s.size());
-    for (std::size_t i = 0; i < shots.size(); ++i)
+    tbb::parallel_for(std::size_t(0), shots.size(), [&](std::size_t i) {
       store(shots[i],
             Eigen::Map<const Points>(solution.displacement.col(i).data(), mesh->volume.nodes.rows(),
                                      3),
             points, result);
+    });
     report.greatest_opening_deg = input->greatest_opening_deg;
     report.input_shapes = static_cast<int>(input->drive.shapes());
     report.free_dofs = solution.free_dofs;
@@ -329,7 +333,8 @@ struct Simulator::Impl {
       result.still_displacement_m[-1 - shot.frame] = skin;
     } else {
       p.skin_displacement_m[shot.frame] = skin;
-      if (!p.node_displacement_m.empty()) p.node_displacement_m[shot.frame] = nodes.cast<float>();
+      if (!p.node_displacement_m.empty())
+        p.node_displacement_m[shot.frame] = in_single_precision(nodes);
     }
   }
 
@@ -344,11 +349,13 @@ struct Simulator::Impl {
     p.held_points_rest.resize(held.size(), 3);
     for (std::size_t i = 0; i < held.size(); ++i)
       p.held_points_rest.row(i) = mesh->volume.nodes.row(held[i]);
-    for (const PointsF& d : p.node_displacement_m) {
-      const auto inverted = fem::inverted_tets(p.nodes, p.tets, d.cast<double>());
-      report.inverted_tets = std::max(
-          report.inverted_tets, static_cast<int>(std::count(inverted.begin(), inverted.end(), 1)));
-    }
+    std::vector<int> inverted(p.node_displacement_m.size());
+    tbb::parallel_for(std::size_t(0), inverted.size(), [&](std::size_t f) {
+      const auto marks =
+          fem::inverted_tets(p.nodes, p.tets, p.node_displacement_m[f].cast<double>());
+      inverted[f] = static_cast<int>(std::count(marks.begin(), marks.end(), 1));
+    });
+    report.inverted_tets = *std::max_element(inverted.begin(), inverted.end());
   }
 
   /// Everything but the frames themselves.
@@ -359,20 +366,17 @@ struct Simulator::Impl {
     p.source_triangle = mesh->source_triangle;
     p.lip_cut_rest = mesh->lip_cut;
     p.landmarks = readout->landmark_tracks(p.frame_time_s, p.skin_displacement_m);
-    std::vector<int> rows;
-    for (const std::string& name : options.drive.names_in(motion->motion))
-      if (const int row = motion->motion.index_of(name); row >= 0) {
-        rows.push_back(row);
-        p.driven_names.push_back(name);
-      }
-    p.driven_points_rest.resize(rows.size(), 3);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      p.driven_points_rest.row(i) = motion->rest.row(rows[i]);
-    p.peak_frame = peak_frame(p.frame_time_s, options.time.peak_time_s, rows, points);
+    if (!driven_points)
+      driven_points = std::make_shared<const DrivenPoints>(*mesh, *motion,
+                                                           options.drive.names_in(motion->motion));
+    p.driven_names = driven_points->names;
+    p.driven_points_rest = driven_points->rest;
+    p.peak_frame =
+        peak_frame(p.frame_time_s, options.time.peak_time_s, driven_points->rows, points);
     const Readout::Lips lips = readout->lips(p.landmarks, p.skin_displacement_m);
     report.lip_overlap_mm = lips.overlap_mm;
     report.lip_gap_mm = lips.gap_mm;
-    note_driven_off(driven_off_m(*mesh, p, rows, points), p.driven_names);
+    note_driven_off(driven_points->off_m(p, points), p.driven_names);
   }
 
   void note_driven_off(const std::vector<double>& off_m, const std::vector<std::string>& points) {
@@ -432,6 +436,7 @@ Simulator::Simulator(const Simulator& other) : impl_(std::make_unique<Impl>()) {
   impl_->readout = from.readout;
   impl_->region = from.region;
   impl_->driven = from.driven;
+  impl_->driven_points = from.driven_points;
   impl_->boundary = from.boundary;
   impl_->assembler = from.assembler;
   impl_->order = from.order;

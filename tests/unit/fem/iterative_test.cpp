@@ -221,7 +221,7 @@ TEST(PickLinearSolver, GoesByMemoryAndByWhatCholmodCanCount) {
   EXPECT_EQ(pick_linear_solver(cholesky, large, 1 * gib), cholesky);
   EXPECT_EQ(pick_linear_solver(iterative, small, 64 * gib), iterative);
   // Exactly at the share.
-  const double wanted = 8 * kStoredShare * 4e6 + kWorkspaceBytes * 1e5;
+  const double wanted = 8 * kStoredShare * (1 + kStackShare) * 4e6 + kWorkspaceBytes * 1e5;
   EXPECT_EQ(pick_linear_solver(automatic, small, 1.001 * wanted / kFactorShare), cholesky);
   EXPECT_EQ(pick_linear_solver(automatic, small, 0.999 * wanted / kFactorShare), iterative);
 }

@@ -85,6 +85,18 @@ INSTANTIATE_TEST_SUITE_P(ClosestPoint, OnShapes,
                          testing::Values(Shape::random, Shape::obtuse, Shape::sliver,
                                          Shape::degenerate));
 
+TEST(ClosestPoint, WithinADistanceOnly) {
+  TriMesh mesh;
+  mesh.points.resize(3, 3);
+  mesh.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  mesh.triangles.resize(1, 3);
+  mesh.triangles << 0, 1, 2;
+  const SurfaceTree tree(mesh);
+  EXPECT_EQ(tree.query({0.2, 0.2, 0.5}, 0.49).triangle, -1);
+  EXPECT_EQ(tree.query({0.2, 0.2, 0.5}, 0.5).triangle, 0);
+  EXPECT_EQ(tree.query({0.2, 0.2, 0.5}, 0.51).squared_distance, 0.25);
+}
+
 TEST(ClosestPoint, BeyondTheObtuseCornerTheEdgeIsNearest) {
   // Both weights of b and c are negative at p, yet the nearest point lies inside edge ab: the case
   // in which signs of weights mislead.

@@ -28,6 +28,8 @@ struct FlatLips {
     for (int k = 61; k <= 67; ++k)
       landmarks[tissue::ibug(k)] = {0.015 + 0.004 * (k < 64 ? k - 62 : 66 - k), 0, 0};
   }
+  PointsF moved(const Points& skin) const { return (skin - mesh.skin.points).cast<float>(); }
+  PointsF moved_by(const Vec3& by) const { return moved(lower_moved(by)); }
   Points lower_moved(const Vec3& by) const {
     Points skin = mesh.skin.points;
     skin.bottomRows(half).rowwise() += by.transpose();
@@ -38,18 +40,18 @@ struct FlatLips {
 TEST(LipContact, IsNoneAtRestAndApart) {
   const FlatLips lips;
   const LipContact contact(lips.mesh, lips.landmarks);
-  EXPECT_EQ(contact.depth(lips.mesh.skin.points), 0);
-  EXPECT_EQ(contact.depth(lips.lower_moved({0, -0.005, 0})), 0) << "open";
-  EXPECT_EQ(contact.depth(lips.lower_moved({0, -0.005, -0.002})), 0) << "behind, but below the rim";
-  EXPECT_EQ(contact.depth(lips.lower_moved({0, 0.003, 0.001})), 0) << "in front of the upper lip";
+  EXPECT_EQ(contact.depth(lips.moved(lips.mesh.skin.points)), 0);
+  EXPECT_EQ(contact.depth(lips.moved_by({0, -0.005, 0})), 0) << "open";
+  EXPECT_EQ(contact.depth(lips.moved_by({0, -0.005, -0.002})), 0) << "behind, but below the rim";
+  EXPECT_EQ(contact.depth(lips.moved_by({0, 0.003, 0.001})), 0) << "in front of the upper lip";
 }
 
 TEST(LipContact, MeasuresDepthBehindTheUpperLip) {
   const FlatLips lips;
   const LipContact contact(lips.mesh, lips.landmarks);
   for (const double depth : {0.0005, 0.001, 0.004})
-    EXPECT_NEAR(contact.depth(lips.lower_moved({0.0001, 0.003, -depth})), depth, 1e-9);
-  EXPECT_EQ(contact.depth(lips.lower_moved({0.0001, 0.003, -0.008})), 0)
+    EXPECT_NEAR(contact.depth(lips.moved_by({0.0001, 0.003, -depth})), depth, 1e-9);
+  EXPECT_EQ(contact.depth(lips.moved_by({0.0001, 0.003, -0.008})), 0)
       << "that far behind is another part of the face";
 }
 
@@ -57,9 +59,9 @@ TEST(LipContact, CountsFromRest) {
   FlatLips lips;  // scanned with the lower lip behind the upper one already
   lips.mesh.skin.points = lips.lower_moved({0.0001, 0.003, -0.0015});
   const LipContact contact(lips.mesh, lips.landmarks);
-  EXPECT_EQ(contact.depth(lips.mesh.skin.points), 0);
-  EXPECT_NEAR(contact.depth(lips.lower_moved({0, 0, -0.001})), 0.001, 1e-9);
-  EXPECT_EQ(contact.depth(lips.lower_moved({0, 0, 0.001})), 0)
+  EXPECT_EQ(contact.depth(lips.moved(lips.mesh.skin.points)), 0);
+  EXPECT_NEAR(contact.depth(lips.moved_by({0, 0, -0.001})), 0.001, 1e-9);
+  EXPECT_EQ(contact.depth(lips.moved_by({0, 0, 0.001})), 0)
       << "less than at rest is not less than none";
 }
 
@@ -67,7 +69,7 @@ TEST(LipContact, NothingToMeasureWithoutLips) {
   FlatLips lips;
   for (auto& [name, p] : lips.landmarks) p += Vec3(1, 1, 1);
   const LipContact contact(lips.mesh, lips.landmarks);
-  EXPECT_EQ(contact.depth(lips.lower_moved({0, 0.003, -0.001})), 0);
+  EXPECT_EQ(contact.depth(lips.moved_by({0, 0.003, -0.001})), 0);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "hyperex/core/assert.hpp"
+
 namespace hyperex::fem {
 namespace {
 /// Directions taken even where they move a hundredth of what is asked (less may be rounding): where
@@ -13,6 +15,12 @@ constexpr Eigen::Index kAtLeast = 6;
 }  // namespace
 
 Basis::Grown Basis::grow(Eigen::MatrixXd w, double least) {
+  const Eigen::Index shapes = w.cols();
+  return grow(std::move(w), Eigen::MatrixXd::Identity(shapes, shapes), least);
+}
+
+Basis::Grown Basis::grow(Eigen::MatrixXd w, const Eigen::MatrixXd& mix, double least) {
+  HX_ASSERT(mix.rows() == w.cols());
   if (w.cols() == 0) return {};  // of which there are no eigenvalues
   // Twice is enough: Gram-Schmidt loses digits where a column nearly lies in the basis.
   for (int pass = 0; pass < 2 && size_ > 0; ++pass)
@@ -25,7 +33,8 @@ Basis::Grown Basis::grow(Eigen::MatrixXd w, double least) {
   const double strongest = modes.eigenvalues()[n - 1];
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(w.rows(), n);
   add_product(w, modes.eigenvectors(), 1, directions);
-  // Column j = sum_i u_i sqrt(lambda_i) Q_ji with u_i = w Q_i / sqrt(lambda_i).
+  // Shape j = sum_i u_i sqrt(lambda_i) S_ij with u_i = w Q_i / sqrt(lambda_i) and S = Q^T mix.
+  const Eigen::MatrixXd shares = modes.eigenvectors().transpose() * mix;
   Eigen::MatrixXd pick(n, 0);
   Grown grown;
   for (Eigen::Index i = n - 1; i >= 0; --i) {
@@ -33,7 +42,7 @@ Basis::Grown Basis::grow(Eigen::MatrixXd w, double least) {
     // Below, the squared entries are rounding, and so is the direction.
     if (!(lambda > 1e-13 * strongest) || !(lambda > 0)) break;
     const double moves =
-        directions.col(i).cwiseAbs().maxCoeff() * modes.eigenvectors().col(i).cwiseAbs().maxCoeff();
+        directions.col(i).cwiseAbs().maxCoeff() * shares.row(i).cwiseAbs().maxCoeff();
     if (moves < (pick.cols() < kAtLeast ? 0.01 * least : least)) {
       grown.skipped += moves;
       continue;

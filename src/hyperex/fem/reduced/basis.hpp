@@ -10,14 +10,16 @@ class Basis {
  public:
   explicit Basis(const System& system) : system_(system) {}
 
-  /// Takes in the directions of the columns of `w` (all unknowns) that the basis lacks, the
-  /// strongest first, but none whose part in any column moves any unknown by less than `least`
-  /// (m).
+  /// Takes in the directions of shapes (all unknowns) that the basis lacks, the strongest first,
+  /// but none whose part in any shape moves any unknown by less than `least` (m). The shapes are
+  /// the columns of `w` or, where there are more of them than directions, those of w `mix`, the
+  /// rows of `mix` orthonormal.
   struct Grown {
     int taken = 0;       ///< how many directions
     double skipped = 0;  ///< by how much those left out move any unknown together, at most (m)
   };
   Grown grow(Eigen::MatrixXd w, double least);
+  Grown grow(Eigen::MatrixXd w, const Eigen::MatrixXd& mix, double least);
 
   int size() const { return size_; }
   auto vectors() const { return vectors_.leftCols(size_); }

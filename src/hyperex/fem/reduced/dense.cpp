@@ -8,11 +8,29 @@
 #include <array>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/core/vector_clones.hpp"
 
 namespace hyperex::fem {
 namespace {
 constexpr int kParts = 4;
+constexpr int kWidth = 8;
+
+/// Rows `from` to `to` of out = S in; `in` and `out` by rows, `width` a multiple of kWidth.
+HX_CLONES void multiply_rows(const int* start, const int* index, const double* value,
+                             Eigen::Index from, Eigen::Index to, Eigen::Index width,
+                             const double* __restrict in, double* __restrict out) {
+  for (Eigen::Index r = from; r < to; ++r)
+    for (Eigen::Index c = 0; c < width; c += kWidth) {
+      double sum[kWidth] = {};
+      for (int k = start[r]; k < start[r + 1]; ++k) {
+        const double* __restrict x = in + index[k] * width + c;
+        const double v = value[k];
+        for (int j = 0; j < kWidth; ++j) sum[j] += v * x[j];
+      }
+      for (int j = 0; j < kWidth; ++j) out[r * width + c + j] = sum[j];
+    }
 }
+}  // namespace
 
 Eigen::MatrixXd inner_products(const Eigen::Ref<const Eigen::MatrixXd>& a,
                                const Eigen::Ref<const Eigen::MatrixXd>& b) {
@@ -47,18 +65,17 @@ void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Matrix
 Eigen::MatrixXd symmetric_product(const SparseMatrix& s,
                                   const Eigen::Ref<const Eigen::MatrixXd>& b) {
   HX_ASSERT(s.cols() == b.rows());
-  // By rows, so that one entry of S meets neighbouring numbers.
+  // By rows of a few columns at a time, so that one entry of S meets neighbouring numbers and the
+  // sums stay in registers.
+  const Eigen::Index width = (b.cols() + kWidth - 1) / kWidth * kWidth;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Rows in = b;
-  Rows out(b.rows(), b.cols());
+  Rows in = Rows::Zero(b.rows(), width), out(b.rows(), width);
+  in.leftCols(b.cols()) = b;
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, s.cols(), 512), [&](const auto& range) {
-    for (Eigen::Index r = range.begin(); r < range.end(); ++r) {
-      out.row(r).setZero();
-      for (int k = s.outerIndexPtr()[r]; k < s.outerIndexPtr()[r + 1]; ++k)
-        out.row(r) += s.valuePtr()[k] * in.row(s.innerIndexPtr()[k]);
-    }
+    multiply_rows(s.outerIndexPtr(), s.innerIndexPtr(), s.valuePtr(), range.begin(), range.end(),
+                  width, in.data(), out.data());
   });
-  return out;
+  return out.leftCols(b.cols());
 }
 
 }  // namespace hyperex::fem

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/reduced/reduced_model.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +15,8 @@ namespace {
 /// Instants at which the motion is looked at: closer at the start, where a jump of the acceleration
 /// would ring.
 constexpr int kInstants = 32;
+/// Directions of a residual weaker than this share of the strongest are not solved for.
+constexpr double kLeastDirection = 1e-5;
 
 std::vector<int> instants(int steps) {
   std::vector<int> at;
@@ -76,12 +79,15 @@ class Growth {
         drive_(drive),
         options_(options),
         forces_(system, factor.partition(), drive),
+        flexibility_(system.stiffness.diagonal().cwiseInverse()),
         basis_(system),
-        at_(instants(drive.steps())) {}
+        at_(instants(drive.steps())) {
+    flexibility_(factor.prescribed()).setZero();
+  }
 
   void begin() {
-    Eigen::MatrixXd w =
-        solved(forces_.static_ * drive_.s.rowwise().lpNorm<Eigen::Infinity>().asDiagonal());
+    const Eigen::VectorXd greatest = drive_.s.rowwise().lpNorm<Eigen::Infinity>();
+    Eigen::MatrixXd w = solved(forces_.static_ * greatest.asDiagonal());
     basis_.grow(std::move(w), 0);
     integrate();
   }
@@ -91,7 +97,8 @@ class Growth {
     const ReducedMotion before = motion_;
     const int size = basis_.size();
     const double least = 0.02 * options_.tolerance * greatest_;
-    const Basis::Grown grown = basis_.grow(solved(residual()), least);
+    const Compressed left = compressed(residual());
+    const Basis::Grown grown = basis_.grow(solved(left.columns), left.mix, least);
     if (grown.taken == 0) return grown.skipped;
     integrate();
     Eigen::MatrixXd change = motion_.d;
@@ -168,6 +175,25 @@ class Growth {
     return last * std::max(1.0, q / (1 - q));
   }
 
+  /// Columns of few directions: each is `columns` times a column of `mix`.
+  struct Compressed {
+    Eigen::MatrixXd columns, mix;
+  };
+  /// Instants of one motion leave much the same behind. Directions are told apart by their energy
+  /// were each unknown a spring of its own stiffness; what is left out is a part of the residual in
+  /// the next growth.
+  Compressed compressed(const Eigen::MatrixXd& r) const {
+    const Eigen::MatrixXd scaled = flexibility_.asDiagonal() * r;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inner_products(r, scaled));
+    const double least = kLeastDirection * kLeastDirection * modes.eigenvalues().maxCoeff();
+    Eigen::Index from = 0;
+    while (from + 1 < r.cols() && !(modes.eigenvalues()[from] > least)) ++from;
+    const Eigen::MatrixXd kept = modes.eigenvectors().rightCols(r.cols() - from);
+    Compressed out{Eigen::MatrixXd::Zero(r.rows(), kept.cols()), kept.transpose()};
+    add_product(r, kept, 1, out.columns);
+    return out;
+  }
+
   /// What the motion leaves in the equation of motion at the instants.
   Eigen::MatrixXd residual() const {
     Eigen::MatrixXd r =
@@ -185,6 +211,7 @@ class Growth {
   const Drive& drive_;
   const ReducedOptions& options_;
   DriveForces forces_;
+  Eigen::VectorXd flexibility_;  // of each unknown by itself; 0: prescribed
   Basis basis_;
   std::vector<int> at_;
   ReducedMotion motion_;

@@ -3,6 +3,7 @@
 
 #include <cholmod.h>
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "hyperex/core/one_thread.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
 #include "hyperex/fem/solve/metis_turn.hpp"
+#include "hyperex/fem/solve/multifrontal.hpp"
+#include "hyperex/fem/solve/triangular.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -26,10 +29,23 @@ struct Cholesky::Impl {
   std::string purpose;
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;  // workspaces of several right-hand sides
+  struct Block {  // CHOLMOD's workspaces for several right-hand sides
+    cholmod_common common{};
+    cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
+    Block() { cholmod_start(&common); }
+    ~Block() {
+      cholmod_free_dense(&x, &common);
+      cholmod_free_dense(&y, &common);
+      cholmod_free_dense(&e, &common);
+      cholmod_finish(&common);
+    }
+    Block(const Block&) = delete;
+    Block& operator=(const Block&) = delete;
+  } block[2];
   std::vector<double> permuted;
+  Multifrontal multifrontal;
   TriangularSolver triangular;
-  bool prepared = false;  // triangular
+  bool prepared = false;  // both
   double entries_needed = 0, flops = 0;
 
   Impl() {
@@ -44,9 +60,6 @@ struct Cholesky::Impl {
     common.postorder = 1;
   }
   ~Impl() {
-    cholmod_free_dense(&x, &common);
-    cholmod_free_dense(&y, &common);
-    cholmod_free_dense(&e, &common);
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
@@ -58,6 +71,31 @@ struct Cholesky::Impl {
                                      common.status == CHOLMOD_OUT_OF_MEMORY ? "out of memory"
                                      : common.status == CHOLMOD_TOO_LARGE   ? "too large"
                                                                             : "CHOLMOD"));
+  }
+
+  /// Makes room for the numbers of the analysed factor.
+  void prepare(const SparseMatrix& lower) {
+    if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common)) fail();
+    factor->minor = factor->n;
+    multifrontal = Multifrontal(supernodes(), static_cast<const int*>(factor->Perm), lower);
+    triangular = TriangularSolver(supernodes());
+    prepared = true;
+  }
+
+  /// Columns of B, solved for by CHOLMOD.
+  void solve(Block& part, double* columns, std::size_t count) const {
+    if (count == 0) return;
+    cholmod_dense b{};
+    b.nrow = b.d = factor->n;
+    b.ncol = count;
+    b.nzmax = b.nrow * b.ncol;
+    b.x = columns;
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    if (!cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &part.x, nullptr, &part.y, &part.e,
+                        &part.common))
+      throw NumericalError(purpose + ": the solve failed (CHOLMOD)");
+    std::copy_n(static_cast<const double*>(part.x->x), b.nzmax, columns);
   }
 
   Supernodes supernodes() const { return supernodes_of(*factor); }
@@ -107,13 +145,10 @@ int Cholesky::factorize(const SparseMatrix& lower) {
   Impl& m = *impl_;
   HX_ASSERT(lower.cols() == size());
   if (size() == 0) return -1;
-  cholmod_sparse view = cholmod_view(lower);
-  cholmod_factorize(&view, m.factor, &m.common);
-  if (m.common.status < CHOLMOD_OK) m.fail();
-  if (m.common.status == CHOLMOD_NOT_POSDEF)
-    return static_cast<const int*>(m.factor->Perm)[m.factor->minor];
-  if (!m.prepared) m.triangular = TriangularSolver(m.supernodes());
-  m.prepared = true;
+  if (!m.prepared) m.prepare(lower);
+  const int lost =
+      m.multifrontal.factorize(m.supernodes(), lower, static_cast<double*>(m.factor->x));
+  if (lost >= 0) return static_cast<const int*>(m.factor->Perm)[lost];
   return m.lost_pivot(lower);
 }
 
@@ -131,16 +166,13 @@ void Cholesky::solve(Eigen::MatrixXd& x) {
   Impl& m = *impl_;
   HX_ASSERT(x.rows() == size());
   if (size() == 0 || x.cols() == 0) return;
-  cholmod_dense b{};
-  b.nrow = b.d = static_cast<std::size_t>(x.rows());
-  b.ncol = static_cast<std::size_t>(x.cols());
-  b.nzmax = b.nrow * b.ncol;
-  b.x = x.data();
-  b.xtype = CHOLMOD_REAL;
-  b.dtype = CHOLMOD_DOUBLE;
-  if (!cholmod_solve2(CHOLMOD_A, m.factor, &b, nullptr, &m.x, nullptr, &m.y, &m.e, &m.common))
-    throw NumericalError(m.purpose + ": the solve failed (CHOLMOD)");
-  std::copy_n(static_cast<const double*>(m.x->x), x.size(), x.data());
+  // In two parts, whatever the number of threads, so that the numbers never change.
+  const auto half = static_cast<std::size_t>(x.cols() / 2);
+  tbb::parallel_invoke([&] { m.solve(m.block[0], x.data(), half); },
+                       [&] {
+                         m.solve(m.block[1], x.data() + half * x.rows(),
+                                 static_cast<std::size_t>(x.cols()) - half);
+                       });
 }
 
 int Cholesky::size() const {

@@ -8,9 +8,11 @@
 
 namespace hyperex::fem {
 
-/// L L^T of a sparse symmetric positive definite matrix: ordered by METIS and factored in
-/// supernodes by CHOLMOD; solved for one right-hand side by a kernel of our own that reads the
-/// factor twice with both cores, where CHOLMOD's costs twice the time. One caller at a time.
+/// L L^T of a sparse symmetric positive definite matrix: ordered by METIS and analysed in
+/// supernodes by CHOLMOD. The numbers are found by a multifrontal kernel (multifrontal.hpp), which
+/// takes a third of the time of CHOLMOD's on two cores; one right-hand side is solved by a kernel
+/// that reads the factor twice with both cores (triangular.hpp), several by CHOLMOD, half of them
+/// on each core. One caller at a time.
 class Cholesky {
  public:
   /// Orders and analyses the pattern of `lower` (lower triangle, columns sorted, diagonal stored).

@@ -3,7 +3,7 @@
 #include <cholmod.h>
 
 #include "hyperex/fem/form/system.hpp"
-#include "hyperex/fem/solve/triangular.hpp"
+#include "hyperex/fem/solve/supernodes.hpp"
 
 namespace hyperex::fem {
 

@@ -26,7 +26,8 @@ LinearSolver pick_linear_solver(LinearSolver wanted, const FactorForecast& forec
   const double stored = kStoredShare * forecast.entries;
   if (stored > kMostFactorEntries) return LinearSolver::iterative;
   if (wanted != LinearSolver::automatic) return wanted;
-  const double bytes = stored * sizeof(double) + kWorkspaceBytes * forecast.matrix_entries;
+  const double bytes =
+      stored * sizeof(double) * (1 + kStackShare) + kWorkspaceBytes * forecast.matrix_entries;
   return bytes <= kFactorShare * available_bytes ? LinearSolver::cholesky : LinearSolver::iterative;
 }
 

@@ -7,23 +7,17 @@
 #include <cstddef>
 #include <numeric>
 
+#include "hyperex/core/vector_clones.hpp"
+#include "hyperex/fem/solve/supernodes.hpp"
+
 namespace hyperex::fem {
 namespace {
-
-// A factor is read once down and once up at the speed of the memory: the kernels are compiled for
-// each kind of vector unit and picked when the program starts.
-#if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
-#define HX_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define HX_CLONES
-#endif
 
 /// Rows taken at a time. Panels follow each other in memory, but their columns are short streams
 /// that the processor's own prefetching leaves as soon as it has found them: asking for the four
 /// columns that come next makes a solve 1.05 to 1.2 times as quick (64 or 128 rows, or eight
 /// columns ahead, do less).
 constexpr int kRows = 32;
-// Calls into other functions are not inlined into clones, std::min among them.
 [[gnu::always_inline]] inline void prefetch_rows(const double* columns, std::ptrdiff_t height) {
   for (int row = 0; row < kRows; row += 8) {
     __builtin_prefetch(columns + row);
@@ -32,6 +26,8 @@ constexpr int kRows = 32;
     __builtin_prefetch(columns + row + 3 * height);
   }
 }
+
+// A factor is read once down and once up at the speed of the memory.
 
 /// Columns of a lower triangle and what lies under it: x := L11^-1 x, sum := L21 x. `l`: height x
 /// columns, column-major; `sum` has height - columns numbers.
@@ -115,73 +111,13 @@ HX_CLONES void solve_up(const double* __restrict l, int height, int columns, dou
   }
 }
 
-struct Panel {
-  int columns, below;
-  const int* rows;      // below the diagonal block
-  const double* value;  // (columns + below) x columns
-};
-
-Panel panel(const Supernodes& f, int s) {
-  const int columns = f.first[s + 1] - f.first[s], height = f.row_start[s + 1] - f.row_start[s];
-  return {columns, height - columns, f.row + f.row_start[s] + columns, f.value + f.value_start[s]};
-}
-
-/// Parent of each supernode: the one that holds its first row below the diagonal block; -1: root.
-std::vector<int> parents(const Supernodes& f) {
-  std::vector<int> holder(f.columns), parent(f.count, -1);
-  for (int s = 0; s < f.count; ++s)
-    std::fill(holder.begin() + f.first[s], holder.begin() + f.first[s + 1], s);
-  for (int s = 0; s < f.count; ++s) {
-    const Panel p = panel(f, s);
-    if (p.below > 0) parent[s] = holder[p.rows[0]];
-  }
-  return parent;
-}
-
-/// Which half each supernode belongs to; -1: the top. Subtrees are opened from the heaviest down
-/// until two heaps of them can be made even.
-std::vector<int> halves(const Supernodes& f, const std::vector<int>& parent) {
-  std::vector<double> weight(f.count);  // of the whole subtree
-  std::vector<std::vector<int>> children(f.count);
-  std::vector<int> subtrees;
-  for (int s = 0; s < f.count; ++s) {
-    const Panel p = panel(f, s);
-    weight[s] += (p.below + 0.5 * p.columns) * p.columns;
-    if (parent[s] < 0) {
-      subtrees.push_back(s);
-    } else {
-      weight[parent[s]] += weight[s];
-      children[parent[s]].push_back(s);
-    }
-  }
-  std::vector<int> half_of_root(f.count, -1);
-  const auto share_out = [&] {
-    double heap[2] = {0, 0};
-    std::sort(subtrees.begin(), subtrees.end(),
-              [&](int a, int b) { return weight[a] != weight[b] ? weight[a] > weight[b] : a < b; });
-    for (const int s : subtrees) {
-      half_of_root[s] = heap[1] < heap[0];
-      heap[half_of_root[s]] += weight[s];
-    }
-    return std::max(heap[0], heap[1]) <= 0.53 * (heap[0] + heap[1]);
-  };
-  while (!subtrees.empty() && !share_out()) {
-    const int heaviest = subtrees.front();
-    half_of_root[heaviest] = -1;
-    subtrees.erase(subtrees.begin());
-    subtrees.insert(subtrees.end(), children[heaviest].begin(), children[heaviest].end());
-  }
-  std::vector<int> half(f.count, -1);
-  for (int s = f.count - 1; s >= 0; --s)
-    half[s] = half_of_root[s] >= 0 ? half_of_root[s] : parent[s] >= 0 ? half[parent[s]] : -1;
-  return half;
-}
-
 }  // namespace
 
 TriangularSolver::TriangularSolver(const Supernodes& f)
     : inner_(f.count, 0), top_index_(f.columns, -1) {
-  const std::vector<int> half = halves(f, parents(f));
+  const std::vector<int> half = halves(f, parents(f), [](const Panel& p) {
+    return (p.below + 0.5 * p.columns) * p.columns;  // numbers to read
+  });
   for (int s = 0; s < f.count; ++s) {
     (half[s] < 0 ? top_ : half_[half[s]]).push_back(s);
     if (half[s] >= 0) continue;

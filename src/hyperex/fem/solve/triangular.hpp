@@ -2,24 +2,13 @@
 #pragma once
 #include <vector>
 
+#include "hyperex/fem/solve/supernodes.hpp"
+
 namespace hyperex::fem {
 
-/// A supernodal factor L as CHOLMOD stores it. Supernode s holds the columns first[s] ..
-/// first[s+1]-1, dense over the rows row[row_start[s] .. row_start[s+1]) (its own columns first),
-/// column-major at value[value_start[s]].
-struct Supernodes {
-  int count = 0, columns = 0;
-  const int* first = nullptr;
-  const int* row_start = nullptr;
-  const int* value_start = nullptr;
-  const int* row = nullptr;
-  const double* value = nullptr;
-};
-
-/// Solves with a supernodal factor for one right-hand side. The elimination tree is cut into a top
-/// and two halves of subtrees that share no unknown: the halves are solved side by side, whatever
-/// the number of threads, so that the sums never change. Source of the idea: multifrontal tree
-/// parallelism (Liu, SIAM Review 34, 1992).
+/// Solves with a supernodal factor for one right-hand side. Both halves of the elimination
+/// tree (supernodes.hpp) are solved side by side, whatever the number of threads, so that the sums
+/// never change.
 class TriangularSolver {
  public:
   TriangularSolver() = default;
