@@ -11,7 +11,7 @@ TrialResult run_trial(const std::filesystem::path& folder, const tracking::FaceM
   const tracking::Truth truth = tracking::read_truth(folder);
   const auto source =
       degraded(capture::open_tum_folder(folder, {.read_ahead_frames = 0}), degradation);
-  tracking::Tracking tracked = tracking::track(*source, model, options);
+  const tracking::Tracking tracked = tracking::track(*source, model, options);
   TrialResult result;
   tracking::Truth kept;
   for (std::size_t k = 0; k < truth.time_s.size(); ++k) {
@@ -27,7 +27,6 @@ TrialResult run_trial(const std::filesystem::path& folder, const tracking::FaceM
   for (const auto& frame : tracked.frames)
     if (degradation.spoils(frame.index) && !frame.valid) ++result.given_up;
   result.score = tracking::score(model, tracked.frames, kept);
-  result.frames = std::move(tracked.frames);
   return result;
 }
 

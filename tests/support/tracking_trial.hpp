@@ -13,9 +13,8 @@ namespace hyperex::test {
 struct TrialResult {
   /// Over the frames that the degradation does not spoil; `lost` counts among them.
   tracking::Score score;
-  std::size_t spoiled = 0;                     ///< frames that it does (Degradation::spoils)
-  std::size_t given_up = 0;                    ///< of them, said to be not valid
-  std::vector<tracking::TrackedFrame> frames;  ///< all that were tracked
+  std::size_t spoiled = 0;   ///< frames that it does (Degradation::spoils)
+  std::size_t given_up = 0;  ///< of them, said to be not valid
 };
 
 /// Tracks a recording (a TUM folder with truth files) with `degradation` done to it.

@@ -25,10 +25,9 @@ class Collector {
       : tracking_(tracking), curves_(curves) {}
 
   void add(std::string group, std::string name, std::string unit,
-           const std::function<double(const TrackedFrame&)>& value, std::string facs = {},
-           double full_mm = 0) {
-    TrackingChannel channel{std::move(group), std::move(name), std::move(facs),
-                            full_mm,          std::move(unit), {}};
+           const std::function<double(const TrackedFrame&)>& value, std::string facs = {}) {
+    TrackingChannel channel{
+        std::move(group), std::move(name), std::move(facs), std::move(unit), {}};
     channel.values.reserve(curves_.frames.size());
     for (const std::size_t row : curves_.frames) {
       const TrackedFrame& frame = tracking_.frames[row];
@@ -157,14 +156,10 @@ TrackingCurves tracking_curves(const FaceModel& model, const Tracking& tracking)
                         ? Eigen::Isometry3d::Identity()
                         : tracking.frames[curves.frames[reference]].camera_from_head);
   add_distances(collect, model, tracking.neutral->points_m);
-  for (std::size_t k = 0; k < model.animation_units.size(); ++k) {
-    const tracking::DeformationUnit& unit = model.animation_units[k];
-    double full_m = 0;
-    for (const auto moved : unit.displacement_m.rowwise()) full_m = std::max(full_m, moved.norm());
+  for (std::size_t k = 0; k < model.animation_units.size(); ++k)
     collect.add(
-        "unit", unit.name, "", [k](const auto& f) { return f.weights[Eigen::Index(k)]; }, unit.facs,
-        1e3 * tracking.neutral->scale * full_m);
-  }
+        "unit", model.animation_units[k].name, "",
+        [k](const auto& f) { return f.weights[Eigen::Index(k)]; }, model.animation_units[k].facs);
   add_residuals(collect);
   return curves;
 }

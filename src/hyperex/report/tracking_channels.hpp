@@ -19,11 +19,10 @@ HeadTurn head_turn(const Eigen::Matrix3d& rotation);
 
 /// One number a frame; NaN where there is none.
 struct TrackingChannel {
-  std::string group;   ///< "turn", "shift", "distance", "unit" or "residual"
-  std::string name;    ///< "yaw", "mouth opening", "jawOpen" ...
-  std::string facs;    ///< of group "unit": "AU26"; may be empty
-  double full_mm = 0;  ///< of group "unit": how far weight 1 moves the vertex it moves most
-  std::string unit;    ///< "deg", "mm", "px", "%"; empty where a number is pure
+  std::string group;  ///< "turn", "shift", "distance", "unit" or "residual"
+  std::string name;   ///< "yaw", "mouth opening", "jawOpen" ...
+  std::string facs;   ///< of group "unit": "AU26"; may be empty
+  std::string unit;   ///< "deg", "mm", "px", "%"; empty where a number is pure
   std::vector<double> values;
 };
 
@@ -44,7 +43,7 @@ struct TrackingCurves {
 ///             66, the lips' inner border), "mouth width" (cheilion R, L), "mouth corner's travel
 ///             L" and "R" from the person's face at rest, "eye opening L" and "R" (mean of two
 ///             pairs of points of the lids)
-///   unit      weights of the model's animation units; full_mm is of this person
+///   unit      weights of the model's animation units
 ///   residual  "network" (px), "depth" (mm; none where no vertex had depth), "depth seen", "skin
 ///             matched" (shares in %; none where nothing is compared, as in the first frame)
 /// Throws std::invalid_argument where the tracking has no neutral face, or is not of this model.

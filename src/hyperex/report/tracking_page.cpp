@@ -33,9 +33,8 @@ json channel_json(const TrackingChannel& channel, BinaryBlock& block) {
   steps.reserve(channel.values.size());
   for (const double value : channel.values)
     steps.push_back(std::isfinite(value) ? std::int16_t(std::lround(value / step)) : kNone);
-  return {{"group", channel.group},     {"name", channel.name}, {"facs", channel.facs},
-          {"full_mm", channel.full_mm}, {"unit", channel.unit}, {"step", step},
-          {"values", block.add(steps)}};
+  return {{"group", channel.group}, {"name", channel.name}, {"facs", channel.facs},
+          {"unit", channel.unit},   {"step", step},         {"values", block.add(steps)}};
 }
 
 /// Frames in a row that are not valid for the same reason, as rows of `frames`.

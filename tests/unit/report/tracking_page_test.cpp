@@ -93,27 +93,6 @@ TEST(TrackingPage, ShowsPoseUnitsAndResidualsOfTheTracking) {
   }
 }
 
-TEST(TrackingPage, SaysHowManyMillimetresAFullUnitIs) {
-  auto tracking = made_up_tracking(2);
-  tracking.neutral->scale = 1.1;
-  const PageData page(written(tracking));
-  int units = 0;
-  for (const json& channel : page.manifest.at("channels")) {
-    const double full_mm = channel.at("full_mm");
-    if (channel.at("group") != "unit") {
-      EXPECT_EQ(full_mm, 0);
-      continue;
-    }
-    ++units;
-    EXPECT_GT(full_mm, 1) << channel.at("name");
-    // The corner of the mouth moves most in a smile: canonical_units.csv has 8, 8 and -5 mm.
-    if (channel.at("name") == "mouthSmile_L") {
-      EXPECT_NEAR(full_mm, 1.1 * std::sqrt(64 + 64 + 25), 0.01);
-    }
-  }
-  EXPECT_EQ(units, int(canonical_model().animation_units.size()));
-}
-
 TEST(TrackingPage, MeasuresDistancesOnTheFaceInItsFrame) {
   const auto tracking = made_up_tracking(90);
   const PageData page(written(tracking));

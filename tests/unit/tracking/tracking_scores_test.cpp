@@ -4,12 +4,10 @@
 // with some room. docs/tracking_scores.md has the figures.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <limits>
 
 #include "hyperex/core/progress.hpp"
-#include "hyperex/io/csv.hpp"
 #include "support/tracking_trial.hpp"
 
 namespace hyperex::test {
@@ -45,32 +43,6 @@ void expect_within(const TrialResult& result, const Bounds& bounds) {
   }
 }
 
-/// A unit's weights over a recording against the truth's of the same frames, which is one of its
-/// columns or `none`.
-struct UnitCourse {
-  Eigen::ArrayXd tracked, truth;
-
-  UnitCourse(const std::string& recording, const TrialResult& result, const std::string& unit,
-             const std::string& column) {
-    const auto table =
-        io::read_csv(kData / "rgbd" / ("subject_A_" + recording) / "truth_weights.csv");
-    const int k = tracking::canonical_model().animation_unit(unit);
-    const auto rows = table.values.rows();
-    EXPECT_EQ(Eigen::Index(result.frames.size()), rows);
-    tracked.resize(rows);
-    for (Eigen::Index row = 0; row < rows; ++row)
-      tracked[row] = result.frames[std::size_t(row)].weights[k];
-    truth = Eigen::ArrayXd::Zero(rows);
-    if (!column.empty()) truth = table.values.col(table.column(column)).array();
-  }
-  /// Of the line through nought that meets them best.
-  double slope() const { return (tracked * truth).sum() / truth.square().sum(); }
-  double correlation() const {
-    const Eigen::ArrayXd a = tracked - tracked.mean(), b = truth - truth.mean();
-    return (a * b).sum() / std::sqrt(a.square().sum() * b.square().sum());
-  }
-};
-
 class TrackingScores : public testing::Test {
  protected:
   void SetUp() override {
@@ -85,12 +57,6 @@ TEST_F(TrackingScores, MouthOpening) {
   EXPECT_EQ(result.score.frames, 81u);
   EXPECT_TRUE(result.score.jaw_correlation);
   expect_within(result, {.deformation_median_mm = 0.5, .deformation_p95_mm = 1.9});
-  EXPECT_NEAR(UnitCourse("mouth_open", result, "jawOpen", "jawOpen").slope(), 1, 0.06);
-  for (const auto& unit : tracking::canonical_model().animation_units) {
-    if (unit.name == "jawOpen") continue;
-    EXPECT_LT(UnitCourse("mouth_open", result, unit.name, "").tracked.abs().maxCoeff(), 0.3)
-        << unit.name << ": only the jaw moves";
-  }
 }
 
 TEST_F(TrackingScores, Talk) {
@@ -98,16 +64,6 @@ TEST_F(TrackingScores, Talk) {
   EXPECT_EQ(result.score.frames, 120u);
   EXPECT_TRUE(result.score.jaw_correlation);
   expect_within(result, {.deformation_median_mm = 1.1, .deformation_p95_mm = 3.0});
-  // A talking face smiles by 0.47, lets go of it and frowns.
-  for (const std::string side : {"_L", "_R"}) {
-    const UnitCourse smile("talk", result, "mouthSmile" + side, "mouthSmile" + side),
-        frown("talk", result, "mouthFrown" + side, "mouthFrown" + side);
-    EXPECT_NEAR(smile.slope(), 0.85, 0.15) << side;
-    EXPECT_GT(smile.correlation(), 0.62) << side;
-    EXPECT_GE(smile.tracked.minCoeff(), 0) << side;
-    EXPECT_GE(frown.tracked.minCoeff(), 0) << side;
-    EXPECT_LT(smile.tracked.min(frown.tracked).maxCoeff(), 0.05) << "both at once" << side;
-  }
 }
 
 TEST_F(TrackingScores, NothingMoves) {

@@ -9,7 +9,6 @@ export interface Channel {
   group: Group;
   name: string;
   facs: string;
-  fullMm: number;
   values: (number | null)[];
   /** Of all numbers there are; 0 where there is none. */
   least: number;
@@ -32,7 +31,7 @@ function channelOf(from: Manifest['channels'][number], raw: Int16Array): Channel
   const per = Math.round(1 / from.step) || 1 / from.step;
   const values = Array.from(raw, (step) => (step === none ? null : step / per));
   const channel: Channel = {
-    group: from.group, name: from.name, facs: from.facs, fullMm: from.full_mm, values, any: false,
+    group: from.group, name: from.name, facs: from.facs, values, any: false,
     least: Infinity, most: -Infinity, leastAt: 0, mostAt: 0,
   };
   values.forEach((value, frame) => {

@@ -27,8 +27,6 @@ export interface Manifest {
     group: 'turn' | 'shift' | 'distance' | 'unit' | 'residual';
     name: string;
     facs: string;
-    /** Of a unit: how far weight 1 moves the point it moves most; 0 of others. */
-    full_mm: number;
     unit: string;
     /** Value = step * int16; −32768 where there is none. */
     step: number;

@@ -73,7 +73,7 @@ export function unitChart(pair: UnitPair, timeS: number[], range: [number, numbe
   const hues = { L: 0, R: 1 };
   return {
     title: pairTitle(pair), caption: '', unit: '', digits: 3, timeS, range, heightPx: 156,
-    yLabel: `weight (1 = ${pair.channels[0].fullMm.toFixed(0)} mm)`,
+    yLabel: 'weight (1 = full)',
     curves: pair.channels.map((channel) => {
       const which = side(channel.name) as 'L' | 'R' | null;
       const label = which === 'L' ? 'left' : which === 'R' ? 'right' : 'weight';

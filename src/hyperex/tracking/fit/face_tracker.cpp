@@ -77,7 +77,6 @@ struct FaceTracker::Impl {
   int faces = 0;
   std::optional<Neutral> neutral;
   std::unique_ptr<FrameFit> fit;
-  std::optional<UnitReader> reader;
   std::optional<Skin> skin;
   std::optional<FaceState> before;
   TrackerTimes times;
@@ -128,7 +127,6 @@ struct FaceTracker::Impl {
     neutral = estimate_neutral(model, camera, frames, options.neutral);
     check_size(model, *neutral);
     fit = std::make_unique<FrameFit>(model, camera, neutral->points_m, neutral->scale, options.fit);
-    reader.emplace(model, neutral->points_m, neutral->scale, options.units);
     times.neutral_s += watch.lap();
   }
 
@@ -163,8 +161,8 @@ struct FaceTracker::Impl {
     }
     frame.valid = true;
     frame.camera_from_head = state.camera_from_head;
+    frame.weights = state.weights;
     frame.vertices_m = fit->vertices(state);
-    frame.weights = reader->read(frame.vertices_m);
     if (!skin) skin = fit->skin_of(seen, state);
     before = std::move(state);
     times.fit_s += watch.lap();

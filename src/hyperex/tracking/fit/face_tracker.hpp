@@ -9,7 +9,6 @@
 #include "hyperex/capture/frame.hpp"
 #include "hyperex/tracking/fit/frame_fit.hpp"
 #include "hyperex/tracking/fit/neutral.hpp"
-#include "hyperex/tracking/fit/unit_weights.hpp"
 #include "hyperex/tracking/network/landmark_tracker.hpp"
 
 namespace hyperex::tracking {
@@ -19,7 +18,6 @@ struct TrackerOptions {
   /// fewer each counts for more.
   FitOptions fit;
   NeutralOptions neutral;
-  UnitReaderOptions units;
   LandmarkOptions network{.mirrored_too = true};
   /// >= 1; the person's shape is estimated on the first so many frames with a face, of those in
   /// which it is at rest: as in the first.
@@ -35,9 +33,8 @@ struct TrackedFrame {
   bool valid = false;
   std::string fault;  ///< why not valid
   Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
-  /// Of the model's animation units, read off vertices_m (UnitReader); empty where not valid.
-  Eigen::VectorXd weights;
-  Points vertices_m;  ///< |V| x 3, head frame; empty where not valid
+  Eigen::VectorXd weights;  ///< of the model's animation units; empty where not valid
+  Points vertices_m;        ///< |V| x 3, head frame; empty where not valid
   FitReport report;
   double network_score = 0;
   int faces_in_view = 0;

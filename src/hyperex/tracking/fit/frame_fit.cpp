@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "hyperex/core/one_thread.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/transform.hpp"
-#include "hyperex/tracking/model/lips.hpp"
 #include "hyperex/tracking/model/mesh_border.hpp"
-#include "hyperex/tracking/model/unit_matrix.hpp"
+#include "hyperex/tracking/model/tables.hpp"
 
 namespace hyperex::tracking {
 
@@ -48,6 +48,15 @@ Points normals_of(const Points& points, const Triangles& triangles) {
     if (length > 0) normals.row(v) /= length;
   }
   return normals;
+}
+
+/// The network's points of a kind (model/data/network_points.csv).
+std::set<int> network_points(const std::string& kind) {
+  std::set<int> points;
+  for (const auto& row : table_rows(network_points_table(), "kind,points"))
+    if (row.at(0) == kind)
+      for (const int point : table_indices(row.at(1), 468)) points.insert(point);
+  return points;
 }
 
 SparseMatrix free_prior(const TriMesh& mesh, const FitOptions& options) {
@@ -91,20 +100,31 @@ FrameFit::FrameFit(const FaceModel& model, const capture::Intrinsics& camera,
       on_outline_(outline(model.mesh)),
       free_prior_(free_prior(model.mesh, options)) {
   on_inner_lip_.assign(on_outline_.size(), false);
-  in_lip_ = within_lips(model);
+  in_lip_ = on_inner_lip_;
   slots_ = nothing_measured_.slots(free_prior_);
   keep_blas_to_one_thread();
   factor_.analyzePattern(free_prior_);
+  const std::set<int> inside = network_points("inside_lip");
   const auto& inner_lip = face::lip_contour();
-  for (const auto& [vertex, network] : model.pairs)
+  for (const auto& [vertex, network] : model.pairs) {
+    in_lip_[std::size_t(vertex)] = inside.contains(network);
     on_inner_lip_[std::size_t(vertex)] =
         std::find(inner_lip.begin(), inner_lip.end(), network) != inner_lip.end();
+  }
   // Within the lips shine and shadow move about, and the colour is one.
   for (const auto t : model.mesh.triangles.rowwise())
     skin_triangle_.push_back(!in_lip_[std::size_t(t[0])] || !in_lip_[std::size_t(t[1])] ||
                              !in_lip_[std::size_t(t[2])]);
-  unit_matrix_ = unit_scale * unit_matrix(model);
-  typical_ = typical_weights(model);
+  const Eigen::Index units = Eigen::Index(model.animation_units.size());
+  unit_matrix_ = VertexSystem::RowMatrix::Zero(3 * model.vertex_count(), units);
+  typical_.resize(units);
+  for (Eigen::Index k = 0; k < units; ++k) {
+    const DeformationUnit& unit = model.animation_units[std::size_t(k)];
+    typical_[k] = unit.typical;
+    for (std::size_t i = 0; i < unit.vertices.size(); ++i)
+      unit_matrix_.block<3, 1>(3 * unit.vertices[i], k) =
+          unit_scale * unit.displacement_m.row(Eigen::Index(i)).transpose();
+  }
   off_units_m_.resize(model.vertex_count());
   const VertexSystem::RowMatrix typical_moves = unit_matrix_ * typical_.asDiagonal();
   for (Eigen::Index v = 0; v < off_units_m_.size(); ++v)

@@ -35,7 +35,7 @@ struct Skin {
 /// A face in one frame.
 struct FaceState {
   Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
-  Eigen::VectorXd weights;  ///< of the animation units; not a measure of how strong (UnitReader)
+  Eigen::VectorXd weights;  ///< of the animation units
   Points free_m;            ///< |V| x 3, head frame: what the units do not explain
   /// One row a pair of the model: where the fit put the vertex less where the network saw it.
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> network_offset_px;

@@ -18,8 +18,7 @@ motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool 
 ///          network_score (FitReport, TrackedFrame); faces_in_view; metric, 1 where lengths come
 ///          from depth, 0 where from the stated distance of the eyes; frame: its number in the
 ///          source, where dropped ones leave gaps; fault: one line, why it is not valid
-///  units:  time_s, valid and a column a unit: "NAME [FACS]", 0 to 1.5, -1.5 to 1.5 of units that
-///          run both ways; 1 is the unit as the model's table has it (UnitReader)
+///  units:  time_s, valid and a column a unit: "NAME [FACS]"
 ///  arkit:  time_s and ARKit's names, 0 to 1: weights of the model's units by its table; a name
 ///          that several units share is their mean
 void write_pose_csv(const std::filesystem::path& file, const Tracking& tracking);
