@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build asan tsan coverage lint fresh fuzz bench experiments fidelity mutations interop clean setup
+.PHONY: help demo test build install asan tsan coverage lint fresh fuzz bench experiments fidelity mutations interop clean setup
 
 # Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
 ifneq ($(shell test -w "$$HOME" && echo yes),yes)
@@ -30,6 +30,11 @@ demo: build ## re-enact a mouth opening on the face that comes with the program
 build: setup ## the program alone: build/release/bin/hyperex
 	cmake --preset release $(CMAKE_OPTIONS)
 	cmake --build --preset release --parallel $(JOBS) --target hyperex
+
+PREFIX ?= /usr/local
+install: build ## the program and the C++ library into PREFIX (docs/library.md)
+	cmake --build --preset release --parallel $(JOBS) --target libhyperex
+	cmake --install build/release --prefix $(PREFIX)
 
 test: ## everything: unit tests, verification, the demo twice, its replay in a browser
 	scripts/setup.sh --tests

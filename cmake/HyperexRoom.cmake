@@ -8,9 +8,11 @@ endif()
 
 # One room of the house: a static library hx_NAME from the sources listed by hand.
 #   hx_room(io SOURCES ply.cpp stl.cpp LINKS hx_core hx_geometry)
-# Before it has sources, a room is an interface library, so that others can link to it.
+# Before it has sources, a room is an interface library, so that others can link to it. Projects that
+# take this one in with add_subdirectory link to hyperex::NAME, as they would to the installed one.
+# HEADERS: those that are installed. They and what they include need Eigen alone (tests/install).
 function(hx_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;LINKS;PRIVATE_LINKS" ${ARGN})
   set(target hx_${name})
   if(ROOM_SOURCES)
     add_library(${target} STATIC ${ROOM_SOURCES})
@@ -27,6 +29,21 @@ function(hx_room name)
     target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(${target} INTERFACE ${ROOM_LINKS})
   endif()
+  add_library(hyperex::${name} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY HYPEREX_ROOMS ${name})
+  hx_install_headers(${name} ${ROOM_HEADERS})
+endfunction()
+
+# hx_install_headers(fem form/system.hpp): to include/hyperex/fem/form.
+function(hx_install_headers room)
+  if(NOT HYPEREX_INSTALL)
+    return()
+  endif()
+  foreach(header ${ARGN})
+    get_filename_component(folder ${room}/${header} DIRECTORY)
+    install(FILES ${PROJECT_SOURCE_DIR}/src/hyperex/${room}/${header}
+            DESTINATION include/hyperex/${folder} COMPONENT dev)
+  endforeach()
 endfunction()
 
 # The tests of one room: an executable test_NAME, each of its cases one CTest.

@@ -17,6 +17,8 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/interrupt.hpp"
 #include "hyperex/core/printable.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/core/remarks.hpp"
 #include "hyperex/core/standard_streams.hpp"
 #include "hyperex/scene/keys.hpp"
 
@@ -53,6 +55,10 @@ void log_to_standard_error() {
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
   formatter->add_flag<PrintableMessage>('*').set_pattern("%^%l%$: %*");
   spdlog::set_formatter(std::move(formatter));
+  hyperex::listen_to_remarks([](hyperex::Remark kind, const std::string& sentence) {
+    spdlog::log(kind == hyperex::Remark::warning ? spdlog::level::warn : spdlog::level::info, "{}",
+                sentence);
+  });
 }
 
 void add_subcommands(CLI::App& program) {
@@ -130,6 +136,7 @@ int main(int argc, char** argv) {
   hyperex::end_cleanly_when_interrupted();
   // Standard output is for results alone: what is said on the way goes beside it.
   log_to_standard_error();
+  hyperex::Progress::silence(false);
   // Its own failures to write a message are none of the user's.
   spdlog::set_error_handler([](const std::string&) {});
   CLI::App program{

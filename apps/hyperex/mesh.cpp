@@ -76,8 +76,8 @@ void run(const Options& options) {
   const io::Landmarks given = landmarks_of(scan, file);
   if (const auto unknown = tissue::unknown_landmarks(given); !unknown.empty())
     std::cerr << tissue::unknown_landmarks_note(unknown) << '\n';
-  const auto landmarks = tissue::complete_landmarks(given, scene::needed_landmarks(), scan.mesh,
-                                                    (file.empty() ? options.scan : file).string());
+  const auto landmarks =
+      tissue::complete_landmarks(given, scan.mesh, (file.empty() ? options.scan : file).string());
   tissue::TissueMeshOptions mesh_options;
   mesh_options.element_size_m = options.element_size_mm * 1e-3;
   mesh_options.layers = options.layers;

@@ -9,7 +9,6 @@
 
 #include "experiments/page.hpp"
 #include "hyperex/core/files.hpp"
-#include "hyperex/core/progress.hpp"
 
 namespace hyperex::bench {
 namespace {
@@ -23,7 +22,6 @@ struct Options {
 void run(const Options& options) {
   check_outputs({options.page});
   std::filesystem::create_directories(options.setting.pictures);
-  Progress::silence(true);                // of each simulation; several run at once
   spdlog::set_level(spdlog::level::err);  // notes of the scenes stand in their own reports
   Experiments all;
   fmt::print(stderr, "experiment 1: measured deformation\n");

@@ -11,7 +11,6 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
-#include "hyperex/core/progress.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
@@ -150,7 +149,6 @@ void run(const Options& options) {
       "elsewhere or not at all and are not scored; *given up* are those of them that the tracker "
       "says are\nnot valid.\n\n## Canonical face\n",
       options.commit, options.machine);
-  Progress::silence(true);  // those of each recording
   page += trial_tables(folders, tracking::canonical_model(), test::standard_trials(0).size());
   if (candide)
     page += "\n## CANDIDE-3\n" + trial_tables(folders, *candide, 2);  // as recorded, colour only

@@ -2,7 +2,6 @@
 // Mutated inputs of every format, handed to the readers in this process: taken, or refused with a
 // sound message, within time and memory. HYPEREX_MUTATIONS sets how many a format.
 #include <gtest/gtest.h>
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -32,12 +31,8 @@ class Mutated : public testing::TestWithParam<Reader> {
     folder_ = fs::temp_directory_path() /
               ("hyperex_mutated_" + GetParam().name + "_" + std::to_string(::getpid()));
     fs::create_directories(folder_);
-    spdlog::set_level(spdlog::level::off);
   }
-  void TearDown() override {
-    spdlog::set_level(spdlog::level::info);
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { fs::remove_all(folder_); }
   fs::path folder_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The targets of libFuzzer: run as fuzz_NAME, by a link, it feeds the reader NAME.
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -34,7 +33,6 @@ const hyperex::fuzz::Reader* fed = nullptr;
 extern "C" int LLVMFuzzerInitialize(int*, char*** arguments) {
   const std::string name = std::filesystem::path((*arguments)[0]).filename();
   fed = &hyperex::fuzz::reader(name.substr(name.find('_') + 1));
-  spdlog::set_level(spdlog::level::off);
   return 0;
 }
 

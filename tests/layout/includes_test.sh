@@ -20,6 +20,11 @@ for ((i = 0; i < ${#rooms[@]}; ++i)); do
     status=1
   fi
 done
+# Those that include everything are for other programs.
+if grep -rnE '#include [<"]hyperex/[a-z_]+\.hpp' src/hyperex/*/ apps/hyperex; then
+  echo "rooms include what they need, not hyperex/hyperex.hpp or hyperex/fem.hpp"
+  status=1
+fi
 # NDEBUG takes assert() out of the builds that users run; HX_ASSERT (core/assert.hpp) stays.
 if grep -rnE '(^|[^_a-zA-Z])assert\(|<cassert>' src/hyperex apps/hyperex --include='*.[ch]pp' |
   grep -vE '^src/hyperex/core/(assert|error).hpp'; then

@@ -14,11 +14,24 @@ namespace fs = std::filesystem;
 constexpr const char* kRemedy =
     "install libopencv-videoio-dev (scripts/setup.sh --video) and build again (make build)";
 
-const VideoLibrary* load() {
+/// Beside the shared library that this function is part of, in whose folder or in the one above;
+/// else, where it is part of the program itself, in the program's ../lib.
+fs::path video_file() {
+  const fs::path name = "hyperex/hx_video.so";
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path file = program.parent_path().parent_path() / "lib/hyperex/hx_video.so";
-  if (error || !fs::exists(file))
+  Dl_info here{};
+  if (::dladdr(reinterpret_cast<void*>(&video_file), &here) != 0 && here.dli_fname != nullptr) {
+    const fs::path folder = fs::path(here.dli_fname).parent_path();
+    // A relative name is a program's as it was called: no place to load from.
+    for (const fs::path& lib : {folder, folder.parent_path()})
+      if (folder.is_absolute() && fs::exists(lib / name, error)) return lib / name;
+  }
+  return fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "lib" / name;
+}
+
+const VideoLibrary* load() {
+  const fs::path file = video_file();
+  if (std::error_code error; !fs::exists(file, error))
     throw InputError(
         file,
         std::string("missing: this program was built without videos and webcams; ") + kRemedy);

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/stat.h>
-#include <spdlog/spdlog.h>
 #include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,6 +13,7 @@
 #include <cstring>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/remarks.hpp"
 
 namespace hyperex {
 namespace fs = std::filesystem;
@@ -279,7 +279,8 @@ void OutputDirectory::clear_away(const fs::path& aside, const std::set<std::stri
   for (int n = 1; fs::exists(fs::symlink_status(kept, ignored)); ++n)
     kept = target_.string() + fmt::format(".kept{}", n);
   fs::rename(aside, kept, ignored);
-  spdlog::warn("{}: what others put into the output folder meanwhile", kept.string());
+  remark(Remark::warning,
+         fmt::format("{}: what others put into the output folder meanwhile", kept.string()));
 }
 
 }  // namespace hyperex

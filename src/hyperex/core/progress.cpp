@@ -10,8 +10,8 @@
 
 namespace hyperex {
 namespace {
-std::atomic<bool> silenced{false};
-std::atomic<bool> taken{false};  // a bar stands
+std::atomic<bool> silenced{true};  // a library in other programs
+std::atomic<bool> taken{false};    // a bar stands
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();

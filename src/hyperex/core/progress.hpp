@@ -19,7 +19,7 @@ class Progress {
   /// `done` steps are finished. Cheap: may be called on every step.
   void update(long done);
   double seconds() const;
-  /// No bars at all (tests, --quiet).
+  /// No bars at all, which is how every program begins: one that wants them says false.
   static void silence(bool silent);
 
  private:

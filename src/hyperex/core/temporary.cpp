@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spdlog/spdlog.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -13,6 +12,8 @@
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+#include "hyperex/core/remarks.hpp"
 
 namespace hyperex {
 namespace fs = std::filesystem;
@@ -121,11 +122,14 @@ void remove_leftovers(const fs::path& target, const fs::path& folder) {
     if (may_be_ours(left.process) || !InUse(path).held()) continue;
     if (left.aside && !fs::exists(fs::symlink_status(target, error))) {
       fs::rename(path, target, error);
-      if (!error) spdlog::info("{}: an earlier output, given its name again", target.string());
+      if (!error)
+        remark(Remark::note,
+               fmt::format("{}: an earlier output, given its name again", target.string()));
       continue;
     }
     fs::remove_all(path, error);
-    if (!error) spdlog::info("removed {}, which a killed run had left", path.string());
+    if (!error)
+      remark(Remark::note, fmt::format("removed {}, which a killed run had left", path.string()));
   }
 }
 

@@ -2,7 +2,6 @@
 // glTF 2.0 in, text or binary, through tinygltf: all triangles of the scene, placed by their
 // nodes. Written files are made by the report room.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <tiny_gltf.h>
 
 #include <Eigen/Geometry>
@@ -15,6 +14,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/named_file.hpp"
+#include "hyperex/core/remarks.hpp"
 #include "hyperex/io/image.hpp"
 #include "hyperex/io/nesting.hpp"
 #include "hyperex/io/number.hpp"
@@ -111,7 +111,9 @@ tinygltf::Model load_model(const std::filesystem::path& file) {
     error = exception.what();
   }
   if (!sound) throw InputError(file, "is no sound glTF file: " + one_line(error) + beside.refusals);
-  if (!warning.empty()) spdlog::warn("{}: {}{}", file.string(), one_line(warning), beside.refusals);
+  if (!warning.empty())
+    remark(Remark::warning,
+           fmt::format("{}: {}{}", file.string(), one_line(warning), beside.refusals));
   // Those that say how surfaces look leave the shape as it is; quantised values are read below.
   for (const auto& extension : model.extensionsRequired)
     if (!extension.starts_with("KHR_materials_") && extension != "KHR_mesh_quantization")
@@ -390,7 +392,8 @@ class SceneReader {
       throw InputError(file_, "TEXCOORD has another number of items than POSITION");
     textured_ = true;
     if (texture >= 0 && texture_ >= 0 && texture != texture_ && !warned_) {
-      spdlog::warn("{}: has several textures; only the first is kept", file_.string());
+      remark(Remark::warning,
+             fmt::format("{}: has several textures; only the first is kept", file_.string()));
       warned_ = true;
     }
     if (texture_ < 0) texture_ = texture;
@@ -411,8 +414,10 @@ class SceneReader {
     }
     auto picture = recognise_image(std::move(bytes));
     if (!picture)
-      spdlog::warn("{}: going on without its texture, which is missing or neither PNG nor JPEG",
-                   file_.string());
+      remark(
+          Remark::warning,
+          fmt::format("{}: going on without its texture, which is missing or neither PNG nor JPEG",
+                      file_.string()));
     return picture;
   }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/io/image.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/named_file.hpp"
+#include "hyperex/core/remarks.hpp"
 
 namespace hyperex::io {
 namespace {
@@ -36,11 +37,13 @@ std::optional<Image> load_texture(const std::filesystem::path& scan,
     const std::string bytes = read_regular_file(path);
     auto image = recognise_image({bytes.begin(), bytes.end()});
     if (!image)
-      spdlog::warn("{}: texture {} is neither PNG nor JPEG; going on without it", scan.string(),
-                   path.string());
+      remark(Remark::warning,
+             fmt::format("{}: texture {} is neither PNG nor JPEG; going on without it",
+                         scan.string(), path.string()));
     return image;
   } catch (const InputError& error) {
-    spdlog::warn("{}: going on without its texture: {}", scan.string(), error.what());
+    remark(Remark::warning,
+           fmt::format("{}: going on without its texture: {}", scan.string(), error.what()));
     return std::nullopt;
   }
 }

@@ -2,7 +2,6 @@
 // Wavefront OBJ through tinyobjloader, which takes what it cannot read as 0: every line that we
 // use is checked first.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/named_file.hpp"
+#include "hyperex/core/remarks.hpp"
 #include "hyperex/io/image.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/raw_mesh.hpp"
@@ -153,8 +153,8 @@ std::optional<Image> find_texture(const std::filesystem::path& file,
         names.push_back(materials[m].diffuse_texname);
   if (names.empty()) return std::nullopt;
   if (names.size() > 1)
-    spdlog::warn("{}: has {} textures; only the first, {}, is kept", file.string(), names.size(),
-                 names[0]);
+    remark(Remark::warning, fmt::format("{}: has {} textures; only the first, {}, is kept",
+                                        file.string(), names.size(), names[0]));
   return load_texture(file, names[0]);
 }
 
@@ -185,7 +185,8 @@ RawMesh read_obj(const std::filesystem::path& file) {
   const bool sound = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
                                       &material_reader, false, false);
   if (!sound) throw InputError(file, "is no sound OBJ file: " + one_line(error));
-  if (!warning.empty()) spdlog::warn("{}: {}", file.string(), one_line(warning));
+  if (!warning.empty())
+    remark(Remark::warning, fmt::format("{}: {}", file.string(), one_line(warning)));
 
   RawMesh raw;
   take_vertices(attributes, raw);

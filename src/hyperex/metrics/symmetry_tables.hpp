@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -33,10 +32,6 @@ void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasure
 /// path_floor_mm, peak_speed_floor_mm_s, path_decided, peak_speed_decided,
 /// speed_correlation_decided.
 void write_excursions_csv(const std::filesystem::path& file, const Excursions& excursions);
-
-/// For summary.json: jitter, the mesh's floor, how much of S(t) is undecided, commissure,
-/// excursions, map. Numbers that are not defined are null.
-nlohmann::ordered_json summary_of(const SymmetryMeasures& measures);
 
 /// Where the sides differ most and by how much, that they do not, or that it is undecided. Not
 /// which side moves more: a stretch does not tell (README), excursions do.

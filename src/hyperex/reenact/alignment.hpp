@@ -30,6 +30,6 @@ struct AlignedMotion {
 /// and h_d); rest positions are laid where the method puts them.
 /// Throws InputError where fewer than three names are common or those lie nearly on a line.
 AlignedMotion align(const motion::Motion& stabilised, const io::Landmarks& landmarks,
-                    AlignmentMethod method);
+                    AlignmentMethod method = AlignmentMethod::nonrigid);
 
 }  // namespace hyperex::reenact

@@ -70,7 +70,7 @@ void complete(const Scene& scene, const io::Landmarks& given, Inputs& in) {
   const std::string source = scene.scan.source.embedded     ? "embedded face"
                              : scene.scan.landmarks.empty() ? in.scan.file.string()
                                                             : scene.scan.landmarks.string();
-  auto completed = tissue::complete_landmarks(given, needed_landmarks(), in.scan.mesh, source);
+  auto completed = tissue::complete_landmarks(given, in.scan.mesh, source);
   in.landmarks = std::move(completed.landmarks);
   in.placed = std::move(completed.placed);
   if (!in.placed.empty())
@@ -366,12 +366,6 @@ void check_element_size(const Scene& scene, const Inputs& in) {
 }
 
 }  // namespace
-
-std::vector<std::string> needed_landmarks() {
-  std::vector<std::string> names;
-  for (const auto& entry : tissue::canonical_face().landmarks) names.push_back(entry.first);
-  return names;
-}
 
 io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
                              std::vector<std::string>& notes) {

@@ -25,9 +25,6 @@ struct Inputs {
   std::vector<std::string> warnings;
 };
 
-/// The landmarks that every run needs: all that the canonical face knows.
-std::vector<std::string> needed_landmarks();
-
 /// The landmarks of a scan that has none (tracking/scan), and a note that says so: `why`, and how
 /// well the pictures agree. Takes seconds. Throws InputError where no face is found.
 io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,

@@ -13,6 +13,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/run_both.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/scene/earlier_run.hpp"
 #include "hyperex/scene/file_names.hpp"

@@ -14,6 +14,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
+#include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/pipeline.hpp"

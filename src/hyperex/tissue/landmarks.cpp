@@ -192,6 +192,13 @@ bool looks_outwards(const KnownLandmarks& known, const TriMesh& scan, const Surf
 
 }  // namespace
 
+CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh& scan,
+                                      const std::string& source) {
+  std::vector<std::string> names;
+  for (const auto& entry : canonical_face().landmarks) names.push_back(entry.first);
+  return complete_landmarks(given, names, scan, source);
+}
+
 std::vector<std::string> unknown_landmarks(const io::Landmarks& given) {
   std::vector<std::string> names;
   for (const auto& entry : given)

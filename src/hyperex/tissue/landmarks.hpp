@@ -29,6 +29,10 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
                                       const std::vector<std::string>& needed, const TriMesh& scan,
                                       const std::string& source = "landmarks");
 
+/// The same with all that the canonical face knows: what a simulation needs.
+CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh& scan,
+                                      const std::string& source = "landmarks");
+
 /// The names of `given` that the canonical face does not know: own ones, or misspelt.
 std::vector<std::string> unknown_landmarks(const io::Landmarks& given);
 

@@ -23,11 +23,18 @@ std::string shown(int wait_ms) {
   return ::testing::internal::GetCapturedStderr();
 }
 
+// First: the others have bars shown.
+TEST(Progress, ProgramsThatDoNotAskForBarsSeeNone) {
+  EXPECT_EQ(shown(1050), "");
+}
+
 TEST(Progress, ShortWorkShowsNothing) {
+  Progress::silence(false);
   EXPECT_EQ(shown(5), "");
 }
 
 TEST(Progress, LongWorkShowsOneLineUnderWayAndOneAtTheEnd) {
+  Progress::silence(false);
   const std::string text = shown(1050);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
   EXPECT_THAT(text, ::testing::HasSubstr(" 50 %"));
@@ -35,6 +42,7 @@ TEST(Progress, LongWorkShowsOneLineUnderWayAndOneAtTheEnd) {
 }
 
 TEST(Progress, WorkToldOfAtItsEndAloneShowsOneLine) {
+  Progress::silence(false);
   ::testing::internal::CaptureStderr();
   {
     Progress progress("simulating", 2);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/remarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "unit/io/io_testing.hpp"
 
@@ -33,7 +34,11 @@ TEST_F(Obj, PolygonsTextureAndMaterial) {
 TEST_F(Obj, WithoutItsTextureAScanIsStillRead) {
   EXPECT_FALSE(read_scan(write("a.obj", square + "f 1/1 2/2 3/3\n")).texture);  // no .mtl
   write("skin.mtl", "newmtl skin\nmap_Kd gone.png\n");
+  std::string heard;
+  listen_to_remarks([&](Remark, const std::string& sentence) { heard += sentence; });
   const Scan scan = read_scan(write("b.obj", square + "f 1/1 2/2 3/3\n"));
+  listen_to_remarks({});
+  EXPECT_NE(heard.find("b.obj: going on without its texture"), std::string::npos) << heard;
   EXPECT_FALSE(scan.texture);
   EXPECT_EQ(scan.corner_uv.rows(), 3);
 }

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/metrics/symmetry_json.hpp"
 
 namespace hyperex::metrics {
 namespace {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/remarks.hpp"
+
+#include <mutex>
+#include <utility>
+
+namespace hyperex {
+namespace {
+struct Listening {
+  std::mutex mutex;
+  RemarkListener listener;
+};
+Listening& listening() {
+  static Listening one;
+  return one;
+}
+}  // namespace
+
+void listen_to_remarks(RemarkListener listener) {
+  const std::lock_guard lock(listening().mutex);
+  listening().listener = std::move(listener);
+}
+
+void remark(Remark kind, const std::string& sentence) {
+  const std::lock_guard lock(listening().mutex);
+  if (listening().listener) listening().listener(kind, sentence);
+}
+
+}  // namespace hyperex

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The programs of examples/cpp, from an empty folder and with the installed package alone.
+#   examples_test.sh SOURCE_FOLDER PREFIX RUN_OF_THE_DEMO
+set -euo pipefail
+source=$1 prefix=$2 demo=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cp -r "$source/examples/cpp" "$work/programs"
+cd "$work"
+said() { echo "$*"; exit 1; }
+for program in programs/*.cpp; do
+  (($(wc -l < "$program") <= 40)) || said "$program has more than 40 lines"
+done
+build() {  # FOLDER FLAGS
+  cmake -G Ninja -S programs -B "$1" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror $2" \
+    > "$1.log" 2>&1 && cmake --build "$1" "${@:3}" >> "$1.log" 2>&1 || { cat "$1.log"; exit 1; }
+}
+build build ""
+build/first_run > first.txt 2> /dev/null
+build/stiffness_sweep > sweep.csv
+build/own_mesh > own.txt
+cat first.txt sweep.csv
+
+# The same numbers as those of `hyperex run examples/demo.toml`.
+read -r left right < <(awk -F, '$1 == "cheilion" { printf "%.2f %.2f\n", $2, $3 }' "$demo/excursions.csv")
+grep -qx "excursion of the corners: left $left mm, right $right mm" first.txt ||
+  said "the program's corners travel $left and $right mm"
+# Five rows; stiffer tissue does not give the same.
+[[ $(wc -l < sweep.csv) == 6 ]] || said "the sweep is not whole"
+[[ $(tail -n +2 sweep.csv | cut -d, -f2 | sort -u | wc -l) == 5 ]] || said "stiffness changes nothing"
+# The bar's middle is symmetric: its mean is half of what its end is moved by.
+awk '$2 ~ /^(8|9|10|11):$/ { x += $3; y += $4 } END { exit !(x / 4 > 0.999 && x / 4 < 1.001 && y * y < 1e-8) }' own.txt ||
+  { cat own.txt; said "the middle of the bar is moved by another length"; }
+
+# Instructions of this very processor, as many programs are built: Eigen then aligns otherwise.
+build native "-march=native" --target own_mesh
+native/own_mesh > native.txt || said "a program that is built with -march=native ends badly"
+cmp own.txt native.txt
+
