@@ -49,7 +49,10 @@ endfunction()
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hyperex)
 set(fem_rooms core fem)
 hx_shared_library(hyperex_fem fem ROOMS ${fem_rooms})
-target_compile_definitions(libhyperex_fem INTERFACE EIGEN_MAX_ALIGN_BYTES=${HYPEREX_EIGEN_ALIGNMENT})
+target_compile_definitions(libhyperex_fem INTERFACE
+  EIGEN_MAX_ALIGN_BYTES=${HYPEREX_EIGEN_ALIGNMENT}
+  # What malloc gives is aligned to 16 bytes and needs no header of Eigen's own.
+  $<$<EQUAL:${HYPEREX_EIGEN_ALIGNMENT},16>:EIGEN_MALLOC_ALREADY_ALIGNED=1>)
 install(FILES ${PROJECT_SOURCE_DIR}/src/hyperex/fem.hpp DESTINATION include/hyperex COMPONENT dev)
 hx_install_headers(geometry types.hpp)
 if(HYPEREX_COMPONENTS STREQUAL all)

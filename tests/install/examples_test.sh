@@ -37,4 +37,3 @@ awk '$2 ~ /^(8|9|10|11):$/ { x += $3; y += $4 } END { exit !(x / 4 > 0.999 && x 
 build native "-march=native" --target own_mesh
 native/own_mesh > native.txt || said "a program that is built with -march=native ends badly"
 cmp own.txt native.txt
-
