@@ -52,20 +52,18 @@ class AppendedData {
       constexpr const char* tensor[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
       for (int k = 0; k < 6; ++k) names += fmt::format(" ComponentName{}=\"{}\"", k, tensor[k]);
     }
-    const std::string line = fmt::format(
-        "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} "
-        "format=\"appended\" "
-        "offset=\"{}\"/>\n",
-        type, escaped(name), components, names, bytes_.size());
-    compress(static_cast<const Bytef*>(bytes), size);
-    return line;
+    return add(type, name, components, names, compressed(static_cast<const Bytef*>(bytes), size));
+  }
+  /// The same with bytes compressed before.
+  std::string add_compressed(const std::string& type, const std::string& name,
+                             Eigen::Index components, const std::string& packed) {
+    return add(type, name, components, "", packed);
   }
   const std::string& bytes() const { return bytes_; }
 
- private:
   /// VTK's layout: number of blocks, bytes of a block, bytes of a shorter last one (or 0), bytes
   /// of each block once compressed, then the blocks.
-  void compress(const Bytef* data, std::size_t size) {
+  static std::string compressed(const Bytef* data, std::size_t size) {
     const std::size_t full = size / block_bytes, rest = size % block_bytes;
     std::vector<std::uint64_t> head{full + (rest > 0), block_bytes, rest};
     std::string packed;
@@ -77,9 +75,21 @@ class AppendedData {
       head.push_back(length);
       packed.append(reinterpret_cast<const char*>(room.data()), length);
     }
-    bytes_.append(reinterpret_cast<const char*>(head.data()), 8 * head.size());
-    bytes_ += packed;
+    return std::string(reinterpret_cast<const char*>(head.data()), 8 * head.size()) + packed;
   }
+
+ private:
+  std::string add(const std::string& type, const std::string& name, Eigen::Index components,
+                  const std::string& names, const std::string& packed) {
+    std::string line = fmt::format(
+        "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} "
+        "format=\"appended\" "
+        "offset=\"{}\"/>\n",
+        type, escaped(name), components, names, bytes_.size());
+    bytes_ += packed;
+    return line;
+  }
+
   std::string bytes_;
 };
 
@@ -103,44 +113,53 @@ std::string section(const char* name, const std::vector<VtuArray>& arrays, Eigen
 }
 
 template <class T>
-std::string numbers(const char* type, const char* name, Eigen::Index components,
-                    const std::vector<T>& values, AppendedData& data) {
-  return data.add(type, name, components, values.data(), sizeof(T) * values.size());
+std::string compressed(const T* values, std::size_t count) {
+  return AppendedData::compressed(reinterpret_cast<const Bytef*>(values), sizeof(T) * count);
 }
 
 }  // namespace
 
-void write_vtu(const std::filesystem::path& file, const Points& points,
-               const Tetrahedra& tetrahedra, const std::vector<VtuArray>& point_arrays,
-               const std::vector<VtuArray>& cell_arrays) {
+VtuMesh::VtuMesh(const Points& points, const Tetrahedra& tetrahedra)
+    : points_(points.rows()), cells_(tetrahedra.rows()) {
+  const PointsF single = points.cast<float>();
+  packed_points_ = compressed(single.data(), static_cast<std::size_t>(single.size()));
+  const std::vector<std::int32_t> nodes(tetrahedra.data(), tetrahedra.data() + tetrahedra.size());
+  std::vector<std::int32_t> ends(static_cast<std::size_t>(cells_));
+  for (std::size_t t = 0; t < ends.size(); ++t) ends[t] = static_cast<std::int32_t>(4 * (t + 1));
+  const std::vector<std::uint8_t> types(ends.size(), vtk_tetra);
+  packed_nodes_ = compressed(nodes.data(), nodes.size());
+  packed_ends_ = compressed(ends.data(), ends.size());
+  packed_types_ = compressed(types.data(), types.size());
+}
+
+void VtuMesh::write(const std::filesystem::path& file, const std::vector<VtuArray>& point_arrays,
+                    const std::vector<VtuArray>& cell_arrays) const {
   AppendedData data;
   std::string xml = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
       "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-      points.rows(), tetrahedra.rows());
-  xml += section("PointData", point_arrays, points.rows(), data);
-  xml += section("CellData", cell_arrays, tetrahedra.rows(), data);
-
-  const PointsF single = points.cast<float>();
-  xml += "      <Points>\n" +
-         data.add("Float32", "Points", 3, single.data(),
-                  sizeof(float) * static_cast<std::size_t>(single.size())) +
+      points_, cells_);
+  xml += section("PointData", point_arrays, points_, data);
+  xml += section("CellData", cell_arrays, cells_, data);
+  xml += "      <Points>\n" + data.add_compressed("Float32", "Points", 3, packed_points_) +
          "      </Points>\n";
-
-  const std::vector<std::int32_t> nodes(tetrahedra.data(), tetrahedra.data() + tetrahedra.size());
-  std::vector<std::int32_t> ends(static_cast<std::size_t>(tetrahedra.rows()));
-  for (std::size_t t = 0; t < ends.size(); ++t) ends[t] = static_cast<std::int32_t>(4 * (t + 1));
-  const std::vector<std::uint8_t> types(ends.size(), vtk_tetra);
   xml +=
-      "      <Cells>\n" + numbers("Int32", "connectivity", 1, nodes, data) +
-      numbers("Int32", "offsets", 1, ends, data) + numbers("UInt8", "types", 1, types, data) +
+      "      <Cells>\n" + data.add_compressed("Int32", "connectivity", 1, packed_nodes_) +
+      data.add_compressed("Int32", "offsets", 1, packed_ends_) +
+      data.add_compressed("UInt8", "types", 1, packed_types_) +
       "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
 
   write_file_atomically(file, [&](std::ostream& stream) {
     stream << xml << data.bytes() << "\n  </AppendedData>\n</VTKFile>\n";
   });
+}
+
+void write_vtu(const std::filesystem::path& file, const Points& points,
+               const Tetrahedra& tetrahedra, const std::vector<VtuArray>& point_arrays,
+               const std::vector<VtuArray>& cell_arrays) {
+  VtuMesh(points, tetrahedra).write(file, point_arrays, cell_arrays);
 }
 
 void write_pvd(const std::filesystem::path& file,

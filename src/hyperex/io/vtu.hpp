@@ -25,6 +25,19 @@ void write_vtu(const std::filesystem::path& file, const Points& points,
                const Tetrahedra& tetrahedra, const std::vector<VtuArray>& point_arrays = {},
                const std::vector<VtuArray>& cell_arrays = {});
 
+/// The same for a series of files of one mesh, which is compressed once.
+class VtuMesh {
+ public:
+  VtuMesh(const Points& points, const Tetrahedra& tetrahedra);
+  /// May be called from several threads.
+  void write(const std::filesystem::path& file, const std::vector<VtuArray>& point_arrays,
+             const std::vector<VtuArray>& cell_arrays) const;
+
+ private:
+  Eigen::Index points_, cells_;
+  std::string packed_points_, packed_nodes_, packed_ends_, packed_types_;
+};
+
 /// A time series for ParaView: the time of each file in s, and its path relative to `file`'s
 /// folder, so that the series opens wherever it is moved to (std::invalid_argument for an absolute
 /// one). Throws InputError where the file cannot be written.

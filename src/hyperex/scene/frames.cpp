@@ -2,6 +2,7 @@
 #include "hyperex/scene/frames.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -93,18 +94,18 @@ void write_frames(const Results& r, const std::filesystem::path& directory) {
   const std::vector<io::VtuArray> graded = graded_arrays(r);
   std::filesystem::create_directory(directory / "frames");
   std::vector<std::pair<double, std::filesystem::path>> frames;
-  Progress progress("writing frames for ParaView", static_cast<long>(p.frame_time_s.size()));
-  for (std::size_t f = 0; f < p.frame_time_s.size();
-       f += static_cast<std::size_t>(r.scene.output.vtu_every)) {
-    const Points d = p.node_displacement_m[f].cast<double>();
-    const auto file = std::filesystem::path("frames") / fmt::format("frame_{:04}.vtu", f);
+  const auto every = static_cast<std::size_t>(r.scene.output.vtu_every);
+  for (std::size_t f = 0; f < p.frame_time_s.size(); f += every)
+    frames.emplace_back(p.frame_time_s[f],
+                        std::filesystem::path("frames") / fmt::format("frame_{:04}.vtu", f));
+  Progress progress("writing frames for ParaView", 0);
+  const io::VtuMesh mesh(p.nodes, p.tets);
+  tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t i) {
+    const Points d = p.node_displacement_m[i * every].cast<double>();
     std::vector<io::VtuArray> cells = frame_cells(p, d, r.scene.output.vtu_strain);
     cells.insert(cells.end(), graded.begin(), graded.end());
-    io::write_vtu(directory / file, p.nodes, p.tets, {{"displacement (m)", d.cast<float>()}},
-                  cells);
-    frames.emplace_back(p.frame_time_s[f], file);
-    progress.update(static_cast<long>(f + 1));
-  }
+    mesh.write(directory / frames[i].second, {{"displacement (m)", d.cast<float>()}}, cells);
+  });
   io::write_pvd(directory / "frames.pvd", frames);
 }
 

@@ -2,12 +2,43 @@
 #include "hyperex/scene/landmark_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/geometry/transform.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::scene {
+
+namespace {
+
+/// The canonical face on given landmarks, those far off left out the second time; none where too
+/// few are given.
+std::optional<Similarity> canonical_face_on(const io::Landmarks& given) {
+  const face::CanonicalFace& canonical = face::canonical_face();
+  std::vector<Vec3> from, to;
+  for (const auto& [name, at] : given)
+    if (canonical.landmarks.contains(name)) {
+      from.push_back(canonical.landmark(name, canonical.mesh.points));
+      to.push_back(at);
+    }
+  if (from.size() < 6) return std::nullopt;
+  const auto count = static_cast<Eigen::Index>(from.size());
+  Points a(count, 3), b(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    a.row(i) = from[static_cast<std::size_t>(i)].transpose();
+    b.row(i) = to[static_cast<std::size_t>(i)].transpose();
+  }
+  const Similarity first = fit_similarity(a, b);
+  const Eigen::VectorXd off = (first.apply(a) - b).rowwise().norm();
+  const double most = 2 * std::sqrt(off.squaredNorm() / static_cast<double>(count));
+  return fit_similarity(a, b, (off.array() <= most).cast<double>().matrix());
+}
+
+}  // namespace
 
 LandmarkSearch::LandmarkSearch(const Inputs& inputs) {
   doubts_ = std::async(std::launch::async, [&inputs]() -> std::vector<std::string> {
@@ -15,7 +46,8 @@ LandmarkSearch::LandmarkSearch(const Inputs& inputs) {
     for (const std::string& name : inputs.placed) given.erase(name);
     try {
       const auto found = tracking::find_scan_landmarks(
-          inputs.scan.mesh, tracking::picture_colours(inputs.scan), inputs.scan.file.string());
+          inputs.scan.mesh, tracking::picture_colours(inputs.scan), inputs.scan.file.string(),
+          {.scan_from_canonical = canonical_face_on(given)});
       return tissue::landmark_doubts(given, found.landmarks);
     } catch (const InputError&) {  // no face in the pictures: nothing to compare with
       return {};

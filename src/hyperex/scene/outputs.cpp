@@ -7,6 +7,7 @@
 #include <array>
 
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/render/camera.hpp"
@@ -273,18 +274,26 @@ std::string glb_note(const OutputOptions& output, const report::GlbReport& glb) 
 std::optional<report::GlbReport> write_outputs(const Results& r,
                                                const std::filesystem::path& directory) {
   const Performance& p = r.simulation.performance;
-  write_peak(r, directory);
-  motion::write_motion_csv(directory / "motion.csv", p.landmarks);
-  metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
-  metrics::write_excursions_csv(directory / "excursions.csv", r.symmetry.excursions);
-  if (r.scene.output.vtu) write_frames(r, directory);
   std::optional<report::GlbReport> glb;
-  if (r.scene.output.glb)
-    glb = report::write_glb(directory / "performance.glb", p, r.inputs.scan, r.modes,
-                            {r.scene.output.glb_tolerance_m, 1e6 * r.scene.output.glb_max_mb});
-  if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
-  Progress progress("drawing the contact sheet", 0);
-  write_contact_sheet(r, directory / "contact_sheet.png");
+  Progress progress("writing pictures and files", 0);
+  run_together(
+      {[&] {
+         if (r.scene.output.vtu) write_frames(r, directory);
+       },
+       [&] { write_contact_sheet(r, directory / "contact_sheet.png"); },
+       [&] {
+         if (r.scene.output.glb)
+           glb =
+               report::write_glb(directory / "performance.glb", p, r.inputs.scan, r.modes,
+                                 {r.scene.output.glb_tolerance_m, 1e6 * r.scene.output.glb_max_mb});
+       },
+       [&] {
+         write_peak(r, directory);
+         if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
+         motion::write_motion_csv(directory / "motion.csv", p.landmarks);
+         metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
+         metrics::write_excursions_csv(directory / "excursions.csv", r.symmetry.excursions);
+       }});
   return glb;
 }
 

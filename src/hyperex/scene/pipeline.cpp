@@ -11,7 +11,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_directory.hpp"
 #include "hyperex/core/progress.hpp"
-#include "hyperex/core/run_both.hpp"
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
@@ -210,16 +210,17 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
 
   std::optional<LandmarkSearch> search;  // beside the simulation
   if (!scene.scan.landmarks.empty()) search.emplace(inputs);
-  const metrics::RestAsymmetry at_rest = rest_asymmetry(mesh, inputs);
+  metrics::RestAsymmetry at_rest;
   reenact::Simulator simulator(made, inputs.landmarks, inputs.motion, std::move(options));
   const reenact::Simulator before_run = simulator;
   reenact::SimulationResult simulation;
   MirroredTwin twin;
-  run_both([&] { simulation = run_with_bar(simulator); },
-           [&] {
-             twin =
-                 simulate_twin(scene, inputs, field ? &*field : nullptr, at_rest.plane, before_run);
-           });
+  run_together({[&] { simulation = run_with_bar(simulator); },
+                [&] {
+                  at_rest = rest_asymmetry(mesh, inputs);
+                  twin = simulate_twin(scene, inputs, field ? &*field : nullptr, at_rest.plane,
+                                       before_run);
+                }});
   stage.lap();
   seconds["assemble"] = simulation.report.assemble_s;
   seconds["analyse"] = simulation.report.analyse_s;
@@ -256,14 +257,14 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.
   std::optional<report::GlbReport> glb;
-  run_both([&] { glb = write_outputs(results, directory); },
-           [&] {
-             if (variants.empty()) return;
-             Stopwatch own;
-             simulate_variants(variants, simulator, twin, *results.symmetry.map);
-             seconds["variants"] = own.lap();
-             summary["variants"] = write_variants(results, variants, mesh, directory);
-           });
+  run_together({[&] { glb = write_outputs(results, directory); },
+                [&] {
+                  if (variants.empty()) return;
+                  Stopwatch own;
+                  simulate_variants(variants, simulator, twin, *results.symmetry.map);
+                  seconds["variants"] = own.lap();
+                  summary["variants"] = write_variants(results, variants, mesh, directory);
+                }});
   if (glb) {
     summary["glb"] = glb_json(*glb);
     if (const auto note = glb_note(scene.output, *glb); !note.empty()) warn({note}, results);

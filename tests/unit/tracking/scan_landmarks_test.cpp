@@ -37,6 +37,24 @@ TEST(ScanLandmarks, OfTheEmbeddedFaceHoweverItIsTurned) {
   }
 }
 
+TEST(ScanLandmarks, AreTheSameWhereItIsKnownRoughlyHowTheFaceLies) {
+  const auto& face = face_to_draw();
+  const ScanLandmarks searched = find_scan_landmarks(face.mesh, {}, "made-up");
+  Similarity rough = searched.scan_from_canonical;
+  rough.rotation = Eigen::AngleAxisd(0.2, Vec3(1, 2, 0.5).normalized()) * rough.rotation;
+  rough.translation += Vec3(0.01, -0.005, 0.01);
+  const ScanLandmarks near =
+      find_scan_landmarks(face.mesh, {}, "made-up", {.scan_from_canonical = rough});
+  for (const auto& [name, at] : searched.landmarks)
+    EXPECT_LT((near.landmarks.at(name) - at).norm(), 1e-3) << name;
+  // Where no face is, it is looked for from all sides.
+  rough.rotation = Eigen::AngleAxisd(2.5, Vec3::UnitY()) * rough.rotation;
+  const ScanLandmarks found =
+      find_scan_landmarks(face.mesh, {}, "made-up", {.scan_from_canonical = rough});
+  for (const auto& [name, at] : searched.landmarks)
+    EXPECT_LT((found.landmarks.at(name) - at).norm(), 1e-3) << name;
+}
+
 TEST(ScanLandmarks, NoFaceIsSaidInOneLine) {
   // A ball of the size of a head.
   TriMesh ball;

@@ -89,10 +89,10 @@ std::optional<FacePose> pose_of(const ScanViewer& viewer, const ScanView& view,
 
 /// Seen from the face's own front, again and again until that stays.
 std::optional<FacePose> refine(const ScanViewer& viewer, LandmarkTracker& tracker,
-                               const FoundFace& first, const ScanView& first_view) {
+                               const FaceRegion& first, const ScanView& first_view) {
   constexpr int rounds = 4;
   constexpr double least_score = 0.5, same_front = 0.9994;  // 2 degrees
-  FaceLandmarks seen = tracker.settle(first_view.bgr, first.region());
+  FaceLandmarks seen = tracker.settle(first_view.bgr, first);
   std::optional<FacePose> pose = pose_of(viewer, first_view, seen);
   for (int round = 0; round < rounds && pose && pose->score >= least_score; ++round) {
     const ScanView view = viewer.look(face_camera(*pose, 0, 0), scan_picture_px, 2);
@@ -128,10 +128,20 @@ std::optional<FacePose> find_front(const ScanViewer& viewer, LandmarkTracker& tr
         viewer.look(viewer.whole(candidate.to_viewer, candidate.up), scan_picture_px, 2);
     const auto& faces = finder.find(view.bgr);
     if (faces.empty()) continue;
-    const auto pose = refine(viewer, tracker, faces.front(), view);
+    const auto pose = refine(viewer, tracker, faces.front().region(), view);
     if (pose && plausible(*pose) && (!best || pose->misfit() < best->misfit())) best = pose;
   }
   return best;
+}
+
+std::optional<FacePose> find_front_near(const ScanViewer& viewer, LandmarkTracker& tracker,
+                                        const Similarity& scan_from_canonical) {
+  FacePose start;
+  start.scan_from_canonical = scan_from_canonical;
+  const ScanView view = viewer.look(face_camera(start, 0, 0), scan_picture_px, 2);
+  const Points laid = scan_from_canonical.apply(face::canonical_face().mesh.points);
+  const auto pose = refine(viewer, tracker, region_of(view.seen(laid)), view);
+  return pose && plausible(*pose) ? pose : std::nullopt;
 }
 
 }  // namespace hyperex::tracking

@@ -13,4 +13,8 @@ namespace hyperex::tracking {
 /// front stays, and the place where the canonical face fits best is the answer.
 std::optional<FacePose> find_front(const ScanViewer& viewer, LandmarkTracker& tracker);
 
+/// The same where it is known roughly how the face lies: within some 20 degrees.
+std::optional<FacePose> find_front_near(const ScanViewer& viewer, LandmarkTracker& tracker,
+                                        const Similarity& scan_from_canonical);
+
 }  // namespace hyperex::tracking

@@ -25,20 +25,6 @@ struct Observation {
   double score = 0;
 };
 
-/// Vertex -> the vertex on the other side of the canonical face.
-std::vector<int> mirrored_vertices() {
-  const Points& points = face::canonical_face().mesh.points;
-  std::vector<int> mirror(face_point_count);
-  for (int i = 0; i < face_point_count; ++i) {
-    const Vec3 image = points.row(i).transpose().cwiseProduct(Vec3(-1, 1, 1));
-    (points.rowwise() - image.transpose())
-        .rowwise()
-        .squaredNorm()
-        .minCoeff(&mirror[std::size_t(i)]);
-  }
-  return mirror;
-}
-
 /// The points of a picture's mirror image, brought back.
 FacePoints unmirrored(const FacePoints& points, int width_px, const std::vector<int>& mirror) {
   FacePoints back;
@@ -75,7 +61,7 @@ std::vector<Observation> look_from_views(const TriMesh& scan, const render::Vert
                                          LandmarkTracker& tracker, const FacePose& pose,
                                          const ScanLandmarkOptions& options) {
   constexpr double least_score = 0.5, rad = std::numbers::pi / 180;
-  const std::vector<int> mirror = mirrored_vertices();
+  const std::vector<int>& mirror = face::mirrored_vertices();
   const Points laid = pose.scan_from_canonical.apply(face::canonical_face().mesh.points);
   const TriMesh image = mirrored(scan);
   const ScanViewer viewer(scan, colours), image_viewer(image, colours);
@@ -142,7 +128,11 @@ Vec3 agreed(const std::vector<Observation>& seen, int i, Vec3 point, const Vec3&
 ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const std::string& source, const ScanLandmarkOptions& options) {
   LandmarkTracker tracker;
-  const auto pose = find_front(ScanViewer(scan, colours), tracker);
+  const ScanViewer viewer(scan, colours);
+  std::optional<FacePose> pose;
+  if (options.scan_from_canonical)
+    pose = find_front_near(viewer, tracker, *options.scan_from_canonical);
+  if (!pose) pose = find_front(viewer, tracker);
   if (!pose)
     throw InputError(source,
                      "no face was found in this scan from any side: expected a face, its triangles "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct ScanLandmarkOptions {
   /// upwards, degrees. Each is looked at twice, the second time in the mirror.
   std::vector<std::pair<double, double>> views_deg = {{0, 0},  {-12, 0}, {12, 0}, {-25, 0},
                                                       {25, 0}, {0, 12},  {0, -12}};
+  /// Where it is known roughly how the canonical face lies on the scan (within some 20 degrees):
+  /// most of the work is to look for it from all sides, which is done where none is found there.
+  std::optional<Similarity> scan_from_canonical;
   /// A view whose point is so far from where the others see it counts half, m.
   double tolerance_m = 4e-3;
 };

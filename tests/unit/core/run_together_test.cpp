@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/core/run_both.hpp"
+#include "hyperex/core/run_together.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
@@ -15,14 +15,14 @@ namespace {
 
 std::string thrown_by(const std::function<void()>& first, const std::function<void()>& second) {
   try {
-    run_both(first, second);
+    run_together({first, second});
   } catch (const std::exception& error) {
     return error.what();
   }
   return "";
 }
 
-TEST(RunBoth, AnExceptionInOneCutsNoLoopOfTheOtherShort) {
+TEST(RunTogether, AnExceptionInOneCutsNoLoopOfTheOtherShort) {
   constexpr int steps = 200;
   std::atomic<int> done{0};
   std::atomic<bool> begun{false};
@@ -47,7 +47,7 @@ TEST(RunBoth, AnExceptionInOneCutsNoLoopOfTheOtherShort) {
   EXPECT_EQ(done, steps);
 }
 
-TEST(RunBoth, TheFirstOnesExceptionIsTold) {
+TEST(RunTogether, TheFirstOnesExceptionIsTold) {
   const auto a = [] { throw std::runtime_error("a"); };
   const auto b = [] { throw std::runtime_error("b"); };
   for (int time = 0; time < 20; ++time) EXPECT_EQ(thrown_by(a, b), "a");

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/run_together.hpp"
+
+#include <tbb/task_group.h>
+
+#include <exception>
+
+namespace hyperex {
+
+void run_together(const std::vector<std::function<void()>>& all) {
+  std::vector<std::exception_ptr> thrown(all.size());
+  tbb::task_group group;
+  // Given last to first, as a thread takes its newest task: the first begins first.
+  for (std::size_t i = all.size(); i-- > 0;)
+    group.run([&, i] {
+      try {
+        all[i]();
+      } catch (...) {
+        thrown[i] = std::current_exception();
+      }
+    });
+  group.wait();
+  for (const std::exception_ptr& one : thrown)
+    if (one) std::rethrow_exception(one);
+}
+
+}  // namespace hyperex
