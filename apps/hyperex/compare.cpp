@@ -15,6 +15,7 @@
 #include "compare_picture.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/output_file.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/baseline.hpp"
@@ -241,6 +242,7 @@ void run(const Options& options) {
     throw InputError(InputProblem{"compare", 0, "--baseline", "",
                                   "--corresponding, --rest SCAN and --landmarks L.json beside it"});
   check_outputs({options.picture}, {options.a, options.b, options.rest, options.landmarks});
+  check_output_kinds({png_output(options.picture)});
   const Surfaces surfaces = read_surfaces(options);
   io::Landmarks landmarks;
   metrics::Regions regions;

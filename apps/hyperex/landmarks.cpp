@@ -13,6 +13,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/memory.hpp"
+#include "hyperex/core/output_file.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
@@ -30,6 +31,13 @@ std::string text(const Vec3& v) {
 
 void run(const Options& options) {
   check_outputs({options.out, options.picture}, {options.scan});
+  const bool for_slicer = options.out.string().ends_with(".mrk.json");
+  check_output_kinds({{options.out,
+                       {".json"},
+                       "{",
+                       for_slicer ? std::vector<std::string>{"\"markups\""}
+                                  : std::vector<std::string>{"\"points\"", "\"units\""}},
+                      png_output(options.picture)});
   take_library_memory();
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);

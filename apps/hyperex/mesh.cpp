@@ -10,6 +10,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/memory.hpp"
+#include "hyperex/core/output_file.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/io/vtu.hpp"
 #include "hyperex/scene/inputs.hpp"
@@ -20,6 +21,8 @@
 
 namespace hyperex::cli {
 namespace {
+
+constexpr const char* kThickness = "thickness (mm)";
 
 struct Options {
   std::filesystem::path scan, landmarks, out;
@@ -68,6 +71,7 @@ void print(const tissue::TissueMesh& mesh, const std::filesystem::path& out) {
 void run(const Options& options) {
   const auto file = options.landmarks.empty() ? landmarks_beside(options.scan) : options.landmarks;
   check_outputs({options.out}, {options.scan, file});
+  check_output_kinds({{options.out, {".vtu"}, "<?xml", {"type=\"UnstructuredGrid\"", kThickness}}});
   take_library_memory();
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
@@ -93,7 +97,7 @@ void run(const Options& options) {
   for (int level = 0; level <= mesh.volume.layers; ++level)
     thickness.segment(level * mesh.volume.surface_nodes(), mesh.volume.surface_nodes()) =
         1e3F * mesh.volume.thickness_m.cast<float>();
-  io::write_vtu(options.out, mesh.volume.nodes, mesh.volume.tets, {{"thickness (mm)", thickness}});
+  io::write_vtu(options.out, mesh.volume.nodes, mesh.volume.tets, {{kThickness, thickness}});
   print(mesh, options.out);
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "commands.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/output_file.hpp"
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
@@ -20,6 +23,7 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/scene/asymmetry_picture.hpp"
+#include "hyperex/scene/recording_jitter.hpp"
 #include "symmetry_frames.hpp"
 #include "symmetry_picture.hpp"
 
@@ -30,7 +34,7 @@ namespace fs = std::filesystem;
 struct Options {
   fs::path motion, out, excursions, picture, map, map_ply, landmarks;
   double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz;
-  std::string unit, jitter_mm = "0";
+  std::string unit, jitter_mm = "auto";
   bool keep_head = false;
 };
 
@@ -78,7 +82,7 @@ void print_excursions(const metrics::Excursions& excursions) {
         excursions.lowpass_hz);
 }
 
-void print_summary(const metrics::SymmetryMeasures& all) {
+void print_summary(const metrics::SymmetryMeasures& all, const scene::RecordedJitter& jitter) {
   const metrics::SymmetryCurve& curve = all.curve;
   size_t undecided = 0;
   for (size_t i = 1; i < curve.time_s.size(); ++i) undecided += curve.undecided(i);
@@ -86,7 +90,7 @@ void print_summary(const metrics::SymmetryMeasures& all) {
   if (curve.jitter_m > 0)
     std::cout << fmt::format("; jitter {:.2f} mm leaves {} of {} samples undecided",
                              1e3 * curve.jitter_m, undecided, curve.time_s.size() - 1);
-  std::cout << '\n';
+  std::cout << '\n' << jitter.how << '\n';
   if (all.map && !all.map->frames.empty()) {
     const auto& worst = all.map->frames[static_cast<size_t>(all.map->worst_frame)];
     std::cout << fmt::format(
@@ -98,20 +102,46 @@ void print_summary(const metrics::SymmetryMeasures& all) {
   std::cout << "This is no medical device: the figures describe a motion and diagnose nothing.\n";
 }
 
-double jitter_of(const Options& options, const motion::Motion& steady) {
+/// The jitter that the run judged its figures by; none where its summary does not tell.
+std::optional<double> jitter_of_run(const fs::path& folder) {
+  const fs::path file = folder / "summary.json";
+  if (!fs::exists(file)) return std::nullopt;
+  const auto summary = nlohmann::json::parse(read_file(file), nullptr, false);
+  const auto at = nlohmann::json::json_pointer("/symmetry/jitter_mm");
+  if (summary.is_discarded() || !summary.contains(at) || !summary[at].is_number())
+    return std::nullopt;
+  return 1e-3 * summary[at].get<double>();
+}
+
+/// `steady`: head pose out. `run`: the folder of a run, or empty.
+scene::RecordedJitter jitter_of(const Options& options, const motion::Motion& steady,
+                                const fs::path& run) {
   if (options.jitter_mm == "auto") {
-    const double jitter_m = metrics::jitter_at_rest(steady);
-    if (!std::isfinite(jitter_m))
-      motion::refuse(steady,
-                     "too few samples to tell the jitter at rest; expected a stretch of "
-                     "five measured samples, or a number for --jitter-mm");
-    return jitter_m;
+    const auto told = run.empty() ? std::nullopt : jitter_of_run(run);
+    if (told && *told >= 0)
+      return {*told, true,
+              fmt::format("jitter of the recorded points, from the run's summary.json: {:.2f} mm",
+                          1e3 * *told)};
+    return scene::recorded_jitter(steady);
   }
   const auto value = io::parse_number(options.jitter_mm);
   if (!value || !(*value >= 0) || !(*value <= 20))
     throw InputError(InputProblem{"symmetry", 0, "--jitter-mm", options.jitter_mm,
                                   "a number from 0 to 20 (mm) or \"auto\""});
-  return 1e-3 * *value;
+  return {1e-3 * *value, true,
+          *value > 0 ? fmt::format("jitter of the recorded points, as --jitter-mm states it: "
+                                   "{:.2f} mm",
+                                   *value)
+                     : "points taken as exact, as --jitter-mm 0 states it"};
+}
+
+/// One loud line where no figure can be called undecided.
+void warn_of_unknown(const scene::RecordedJitter& jitter) {
+  if (!jitter.known)
+    spdlog::warn(
+        "{}: the points are taken as exact, and noise may pass for asymmetry; --jitter-mm X "
+        "states it",
+        jitter.how);
 }
 
 motion::Motion without_head(const motion::Motion& motion, bool keep_head) {
@@ -143,7 +173,8 @@ void write_map(const Options& options, const SurfaceFrames& frames,
 }
 
 /// What is written and printed, with a surface or without.
-void tell(const Options& options, const metrics::SymmetryMeasures& all) {
+void tell(const Options& options, const metrics::SymmetryMeasures& all,
+          const scene::RecordedJitter& jitter) {
   for (const std::string& stand_in : all.curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
   if (!options.picture.empty())
@@ -156,7 +187,7 @@ void tell(const Options& options, const metrics::SymmetryMeasures& all) {
   else
     metrics::write_symmetry_csv(options.out, all);
   print_excursions(all.excursions);
-  print_summary(all);
+  print_summary(all, jitter);
 }
 
 void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
@@ -166,15 +197,16 @@ void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
   std::vector<PointsF> displacement;
   for (const Points& at : frames.positions)
     displacement.push_back((at - frames.rest.points).cast<float>());
-  const double jitter_m = jitter_of(options, frames.tracks);
+  const scene::RecordedJitter jitter = jitter_of(options, frames.tracks, {});
+  warn_of_unknown(jitter);
   metrics::SymmetryMeasures all;
-  all.curve = metrics::symmetry_of(frames.tracks, options.floor, jitter_m);
-  all.excursions = metrics::excursions_of(frames.tracks, jitter_m, options.lowpass_hz);
+  all.curve = metrics::symmetry_of(frames.tracks, options.floor, jitter.jitter_m);
+  all.excursions = metrics::excursions_of(frames.tracks, jitter.jitter_m, options.lowpass_hz);
   all.map =
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
-  tell(options, all);
+  tell(options, all, jitter);
 }
 
 /// The files of a folder, each of which may be a frame.
@@ -184,22 +216,31 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
+void check_outputs_of(const Options& options, const std::vector<fs::path>& inputs) {
+  check_outputs({options.out, options.excursions, options.picture, options.map, options.map_ply},
+                inputs);
+  check_output_kinds({{options.out, {".csv"}, "time_s,xi_L,xi_R,S_ln"},
+                      {options.excursions, {".csv"}, "point,excursion_L_mm,"},
+                      png_output(options.picture),
+                      png_output(options.map),
+                      {options.map_ply, {".ply"}, "ply", {" asymmetry_mm\n"}}});
+}
+
 void run(const Options& options) {
   std::optional<io::LengthUnit> unit;
   if (!options.unit.empty()) unit = io::length_unit(options.unit);
-  const std::vector<fs::path> outputs = {options.out, options.excursions, options.picture,
-                                         options.map, options.map_ply};
-  fs::path file = options.motion;
+  fs::path file = options.motion, run_folder;
   if (fs::is_directory(file)) {
     if (!fs::exists(file / "motion.csv")) {
       std::vector<fs::path> inputs = files_in(file);
       inputs.push_back(options.landmarks);
-      check_outputs(outputs, inputs);
+      check_outputs_of(options, inputs);
       return run_surfaces(options, unit);
     }
+    run_folder = file;
     file /= "motion.csv";
   }
-  check_outputs(outputs, {file});
+  check_outputs_of(options, {file});
   if (!options.map.empty() || !options.map_ply.empty())
     throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
                                   "a folder of surfaces; points alone have no map"});
@@ -207,10 +248,11 @@ void run(const Options& options) {
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(motion, options.floor);  // tells first which points are missing
   const motion::Motion steady = without_head(motion, options.keep_head);
-  const double jitter_m = jitter_of(options, steady);
-  if (jitter_m > 0) all.curve = metrics::symmetry_of(motion, options.floor, jitter_m);
-  all.excursions = metrics::excursions_of(steady, jitter_m, options.lowpass_hz);
-  tell(options, all);
+  const scene::RecordedJitter jitter = jitter_of(options, steady, run_folder);
+  warn_of_unknown(jitter);
+  if (jitter.jitter_m > 0) all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
+  all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);
+  tell(options, all, jitter);
 }
 
 }  // namespace
@@ -248,7 +290,8 @@ void add_symmetry(CLI::App& program) {
   command
       ->add_option("--jitter-mm", options->jitter_mm,
                    "Jitter of the points (standard deviation a coordinate, mm), which sets the "
-                   "noise floor; auto: that of the quietest half second; 0: exact")
+                   "noise floor; auto: of a run's folder that of its summary.json, else estimated "
+                   "from the points' fourth differences in time, as a run does; 0: exact")
       ->capture_default_str();
   command
       ->add_option("--lowpass-hz", options->lowpass_hz,
@@ -261,7 +304,7 @@ void add_symmetry(CLI::App& program) {
   command->add_option("--unit", options->unit, "Unit of the motion, where it should not be guessed")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command->footer(
-      "Example:\n  hyperex symmetry out/a/motion.csv --jitter-mm 0.3 --out symmetry.csv --picture "
+      "Example:\n  hyperex symmetry recording.csv --out symmetry.csv --picture "
       "symmetry.png");
   command->callback([options] { run(*options); });
 }

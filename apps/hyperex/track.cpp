@@ -164,6 +164,9 @@ void run(const Options& options) {
   take_library_memory();
   std::optional<tracking::FaceModel> own;
   const tracking::FaceModel& model = model_of(options.model, own);
+  std::vector<OutputFile> kinds = options.outputs.kinds(model);
+  kinds.push_back({options.plots, {".html"}, "<!doctype html>", {"<title>Hyperex tracking"}});
+  check_output_kinds(kinds);
   std::optional<tracking::Truth> truth;
   if (!options.score.empty()) truth = tracking::read_truth(options.score);
   capture::SourceOptions source_options;

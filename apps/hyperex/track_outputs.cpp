@@ -38,6 +38,23 @@ std::vector<std::filesystem::path> TrackOutputs::files() const {
   return all;
 }
 
+std::vector<OutputFile> TrackOutputs::kinds(const tracking::FaceModel& model) const {
+  const std::string point = model.landmarks.begin()->first;
+  const auto table = [&](const char* kind) {
+    return motion.empty() ? motion : beside(motion, kind);
+  };
+  return {{motion, {".csv"}, "time_s," + point + "_x_mm,"},
+          {table("pose"), {".csv"}, "time_s,valid,T00,"},
+          {table("units"), {".csv"}, "time_s,valid,"},
+          {table("arkit"), {".csv"}, "time_s,browDownLeft,"},
+          {trc, {".trc"}, "PathFileType", {"\t" + point + "\t"}},
+          // A video says nothing of who made it, and a recording is worth more than a preview.
+          {preview, {".mp4"}, ""},
+          {glb, {".glb"}, "glTF", {"\"generator\":\"hyperex\""}},
+          // A phone's own recordings have that first line too; they start at the time of day.
+          {live_link, {".csv"}, "Timecode,BlendShapeCount,", {"\n00:00:00:00.000,"}}};
+}
+
 void add_output_options(CLI::App& command, TrackOutputs& outputs) {
   command.add_option(
       "--out", outputs.motion,

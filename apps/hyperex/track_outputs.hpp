@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/output_file.hpp"
 #include "hyperex/tracking/output/preview_movie.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
 
@@ -19,6 +20,8 @@ struct TrackOutputs {
 
   /// Every file, those beside the motion among them; some empty.
   std::vector<std::filesystem::path> files() const;
+  /// The same with what tells earlier ones from other files.
+  std::vector<OutputFile> kinds(const tracking::FaceModel& model) const;
   bool any() const {
     return !motion.empty() || !trc.empty() || !preview.empty() || !glb.empty() ||
            !live_link.empty();

@@ -98,13 +98,59 @@ TEST_F(Outputs, AnInputIsNotReplaced) {
     if (!fs::exists(in("link.ply"))) fs::create_symlink("face.ply", in("link.ply"));
     expect_refused(arguments, "is read too");
   }
-  const std::string symmetry = "symmetry motion.csv --keep-head --out a ";
-  expect_refused(symmetry + "--excursions a", "is named for two outputs");
+  const std::string symmetry = "symmetry motion.csv --keep-head --out a.csv ";
+  expect_refused(symmetry + "--excursions a.csv", "is named for two outputs");
   fs::create_directory(in("sub"));
-  expect_refused(symmetry + "--picture sub/../a", "is named for two outputs");
+  expect_refused(symmetry + "--picture sub/../a.csv", "is named for two outputs");
   put(in("clip.mp4"), "");
   expect_refused("track clip.mp4 --mirrored no --preview clip.mp4", "is read too");
   expect_refused("track clip.mp4 --out m.csv --plots m.pose.csv", "is named for two outputs");
+}
+
+TEST_F(Outputs, AFileIsReplacedOnlyByOneOfItsOwnKind) {
+  const std::string tissue = "mesh face.ply --element-size-mm 12 --layers 1 --out ";
+  const std::string symmetry = "symmetry motion.csv --keep-head ";
+  for (const auto& [arguments, end] : std::vector<std::pair<std::string, std::string>>{
+           {tissue + "new.toml", ".vtu"},
+           {"landmarks face.ply --out new.csv", ".json"},
+           {"landmarks face.ply --out new.json --picture new.jpg", ".png"},
+           {symmetry + "--out new.txt", ".csv"},
+           {symmetry + "--excursions new.png", ".csv"},
+           {symmetry + "--picture new.jpg", ".png"},
+           {"compare face.ply face.ply --unit mm --picture new.ply", ".png"},
+           {"track nowhere --out new.json", ".csv"},
+           {"track nowhere --plots new.csv", ".html"},
+           {"track nowhere --glb new.csv", ".glb"}})
+    expect_refused(arguments, "expected a name that ends in " + end);
+  const auto mine = [&](const std::string& name, const std::string& text) {
+    put(in(name), text);
+    return name;
+  };
+  const std::string known = "is there already and is not known to be an earlier output";
+  for (const std::string& arguments :
+       {tissue + mine("m.vtu", "<?xml version=\"1.0\"?><VTKFile type=\"UnstructuredGrid\">"),
+        "landmarks face.ply --out " + mine("m.json", "{\"notes\": []}"),
+        "landmarks face.ply --out l.json --picture " + mine("m.png", "\x89PNG of a holiday"),
+        symmetry + "--out " + mine("m.csv", "patient,born\n"), symmetry + "--excursions m.csv",
+        symmetry + "--out scene.csv --picture m.png",
+        "track nowhere --out " + mine("t.csv", "time_s,my_marker_x_mm\n"),
+        "track nowhere --out new.csv --glb " + mine("m.glb", "glTF of a friend"),
+        "track nowhere --preview " + mine("m.mp4", "ftyp"),
+        "track nowhere --livelink " +
+            mine("live.csv", "Timecode,BlendShapeCount,EyeBlinkLeft\n16:07:12:05.613,61,0\n")}) {
+    expect_refused(arguments, known);
+  }
+  mine("u.pose.csv", "my,table\n");
+  expect_refused("track nowhere --out u.csv", "u.pose.csv: " + known);
+  EXPECT_EQ(read_file(in("m.csv")), "patient,born\n");
+  // Its own it replaces, and what is empty.
+  mine("s.csv", "");
+  for (int k = 0; k < 2; ++k) {
+    const Outcome again = call(symmetry + "--out s.csv --excursions e.csv --picture s.png");
+    EXPECT_EQ(again.status, 0) << again.err;
+    const Outcome meshed = call(tissue + "tissue.vtu");
+    EXPECT_EQ(meshed.status, 0) << meshed.err;
+  }
 }
 
 TEST_F(Outputs, DevicesAndLinksStay) {

@@ -147,6 +147,29 @@ TEST_F(Plausible, AFilesJitterIsEstimated) {
   EXPECT_NEAR(summary()["symmetry"]["jitter_mm"].get<double>(), 0.2, 0.03);
 }
 
+TEST_F(Plausible, SymmetryJudgesByTheJitterThatTheRecordingShows) {
+  const std::string quiet = "symmetry motion.csv --keep-head --out s.csv";
+  write_motion(0, 81, [](motion::Motion& m) {
+    std::mt19937 generator(1);
+    std::normal_distribution<double> noise(0, 0.2e-3);
+    for (auto& sample : m.positions)
+      for (double& x : sample.reshaped()) x += noise(generator);
+  });
+  const Outcome noisy = call(quiet);
+  EXPECT_THAT(noisy.out, HasSubstr("estimated from their fourth differences in time: 0.2"));
+  EXPECT_THAT(noisy.out, HasSubstr("undecided"));
+  EXPECT_THAT(call(quiet + " --jitter-mm 0").out, HasSubstr("taken as exact, as --jitter-mm 0"));
+  EXPECT_THAT(call(quiet + " --jitter-mm 0.3").out, HasSubstr("as --jitter-mm states it: 0.30 mm"));
+  // A run's folder has the jitter that the run judged by.
+  std::filesystem::create_directory(in("ran"));
+  std::filesystem::copy_file(in("motion.csv"), in("ran/motion.csv"));
+  put(in("ran/summary.json"), R"({"symmetry": {"jitter_mm": 0.17}})");
+  EXPECT_THAT(call("symmetry ran --keep-head --out s.csv").out,
+              HasSubstr("from the run's summary.json: 0.17 mm"));
+  write_motion(0, 12, [](motion::Motion&) {});
+  EXPECT_THAT(call(quiet).err, HasSubstr("warning: the recording is too short to tell its jitter"));
+}
+
 TEST_F(Plausible, AFileWithoutPaintFailsInCheckAsInRun) {
   io::VertexColours white(good_face().points.rows(), 4);
   white.setConstant(255);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/metrics/symmetry.hpp"
@@ -46,6 +47,10 @@ TEST_P(TrackedJitter, IsEstimatedFromTheFileAlone) {
   const fs::path recording = kRecordings / GetParam();
   if (!fs::exists(recording)) GTEST_SKIP() << "no " << recording;
   ASSERT_EQ(call("track '" + recording.string() + "' --out m.csv").status, 0);
+  put(in("run.toml"), "scan.file = \"embedded\"\nmotion.recording = '" + recording.string() +
+                          "'\nmesh.element_size_mm = 10\nmesh.layers = 1\n"
+                          "time = { step_s = 0.05, end_s = 0.2 }\noutput = { glb = false, report = "
+                          "false }\n");
   const motion::Motion tracked = motion::stabilise(motion::read_motion(in("m.csv"))).motion;
   const motion::Motion truth =
       motion::stabilise(motion::read_motion(recording / "truth_landmarks68_camera_m.csv")).motion;
@@ -58,6 +63,14 @@ TEST_P(TrackedJitter, IsEstimatedFromTheFileAlone) {
   std::printf("%s: estimated %.3f mm, by the truth %.3f mm, quietest half second %.3f mm\n",
               GetParam().c_str(), 1e3 * estimate_m, 1e3 * true_m, 1e3 * at_rest_m);
   EXPECT_NEAR(estimate_m / true_m, 1, 0.15);
+  const Outcome run = call("run run.toml --out out");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string told = "estimated from their fourth differences in time: ";
+  const auto at = run.err.find(told);
+  ASSERT_NE(at, std::string::npos) << run.err;
+  const double rounding_mm = 0.005;
+  EXPECT_NEAR(std::stod(run.err.substr(at + told.size())), 1e3 * true_m,
+              0.15e3 * true_m + rounding_mm);
 }
 
 INSTANTIATE_TEST_SUITE_P(Recordings, TrackedJitter,

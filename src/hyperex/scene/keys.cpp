@@ -406,9 +406,8 @@ std::vector<Key> run_keys() {
                     "minus infinity."),
       number<Scene>("output.jitter_mm", millimetres, AT(output.jitter_m), {-1, 20},
                     "Jitter of the recorded points, a standard deviation a coordinate, which "
-                    "sets the noise floor of S(t) (docs/symmetry.md). Below 0: that of the "
-                    "tracked points at rest for motion.recording, for a file what its points' "
-                    "fourth differences in time tell."),
+                    "sets the noise floor of S(t) (docs/symmetry.md). Below 0: what "
+                    "the points' fourth differences in time tell."),
       number<Scene>("output.lowpass_hz", none, AT(output.lowpass_hz), {0, 100},
                     "Cut-off (Hz) of the zero-phase low-pass that speeds and paths of points with "
                     "jitter are smoothed by (docs/symmetry.md). 0: not smoothed."),
