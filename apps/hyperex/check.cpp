@@ -23,6 +23,7 @@ void add_check(CLI::App& program) {
       "what it did not check)");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
   command->add_option("--set", options->overrides, "Override a key of the scene: KEY=VALUE")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->footer("Example: hyperex check examples/demo.toml");
   command->callback([options] {

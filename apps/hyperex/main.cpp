@@ -81,15 +81,20 @@ std::string words_of(const std::filesystem::filesystem_error& error) {
 
 // CLI11 alone says of a misspelt command that one is required.
 void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+  if (argc >= 2 && argv[1][0] == '-') return;
   std::vector<std::string> names;
   std::string list;
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->check_name(argv[1])) return;
+    if (argc >= 2 && command->check_name(argv[1])) return;
     if (command->get_group().empty()) continue;
     names.push_back(command->get_name());
     list += (list.empty() ? "" : ", ") + command->get_name();
   }
+  if (argc < 2)
+    throw hyperex::InputError(
+        "expected a subcommand (" + list +
+        "), as in: hyperex run examples/demo.toml --out out/demo; all of them with an example: "
+        "hyperex --help");
   const std::string near = hyperex::scene::nearest(argv[1], names);
   throw hyperex::InputError(
       {{},

@@ -32,9 +32,41 @@ std::string solver_line(const nlohmann::ordered_json& summary) {
   return line + " of the largest displacement\n";
 }
 
+double number_in(const nlohmann::ordered_json& json, const char* key) {
+  return json.contains(key) && json[key].is_number() ? json[key].get<double>() : 0;
+}
+
+/// Whether the corners' difference counts, and what the larger floor comes from.
+std::string floor_clause(const nlohmann::ordered_json& corners, double apart_mm) {
+  const double floor_mm = number_in(corners, "floor_mm");
+  if (floor_mm <= 0) return "";
+  const bool of_jitter =
+      number_in(corners, "jitter_floor_mm") > number_in(corners, "mesh_floor_mm");
+  return fmt::format(": {} the floor of {} mm ({})",
+                     corners.value("undecided", false) ? "undecided, below" : "more than",
+                     floor_mm < 0.095 || std::abs(apart_mm - floor_mm) < 0.1
+                         ? fmt::format("{:.2f}", floor_mm)
+                         : fmt::format("{:.1f}", floor_mm),
+                     of_jitter ? "jitter" : "mesh");
+}
+
+/// An error of the head's pose moves both corners: a shift along both their ways parts them by
+/// nothing, a turn or a shift to one side does. No floor holds that, so it is said where it is
+/// larger than the floor.
+std::string head_clause(const nlohmann::ordered_json& summary,
+                        const nlohmann::ordered_json& corners) {
+  const double shift_mm = number_in(summary, "head_shift_uncertainty_mm");
+  if (shift_mm <= number_in(corners, "floor_mm") || shift_mm < 0.05) return "";
+  return fmt::format(
+      "; not in it: the head's pose, uncertain by up to {:.1f} mm and {:.1f} degrees (95 %), of "
+      "which a turn or a shift to one side would part them too",
+      shift_mm, number_in(summary, "head_turn_uncertainty_deg"));
+}
+
 /// "corners of the mouth: left 3.8 mm, right 12.7 mm, 8.9 mm apart"; empty where they are not
 /// known.
-std::string corners_line(const nlohmann::ordered_json& symmetry) {
+std::string corners_line(const nlohmann::ordered_json& summary) {
+  const auto& symmetry = summary["symmetry"];
   if (!symmetry.contains("commissure")) return "";
   const auto& corners = symmetry["commissure"];
   if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
@@ -42,9 +74,8 @@ std::string corners_line(const nlohmann::ordered_json& symmetry) {
   std::string line =
       fmt::format("corners of the mouth: left {:.1f} mm, right {:.1f} mm, {:.1f} mm apart", left,
                   right, std::abs(left - right));
-  if (corners.value("undecided", false) && corners.value("floor_mm", 0.0) > 0)
-    line += fmt::format(": undecided (below {:.1f} mm)", corners["floor_mm"].get<double>());
-  return line + "\n";
+  return line + floor_clause(corners, std::abs(left - right)) + head_clause(summary, corners) +
+         "\n";
 }
 
 void run(const Options& options) {
@@ -58,8 +89,8 @@ void run(const Options& options) {
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
-      summary["seconds"]["total"].get<double>(), solver_line(summary),
-      corners_line(summary["symmetry"]), options.out.string());
+      summary["seconds"]["total"].get<double>(), solver_line(summary), corners_line(summary),
+      options.out.string());
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},
@@ -95,6 +126,7 @@ void add_run(CLI::App& program) {
   command
       ->add_option("--set", options->overrides,
                    "Override a key of the scene: KEY=VALUE, as often as needed")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_flag("--verify", options->verify,
                     "Run the full model too and tell the reduced one's true error");

@@ -23,6 +23,7 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/scene/asymmetry_picture.hpp"
+#include "hyperex/scene/plausible.hpp"
 #include "hyperex/scene/recording_jitter.hpp"
 #include "symmetry_frames.hpp"
 #include "symmetry_picture.hpp"
@@ -248,6 +249,9 @@ void run(const Options& options) {
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(motion, options.floor);  // tells first which points are missing
   const motion::Motion steady = without_head(motion, options.keep_head);
+  for (const std::string& warning :
+       {scene::exchanged_warning(motion, scene::average_face()), scene::timing_warning(motion)})
+    if (!warning.empty()) spdlog::warn("{}", warning);
   const scene::RecordedJitter jitter = jitter_of(options, steady, run_folder);
   warn_of_unknown(jitter);
   if (jitter.jitter_m > 0) all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);

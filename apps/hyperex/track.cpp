@@ -29,7 +29,7 @@ struct Options {
   std::string recording, device, model = "canonical";
   TrackOutputs outputs;
   std::filesystem::path score, camera, plots;
-  std::optional<bool> mirrored;
+  std::string mirrored;  ///< "yes", "no", or empty: not said
   bool no_depth = false, json = false;
   double eye_distance_mm = 90;
   std::optional<double> seconds;
@@ -88,16 +88,18 @@ void print_score(const tracking::Score& score, bool json) {
 
 void say_what_was_tracked(const tracking::Tracking& tracking) {
   std::size_t lost = 0, several = 0;
-  std::string first_fault;
+  std::string faults;
+  constexpr std::size_t told = 3;
   for (const auto& frame : tracking.frames) {
     if (frame.faces_in_view > 1) ++several;
     if (frame.valid) continue;
-    if (!lost++) first_fault = fmt::format("frame {}: {}", frame.index, frame.fault);
+    if (lost++ < told)
+      faults += fmt::format("{}frame {} ({})", lost > 1 ? ", " : ": ", frame.index, frame.fault);
   }
   const auto& times = tracking.times;
   const double frames = std::max<double>(1, double(times.frames));
-  spdlog::info("{} frames, {} not valid{}{}", tracking.frames.size(), lost, lost ? "; first " : "",
-               first_fault);
+  spdlog::info("{} frames, {} not valid{}{}", tracking.frames.size(), lost, faults,
+               lost > told ? fmt::format(" and {} more", lost - told) : "");
   if (several) spdlog::warn("several faces in {} frames: the largest was followed", several);
   spdlog::info(
       "ms a frame: network {:.1f}, pictures {:.1f}, fit {:.1f}; the person's shape {:.0f} ms once",
@@ -108,19 +110,25 @@ void say_what_was_tracked(const tracking::Tracking& tracking) {
 /// Whether the pictures are to be turned back. A colour picture alone does not tell, and a mirrored
 /// one would swap left and right in silence: of a webcam it must be said.
 bool asked_mirrored(const Options& options, std::string spec) {
-  if (options.mirrored) return *options.mirrored;
+  if (!options.mirrored.empty()) return options.mirrored == "yes";
   if (spec.starts_with("play:")) spec.erase(0, 5);
   const auto kind = capture::source_kind(spec);
   if (kind == capture::SourceKind::webcam)
-    throw InputError("hyperex track: " + spec +
+    throw InputError("track: " + spec +
                      ": does its picture show the world as a mirror does? Say --mirrored yes or "
                      "--mirrored no: left and right depend on it");
-  if (kind == capture::SourceKind::video && !options.json)
+  return false;
+}
+
+/// Said only of a video that could be opened.
+void warn_of_video(const Options& options, std::string recording) {
+  if (recording.starts_with("play:")) recording.erase(0, 5);
+  if (options.mirrored.empty() && !options.json &&
+      capture::source_kind(recording) == capture::SourceKind::video)
     spdlog::warn(
         "{}: taken as not mirrored, as a video does not tell; where it is mirrored, left and right "
         "are swapped: say --mirrored yes",
-        spec);
-  return false;
+        recording);
 }
 
 tracking::FrameVisitor visitor_of(tracking::PreviewMovie* preview) {
@@ -156,10 +164,10 @@ std::vector<std::filesystem::path> inputs_of(const Options& options) {
 void run(const Options& options) {
   if (!options.outputs.any() && options.plots.empty() && options.score.empty())
     throw InputError(
-        "hyperex track: nothing to do: give --out, --trc, --preview, --glb, --livelink, --plots or "
+        "track: nothing to do: give --out, --trc, --preview, --glb, --livelink, --plots or "
         "--score");
   if (options.json && options.score.empty())
-    throw InputError("hyperex track: --json prints a score: give --score TRUTH_FOLDER too");
+    throw InputError("track: --json prints a score: give --score TRUTH_FOLDER too");
   check_outputs(outputs_of(options), inputs_of(options));
   take_library_memory();
   std::optional<tracking::FaceModel> own;
@@ -177,9 +185,10 @@ void run(const Options& options) {
   const bool flip = asked_mirrored(options, options.device.empty() ? recording : options.device);
   auto source = options.device.empty() ? capture::open_source(recording, source_options)
                                        : capture::open_device(options.device, source_options);
+  warn_of_video(options, options.device.empty() ? recording : options.device);
   if (flip) source = std::make_unique<capture::Mirrored>(std::move(source));
   if (options.seconds && !source->live())
-    throw InputError("hyperex track: --seconds is for a camera; a recording has its end");
+    throw InputError("track: --seconds is for a camera; a recording has its end");
   tracking::TrackerOptions tracker;
   tracker.neutral.eye_distance_m = options.eye_distance_mm * 1e-3;
   tracker.use_depth = !options.no_depth;
@@ -240,6 +249,9 @@ void add_track(CLI::App& program) {
           "--mirrored", options->mirrored,
           "yes: the pictures show the world as a mirror does and are turned back; no: they "
           "do not. A webcam must be said, a video is taken as not mirrored")
+      ->check([](const std::string& said) {
+        return said == "yes" || said == "no" ? "" : "expected yes or no, not \"" + said + "\"";
+      })
       ->option_text("yes|no");
   command->add_flag("--no-depth", options->no_depth, "Leave the depth out");
   command->add_option("--camera", options->camera, "camera.toml that goes before the recording's");

@@ -48,9 +48,10 @@ std::vector<OutputFile> TrackOutputs::kinds(const tracking::FaceModel& model) co
           {table("units"), {".csv"}, "time_s,valid,"},
           {table("arkit"), {".csv"}, "time_s,browDownLeft,"},
           {trc, {".trc"}, "PathFileType", {"\t" + point + "\t"}},
-          // A video says nothing of who made it, and a recording is worth more than a preview.
-          {preview, {".mp4"}, ""},
-          {glb, {".glb"}, "glTF", {"\"generator\":\"hyperex\""}},
+          // A video says nothing of who made it, and a recording is worth more than a preview, so
+          // none is replaced. Its name is looked at with the video plugin.
+          {preview, {""}, ""},
+          {glb, {".glb"}, "glTF", {"\"generator\"", "\"hyperex\""}},
           // A phone's own recordings have that first line too; they start at the time of day.
           {live_link, {".csv"}, "Timecode,BlendShapeCount,", {"\n00:00:00:00.000,"}}};
 }

@@ -64,6 +64,7 @@ TEST_F(Outputs, OfAnEarlierRunAreReplacedOthersRefused) {
   EXPECT_EQ(summary["files"].get<std::vector<std::string>>().size(),
             std::size_t(std::count_if(fs::recursive_directory_iterator(in("out")), {},
                                       [](const auto& entry) { return entry.is_regular_file(); })));
+  EXPECT_THAT(read_file(in("out/report.html")), HasSubstr("face.ply, moved by motion.csv"));
   const auto written = names_in(in("out"));
   expect_run("out");
   EXPECT_EQ(names_in(in("out")), written);
@@ -215,6 +216,27 @@ TEST_F(Outputs, AVariantsNameMayHoldAComma) {
   EXPECT_THAT(read_file(in("out/variants.csv")), HasSubstr("\n\"stiff, both (x2)\","));
   const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
   EXPECT_EQ(summary["variants"]["table"][1]["folder"], "variants/stiff_ both _x2_");
+}
+
+TEST_F(Outputs, WhatIsWrongIsSaidInWordsOfTheUsers) {
+  put(in("live.csv"), "Timecode,BlendShapeCount,EyeBlinkLeft\n16:07:12:05.613,61,0\n");
+  expect_refused("check scene.toml --set motion.file=live.csv", "expected it as motion.arkit");
+  expect_refused("check scene.toml --set motion.recording=nowhere",
+                 "expected an existing folder or video");
+  put(in("torn.toml"), "scan.file = \"embedded\"\nmotion.file = \"motion.csv\nmesh.layers = 1\n");
+  expect_refused("check torn.toml", "torn.toml:2: expected sound TOML (a string that does not end");
+  expect_refused("check scene.toml --set", "KEY=VALUE");
+  expect_refused("symmetry nowhere.csv", "nowhere.csv: no such file");
+  expect_refused("symmetry nowhere", "nowhere: no such file");
+  expect_refused("track motion.csv --mirrored maybe --out m.csv", "expected yes or no");
+  expect_refused("track", "hyperex: track: nothing to do");
+  const Outcome gone = call("track nowhere.mp4 --out m.csv");
+  EXPECT_THAT(gone.err, testing::Not(HasSubstr("not mirrored")));
+  const Outcome alone = call("");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.err, HasSubstr("as in: hyperex run examples/demo.toml --out out/demo"));
+  add_variant("base");
+  expect_refused("check scene.toml", "\"base\": expected another name");
 }
 
 TEST_F(Outputs, WhatIsNoCommandOrSceneIsToldAsSuch) {

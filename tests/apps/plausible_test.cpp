@@ -15,6 +15,7 @@ namespace hyperex {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
@@ -168,6 +169,85 @@ TEST_F(Plausible, SymmetryJudgesByTheJitterThatTheRecordingShows) {
               HasSubstr("from the run's summary.json: 0.17 mm"));
   write_motion(0, 12, [](motion::Motion&) {});
   EXPECT_THAT(call(quiet).err, HasSubstr("warning: the recording is too short to tell its jitter"));
+}
+
+TEST_F(Plausible, TimeInMillisecondsIsTold) {
+  EXPECT_THAT(call("check scene.toml").out,
+              HasSubstr("the recording lasts 0.5 s: 16 samples, 33.33 ms apart (median)"));
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (double& t : m.time_s) t *= 1000;
+  });
+  const auto told =
+      AllOf(HasSubstr("warning: the recording's time rises to 500 s in steps of 33.3"),
+            HasSubstr("milliseconds?"));
+  EXPECT_THAT(call("check scene.toml").out, told);
+  EXPECT_THAT(call("symmetry motion.csv --keep-head --out s.csv").err, told);
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (double& t : m.time_s) t *= 14;  // slow, and still possible
+  });
+  EXPECT_THAT(call("check scene.toml").out, Not(HasSubstr("milliseconds?")));
+}
+
+TEST_F(Plausible, ARecordingInWhichNothingMovesIsTold) {
+  const auto by = [&](double mm) {
+    write_motion(0, 16, [&](motion::Motion& m) {
+      for (auto& sample : m.positions) sample = m.positions.front();
+      m.positions[8](m.index_of("cheilion_L"), 1) += 1e-3 * mm;
+    });
+  };
+  by(0.03);
+  const auto told = HasSubstr("nothing moves in the recording: no point goes farther than 0.0");
+  EXPECT_THAT(call("check scene.toml").out, told);
+  const Outcome run = call("run scene.toml --out out");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, told);
+  by(0.2);
+  EXPECT_THAT(call("check scene.toml").out, Not(HasSubstr("nothing moves")));
+}
+
+TEST_F(Plausible, APairOfPointsExchangedIsNamed) {
+  const auto exchanged = [&](const std::string& one, const std::string& other) {
+    write_motion(0, 16, [&](motion::Motion& m) {
+      m.names[std::size_t(m.index_of(one))] = "aside";
+      m.names[std::size_t(m.index_of(other))] = one;
+      m.names[std::size_t(m.index_of("aside"))] = other;
+    });
+    return HasSubstr("warning: left and right seem to be exchanged in " + one + " and " + other +
+                     ": they lie the other way round");
+  };
+  for (const auto& [one, other] :
+       {std::pair{"cheilion_L", "cheilion_R"}, {"ibug68_48", "ibug68_54"}}) {
+    const auto told = exchanged(one, other);
+    EXPECT_THAT(call("check scene.toml").out, told);
+    EXPECT_THAT(call("symmetry motion.csv --keep-head --out s.csv").err, told);
+  }
+  replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
+  EXPECT_THAT(call("check scene.toml").out, HasSubstr("exchanged in ibug68_48 and ibug68_54"));
+}
+
+TEST_F(Plausible, TheDifferenceOfTheCornersIsJudgedAloud) {
+  const Outcome alike = call("run scene.toml --out alike");
+  EXPECT_THAT(alike.out,
+              ContainsRegex("mm apart: undecided, below the floor of 0\\.1[0-9]* mm \\(mesh\\)"));
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (const char* name : {"cheilion_L", "ibug68_54"})
+      for (std::size_t k = 0; k < m.positions.size(); ++k)
+        m.positions[k](m.index_of(name), 0) += 4e-3 * double(k) / 15;
+  });
+  const Outcome apart = call("run scene.toml --out apart --set output.jitter_mm=0");
+  EXPECT_THAT(apart.out,
+              ContainsRegex("mm apart: more than the floor of [0-9.]+ mm \\((mesh|jitter)\\)"));
+}
+
+TEST_F(Plausible, PointsThatMayMoveWithTheSkullAreAskedForByName) {
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (auto& name : m.names) name = "marker_" + name;
+  });
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_THAT(checked.err,
+              AllOf(HasSubstr("the motion has 0 of them. motion.rigid_points of a scene names"),
+                    HasSubstr("the motion's other points are marker_"), HasSubstr(" more")));
 }
 
 TEST_F(Plausible, AFileWithoutPaintFailsInCheckAsInRun) {

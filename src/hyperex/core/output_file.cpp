@@ -14,7 +14,7 @@ namespace hyperex {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kHead_bytes = 1 << 16;
+constexpr std::size_t kHead_bytes = 4 << 20;
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });

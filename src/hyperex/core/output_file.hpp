@@ -11,7 +11,7 @@ namespace hyperex {
 struct OutputFile {
   std::filesystem::path path;           ///< empty: not asked for
   std::vector<std::string> extensions;  ///< as ".csv", lower case; one of them ends the name
-  /// How a file of this kind begins, and texts that its first 64 KiB hold too. Both empty: nothing
+  /// How a file of this kind begins, and texts that its first 4 MiB hold too. Both empty: nothing
   /// tells such a file from the user's, so none is replaced.
   std::string begins;
   std::vector<std::string> holds = {};

@@ -29,7 +29,8 @@ Progress::Progress(std::string label, long total)
 }
 
 Progress::~Progress() {
-  if (shown_ || lasted_) draw(total_, true);
+  // Also of one long call that cannot report.
+  if (shown_ || lasted_ || (!silenced && seconds() >= 1)) draw(total_, true);
   if (standing_) taken = false;
 }
 

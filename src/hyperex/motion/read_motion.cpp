@@ -12,6 +12,7 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/io/csv.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/trc.hpp"
@@ -208,7 +209,16 @@ void scale_to_metres(const fs::path& file, const Columns& columns, std::optional
                                        span < kLeastStatedSpan ? "small" : "large"));
 }
 
+/// Its times are no numbers, so that reading the table would speak of the first of them.
+void refuse_live_link(const fs::path& file) {
+  if (lower(read_file(file).substr(0, 27)).starts_with("timecode,blendshapecount"))
+    throw InputError(file,
+                     "a recording of ARKit's blend shapes by Live Link Face, not of points: "
+                     "expected it as motion.arkit");
+}
+
 Motion from_csv(const fs::path& file, std::optional<LengthUnit> stated) {
+  refuse_live_link(file);
   const io::CsvTable table = io::read_csv(file);
   Columns columns = find_columns(table);
   name_ibug68(columns);
@@ -261,6 +271,8 @@ Motion from_trc(const fs::path& file, std::optional<LengthUnit> stated) {
 }  // namespace
 
 Motion read_motion(const fs::path& file, std::optional<LengthUnit> unit) {
+  std::error_code error;
+  if (!fs::exists(file, error)) throw InputError(file, "no such file");
   const std::string extension = lower(file.extension().string());
   if (extension == ".csv") return from_csv(file, unit);
   if (extension == ".trc") return from_trc(file, unit);

@@ -2,6 +2,7 @@
 #include "hyperex/motion/stabilise.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,19 @@ Points rows_of(const Points& all, const std::vector<int>& rows) {
   return some;
 }
 
+/// "its names are a, b, c and 4 more": those that could be named as moving with the skull.
+std::string other_names(const Motion& motion, const std::vector<int>& known) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> names;
+  for (int i = 0; i < int(motion.names.size()); ++i)
+    if (std::ranges::find(known, i) == known.end()) names.push_back(motion.names[std::size_t(i)]);
+  if (names.empty()) return "it has no other points";
+  const std::size_t more = names.size() - std::min(most, names.size());
+  names.resize(names.size() - more);
+  return fmt::format("the motion's other points are {}{}", fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::string>& stated) {
   std::vector<int> indices;
   for (const auto& name : stated.empty() ? default_rigid_points() : stated) {
@@ -48,8 +62,9 @@ std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::stri
       if (const int index = motion.index_of(name); index >= 0) indices.push_back(index);
   if (indices.size() < 3)
     refuse(motion, fmt::format("head pose needs three points that move with the skull (eye "
-                               "corners, nose); the motion has {}",
-                               indices.size()));
+                               "corners, nose); the motion has {} of them. motion.rigid_points "
+                               "of a scene names others; {}",
+                               indices.size(), other_names(motion, indices)));
   return indices;
 }
 

@@ -143,7 +143,8 @@ std::vector<Complaint> check_file(const KeyInfo& info, const json& value, const 
   std::error_code error;
   if (!fs::exists(path, error))
     return {{"", value,
-             fmt::format("an existing file (there is none at {}){}", show(path.string()),
+             fmt::format("an existing {} (there is none at {}){}",
+                         folder_too ? "folder or video" : "file", show(path.string()),
                          holds_escape(path.string())
                              ? "; a backslash between double quotes begins an escape: put a path "
                                "of Windows between single quotes"

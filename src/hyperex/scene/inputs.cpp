@@ -210,6 +210,10 @@ void settle_rest(const Scene& scene, motion::Motion& m, Inputs& in) {
 
 motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Look look,
                                 Inputs& in) {
+  if (!scene.motion.source.embedded && (scene.motion.recording.empty() || look == Look::whole)) {
+    in.notes.push_back(timing_note(m));
+    if (const auto warning = timing_warning(m); !warning.empty()) in.warnings.push_back(warning);
+  }
   motion::GapOptions gaps;
   gaps.max_gap_s = scene.motion.max_gap_s;
   const motion::FilledMotion filled = motion::fill_gaps(m, gaps);
@@ -234,7 +238,11 @@ motion::StabilisedMotion steady(const Scene& scene, const motion::Motion& m, Loo
                     "points fixed to the skull where there are any",
                     in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg));
   // A quick look at a camera's recording has its first frame alone.
-  if (scene.motion.recording.empty() || look == Look::whole) settle_rest(scene, steady.motion, in);
+  if (scene.motion.recording.empty() || look == Look::whole) {
+    settle_rest(scene, steady.motion, in);
+    if (const auto warning = stillness_warning(steady.motion); !warning.empty())
+      in.warnings.push_back(warning);
+  }
   return steady;
 }
 
@@ -244,8 +252,8 @@ void check_without_landmarks(const Scene& scene, const motion::Motion& m, Inputs
   const bool whole = scene.motion.recording.empty();  // of a camera's there is its first face only
   check_sides(m, average);
   if (whole) {
-    if (const auto warning = start_warning(m, average); !warning.empty())
-      in.warnings.push_back(warning);
+    for (const auto& warning : {start_warning(m, average), exchanged_warning(m, average)})
+      if (!warning.empty()) in.warnings.push_back(warning);
   }
   in.notes.push_back(
       whole ? "whether left and right are exchanged and whether the recording starts at rest was "
@@ -436,6 +444,7 @@ Inputs read_inputs(const Scene& scene, Look look) {
     for (const auto& doubt : tissue::landmark_doubts(given, in.scan.mesh)) warn(doubt);
   warn(misfit_warning(in.motion));
   warn(start_warning(steadied->motion, at_rest));
+  warn(exchanged_warning(steadied->motion, at_rest));
   note_unknown_landmarks(scene, given, in);
   note_missing_support(scene, in);
   in.driven = driven_points(scene, in.motion.motion);

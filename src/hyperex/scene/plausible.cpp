@@ -2,9 +2,11 @@
 #include "hyperex/scene/plausible.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
 
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/rest.hpp"
@@ -40,6 +42,12 @@ std::pair<std::string, double> nearest_landmark(const io::Landmarks& landmarks, 
 
 double misfit_m(const Points& recorded, const Points& scanned) {
   return rms_distance(fit_similarity(recorded, scanned).apply(recorded), scanned);
+}
+
+double median_step_s(const std::vector<double>& time_s) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < time_s.size(); ++k) steps.push_back(time_s[k] - time_s[k - 1]);
+  return median(steps);
 }
 
 }  // namespace
@@ -91,6 +99,67 @@ std::string start_warning(const motion::Motion& stabilised, const FaceAtRest& fa
       "are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
       started->stretch.from_s, started->stretch.to_s, face.whose, started->point,
       1e3 * started->distance_m, started->stretch.from_s, started->stretch.to_s);
+}
+
+std::string timing_note(const motion::Motion& m) {
+  if (m.time_s.size() < 2) return "the recording has one sample";
+  return fmt::format("the recording lasts {:.4g} s: {} samples, {:.4g} ms apart (median)",
+                     m.time_s.back() - m.time_s.front(), m.time_s.size(),
+                     1e3 * median_step_s(m.time_s));
+}
+
+std::string timing_warning(const motion::Motion& m) {
+  constexpr double longest_step_s = 0.5, longest_s = 600;
+  if (m.time_s.size() < 2) return "";
+  const double lasts_s = m.time_s.back() - m.time_s.front(), step_s = median_step_s(m.time_s);
+  if (step_s <= longest_step_s && lasts_s <= longest_s) return "";
+  return fmt::format(
+      "the recording's time rises to {:.4g} s in steps of {:.3g} s (median; expected: at most {:g} "
+      "s in all, steps of at most {:g} s): milliseconds? Time is in seconds",
+      m.time_s.back(), step_s, longest_s, longest_step_s);
+}
+
+std::string stillness_warning(const motion::Motion& stabilised) {
+  constexpr double least_m = 0.05e-3;
+  double most_m = 0;
+  for (const Points& sample : stabilised.positions)
+    for (Eigen::Index i = 0; i < sample.rows(); ++i)
+      if (const double moved = (sample.row(i) - stabilised.positions.front().row(i)).norm();
+          moved > most_m)
+        most_m = moved;
+  if (stabilised.positions.size() < 2 || most_m >= least_m) return "";
+  return fmt::format(
+      "nothing moves in the recording: no point goes farther than {:.3f} mm from its first place "
+      "(expected: {:g} mm or more); check its unit, and that it is the right one",
+      1e3 * most_m, 1e3 * least_m);
+}
+
+std::string exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
+  const auto [recorded, scanned] = common_points(stabilised, face.landmarks);
+  if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return "";
+  const Similarity recording_from_face = fit_similarity(scanned, recorded);
+  const auto of_recording = [&](const std::string& name) -> Vec3 {
+    return stabilised.positions.front().row(stabilised.index_of(name)).transpose();
+  };
+  std::vector<std::string> wrong;
+  std::size_t right = 0;
+  for (const std::string& name : stabilised.names) {
+    const std::string other = face::mirrored_landmark(name);
+    const auto here = face.landmarks.find(name), there = face.landmarks.find(other);
+    if (!(name < other) || stabilised.index_of(other) < 0 || here == face.landmarks.end() ||
+        there == face.landmarks.end())
+      continue;
+    const Vec3 expected = recording_from_face.rotation * (there->second - here->second);
+    if ((of_recording(other) - of_recording(name)).dot(expected) < 0)
+      wrong.push_back(name + " and " + other);
+    else
+      ++right;
+  }
+  if (wrong.empty() || wrong.size() >= right) return "";
+  return fmt::format(
+      "left and right seem to be exchanged in {}: they lie the other way round than on {}, while "
+      "the other points do not; L and R are the subject's own sides",
+      fmt::join(wrong, "; "), face.whose);
 }
 
 void check_length(const Scene& scene, const motion::Motion& m) {

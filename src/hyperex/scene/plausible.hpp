@@ -33,6 +33,22 @@ std::string misfit_warning(const reenact::AlignedMotion& aligned);
 /// (motion::started_in_expression); empty where it does not.
 std::string start_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
+/// "the recording lasts 2.7 s: 81 samples, 33.3 ms apart (median)".
+std::string timing_note(const motion::Motion& m);
+
+/// A sentence where times look like another unit: a median step above 0.5 s, or more than ten
+/// minutes in all; empty where they do not.
+std::string timing_warning(const motion::Motion& m);
+
+/// A sentence where no point moves 0.05 mm from its first place, head pose out; else empty.
+std::string stillness_warning(const motion::Motion& stabilised);
+
+/// A sentence that names the pairs of points (face::mirrored_landmark) which lie the wrong way
+/// round in the first sample: the vector from one to the other points against that of the face,
+/// turned as the recording's common points have it. Empty where there is none, or as many as are
+/// right (check_sides tells of those).
+std::string exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
+
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before
 /// its second frame.
 void check_length(const Scene& scene, const motion::Motion& m);

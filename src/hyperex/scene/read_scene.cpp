@@ -317,6 +317,11 @@ void Reader::settle_variant(const json& block, const std::string& at) {
              "or digit among them");
     return;
   }
+  if (name == "base") {
+    complain(in_file(at + ".name"), at + ".name", name,
+             "another name, as \"base\" is the scene without a variant");
+    return;
+  }
   for (const Variant& other : scene.variants)
     if (other.name == name)
       complain(in_file(at + ".name"), at + ".name", name, "a name that no other variant has");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "hyperex/core/printable.hpp"
 #include "hyperex/report/html_report.hpp"
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/pipeline.hpp"
@@ -79,6 +80,15 @@ report::DisplacementModes difference_of(const reenact::Performance& run,
   return report::displacement_modes(difference);
 }
 
+/// The scene's own, or what was moved by what.
+std::string title_of(const Results& r) {
+  if (!r.scene.title.empty()) return r.scene.title;
+  std::filesystem::path recording(r.inputs.motion.motion.source);
+  if (!recording.has_filename()) recording = recording.parent_path();
+  return printable(fmt::format("{}, moved by {}", r.inputs.scan.file.filename().string(),
+                               recording.filename().string()));
+}
+
 }  // namespace
 
 std::vector<std::string> change_texts(const json& changes) {
@@ -98,7 +108,7 @@ void write_report(const Results& r, const std::vector<VariantRun>& variants,
                             .symmetry = &r.symmetry.curve,
                             .summary = json(summary),
                             .notes = r.notes,
-                            .title = r.scene.title,
+                            .title = title_of(r),
                             .tissue = std::move(tissue.front()),
                             .variants = {},
                             .mirror = &*r.symmetry.map};

@@ -67,6 +67,12 @@ TomlValues parse_toml(const std::string& text) {
     for (char& c : why)
       if (static_cast<unsigned char>(c) < ' ') c = ' ';
     const int line = static_cast<int>(error.source().begin.line);
+    // What the parser meets in a string that goes on into the next line.
+    if (why.find("string") != std::string::npos &&
+        (why.find("unescaped control characters") != std::string::npos ||
+         why.find("end-of-file") != std::string::npos ||
+         why.find("line-break") != std::string::npos))
+      why = "a string that does not end: its closing quote is missing";
     throw TornToml{line, why, has_backslash(text, line)};
   }
 }

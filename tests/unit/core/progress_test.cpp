@@ -54,6 +54,17 @@ TEST(Progress, WorkToldOfAtItsEndAloneShowsOneLine) {
   EXPECT_THAT(text, ::testing::HasSubstr("100 %"));
 }
 
+TEST(Progress, OneLongCallThatReportsNothingShowsOneLine) {
+  Progress::silence(false);
+  ::testing::internal::CaptureStderr();
+  {
+    const Progress progress("meshing", 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+  }
+  const std::string text = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
 TEST(Progress, SilencedShowsNothing) {
   Progress::silence(true);
   const std::string text = shown(1050);
