@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "apps/program.hpp"
+#include "hyperex/capture/video_writer.hpp"
 #include "support/video.hpp"
 
 namespace hyperex {
@@ -36,9 +37,14 @@ TEST_F(TrackOutputs, AWebcamsMirrorMustBeSaid) {
 }
 
 TEST_F(TrackOutputs, AVideosMirrorIsTakenAsNone) {
-  std::ofstream(in("v.mp4")) << "no video";
+  SKIP_WITHOUT_VIDEO();
+  capture::VideoWriter video(in("v.mp4"), 64, 48, 25);  // without a face
+  for (int frame = 0; frame < 3; ++frame) video.add(cv::Mat(48, 64, CV_8UC3, cv::Scalar(90)));
+  video.finish();
   const Outcome unsaid = call("track v.mp4 --out m.csv");
   EXPECT_THAT(unsaid.err, HasSubstr("v.mp4: taken as not mirrored"));
+  std::ofstream(in("torn.mp4")) << "no video";
+  EXPECT_THAT(call("track torn.mp4 --out m.csv").err, Not(HasSubstr("mirrored")));
   for (const char* said : {"yes", "no"})
     EXPECT_THAT(call(std::string("track v.mp4 --out m.csv --mirrored ") + said).err,
                 Not(HasSubstr("mirrored")));

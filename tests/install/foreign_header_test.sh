@@ -10,7 +10,7 @@ refused() {  # LINE OF CODE, WHAT IS SAID
   rm -rf "$work/include"
   cp -r "$1/include" "$work/"
   sed -i "s|#pragma once|&\n$2|" "$work/include/hyperex/fem/form/system.hpp"
-  said=$("$test" "$work" "$3" "$4" 2>&1) && { echo "not seen: $2"; exit 1; }
+  said=$("$test" "$work" "$3" "$4" hyperex/fem/form/system.hpp 2>&1) && { echo "not seen: $2"; exit 1; }
   grep -q "$5" <<< "$said" || { echo "for $2: $said"; exit 1; }
 }
 refused "$1" '#include <opencv2/core.hpp>' "$2" "$3" 'system.hpp includes opencv2/core.hpp'

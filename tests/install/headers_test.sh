@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Each installed header compiles alone, with Eigen and the standard library and nothing else.
-#   headers_test.sh PREFIX COMPILER EIGEN_FOLDER
+#   headers_test.sh PREFIX COMPILER EIGEN_FOLDER [HEADER ...]   compiles those named, or all
 set -euo pipefail
 compiler=$2 eigen=$3
 cd "$1/include"
@@ -24,10 +24,13 @@ done < <(grep -E '^ *# *include' "${headers[@]}")
 cache=$(command -v ccache || true)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+ln -s "$PWD" "$work/include"
+cd "$work"  # names that are the same each time, for the cache
+(($# == 3)) || headers=("${@:4}")
 for header in "${headers[@]}"; do
-  echo "#include \"$header\"" > "$work/${header//\//_}.cpp"
+  echo "#include \"$header\"" > "${header//\//_}.cpp"
 done
 export cache compiler eigen
-find "$work" -name '*.cpp' -print0 | xargs -0 -n 1 -P "$(nproc)" bash -c '
-  $cache "$compiler" -std=c++20 -O0 -Wall -Wextra -Werror -I . -isystem "$eigen" -c "$1" -o "$1.o" ||
+find . -name '*.cpp' -print0 | xargs -0 -n 1 -P "$(nproc)" bash -c '
+  $cache "$compiler" -std=c++20 -O0 -Wall -Wextra -Werror -I include -isystem "$eigen" -c "$1" -o "$1.o" ||
     { echo "does not compile alone: $1"; exit 255; }' _

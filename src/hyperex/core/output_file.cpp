@@ -42,6 +42,10 @@ void check(const OutputFile& output) {
   std::error_code error;
   const fs::file_status there = fs::status(output.path, error);
   if (fs::exists(there) && !fs::is_regular_file(there)) return;
+  // /dev/stdout stands for a file that the user's shell has opened.
+  if (const std::string path = output.path.string();
+      path.starts_with("/dev/") || path.starts_with("/proc/"))
+    return;
   const std::string name = lower(output.path.filename().string());
   if (std::ranges::none_of(output.extensions,
                            [&](const std::string& end) { return name.ends_with(end); }))
