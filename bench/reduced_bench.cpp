@@ -151,7 +151,7 @@ Json measure(bool quick) {
 }  // namespace
 }  // namespace hyperex::bench
 
-/// reduced_bench FILE.json [--quick]
+/// reduced_bench FILE.json [--quick | --edit]; --edit: what an edit costs, alone
 int main(int argc, char** argv) {
   using namespace hyperex::bench;
   if (argc > 2 && std::string(argv[2]) == "--edit") {

@@ -271,9 +271,9 @@ Motion from_trc(const fs::path& file, std::optional<LengthUnit> stated) {
 }  // namespace
 
 Motion read_motion(const fs::path& file, std::optional<LengthUnit> unit) {
-  std::error_code error;
-  if (!fs::exists(file, error)) throw InputError(file, "no such file");
   const std::string extension = lower(file.extension().string());
+  if (std::error_code error; extension != ".c3d" && !fs::exists(file, error))
+    throw InputError(file, "no such file");
   if (extension == ".csv") return from_csv(file, unit);
   if (extension == ".trc") return from_trc(file, unit);
   if (extension == ".c3d")

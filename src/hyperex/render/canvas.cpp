@@ -189,16 +189,16 @@ std::vector<std::uint8_t> png_bytes(const Image& image) {
   cairo_surface_destroy(surface);
   if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(std::string("render: no PNG: ") + cairo_status_to_string(status));
-  return bytes;
-}
-
-void write_png(const std::filesystem::path& file, const Image& image) {
-  std::vector<std::uint8_t> bytes = png_bytes(image);
   // A chunk of text after the header (8 bytes of signature, 25 of IHDR) by which a later command
   // knows the file for one of its own: length, kind, text, CRC-32.
   constexpr std::string_view made_by("\0\0\0\x10tEXtSoftware\0Hyperex\x0a\xcc\xe3\x25", 28);
   constexpr std::ptrdiff_t header_bytes = 33;
   bytes.insert(bytes.begin() + header_bytes, made_by.begin(), made_by.end());
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  const std::vector<std::uint8_t> bytes = png_bytes(image);
   write_file_atomically(file, [&](std::ostream& stream) {
     stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
   });

@@ -79,6 +79,8 @@ TEST(Png, IsOneAndIsRefusedWhereItCannotBe) {
   EXPECT_EQ(std::string(bytes.begin() + 1, bytes.begin() + 4), "PNG");
   EXPECT_EQ(bytes[19], 3);  // width, big-endian
   EXPECT_EQ(bytes[23], 2);
+  EXPECT_EQ(std::string(bytes.begin() + 37, bytes.begin() + 57),
+            std::string("tEXtSoftware\0Hyperex", 20));
   EXPECT_THROW(write_png("/no/such/folder/a.png", Image(1, 1)), InputError);
   const auto file = std::filesystem::path(testing::TempDir()) / "hyperex_canvas_test.png";
   write_png(file, Image(3, 2));
