@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <type_traits>
 
 #include "hyperex/core/error.hpp"
@@ -18,6 +19,7 @@
 #include "hyperex/reenact/input_shapes.hpp"
 #include "hyperex/reenact/readout.hpp"
 #include "hyperex/reenact/solve.hpp"
+#include "hyperex/reenact/stream.hpp"
 
 namespace hyperex::reenact {
 namespace {
@@ -81,12 +83,18 @@ struct Simulator::Impl {
   bool reduced_current = false, full_current = false;  // with the tissue that is set
   std::optional<fem::Response> response;
 
+  std::optional<Stream> stream;
+  bool stream_current = false;
+
   SimulationReport report;
   RunCallbacks callbacks;
 
   // ----- what is left when something is set
 
-  void drop_values() { reduced_current = full_current = false, response.reset(); }
+  void drop_values() {
+    reduced_current = full_current = false, response.reset();
+    stream_current = false;
+  }
   void drop_factors() {
     reduced.reset();
     full.reset();
@@ -393,6 +401,47 @@ struct Simulator::Impl {
                       report.driven_off_mm, names));
   }
 
+  // ----- a stream
+
+  void start_stream(double interval_s) {
+    if (!(interval_s > 0))
+      throw InputError("stream",
+                       fmt::format("interval_s = {:g}: expected more than 0 s", interval_s));
+    if (options.region.measured == Measured::all)
+      throw InputError("stream", "the whole skin is measured: there is nothing to simulate");
+    need_region();
+    need_boundary();
+    need_assembler();
+    fem::System system;
+    fill(system);
+    stream.emplace(std::move(system), *boundary, interval_s, options.solver.linear, known_order());
+    stream_current = true;
+    if (!order)
+      order = std::make_shared<const Order>(Order{boundary->prescribed(), stream->order()});
+  }
+
+  /// With what was set since the last step.
+  void renew_stream() {
+    need_region();
+    need_boundary();
+    need_assembler();
+    if (!stream->fits(*boundary)) return start_stream(stream->interval_s());
+    fem::System system;
+    fill(system);
+    stream->refill(std::move(system), *boundary);
+    stream_current = true;
+  }
+
+  PointsF step(const Points& displacement_m) {
+    if (!stream) throw std::logic_error("Simulator::step before start_stream");
+    if (displacement_m.rows() != motion->rest.rows() || !displacement_m.allFinite())
+      throw InputError("stream", fmt::format("{} rows: expected {} points, all finite",
+                                             displacement_m.rows(), motion->rest.rows()));
+    if (!stream_current) renew_stream();
+    const Points points = options.drive.gain * displacement_m;
+    return readout->skin(*region, stream->step(points), points);
+  }
+
   SimulationResult run() {
     report = {};
     ask();
@@ -483,6 +532,14 @@ SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& l
                           const RunCallbacks& callbacks) {
   const std::shared_ptr<const tissue::TissueMesh> borrowed(std::shared_ptr<void>(), &mesh);
   return Simulator(borrowed, landmarks, motion, options).run(callbacks);
+}
+
+void Simulator::start_stream(double interval_s) {
+  impl_->callbacks = {};
+  impl_->start_stream(interval_s);
+}
+PointsF Simulator::step(const Points& displacement_m) {
+  return impl_->step(displacement_m);
 }
 
 SimulationResult Simulator::run(const RunCallbacks& callbacks) {

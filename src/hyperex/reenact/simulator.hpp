@@ -16,6 +16,10 @@ namespace hyperex::reenact {
 /// Driven points that end farther than this from where they are driven are named in a note.
 inline constexpr double kDrivenWithin_m = 1e-4;
 
+/// gamma of Newmark's method for a stream; beta is (gamma + 1/2)^2 / 4, which damps the most of
+/// what the steps do not resolve.
+inline constexpr double kStreamGamma = 0.9;
+
 /// What happened, for the summary. Seconds are those of the last run: 0 for what it could keep.
 struct SimulationReport {
   int free_dofs = 0, steps = 0, driven_nodes = 0, skull_nodes = 0, mandible_nodes = 0;
@@ -66,6 +70,7 @@ class Cancelled : public std::runtime_error {
 ///   input                    boundary, motion, drive.gain, time.step_s, end_s, solver.tolerance
 ///   reduced motion           factor, input, solver
 ///   frames of the skin       reduced motion, time
+///   stream                   boundary, tissue, model; begins anew where other nodes are driven
 ///
 /// A run after set_tissue() factors again, but neither matches, orders nor analyses. Equal options
 /// give equal numbers, whatever was set and run before. One caller at a time; copies are
@@ -96,6 +101,16 @@ class Simulator {
   /// Throws InputError for points that do not exist, NumericalError where the model cannot be
   /// solved, Cancelled.
   SimulationResult run(const RunCallbacks& callbacks = {});
+
+  /// For points that come in one sample after the other, `interval_s` apart (> 0), from a tracker
+  /// that is running: begins at rest with all unknowns. Throws as run() does, and InputError where
+  /// the whole skin is measured.
+  void start_stream(double interval_s);
+  /// `displacement_m`: of all the motion's points since rest, in its order (P x 3, m, scan frame,
+  /// finite; the gain is applied here). Returns the skin's (|skin| x 3, m). A step of Newmark's
+  /// method with the numerical damping kStreamGamma, so that noise of single samples does not ring.
+  /// Tissue and support set meanwhile take effect with the next step, the motion goes on.
+  PointsF step(const Points& displacement_m);
 
  private:
   struct Impl;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/reenact/point_curve.hpp"
 #include "reenact/small_face.hpp"
 
 namespace hyperex::reenact {
@@ -153,6 +154,52 @@ TEST_F(SimulatorOfAFace, CopiesRunOnTheirOwnInOtherThreads) {
   EXPECT_GT(of_copy.report.factor_s, 0) << "a factor of its own";
   expect_equal(of_base, before);
   expect_equal(of_copy, made(next).run());
+}
+
+TEST_F(SimulatorOfAFace, AStreamFollowsAsARunDoes) {
+  Simulator simulator = made(options_);
+  const SimulationResult run = simulator.run();
+  const double interval_s = run.performance.frame_time_s[1] - run.performance.frame_time_s[0];
+  const PointCurve points(motion_, options_.drive.gain);
+  Simulator live = made(options_);
+  live.start_stream(interval_s);
+  float most = 0, apart = 0;
+  for (std::size_t f = 1; f < run.performance.frame_time_s.size(); ++f) {
+    const PointsF skin = live.step(points.at(run.performance.frame_time_s[f]));
+    const PointsF& wanted = run.performance.skin_displacement_m[f];
+    most = std::max(most, wanted.rowwise().norm().maxCoeff());
+    apart = std::max(apart, (skin - wanted).rowwise().norm().maxCoeff());
+  }
+  EXPECT_GT(most, 0.004F);
+  EXPECT_LT(apart, 0.05F * most);  // steps of a frame, damped, in place of 2 ms
+}
+
+TEST_F(SimulatorOfAFace, AStreamComesToRestWhereItsTissueNowRests) {
+  const PointCurve points(motion_, 1);
+  const Points open = points.at(0.3);
+  const auto settled = [&](Simulator& simulator) {
+    PointsF skin;
+    for (int i = 0; i < 60; ++i) skin = simulator.step(open);
+    return skin;
+  };
+  Simulator simulator = made(options_);
+  EXPECT_THROW(simulator.step(open), std::logic_error);
+  EXPECT_THROW(simulator.start_stream(0), InputError);
+  simulator.start_stream(1.0 / 30);
+  EXPECT_THROW(simulator.step(open.topRows(1)), InputError);
+  const PointsF soft = settled(simulator);
+  TissueValues stiff = options_.tissue;
+  stiff.uniform[tissue::young] *= 30;
+  simulator.set_tissue(stiff);
+  const PointsF at_once = simulator.step(open), later = settled(simulator);
+  SimulationOptions next = options_;
+  next.tissue = stiff;
+  Simulator anew = made(next);
+  anew.start_stream(1.0 / 30);
+  const float most = soft.rowwise().norm().maxCoeff();
+  EXPECT_LT((later - settled(anew)).rowwise().norm().maxCoeff(), 1e-4F * most);
+  EXPECT_GT((later - soft).rowwise().norm().maxCoeff(), 1e-2F * most);
+  EXPECT_LT((at_once - soft).rowwise().norm().maxCoeff(), 0.5F * most) << "it does not begin anew";
 }
 
 TEST_F(SimulatorOfAFace, AValueOutOfRangeChangesNothing) {
