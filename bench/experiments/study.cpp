@@ -16,10 +16,13 @@ namespace hyperex::bench {
 Study::Study(const std::filesystem::path& scene, const std::vector<std::string>& overrides)
     : scene_(scene::read_scene(scene, overrides)),
       inputs_(scene::read_inputs(scene_)),
-      mesh_(tissue::build_tissue_mesh(inputs_.scan.mesh, inputs_.landmarks, scene_.mesh,
-                                      inputs_.scan.file.string())),
+      mesh_(std::make_shared<const tissue::TissueMesh>(tissue::build_tissue_mesh(
+          inputs_.scan.mesh, inputs_.landmarks, scene_.mesh, inputs_.scan.file.string()))),
       frame_(tissue::face_frame(inputs_.landmarks)),
-      fields_(inputs_, mesh_) {}
+      fields_(inputs_, *mesh_),
+      base_(mesh_, inputs_.landmarks, inputs_.motion, scene::simulation_options(scene_, inputs_)) {
+  base_.run();
+}
 
 std::string Study::name() const {
   return embedded() ? "embedded face" : "subject A";
@@ -30,26 +33,34 @@ Tissue Study::tissue_of(const scene::Scene& scene) {
   const auto uniform = tissue::uniform_parameters(scene.tissue);
   Tissue tissue;
   for (int p = 0; p < tissue::parameter_count; ++p)
-    tissue[p].assign(std::size_t(mesh_.volume.tets.rows()), uniform[p]);
+    tissue[p].assign(std::size_t(mesh_->volume.tets.rows()), uniform[p]);
   return tissue;
 }
 
 reenact::SimulationResult Study::simulate(const Trial& trial) const {
-  return simulate(trial, inputs_.motion);
+  return simulate(trial, nullptr);
 }
 
 reenact::SimulationResult Study::simulate(const Trial& trial,
                                           const reenact::AlignedMotion& motion) const {
+  return simulate(trial, &motion);
+}
+
+reenact::SimulationResult Study::simulate(const Trial& trial,
+                                          const reenact::AlignedMotion* motion) const {
   // Differences of some hundredths of a millimetre are looked at: the reduced model must be nearer
   // to the full one than a run that is looked at by eye.
   constexpr double tolerance = 1e-4;
-  reenact::SimulationOptions options = scene::simulation_options(scene_, inputs_);
+  reenact::SimulationOptions options = base_.options();
   options.model.element = trial.element;
   options.solver.tolerance = tolerance;
   if (!trial.reduced) options.solver.method = reenact::SolverMethod::direct;
   options.model.viscous_form = trial.form;
   options.tissue.element = trial.tissue;
-  return reenact::simulate(mesh_, inputs_.landmarks, motion, options);
+  reenact::Simulator simulator = base_;
+  simulator.set_options(std::move(options));
+  if (motion) simulator.set_motion(*motion);
+  return simulator.run();
 }
 
 void Study::simulate_all(

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ class Study {
 
   const scene::Scene& scene() const { return scene_; }
   const scene::Inputs& inputs() const { return inputs_; }
-  const tissue::TissueMesh& mesh() const { return mesh_; }
+  const tissue::TissueMesh& mesh() const { return *mesh_; }
   const tissue::FaceFrame& frame() const { return frame_; }
   bool embedded() const { return scene_.scan.source.embedded; }
   /// "embedded face", "subject A"
@@ -61,11 +62,15 @@ class Study {
   reenact::AlignedMotion mirrored_motion() const;
 
  private:
+  reenact::SimulationResult simulate(const Trial& trial,
+                                     const reenact::AlignedMotion* motion) const;
+
   scene::Scene scene_;
   scene::Inputs inputs_;
-  tissue::TissueMesh mesh_;
+  std::shared_ptr<const tissue::TissueMesh> mesh_;
   tissue::FaceFrame frame_;
   scene::TissueFields fields_;
+  reenact::Simulator base_;  // has run: what every trial begins with
 };
 
 /// Positions of a landmark over time, N x 3 (m); it must be there.
