@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build install asan tsan coverage lint fresh fuzz bench experiments fidelity mutations interop clean setup
+.PHONY: help demo test build install python asan tsan coverage lint fresh fuzz bench experiments fidelity mutations interop clean setup
 
 # Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
 ifneq ($(shell test -w "$$HOME" && echo yes),yes)
@@ -35,6 +35,13 @@ PREFIX ?= /usr/local
 install: build ## the program and the C++ library into PREFIX (docs/library.md)
 	cmake --build --preset release --parallel $(JOBS) --target libhyperex
 	cmake --install build/release --prefix $(PREFIX)
+
+# Debian's python3 looks for packages below /usr/local; for another PREFIX set PYTHONPATH (docs/python.md).
+python: ## the Python module into PREFIX, where Debian's python3 finds it (docs/python.md)
+	scripts/setup.sh --python
+	cmake --preset release -DHYPEREX_PYTHON=ON $(CMAKE_OPTIONS)
+	cmake --build --preset release --parallel $(JOBS) --target hyperex_python
+	cmake --install build/release --component python --prefix $(PREFIX)
 
 test: ## everything: unit tests, verification, the demo twice, its replay in a browser
 	scripts/setup.sh --tests

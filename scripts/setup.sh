@@ -3,7 +3,8 @@
 # Installs what building Hyperex takes on Debian 12: Debian packages, then the npm packages of web/.
 #   scripts/setup.sh           to build and run
 #   scripts/setup.sh --video   also to read video files and webcams and to write --preview videos
-#   scripts/setup.sh --tests   also what the tests take (--video, a browser, CalculiX)
+#   scripts/setup.sh --python  also to build and use the Python module
+#   scripts/setup.sh --tests   also what the tests take (--video, --python, a browser, CalculiX)
 #   scripts/setup.sh --fuzz    also clang and libFuzzer
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
 #   scripts/setup.sh --interop  also the programs that make interop opens files in: ParaView, Blender
@@ -28,7 +29,8 @@ packages=(
   libfreenect-dev libopenni2-dev   # depth cameras
 )
 video=(libopencv-videoio-dev)  # FFmpeg, GStreamer and GDAL: 150 packages
-tests=(libgtest-dev libgmock-dev libopencv-imgcodecs-dev calculix-ccx)
+python=(pybind11-dev python3-dev python3-numpy)
+tests=(python3-matplotlib libgtest-dev libgmock-dev libopencv-imgcodecs-dev calculix-ccx)
 
 say() { printf 'setup: %s\n' "$*"; }
 die() { printf 'setup: %s\n' "$*" >&2; exit 1; }
@@ -36,16 +38,17 @@ die() { printf 'setup: %s\n' "$*" >&2; exit 1; }
 case "${1:-}" in
   '') ;;
   --video) packages+=("${video[@]}") ;;
+  --python) packages+=("${python[@]}") ;;
   --tests | --lint)
-    packages+=("${video[@]}" "${tests[@]}")
+    packages+=("${video[@]}" "${python[@]}" "${tests[@]}")
     [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
     [[ "$1" == --tests ]] || packages+=(clang-format clang-tidy gcovr)
     ;;
   --fuzz) packages+=(clang libclang-rt-14-dev) ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
   --interop) packages+=(paraview python3-paraview blender python3-numpy) ;;
-  -h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) die "unknown option $1 (there are --video, --tests, --fuzz, --bench, --interop and --lint)" ;;
+  -h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) die "unknown option $1 (there are --video, --python, --tests, --fuzz, --bench, --interop and --lint)" ;;
 esac
 
 node_is_enough() {

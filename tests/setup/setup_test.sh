@@ -75,6 +75,7 @@ case "$2" in
     expect_all_packages
     expect_not "CALL sudo"
     expect_not "libopencv-videoio-dev"
+    expect_not "pybind11-dev"
     expect_before "264 Debian packages with all that they need: 232 MB to download, 1173 MB of disk" \
       "CALL apt-get install"
     expect_before "CALL apt-get update" "CALL apt-get --assume-no"
@@ -84,12 +85,19 @@ case "$2" in
   tests)
     run_setup --tests
     [[ $status == 0 ]] || fail "status $status"
-    expect_all_packages libopencv-videoio-dev libopencv-imgcodecs-dev libgtest-dev chromium
+    expect_all_packages libopencv-videoio-dev libopencv-imgcodecs-dev libgtest-dev chromium \
+      pybind11-dev python3-numpy python3-matplotlib
     ;;
   video)
     run_setup --video
     [[ $status == 0 ]] || fail "status $status"
     expect_all_packages libopencv-videoio-dev
+    expect_not libgtest-dev
+    ;;
+  python)
+    run_setup --python
+    [[ $status == 0 ]] || fail "status $status"
+    expect_all_packages pybind11-dev python3-dev python3-numpy
     expect_not libgtest-dev
     ;;
   sudo)

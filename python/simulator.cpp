@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Simulator: long runs without the lock of Python, ended by Ctrl-C or by a callback.
+#include "hyperex/reenact/simulator.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <mutex>
+
+#include "bind.hpp"
+#include "hyperex/core/error.hpp"
+#include "meshes.hpp"
+#include "performance.hpp"
+
+namespace hyperex::python {
+namespace {
+
+using reenact::AlignedMotion;
+using reenact::SimulationOptions;
+using reenact::TissueValues;
+
+/// Values a tetrahedron of some parameters are completed by the uniform ones of the others.
+TissueValues completed(TissueValues values, std::size_t tets) {
+  bool any = false;
+  for (const auto& of_one : values.element) any = any || !of_one.empty();
+  if (!any) return values;
+  for (int p = 0; p < tissue::parameter_count; ++p) {
+    const tissue::ParameterInfo& info = tissue::parameter_info(p);
+    auto& element = values.element[p];
+    const auto refuse = [&](const std::string& value, const std::string& expected) {
+      throw InputError(InputProblem{{}, 0, std::string("tissue.") + info.key, value, expected});
+    };
+    if (element.empty()) element.assign(tets, values.uniform[p]);
+    if (element.size() != tets)
+      refuse(fmt::format("{} values", element.size()),
+             fmt::format("one for each of the {} tetrahedra", tets));
+    for (const double value : element)
+      if (!tissue::is_allowed(p, value))
+        refuse(fmt::format("{:g}", value / info.si), std::string("numbers ") + info.allowed);
+  }
+  return values;
+}
+
+/// Calls Python back from a run. What a callback throws ends the run and is thrown by finish().
+class Callbacks {
+ public:
+  Callbacks(py::object progress, py::object cancelled)
+      : progress_(std::move(progress)), cancelled_(std::move(cancelled)) {}
+
+  reenact::RunCallbacks for_run() {
+    reenact::RunCallbacks callbacks;
+    if (!progress_.is_none())
+      callbacks.progress = [this](double share) {
+        const py::gil_scoped_acquire locked;
+        guarded([&] { progress_(share); });
+      };
+    callbacks.cancelled = [this] { return must_end(); };
+    return callbacks;
+  }
+  void rethrow_if_any() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  /// Python is asked every 20 ms at most: a step takes less than a millisecond.
+  bool must_end() {
+    if (thrown_) return true;
+    const auto now = std::chrono::steady_clock::now();
+    if (now < ask_again_) return false;
+    ask_again_ = now + std::chrono::milliseconds(20);
+    bool end = false;
+    const py::gil_scoped_acquire locked;
+    guarded([&] {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      end = !cancelled_.is_none() && cancelled_().cast<bool>();
+    });
+    return end || thrown_;
+  }
+  template <class Call>
+  void guarded(Call call) {
+    if (thrown_) return;
+    try {
+      call();
+    } catch (...) {
+      thrown_ = std::current_exception();
+    }
+  }
+
+  py::object progress_, cancelled_;
+  std::exception_ptr thrown_;
+  std::chrono::steady_clock::time_point ask_again_{};
+};
+
+class PythonSimulator {
+ public:
+  PythonSimulator(SharedTissueMesh mesh, io::Landmarks landmarks, AlignedMotion motion,
+                  SimulationOptions options)
+      : mesh_(std::move(mesh)),
+        simulator_(mesh_, std::move(landmarks), std::move(motion),
+                   with_all_values(std::move(options))) {}
+  PythonSimulator(const PythonSimulator& other)
+      : mesh_(other.mesh_), simulator_((other.refuse_if_busy(), other.simulator_)) {}
+
+  const SharedTissueMesh& mesh() const { return mesh_; }
+  const reenact::Simulator& simulator() const { return simulator_; }
+
+  template <class Change>
+  void change(Change apply) {
+    const auto held = hold();
+    apply(simulator_);
+  }
+  void set_tissue(const TissueValues& tissue) {
+    change([&](auto& s) { s.set_tissue(completed(tissue, tets())); });
+  }
+  void set_options(const SimulationOptions& options) {
+    change([&](auto& s) { s.set_options(with_all_values(options)); });
+  }
+
+  std::unique_ptr<RunResult> run(py::object progress, py::object cancelled) {
+    const auto held = hold();
+    Callbacks callbacks(std::move(progress), std::move(cancelled));
+    auto run = std::make_unique<RunResult>();
+    run->mesh = mesh_;
+    try {
+      const py::gil_scoped_release unlocked;
+      run->result = simulator_.run(callbacks.for_run());
+    } catch (const reenact::Cancelled&) {
+      callbacks.rethrow_if_any();
+      throw;
+    }
+    callbacks.rethrow_if_any();
+    return run;
+  }
+
+ private:
+  std::size_t tets() const { return static_cast<std::size_t>(mesh_->volume.tets.rows()); }
+  SimulationOptions with_all_values(SimulationOptions options) const {
+    options.tissue = completed(std::move(options.tissue), tets());
+    return options;
+  }
+  std::unique_lock<std::mutex> hold() const {
+    std::unique_lock held(busy_, std::try_to_lock);
+    if (!held)
+      throw std::runtime_error(
+          "this simulator is running in another thread: copy it (copy.copy) for each thread");
+    return held;
+  }
+  void refuse_if_busy() const { hold(); }
+
+  SharedTissueMesh mesh_;
+  reenact::Simulator simulator_;
+  mutable std::mutex busy_;
+};
+
+}  // namespace
+
+void bind_simulator(py::module_& m) {
+  using S = PythonSimulator;
+  py::class_<S>(m, "Simulator",
+                "A face that is simulated again and again: what does not depend on a change is "
+                "kept. For one thread at a time; copies (copy.copy) are independent.")
+      .def(py::init([](SharedTissueMesh mesh, io::Landmarks landmarks, const AlignedMotion& motion,
+                       const SimulationOptions& options) {
+             return std::make_unique<S>(std::move(mesh), std::move(landmarks), motion, options);
+           }),
+           "mesh"_a, "landmarks"_a, "motion"_a,
+           py::arg_v("options", SimulationOptions{}, "SimulationOptions()"),
+           "From a TissueMesh, completed landmarks (name -> metres) and an AlignedMotion.")
+      .def("run", &S::run, "progress"_a = py::none(), "cancelled"_a = py::none(),
+           "A Performance. `progress(share)` is called with 0 to 1 in runs of the direct method; "
+           "where `cancelled()` is true, Cancelled is raised. Ctrl-C raises KeyboardInterrupt. The "
+           "simulator can be used again after each of them. Other threads of Python go on.")
+      .def("set_tissue", &S::set_tissue, "tissue"_a,
+           "Neither matches points nor orders the matrix again.")
+      .def(
+          "set_support",
+          [](S& self, const reenact::SupportOptions& support) {
+            self.change([&](auto& s) { s.set_support(support); });
+          },
+          "support"_a)
+      .def(
+          "set_drive",
+          [](S& self, const reenact::DriveOptions& drive) {
+            self.change([&](auto& s) { s.set_drive(drive); });
+          },
+          "drive"_a)
+      .def(
+          "set_motion",
+          [](S& self, const AlignedMotion& motion) {
+            self.change([&](auto& s) { s.set_motion(motion); });
+          },
+          "motion"_a)
+      .def("set_options", &S::set_options, "options"_a)
+      .def_property_readonly(
+          "options", [](const S& self) { return self.simulator().options(); },
+          "A copy of the SimulationOptions: change it and hand it to set_options().")
+      .def_property_readonly("mesh", &S::mesh)
+      .def_property_readonly("landmarks",
+                             [](const S& self) { return self.simulator().landmarks(); })
+      .def_property_readonly("motion", [](const S& self) { return self.simulator().motion(); })
+      .def("__copy__", [](const S& self) { return std::make_unique<S>(self); })
+      .def("__repr__", [](const S& self) {
+        return fmt::format("<hyperex.Simulator of {} nodes, driven by {}>",
+                           self.mesh()->volume.nodes.rows(),
+                           self.simulator().motion().motion.source.empty()
+                               ? "a motion"
+                               : self.simulator().motion().motion.source);
+      });
+}
+
+}  // namespace hyperex::python

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The options of a simulation: the structs of reenact/options.hpp.
+#include "hyperex/reenact/options.hpp"
+#include "options_class.hpp"
+
+namespace hyperex::python {
+namespace {
+
+using namespace reenact;
+
+void bind_support(py::module_& m) {
+  OptionsClass<BoneLayer>(m, "BoneLayer", "Springs between tissue and bone, per area.")
+      .field("across_pa_per_m", &BoneLayer::across_pa_per_m, "Across the layer, 0 to 1e12 Pa/m.")
+      .field("along_pa_per_m", &BoneLayer::along_pa_per_m, "Along it, 0 to 1e12 Pa/m.");
+  OptionsClass<SupportOptions>(m, "SupportOptions", "What holds the tissue.")
+      .field("border_held", &SupportOptions::border_held, "The scan's outer border stays.")
+      .word("skull", &SupportOptions::skull,
+            {{"held", Hold::held}, {"sliding", Hold::sliding}, {"free", Hold::free}},
+            "held, sliding or free.")
+      .word("mandible", &SupportOptions::mandible,
+            {{"follow", Mandible::follow}, {"held", Mandible::held}, {"free", Mandible::free}},
+            "follow, held or free.")
+      .field("skull_layer", &SupportOptions::skull_layer, "Used where skull is sliding.")
+      .field("mandible_layer", &SupportOptions::mandible_layer,
+             "Used where the mandible is followed.")
+      .field("muscle_pa_per_m", &SupportOptions::muscle_pa_per_m,
+             "Springs to the interpolated motion of the driven points, 0 to 1e12 Pa/m.")
+      .list("jaw_points", &SupportOptions::jaw_points,
+            "Names of points that carry the jaw; none: the chin points among the driven.");
+}
+
+void bind_drive(py::module_& m) {
+  OptionsClass<DriveOptions>(m, "DriveOptions", "Which points move the skin.")
+      .list("points", &DriveOptions::points, "Names of the motion's points.")
+      .field("all_points", &DriveOptions::all_points, "Every point of the motion.")
+      .list("still_points", &DriveOptions::still_points,
+            "Names of landmarks that are kept where they are.")
+      .field("patch_radius_m", &DriveOptions::patch_radius_m,
+             "Of the skin that a point moves, 0 to 0.03 m; 0: the nearest node.")
+      .field("gain", &DriveOptions::gain, "On all displacements.");
+  OptionsClass<RegionOptions>(m, "RegionOptions",
+                              "Which part of the skin follows the recording directly.")
+      .word("measured", &RegionOptions::measured,
+            {{"none", Measured::none}, {"all", Measured::all}, {"points", Measured::points}},
+            "none, all or points.")
+      .list("measured_points", &RegionOptions::measured_points,
+            "Names; at least one where measured is points.")
+      .field("measured_radius_m", &RegionOptions::measured_radius_m,
+             "Of the skin around them, 0.001 to 0.2 m.")
+      .field("blend_m", &RegionOptions::blend_m, "From measured to physical, 0 to 0.1 m.");
+}
+
+void bind_solver(py::module_& m) {
+  OptionsClass<ModelOptions>(m, "ModelOptions", "The elements.")
+      .word("element", &ModelOptions::element,
+            {{"tet4-star", fem::ElementKind::tet4_star}, {"tet4", fem::ElementKind::tet4}},
+            "tet4-star (for nearly incompressible tissue) or tet4.")
+      .word("viscous_form", &ModelOptions::viscous_form,
+            {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
+            "isotropic or printed.");
+  OptionsClass<SolverOptions>(m, "SolverOptions", "How the equations are solved.")
+      .word("method", &SolverOptions::method,
+            {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},
+            "reduced, or direct: all unknowns at every step.")
+      .word("linear", &SolverOptions::linear,
+            {{"auto", fem::LinearSolver::automatic},
+             {"cholesky", fem::LinearSolver::cholesky},
+             {"iterative", fem::LinearSolver::iterative}},
+            "auto, cholesky or iterative.")
+      .field("tolerance", &SolverOptions::tolerance,
+             "Of the reduced model, over the greatest displacement, 1e-9 to 0.1.")
+      .field("newmark_beta", &SolverOptions::newmark_beta, "0.25 to 1.")
+      .field("newmark_gamma", &SolverOptions::newmark_gamma, "0.5 to 1, at most 2 beta.")
+      .field("verify", &SolverOptions::verify,
+             "Run the full model too and measure the reduced one's error.");
+  OptionsClass<TimeOptions>(m, "TimeOptions", "Steps and frames.")
+      .field("step_s", &TimeOptions::step_s, "1e-6 to 0.1 s.")
+      .field("end_s", &TimeOptions::end_s, "0: the end of the motion.")
+      .field("frame_rate_hz", &TimeOptions::frame_rate_hz, "1 to 1000 Hz.")
+      .field("peak_time_s", &TimeOptions::peak_time_s,
+             "Below 0: where the driven points moved most.");
+}
+
+}  // namespace
+
+void bind_simulator_options(py::module_& m) {
+  bind_support(m);
+  bind_drive(m);
+  bind_solver(m);
+  OptionsClass<SimulationOptions>(m, "SimulationOptions", "All options of a Simulator.")
+      .field("tissue", &SimulationOptions::tissue, "A Tissue.")
+      .field("support", &SimulationOptions::support, "SupportOptions.")
+      .field("drive", &SimulationOptions::drive, "DriveOptions.")
+      .field("region", &SimulationOptions::region, "RegionOptions.")
+      .field("model", &SimulationOptions::model, "ModelOptions.")
+      .field("solver", &SimulationOptions::solver, "SolverOptions.")
+      .field("time", &SimulationOptions::time, "TimeOptions.");
+}
+
+}  // namespace hyperex::python

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import logging
+import tempfile
+import unittest
+
+import numpy as np
+
+import hyperex
+from support import coarse_mesh, face
+
+
+class Motions(unittest.TestCase):
+    def setUp(self):
+        self.names = ["a", "b"]
+        self.times = [0, 0.1, 0.25]
+        self.positions = np.arange(18.0).reshape(3, 2, 3) / 100
+
+    def test_from_arrays(self):
+        motion = hyperex.Motion(self.names, self.times, self.positions)
+        self.assertEqual(motion.names, self.names)
+        np.testing.assert_array_equal(motion.time_s, self.times)
+        np.testing.assert_array_equal(motion.positions_m, self.positions)
+        np.testing.assert_array_equal(motion["b"], self.positions[:, 1])
+        np.testing.assert_allclose(motion.at(0.05), self.positions[:2].mean(axis=0))
+        self.assertEqual(len(motion), 3)
+        self.assertTrue("a" in motion and "c" not in motion)
+        with self.assertRaises(KeyError):
+            motion["c"]
+
+    def test_through_a_file(self):
+        motion = hyperex.Motion(self.names, self.times, self.positions)
+        with tempfile.TemporaryDirectory() as folder:
+            hyperex.write_motion_csv(f"{folder}/m.csv", motion)
+            again = hyperex.read_motion(f"{folder}/m.csv")
+        self.assertEqual(again.names, self.names)
+        np.testing.assert_allclose(again.positions_m, self.positions, atol=1e-9)
+
+    def test_refused(self):
+        for arguments, message in (
+                ((["a", "a"], self.times, self.positions), "names = a: expected each name once"),
+                ((self.names, [0, 0.2, 0.2], self.positions), "expected rising numbers"),
+                ((self.names, [0, float("nan"), 1], self.positions), "expected rising numbers"),
+                ((self.names, self.times, self.positions[:, :1]),
+                 r"positions_m = .*\(3, 1, 3\): expected \(3, 2, 3\)"),
+                (([], self.times, np.zeros((3, 0, 3))), "at least one point")):
+            with self.subTest(message), self.assertRaisesRegex(hyperex.InputError, message):
+                hyperex.Motion(*arguments)
+
+    def test_gaps(self):
+        self.positions[1, 0] = np.nan
+        motion = hyperex.Motion(self.names, self.times, self.positions)
+        np.testing.assert_allclose(hyperex.fill_gaps(motion, max_gap_s=0.3)["a"][1],
+                                   [0.048, 0.058, 0.068])
+        with self.assertRaisesRegex(hyperex.InputError, "a"):
+            hyperex.fill_gaps(motion, max_gap_s=0.1)
+
+
+class Files(unittest.TestCase):
+    def test_same_message_as_the_program(self):
+        with self.assertRaisesRegex(hyperex.InputError, "^no_such.ply: "):
+            hyperex.read_scan("no_such.ply")
+        with self.assertRaisesRegex(hyperex.InputError, "unit = ell: expected mm, cm or m"):
+            hyperex.read_scan("no_such.ply", unit="ell")
+
+    def test_a_scan_and_its_landmarks_through_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            height_mm = 1e3 * face().mesh.points_m[:, 1]
+            hyperex.write_ply(f"{folder}/s.ply", face().mesh, scalars={"height_mm": height_mm})
+            hyperex.write_landmarks(f"{folder}/l.json", face().landmarks)
+            again = hyperex.read_face(f"{folder}/s.ply", f"{folder}/l.json")
+            self.assertRaises(hyperex.InputError, hyperex.write_ply, f"{folder}/t.ply",
+                              face().mesh, scalars={"height_mm": height_mm[:-1]})
+        self.assertEqual(again.scan.unit, "mm")
+        self.assertEqual(again.placed, [])
+        np.testing.assert_allclose(again.mesh.points_m, face().mesh.points_m, atol=1e-7)
+        np.testing.assert_array_equal(again.mesh.triangles, face().mesh.triangles)
+        np.testing.assert_allclose(again.landmarks["cheilion_L"], face().landmarks["cheilion_L"])
+
+    def test_landmarks_are_completed(self):
+        few = {name: face().landmarks[name] for name in
+               ("exocanthion_L", "exocanthion_R", "cheilion_L", "cheilion_R", "pronasale")}
+        completed = hyperex.Face(face().scan, few)
+        self.assertIn("ibug68_8", completed.placed)
+        off = np.linalg.norm(completed.landmarks["ibug68_8"] - face().landmarks["ibug68_8"])
+        self.assertLess(off, 0.01)
+
+    def test_remarks_go_to_the_logger(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(f"{folder}/s.obj", "w") as file:
+                file.write("mtllib gone.mtl\n")
+                for x, y, z in face().mesh.points_m:
+                    file.write(f"v {1e3 * x} {1e3 * y} {1e3 * z}\n")
+                for a, b, c in face().mesh.triangles + 1:
+                    file.write(f"f {a} {b} {c}\n")
+            with self.assertLogs("hyperex", logging.INFO) as said:
+                hyperex.read_scan(f"{folder}/s.obj")
+        self.assertIn("gone.mtl", " ".join(said.output))
+
+
+class Meshes(unittest.TestCase):
+    def test_refused(self):
+        with self.assertRaisesRegex(hyperex.InputError, "triangles"):
+            hyperex.TriMesh(np.zeros((3, 3)), [[0, 1, 3]])
+        for options, message in ((dict(element_size_m=1), "element_size_m = 1: expected a number "
+                                  "from 0.0005 to 0.03"),
+                                 (dict(thickness_m=1e-5), "from 0.001 to 0.04, or 0"),
+                                 (dict(layers=0), "layers = 0")):
+            with self.subTest(message), self.assertRaisesRegex(hyperex.InputError, message):
+                hyperex.build_tissue_mesh(face(), hyperex.TissueMeshOptions(**options))
+
+    def test_tetrahedra_have_positive_volume(self):
+        mesh = coarse_mesh()
+        a, b, c, d = (mesh.nodes_m[mesh.tets[:, k]] for k in range(4))
+        self.assertGreater(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a).min(), 0)
+
+
+class Options(unittest.TestCase):
+    def test_classes(self):
+        options = hyperex.SimulationOptions()
+        options.support.skull_layer.across_pa_per_m = 2e7
+        self.assertEqual(options.support.skull_layer.across_pa_per_m, 2e7)
+        self.assertNotEqual(options, hyperex.SimulationOptions())
+        again = eval(repr(options), vars(hyperex))
+        self.assertEqual(again, options)
+        self.assertEqual(options.replace(tissue=hyperex.Tissue(young_pa=1e4)).tissue.young_pa, 1e4)
+        self.assertEqual(options.tissue.young_pa, 192.4e3)
+
+    def test_refused(self):
+        with self.assertRaisesRegex(TypeError, "Tissue has no field young; it has young_pa"):
+            hyperex.Tissue(young=1)
+        with self.assertRaisesRegex(hyperex.InputError,
+                                    "skull = tied: expected one of held, sliding, free"):
+            hyperex.SupportOptions(skull="tied")
+        with self.assertRaisesRegex(TypeError, "gain: a value of type str"):
+            hyperex.DriveOptions(gain="much")
+        with self.assertRaisesRegex(TypeError, "points: expected a list, not one string"):
+            hyperex.DriveOptions(points="ibug68_8")
+
+
+if __name__ == "__main__":
+    unittest.main()

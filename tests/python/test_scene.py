@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import json
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+
+import hyperex
+from support import DEMO, SOURCE, coarse_mesh, face, small_simulator
+
+EXAMPLES = SOURCE / "examples"
+COARSE = {"mesh.element_size_mm": 10, "mesh.layers": 1}
+
+
+class Scenes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_run_scene_writes_what_the_program_does(self):
+        summary = hyperex.run_scene(EXAMPLES / "demo.toml", self.folder / "out",
+                                    {"output.vtu": False, "output.glb": False,
+                                     "output.report": False})
+        for name in ("motion.csv", "symmetry.csv", "excursions.csv", "skin_peak.ply"):
+            self.assertEqual((self.folder / "out" / name).read_bytes(),
+                             (DEMO / name).read_bytes(), name)
+        written = json.loads((self.folder / "out" / "summary.json").read_text())
+        self.assertEqual(written, summary)
+
+    def test_scene_by_parts(self):
+        scene = hyperex.Scene(EXAMPLES / "variants.toml", COARSE)
+        self.assertEqual(scene.face.scan.file, pathlib.Path("embedded face"))
+        self.assertEqual(list(scene.variants), ["stiffer", "more viscous", "softer under the skin",
+                                                "stiff right cheek", "scar beside the mouth"])
+        self.assertEqual(scene.variants["stiffer"].tissue.young_pa, 1e6)
+        self.assertEqual(len(scene.variants["stiff right cheek"].tissue.young_pa),
+                         len(scene.mesh.tets))
+        simulator = scene.simulator()
+        base = simulator.run()
+        np.testing.assert_array_equal(base.skin_displacement_m,
+                                      small_simulator().run().skin_displacement_m)
+        simulator.set_options(scene.variants["stiff right cheek"])
+        difference = hyperex.variant_difference(base, simulator.run())
+        side = base.skin_rest.points_m @ (face().landmarks["cheek_L"] - face().landmarks["cheek_R"])
+        right = side < np.median(side)
+        self.assertGreater(difference.greatest_m[right].mean(),
+                           5 * difference.greatest_m[~right].mean())
+
+    def test_changes_that_cannot_be(self):
+        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -3: expected"):
+            hyperex.run_scene(EXAMPLES / "demo.toml", self.folder / "out", {"tissue.young_kpa": -3})
+        self.assertFalse((self.folder / "out").exists())
+        with self.assertRaisesRegex(hyperex.InputError, "tisue"):
+            hyperex.check_scene(EXAMPLES / "demo.toml", {"tisue.young_kpa": 3})
+
+    def test_check(self):
+        checked = hyperex.check_scene(EXAMPLES / "demo.toml")
+        self.assertEqual(checked["warnings"], [])
+        self.assertIn("aligned by 92 common points", checked["notes"][0])
+
+
+class TissueFields(unittest.TestCase):
+    def test_as_the_scene(self):
+        scene = hyperex.Scene(EXAMPLES / "stiff_cheek.toml", COARSE)
+        options = hyperex.TissueFieldOptions(regions=[
+            hyperex.TissueRegion(name="cheek_R", young_factor=5, blend_m=0.006)])
+        self.assertEqual(hyperex.tissue_field(coarse_mesh(), face(), options).young_pa.tolist(),
+                         scene.options.tissue.young_pa.tolist())
+
+    def test_refused(self):
+        options = hyperex.TissueFieldOptions(regions=[
+            hyperex.TissueRegion(name="elbow", young_factor=5)])
+        with self.assertRaisesRegex(hyperex.InputError, r"tissue.region\[0\].name"):
+            hyperex.tissue_field(coarse_mesh(), face(), options)
+
+
+class Measures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.performance = small_simulator().run()
+
+    def test_excursions(self):
+        moved = self.performance.landmarks["cheilion_L"]
+        corners = hyperex.excursions_of(self.performance.landmarks)["cheilion"]
+        far_mm = 1e3 * np.linalg.norm(moved - moved[0], axis=1)
+        self.assertAlmostEqual(corners.left.excursion_mm, far_mm.max(), 9)
+        np.testing.assert_allclose(
+            hyperex.distance_from_rest_mm(self.performance.landmarks, ["cheilion_L"]), far_mm, atol=1e-12)
+        with self.assertRaises(hyperex.InputError):
+            hyperex.distance_from_rest_mm(self.performance.landmarks, ["nobody"])
+
+    def test_symmetry(self):
+        curve = hyperex.symmetry_of(self.performance.landmarks)
+        self.assertEqual(len(curve.s), len(self.performance.frame_time_s))
+        expected = np.log(np.maximum(np.abs(curve.xi_left - curve.xi_right), 1e-6))
+        np.testing.assert_allclose(curve.s, expected, atol=1e-12)
+
+    def test_asymmetry(self):
+        asymmetry = hyperex.asymmetry_of(self.performance, face().landmarks)
+        values = hyperex.asymmetry_map_mm(self.performance, asymmetry, asymmetry.worst_frame)
+        self.assertEqual(len(values), len(self.performance.skin_rest.points_m))
+        self.assertEqual(asymmetry.worst_frame, int(np.argmax(asymmetry.face_rms_mm)))
+        self.assertAlmostEqual(abs(asymmetry.plane_normal[0]), 1, 3)
+        with self.assertRaises(IndexError):
+            hyperex.asymmetry_map_mm(self.performance, asymmetry, 10**6)
+
+    def test_distances(self):
+        points = face().mesh.points_m
+        distance_m = hyperex.distance_to_surface(points + [0, 0, 1e-4], face().mesh)
+        self.assertLess(distance_m.max(), 1e-4 + 1e-12)
+        statistics = hyperex.statistics_of(distance_m)
+        self.assertAlmostEqual(statistics.mean_mm, 1e3 * distance_m.mean(), 9)
+        lips = hyperex.regions_of(points, face().landmarks)["lips"]
+        self.assertAlmostEqual(hyperex.statistics_of(distance_m, lips).max_mm,
+                               1e3 * distance_m[lips].max(), 9)
+        with self.assertRaises(IndexError):
+            hyperex.statistics_of(distance_m, [len(points)])
+
+
+class Export(unittest.TestCase):
+    def test_glb(self):
+        run = small_simulator().run()
+        with tempfile.TemporaryDirectory() as folder:
+            report = hyperex.write_glb(f"{folder}/f.glb", run, face().scan)
+            size = pathlib.Path(f"{folder}/f.glb").stat().st_size
+        self.assertEqual(report.bytes, size)
+        self.assertLessEqual(report.max_error_m, 1e-4)
+        self.assertGreater(report.keys, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

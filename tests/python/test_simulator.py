@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import copy
+import gc
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import hyperex
+from support import DEMO, coarse_mesh, face, mesh, motion, small_simulator
+
+
+class SameNumbers(unittest.TestCase):
+    """To the bit: files that both write are compared byte by byte."""
+
+    @classmethod
+    def setUpClass(cls):
+        options = hyperex.SimulationOptions(time=hyperex.TimeOptions(step_s=0.002, end_s=2.7))
+        cls.simulator = hyperex.Simulator(mesh(), face().landmarks, motion(), options)
+        cls.performance = cls.simulator.run()
+
+    def test_as_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            hyperex.write_motion_csv(f"{folder}/motion.csv", self.performance.landmarks)
+            with open(f"{folder}/motion.csv", "rb") as file:
+                self.assertEqual(file.read(), (DEMO / "motion.csv").read_bytes())
+            hyperex.write_frames(folder, self.performance, every=20)
+            for frame in (0, 40, 80):
+                name = f"frames/frame_{frame:04}.vtu"
+                with open(f"{folder}/{name}", "rb") as file:
+                    self.assertEqual(file.read(), (DEMO / name).read_bytes(), name)
+
+    def test_tissue_set_and_set_back(self):
+        before = self.simulator.options.tissue
+        self.simulator.set_tissue(hyperex.Tissue(young_pa=50e3))
+        softer = self.simulator.run()
+        began = time.perf_counter()
+        self.simulator.set_tissue(before)
+        again = self.simulator.run()
+        ms = 1e3 * (time.perf_counter() - began)
+        print(f"set_tissue and run on the embedded face: {ms:.0f} ms")
+        np.testing.assert_array_equal(again.skin_displacement_m,
+                                      self.performance.skin_displacement_m)
+        self.assertGreater(
+            np.abs(softer.skin_displacement_m - self.performance.skin_displacement_m).max(), 1e-5)
+
+    def test_one_value_a_tetrahedron_is_as_one_for_all(self):
+        tets = len(mesh().tets)
+        self.simulator.set_tissue(hyperex.Tissue(young_pa=np.full(tets, 192.4e3)))
+        np.testing.assert_array_equal(self.simulator.run().skin_displacement_m,
+                                      self.performance.skin_displacement_m)
+        self.simulator.set_tissue(hyperex.Tissue())
+
+
+class Arrays(unittest.TestCase):
+    def setUp(self):
+        self.performance = small_simulator().run()
+
+    def test_shapes(self):
+        run = self.performance
+        frames, vertices = len(run.frame_time_s), len(run.skin_rest.points_m)
+        self.assertEqual(run.skin_displacement_m.shape, (frames, vertices, 3))
+        self.assertEqual(run.skin_displacement_m.dtype, np.float32)
+        self.assertEqual(run.node_displacement_m.shape, (frames, len(run.nodes_m), 3))
+        self.assertEqual(run.nodes_m.dtype, np.float64)
+        self.assertEqual(run.tets.shape, (len(coarse_mesh().tets), 4))
+        self.assertEqual(run.scan_vertices, len(face().mesh.points_m))
+
+    def test_views_share_memory_and_keep_it(self):
+        run = self.performance
+        a, b = run.skin_displacement_at(5), run.skin_displacement_at(5)
+        self.assertTrue(np.shares_memory(a, b))
+        self.assertFalse(a.flags.writeable)
+        self.assertIs(run.skin_displacement_m, run.skin_displacement_m)
+        kept = a.copy()
+        del run, b
+        self.performance = None
+        gc.collect()
+        small_simulator().run()  # would take the memory if it were free
+        np.testing.assert_array_equal(a, kept)
+
+    def test_frames(self):
+        run = self.performance
+        np.testing.assert_array_equal(run.skin_displacement_at(-1), run.skin_displacement_m[-1])
+        with self.assertRaises(IndexError):
+            run.skin_displacement_at(len(run.frame_time_s))
+        moved = run.skin_at(run.peak_frame).points_m
+        np.testing.assert_array_equal(
+            moved, run.skin_rest.points_m + run.skin_displacement_at(run.peak_frame).astype(float))
+
+
+class Setters(unittest.TestCase):
+    def test_each_has_an_effect_and_is_kept(self):
+        simulator = small_simulator()
+        base = simulator.run().skin_displacement_m
+        support = hyperex.SupportOptions(skull="held", muscle_pa_per_m=0)
+        drive = hyperex.DriveOptions(gain=0.5)
+        for name, value in (("support", support), ("drive", drive),
+                            ("tissue", hyperex.Tissue(young_pa=30e3))):
+            with self.subTest(name):
+                changed = copy.copy(simulator)
+                getattr(changed, f"set_{name}")(value)
+                self.assertEqual(getattr(changed.options, name), value)
+                self.assertGreater(np.abs(changed.run().skin_displacement_m - base).max(), 1e-5)
+        np.testing.assert_array_equal(simulator.run().skin_displacement_m, base)
+
+    def test_motion(self):
+        simulator = small_simulator()
+        half = hyperex.prepare_motion(
+            hyperex.embedded_mouth_opening(face().landmarks, peak_deg=6.5), face().landmarks)
+        before = simulator.run().report.lip_gap_mm
+        simulator.set_motion(half)
+        after = simulator.run().report.lip_gap_mm
+        self.assertLess(after, 0.7 * before)
+        self.assertGreater(after, 0.3 * before)
+
+    def test_out_of_range_changes_nothing(self):
+        simulator = small_simulator()
+        options = simulator.options
+        options.time.step_s = 7
+        with self.assertRaisesRegex(hyperex.InputError,
+                                    r"time.step_s = 7: expected a number from 1e-06 to 0.1"):
+            simulator.set_options(options)
+        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -1: expected a number"):
+            simulator.set_tissue(hyperex.Tissue(young_pa=-1e3))
+        with self.assertRaisesRegex(hyperex.InputError, "3 values: expected one for each"):
+            simulator.set_tissue(hyperex.Tissue(young_pa=[1e5, 1e5, 1e5]))
+        values = np.full(len(coarse_mesh().tets), 1e5)
+        values[7] = -1
+        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa"):
+            simulator.set_tissue(hyperex.Tissue(young_pa=values))
+        self.assertEqual(simulator.options, hyperex.SimulationOptions())
+
+    def test_input_errors_are_value_errors(self):
+        simulator = small_simulator()
+        simulator.set_drive(hyperex.DriveOptions(points=["no_such_point"]))
+        with self.assertRaisesRegex(ValueError, "no_such_point"):
+            simulator.run()
+
+
+class Threads(unittest.TestCase):
+    def test_copies_run_side_by_side(self):
+        simulator = small_simulator()
+        alone = simulator.run().skin_displacement_m
+        runs = {}
+
+        def run(key, copied):
+            runs[key] = copied.run().skin_displacement_m
+        threads = [threading.Thread(target=run, args=(k, copy.copy(simulator))) for k in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        np.testing.assert_array_equal(runs[0], alone)
+        np.testing.assert_array_equal(runs[1], alone)
+
+    def test_other_threads_go_on_and_may_not_use_it(self):
+        simulator = small_simulator(solver=hyperex.SolverOptions(method="direct"))
+        said = []
+        started = threading.Event()
+
+        def meddle():
+            started.wait()
+            try:
+                simulator.set_tissue(hyperex.Tissue(young_pa=30e3))
+            except RuntimeError as error:
+                said.append(str(error))
+        thread = threading.Thread(target=meddle)
+        thread.start()
+
+        def progress(share):
+            started.set()
+            while thread.is_alive():  # lets the other thread take the lock of Python
+                time.sleep(0.001)
+        simulator.run(progress)
+        thread.join()
+        self.assertEqual(len(said), 1)
+        self.assertIn("running in another thread", said[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
