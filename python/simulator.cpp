@@ -117,6 +117,11 @@ class PythonSimulator {
     change([&](auto& s) { s.set_options(with_all_values(options)); });
   }
 
+  PointsF step(const Points& displacement_m) {
+    const auto held = hold();
+    return simulator_.step(displacement_m);
+  }
+
   std::unique_ptr<RunResult> run(py::object progress, py::object cancelled) {
     const auto held = hold();
     Callbacks callbacks(std::move(progress), std::move(cancelled));
@@ -191,6 +196,16 @@ void bind_simulator(py::module_& m) {
             self.change([&](auto& s) { s.set_motion(motion); });
           },
           "motion"_a)
+      .def(
+          "start_stream",
+          [](S& self, double interval_s) {
+            self.change([&](auto& s) { s.start_stream(interval_s); });
+          },
+          "interval_s"_a, Unlocked(),
+          "For points that come in one sample after the other, interval_s apart; begins at rest.")
+      .def("step", &S::step, "displacement_m"_a, Unlocked(),
+           "One sample: the displacement of all points of the motion since rest (P x 3, metres, "
+           "the scan's frame, in the motion's order). Returns the skin's (vertices x 3, float32).")
       .def("set_options", &S::set_options, "options"_a)
       .def_property_readonly(
           "options", [](const S& self) { return self.simulator().options(); },

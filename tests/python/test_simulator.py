@@ -140,6 +140,31 @@ class Setters(unittest.TestCase):
             simulator.run()
 
 
+class Stream(unittest.TestCase):
+    def test_skin_follows_samples(self):
+        simulator = small_simulator()
+        followed = motion().motion
+        simulator.start_stream(1 / 30)
+        for positions in followed.positions_m[:41]:
+            skin_m = simulator.step(positions - followed.positions_m[0])
+        run = simulator.run()
+        self.assertEqual(skin_m.shape, run.skin_rest.points_m.shape)
+        off_m = np.linalg.norm(skin_m - run.skin_displacement_at(40), axis=1).max()
+        self.assertLess(off_m, 0.1 * np.linalg.norm(skin_m, axis=1).max())
+
+    def test_refused(self):
+        simulator = small_simulator()
+        with self.assertRaisesRegex(RuntimeError, "before start_stream"):
+            simulator.step(np.zeros((92, 3)))
+        with self.assertRaisesRegex(hyperex.InputError, "interval_s = 0"):
+            simulator.start_stream(0)
+        simulator.start_stream(1 / 30)
+        with self.assertRaisesRegex(hyperex.InputError, "3 rows: expected 92 points"):
+            simulator.step(np.zeros((3, 3)))
+        with self.assertRaisesRegex(hyperex.InputError, "all finite"):
+            simulator.step(np.full((92, 3), np.nan))
+
+
 class Threads(unittest.TestCase):
     def test_copies_run_side_by_side(self):
         simulator = small_simulator()
