@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <exception>
-#include <mutex>
+#include <memory>
 
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
@@ -144,18 +145,18 @@ class PythonSimulator {
     options.tissue = completed(std::move(options.tissue), tets());
     return options;
   }
-  std::unique_lock<std::mutex> hold() const {
-    std::unique_lock held(busy_, std::try_to_lock);
-    if (!held)
+  /// Also a callback of the run itself, on the same thread, may not get at it.
+  std::shared_ptr<std::atomic_flag> hold() const {
+    if (busy_->test_and_set())
       throw std::runtime_error(
-          "this simulator is running in another thread: copy it (copy.copy) for each thread");
-    return held;
+          "this simulator is running: copy it (copy.copy) before, one for each thread");
+    return {busy_.get(), [](std::atomic_flag* busy) { busy->clear(); }};
   }
   void refuse_if_busy() const { hold(); }
 
   SharedTissueMesh mesh_;
   reenact::Simulator simulator_;
-  mutable std::mutex busy_;
+  std::unique_ptr<std::atomic_flag> busy_ = std::make_unique<std::atomic_flag>();
 };
 
 }  // namespace

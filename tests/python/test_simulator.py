@@ -202,7 +202,7 @@ class Threads(unittest.TestCase):
         simulator.run(progress)
         thread.join()
         self.assertEqual(len(said), 1)
-        self.assertIn("running in another thread", said[0])
+        self.assertIn("this simulator is running", said[0])
 
 
 if __name__ == "__main__":
