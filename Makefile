@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build install python asan tsan coverage lint fresh fuzz bench experiments fidelity mutations interop clean setup
+.PHONY: help demo test build install python deb asan tsan coverage lint fresh fuzz bench experiments fidelity mutations interop clean setup
 
 # Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
 ifneq ($(shell test -w "$$HOME" && echo yes),yes)
@@ -42,6 +42,16 @@ python: ## the Python module into PREFIX, where Debian's python3 finds it (docs/
 	cmake --preset release -DHYPEREX_PYTHON=ON $(CMAKE_OPTIONS)
 	cmake --build --preset release --parallel $(JOBS) --target hyperex_python
 	cmake --install build/release --component python --prefix $(PREFIX)
+
+# Packages of Debian's own put modules of Python elsewhere than /usr/local does.
+deb: ## Debian packages of program, C++ library and Python module: build/deb/*.deb
+	scripts/setup.sh --python
+	cmake --preset release -B build/deb -DHYPEREX_TESTS=OFF -DHYPEREX_PYTHON=ON \
+	  -DHYPEREX_PYTHON_FOLDER=lib/python3/dist-packages $(CMAKE_OPTIONS)
+	cmake --build build/deb --parallel $(JOBS) --target hyperex libhyperex hyperex_python
+	rm -f build/deb/*.deb
+	cd build/deb && cpack --config CPackConfig.cmake && rm -rf _CPack_Packages
+	@ls -l build/deb/*.deb
 
 test: ## everything: unit tests, verification, the demo twice, its replay in a browser
 	scripts/setup.sh --tests
