@@ -46,7 +46,7 @@ TEST_F(Outputs, TooLittleMemoryIsToldAndLeavesNothing) {
   GTEST_SKIP() << "a sanitizer takes more addresses than any limit here leaves";
 #endif
   const auto names = names_in(in(""));
-  for (const char* limit : {"262144", "700000", "1000000"}) {
+  for (const char* limit : {"262144", "700000", "850000"}) {
     const Outcome outcome =
         call("run scene.toml --out out", std::string("ulimit -v ") + limit + " && ulimit -t 60");
     EXPECT_EQ(outcome.status, 1) << limit;
