@@ -10,6 +10,7 @@
 #include <map>
 
 #include "hyperex/fem/solve/partitioned_factor.hpp"
+#include "hyperex/fem/solve/triangular.hpp"
 #include "hyperex/fem/time/inertia.hpp"
 #include "support/calculix.hpp"
 #include "support/face_case.hpp"

@@ -2,7 +2,6 @@
 // Files for other programs: glTF, PLY, frames for ParaView.
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
-#include "hyperex/io/vtu.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
 #include "hyperex/scene/frames.hpp"
@@ -50,17 +49,7 @@ void ply(const Path& file, const TriMesh& mesh, const std::string& unit,
 
 void frames(const Path& folder, const RunResult& run, int every, bool strain) {
   if (every < 1) refuse("every", std::to_string(every), "a number from 1");
-  const reenact::Performance& p = run.performance();
-  std::filesystem::create_directories(folder / "frames");
-  std::vector<std::pair<double, Path>> series;
-  const io::VtuMesh mesh(p.nodes, p.tets);
-  for (std::size_t f = 0; f < p.frame_time_s.size(); f += static_cast<std::size_t>(every)) {
-    series.emplace_back(p.frame_time_s[f], Path("frames") / fmt::format("frame_{:04}.vtu", f));
-    const Points d = p.node_displacement_m[f].cast<double>();
-    mesh.write(folder / series.back().second, {{"displacement (m)", d.cast<float>()}},
-               scene::frame_cells(p, d, strain));
-  }
-  io::write_pvd(folder / "frames.pvd", series);
+  scene::write_frames(run.performance(), folder, every, strain);
 }
 
 }  // namespace

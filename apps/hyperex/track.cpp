@@ -109,11 +109,9 @@ void say_what_was_tracked(const tracking::Tracking& tracking) {
 
 /// Whether the pictures are to be turned back. A colour picture alone does not tell, and a mirrored
 /// one would swap left and right in silence: of a webcam it must be said.
-bool asked_mirrored(const Options& options, std::string spec) {
+bool asked_mirrored(const Options& options, const std::string& spec) {
   if (!options.mirrored.empty()) return options.mirrored == "yes";
-  if (spec.starts_with("play:")) spec.erase(0, 5);
-  const auto kind = capture::source_kind(spec);
-  if (kind == capture::SourceKind::webcam)
+  if (capture::source_kind(spec) == capture::SourceKind::webcam)
     throw InputError("track: " + spec +
                      ": does its picture show the world as a mirror does? Say --mirrored yes or "
                      "--mirrored no: left and right depend on it");
@@ -121,8 +119,7 @@ bool asked_mirrored(const Options& options, std::string spec) {
 }
 
 /// Said only of a video that could be opened.
-void warn_of_video(const Options& options, std::string recording) {
-  if (recording.starts_with("play:")) recording.erase(0, 5);
+void warn_of_video(const Options& options, const std::string& recording) {
   if (options.mirrored.empty() && !options.json &&
       capture::source_kind(recording) == capture::SourceKind::video)
     spdlog::warn(
@@ -182,10 +179,12 @@ void run(const Options& options) {
   source_options.camera_file = options.camera;
   const std::string recording =
       options.recording.empty() ? options.score.string() : options.recording;
-  const bool flip = asked_mirrored(options, options.device.empty() ? recording : options.device);
+  std::string played = options.device.empty() ? recording : options.device;
+  if (played.starts_with("play:")) played.erase(0, 5);
+  const bool flip = asked_mirrored(options, played);
   auto source = options.device.empty() ? capture::open_source(recording, source_options)
                                        : capture::open_device(options.device, source_options);
-  warn_of_video(options, options.device.empty() ? recording : options.device);
+  warn_of_video(options, played);
   if (flip) source = std::make_unique<capture::Mirrored>(std::move(source));
   if (options.seconds && !source->live())
     throw InputError("track: --seconds is for a camera; a recording has its end");

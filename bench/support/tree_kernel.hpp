@@ -3,10 +3,9 @@
 #include <tbb/parallel_invoke.h>
 
 #include <Eigen/Dense>
-#include <numeric>
 #include <vector>
 
-#include "hyperex/fem/solve/triangular.hpp"
+#include "hyperex/fem/solve/supernodes.hpp"
 
 namespace hyperex::bench {
 
@@ -79,43 +78,16 @@ class TreeKernel {
     p.diagonal.transpose().template triangularView<Eigen::Upper>().solveInPlace(x);
   }
 
-  /// Opens the heaviest subtree until two even heaps come out; what was opened is the top.
   void divide() {
-    std::vector<int> holder(static_cast<std::size_t>(f_.columns)), parent(f_.count, -1);
-    for (int s = 0; s < f_.count; ++s)
-      std::fill(holder.begin() + f_.first[s], holder.begin() + f_.first[s + 1], s);
-    std::vector<double> weight(static_cast<std::size_t>(f_.count), 0.0);
-    std::vector<std::vector<int>> children(static_cast<std::size_t>(f_.count));
-    std::vector<int> roots;
+    const std::vector<int> half = fem::halves(f_, fem::parents(f_), [](const fem::Panel& p) {
+      return (p.below + 0.5 * p.columns) * p.columns;  // numbers to read
+    });
+    std::vector<int> holder(static_cast<std::size_t>(f_.columns));
     Eigen::Index tallest = 0;
     for (int s = 0; s < f_.count; ++s) {
-      const Panel p = panel(s);
-      weight[s] += (p.below + 0.5 * p.columns) * p.columns;
-      tallest = std::max<Eigen::Index>(tallest, p.below);
-      if (p.below > 0) {
-        parent[s] = holder[p.rows[0]];
-        weight[parent[s]] += weight[s];
-        children[parent[s]].push_back(s);
-      } else {
-        roots.push_back(s);
-      }
+      std::fill(holder.begin() + f_.first[s], holder.begin() + f_.first[s + 1], s);
+      tallest = std::max<Eigen::Index>(tallest, panel(s).below);
     }
-    std::vector<int> half(static_cast<std::size_t>(f_.count), -1);
-    for (;;) {
-      std::sort(roots.begin(), roots.end(), [&](int a, int b) { return weight[a] > weight[b]; });
-      double heap[2] = {0, 0};
-      for (const int s : roots) {
-        half[s] = heap[1] < heap[0];
-        heap[half[s]] += weight[s];
-      }
-      if (roots.empty() || std::max(heap[0], heap[1]) <= 0.53 * (heap[0] + heap[1])) break;
-      const int heaviest = roots.front();
-      half[heaviest] = -1;
-      roots.erase(roots.begin());
-      roots.insert(roots.end(), children[heaviest].begin(), children[heaviest].end());
-    }
-    for (int s = f_.count - 1; s >= 0; --s)
-      if (half[s] < 0 && parent[s] >= 0) half[s] = half[parent[s]];
     settle(half, holder, tallest);
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "hyperex/core/assert.hpp"
@@ -23,6 +24,14 @@ inline double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// Of the steps between two or more values.
+inline double median_step(const std::vector<double>& values) {
+  HX_ASSERT(values.size() > 1);
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(values[k] - values[k - 1]);
+  return median(std::move(steps));
 }
 
 }  // namespace hyperex

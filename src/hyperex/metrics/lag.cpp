@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/motion/resample.hpp"
 
 namespace hyperex::metrics {
@@ -48,13 +49,6 @@ double pearson(const std::vector<double>& a, const std::vector<double>& b) {
 bool varies(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return *most - *least > 1e-12 * std::max(std::abs(*least), std::abs(*most));
-}
-
-double median_step(const std::vector<double>& t) {
-  std::vector<double> steps;
-  for (size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
-  std::nth_element(steps.begin(), steps.begin() + long(steps.size() / 2), steps.end());
-  return steps[steps.size() / 2];
 }
 
 }  // namespace

@@ -14,10 +14,12 @@ struct Match {
   Vec3 weight = Vec3::Zero();  ///< each >= 0, sum 1
   double distance_m = 0;
   /// d = sum_k weight_k d_k [4.15]
-  Vec3 displacement(const Points& point_displacement) const {
-    return weight[0] * point_displacement.row(point[0]).transpose() +
-           weight[1] * point_displacement.row(point[1]).transpose() +
-           weight[2] * point_displacement.row(point[2]).transpose();
+  template <class Rows>  ///< Points or PointsF
+  Vec3 displacement(const Rows& point_displacement) const {
+    const auto of = [&](int k) -> Vec3 {
+      return point_displacement.row(point[k]).transpose().template cast<double>();
+    };
+    return weight[0] * of(0) + weight[1] * of(1) + weight[2] * of(2);
   }
 };
 

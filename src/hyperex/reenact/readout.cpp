@@ -104,9 +104,7 @@ std::vector<double> DrivenPoints::off_m(const Performance& performance,
     const Points there = wanted.at(performance.frame_time_s[f]);
     const PointsF& skin = performance.skin_displacement_m[f];
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      Vec3 moved = Vec3::Zero();
-      for (int k = 0; k < 3; ++k)
-        moved += places[i].weight[k] * skin.row(places[i].point[k]).transpose().cast<double>();
+      const Vec3 moved = places[i].displacement(skin);
       off_m[i] = std::max(off_m[i], (moved - there.row(rows[i]).transpose()).norm());
     }
   }

@@ -84,7 +84,7 @@ struct Simulator::Impl {
   std::optional<fem::Response> response;
 
   std::optional<Stream> stream;
-  bool stream_current = false;
+  bool stream_current = false, stream_fits = false;  // with the values; with the pattern and order
 
   SimulationReport report;
   RunCallbacks callbacks;
@@ -98,6 +98,7 @@ struct Simulator::Impl {
   void drop_factors() {
     reduced.reset();
     full.reset();
+    stream_fits = false;
     drop_values();
   }
   void drop_input() {
@@ -230,8 +231,7 @@ struct Simulator::Impl {
       fill(system);
       model.emplace(make(std::move(system)));
       report.analyse_s += model->analyse_seconds();
-      if (!order)
-        order = std::make_shared<const Order>(Order{boundary->prescribed(), model->order()});
+      keep_order(model->order());
     }
     report.factor_s += model->factor_seconds();
     current = true;
@@ -242,6 +242,9 @@ struct Simulator::Impl {
   }
   std::shared_ptr<const fem::NodeOrder> known_order() const {
     return order ? order->nodes : nullptr;
+  }
+  void keep_order(const std::shared_ptr<const fem::NodeOrder>& nodes) {
+    if (!order) order = std::make_shared<const Order>(Order{boundary->prescribed(), nodes});
   }
 
   void need_reduced() {
@@ -409,27 +412,25 @@ struct Simulator::Impl {
                        fmt::format("interval_s = {:g}: expected more than 0 s", interval_s));
     if (options.region.measured == Measured::all)
       throw InputError("stream", "the whole skin is measured: there is nothing to simulate");
-    need_region();
-    need_boundary();
-    need_assembler();
-    fem::System system;
-    fill(system);
-    stream.emplace(std::move(system), *boundary, interval_s, options.solver.linear, known_order());
-    stream_current = true;
-    if (!order)
-      order = std::make_shared<const Order>(Order{boundary->prescribed(), stream->order()});
+    stream.reset();
+    renew_stream(interval_s);
   }
 
-  /// With what was set since the last step.
-  void renew_stream() {
+  /// With what is set now: the motion goes on where the pattern and the driven nodes are the same.
+  void renew_stream(double interval_s) {
     need_region();
     need_boundary();
     need_assembler();
-    if (!stream->fits(*boundary)) return start_stream(stream->interval_s());
     fem::System system;
     fill(system);
-    stream->refill(std::move(system), *boundary);
-    stream_current = true;
+    if (stream && stream_fits) {
+      stream->refill(std::move(system), *boundary);
+    } else {
+      stream.emplace(std::move(system), *boundary, interval_s, options.solver.linear,
+                     known_order());
+      keep_order(stream->order());
+    }
+    stream_current = stream_fits = true;
   }
 
   PointsF step(const Points& displacement_m) {
@@ -437,7 +438,7 @@ struct Simulator::Impl {
     if (displacement_m.rows() != motion->rest.rows() || !displacement_m.allFinite())
       throw InputError("stream", fmt::format("{} rows: expected {} points, all finite",
                                              displacement_m.rows(), motion->rest.rows()));
-    if (!stream_current) renew_stream();
+    if (!stream_current) renew_stream(stream->interval_s());
     const Points points = options.drive.gain * displacement_m;
     return readout->skin(*region, stream->step(points), points);
   }

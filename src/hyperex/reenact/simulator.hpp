@@ -70,7 +70,7 @@ class Cancelled : public std::runtime_error {
 ///   input                    boundary, motion, drive.gain, time.step_s, end_s, solver.tolerance
 ///   reduced motion           factor, input, solver
 ///   frames of the skin       reduced motion, time
-///   stream                   boundary, tissue, model; begins anew where other nodes are driven
+///   stream                   factor, boundary; begins anew with another order
 ///
 /// A run after set_tissue() factors again, but neither matches, orders nor analyses. Equal options
 /// give equal numbers, whatever was set and run before. One caller at a time; copies are

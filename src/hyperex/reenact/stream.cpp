@@ -24,10 +24,6 @@ void Stream::refill(fem::System system, const Boundary& boundary) {
   boundary_.emplace(boundary);
 }
 
-bool Stream::fits(const Boundary& boundary) const {
-  return newmark_.prescribed() == boundary.prescribed();
-}
-
 Eigen::Map<const Points> Stream::step(const Points& point_displacement) {
   boundary_->prescribe(point_displacement, boundary_->follow(point_displacement), values_, force_);
   newmark_.step(values_, force_);

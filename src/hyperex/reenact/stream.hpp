@@ -19,9 +19,6 @@ class Stream {
 
   /// Other values and springs on the same unknowns; the motion goes on.
   void refill(fem::System system, const Boundary& boundary);
-  /// Whether `boundary` prescribes the same unknowns.
-  bool fits(const Boundary& boundary) const;
-
   /// Displacement of all nodes (|nodes| x 3, m) after one more sample: displacements of all the
   /// motion's points (P x 3, m). Valid until the next.
   Eigen::Map<const Points> step(const Points& point_displacement);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/core/progress.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/fem/form/inverted.hpp"
 #include "hyperex/fem/form/system.hpp"
@@ -88,25 +87,28 @@ std::vector<io::VtuArray> frame_cells(const Performance& p, const Points& d, boo
   return cells;
 }
 
-void write_frames(const Results& r, const std::filesystem::path& directory) {
-  const Performance& p = r.simulation.performance;
+void write_frames(const Performance& p, const std::filesystem::path& directory, int every,
+                  bool with_strain, const std::vector<io::VtuArray>& more) {
   if (p.nodes.rows() == 0) return;
-  const std::vector<io::VtuArray> graded = graded_arrays(r);
-  std::filesystem::create_directory(directory / "frames");
+  std::filesystem::create_directories(directory / "frames");
   std::vector<std::pair<double, std::filesystem::path>> frames;
-  const auto every = static_cast<std::size_t>(r.scene.output.vtu_every);
-  for (std::size_t f = 0; f < p.frame_time_s.size(); f += every)
+  const auto step = static_cast<std::size_t>(every);
+  for (std::size_t f = 0; f < p.frame_time_s.size(); f += step)
     frames.emplace_back(p.frame_time_s[f],
                         std::filesystem::path("frames") / fmt::format("frame_{:04}.vtu", f));
-  Progress progress("writing frames for ParaView", 0);
   const io::VtuMesh mesh(p.nodes, p.tets);
   tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t i) {
-    const Points d = p.node_displacement_m[i * every].cast<double>();
-    std::vector<io::VtuArray> cells = frame_cells(p, d, r.scene.output.vtu_strain);
-    cells.insert(cells.end(), graded.begin(), graded.end());
+    const Points d = p.node_displacement_m[i * step].cast<double>();
+    std::vector<io::VtuArray> cells = frame_cells(p, d, with_strain);
+    cells.insert(cells.end(), more.begin(), more.end());
     mesh.write(directory / frames[i].second, {{"displacement (m)", d.cast<float>()}}, cells);
   });
   io::write_pvd(directory / "frames.pvd", frames);
+}
+
+void write_frames(const Results& r, const std::filesystem::path& directory) {
+  write_frames(r.simulation.performance, directory, r.scene.output.vtu_every,
+               r.scene.output.vtu_strain, graded_arrays(r));
 }
 
 nlohmann::ordered_json stress_summary(const Performance& p) {

@@ -16,9 +16,13 @@ namespace hyperex::scene {
 std::vector<io::VtuArray> frame_cells(const reenact::Performance& performance, const Points& d,
                                       bool with_strain);
 
-/// Writes frames.pvd and frames/frame_NNNN.vtu: the tissue in every frame that output.vtu_every
-/// asks for, at rest, its displacement an array ("Warp By Vector" moves it). Nothing where no
-/// tissue was simulated.
+/// Writes frames.pvd and frames/frame_NNNN.vtu: the tissue in every `every`-th frame (> 0), at
+/// rest, its displacement an array ("Warp By Vector" moves it), with `more` arrays of its
+/// tetrahedra in each. Nothing where no tissue was simulated.
+void write_frames(const reenact::Performance& performance, const std::filesystem::path& directory,
+                  int every, bool with_strain, const std::vector<io::VtuArray>& more = {});
+/// As the scene's output.vtu_every and vtu_strain ask for, with the parameters of its tissue that
+/// differ from place to place.
 void write_frames(const Results& results, const std::filesystem::path& directory);
 
 /// The spread of von Mises stress (kPa) and of the greatest principal strain over the elements at

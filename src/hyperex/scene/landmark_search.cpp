@@ -2,12 +2,11 @@
 #include "hyperex/scene/landmark_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "hyperex/tissue/known_landmarks.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
@@ -18,24 +17,13 @@ namespace {
 /// The canonical face on given landmarks, those far off left out the second time; none where too
 /// few are given.
 std::optional<Similarity> canonical_face_on(const io::Landmarks& given) {
-  const face::CanonicalFace& canonical = face::canonical_face();
-  std::vector<Vec3> from, to;
-  for (const auto& [name, at] : given)
-    if (canonical.landmarks.contains(name)) {
-      from.push_back(canonical.landmark(name, canonical.mesh.points));
-      to.push_back(at);
-    }
-  if (from.size() < 6) return std::nullopt;
-  const auto count = static_cast<Eigen::Index>(from.size());
-  Points a(count, 3), b(count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    a.row(i) = from[static_cast<std::size_t>(i)].transpose();
-    b.row(i) = to[static_cast<std::size_t>(i)].transpose();
-  }
-  const Similarity first = fit_similarity(a, b);
-  const Eigen::VectorXd off = (first.apply(a) - b).rowwise().norm();
-  const double most = 2 * std::sqrt(off.squaredNorm() / static_cast<double>(count));
-  return fit_similarity(a, b, (off.array() <= most).cast<double>().matrix());
+  const tissue::KnownLandmarks known = tissue::known_landmarks(given);
+  if (known.names.size() < 6) return std::nullopt;
+  const Similarity first = fit_similarity(known.canonical, known.given);
+  const Eigen::VectorXd off = (first.apply(known.canonical) - known.given).rowwise().norm();
+  const double most = 2 * rms_distance(first.apply(known.canonical), known.given);
+  return fit_similarity(known.canonical, known.given,
+                        (off.array() <= most).cast<double>().matrix());
 }
 
 }  // namespace

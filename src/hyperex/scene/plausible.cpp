@@ -44,12 +44,6 @@ double misfit_m(const Points& recorded, const Points& scanned) {
   return rms_distance(fit_similarity(recorded, scanned).apply(recorded), scanned);
 }
 
-double median_step_s(const std::vector<double>& time_s) {
-  std::vector<double> steps;
-  for (std::size_t k = 1; k < time_s.size(); ++k) steps.push_back(time_s[k] - time_s[k - 1]);
-  return median(steps);
-}
-
 }  // namespace
 
 FaceAtRest average_face() {
@@ -105,13 +99,13 @@ std::string timing_note(const motion::Motion& m) {
   if (m.time_s.size() < 2) return "the recording has one sample";
   return fmt::format("the recording lasts {:.4g} s: {} samples, {:.4g} ms apart (median)",
                      m.time_s.back() - m.time_s.front(), m.time_s.size(),
-                     1e3 * median_step_s(m.time_s));
+                     1e3 * median_step(m.time_s));
 }
 
 std::string timing_warning(const motion::Motion& m) {
   constexpr double longest_step_s = 0.5, longest_s = 600;
   if (m.time_s.size() < 2) return "";
-  const double lasts_s = m.time_s.back() - m.time_s.front(), step_s = median_step_s(m.time_s);
+  const double lasts_s = m.time_s.back() - m.time_s.front(), step_s = median_step(m.time_s);
   if (step_s <= longest_step_s && lasts_s <= longest_s) return "";
   return fmt::format(
       "the recording's time rises to {:.4g} s in steps of {:.3g} s (median; expected: at most {:g} "

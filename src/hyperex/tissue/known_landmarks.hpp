@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Inside the room: landmarks that the canonical face knows, on both faces.
+// Landmarks that the canonical face knows, on both faces.
 #include <string>
 #include <vector>
 

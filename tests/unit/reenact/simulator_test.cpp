@@ -202,6 +202,22 @@ TEST_F(SimulatorOfAFace, AStreamComesToRestWhereItsTissueNowRests) {
   EXPECT_LT((at_once - soft).rowwise().norm().maxCoeff(), 0.5F * most) << "it does not begin anew";
 }
 
+/// What changes the matrices' pattern, or which unknowns are prescribed, begins the stream anew.
+TEST_F(SimulatorOfAFace, AStreamGoesOnWithAnotherElementAndOtherDrivenNodes) {
+  const Points open = PointCurve(motion_, 1).at(0.3);
+  SimulationOptions element = options_, patches = options_;
+  element.model.element = fem::ElementKind::tet4;
+  patches.drive.patch_radius_m = 0;
+  for (const SimulationOptions& next : {element, patches}) {
+    Simulator simulator = made(options_), anew = made(next);
+    simulator.start_stream(1.0 / 30);
+    simulator.step(open);
+    simulator.set_options(next);
+    anew.start_stream(1.0 / 30);
+    EXPECT_EQ(simulator.step(open), anew.step(open));
+  }
+}
+
 TEST_F(SimulatorOfAFace, AValueOutOfRangeChangesNothing) {
   Simulator simulator = made(options_);
   SupportOptions support = options_.support;
