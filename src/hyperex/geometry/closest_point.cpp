@@ -87,11 +87,13 @@ struct SurfaceTree::Impl {
     const Impl* self;
     Vec3 p;
     ClosestPoint best;
+    const char* keep;  // or nullptr: all
   };
 
   static bool visit(RTCPointQueryFunctionArguments* args) {
     auto& search = *static_cast<Search*>(args->userPtr);
     const int triangle = static_cast<int>(args->primID);
+    if (search.keep && !search.keep[triangle]) return false;
     ClosestPoint found = closest_point_on_triangle(search.p, search.self->corner(triangle, 0),
                                                    search.self->corner(triangle, 1),
                                                    search.self->corner(triangle, 2));
@@ -106,6 +108,18 @@ struct SurfaceTree::Impl {
     const double radius = std::sqrt(found.squared_distance) * (1 + 1e-5) + search.self->slack;
     args->query->radius = static_cast<float>(radius);
     return true;
+  }
+
+  ClosestPoint query(const Vec3& p, double within, const char* keep) const {
+    Search search{this, p, {}, keep};
+    search.best.squared_distance = within * within;
+    const Eigen::Vector3f about = (p - centre).cast<float>();
+    const auto reach = static_cast<float>(within * (1 + 1e-5) + slack);
+    RTCPointQuery query{about[0], about[1], about[2], 0, reach};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene, &query, &context, nullptr, &search);
+    return search.best;
   }
 };
 
@@ -147,15 +161,30 @@ SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
 SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
 
 ClosestPoint SurfaceTree::query(const Vec3& p, double within) const {
-  Impl::Search search{impl_.get(), p, {}};
-  search.best.squared_distance = within * within;
-  const Eigen::Vector3f about = (p - impl_->centre).cast<float>();
-  const auto reach = static_cast<float>(within * (1 + 1e-5) + impl_->slack);
-  RTCPointQuery query{about[0], about[1], about[2], 0, reach};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(impl_->scene, &query, &context, nullptr, &search);
-  return search.best;
+  return impl_->query(p, within, nullptr);
+}
+
+ClosestPoint SurfaceTree::query_among(const std::vector<char>& keep, const Vec3& p,
+                                      double within) const {
+  if (keep.size() != std::size_t(impl_->mesh.triangles.rows()))
+    throw std::invalid_argument("closest point: one entry a triangle is needed");
+  return impl_->query(p, within, keep.data());
+}
+
+double SurfaceTree::reach(const Vec3& p, const Vec3& near) const {
+  // Wider than rounding, of the point or of its distance, so that its own triangle is looked at.
+  return (p - near).norm() * (1 + 1e-9) + impl_->slack;
+}
+
+std::vector<ClosestPoint> SurfaceTree::query_all(const Points& points,
+                                                 const std::vector<ClosestPoint>& near) const {
+  if (near.size() != std::size_t(points.rows())) return query_all(points);
+  std::vector<ClosestPoint> found(near.size());
+  tbb::parallel_for(Eigen::Index{0}, points.rows(), [&](Eigen::Index row) {
+    const Vec3 p = points.row(row).transpose();
+    found[std::size_t(row)] = query(p, reach(p, near[std::size_t(row)].point));
+  });
+  return found;
 }
 
 std::vector<ClosestPoint> SurfaceTree::query_all(const Points& points) const {

@@ -39,8 +39,17 @@ class SurfaceTree {
   /// `p` finite. `within`: triangles farther than that (length unit of the mesh) are not looked at;
   /// ClosestPoint::triangle is -1 where there is none as near.
   ClosestPoint query(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const;
+  /// Of those triangles alone that `keep` holds, which has one entry a triangle.
+  ClosestPoint query_among(const std::vector<char>& keep, const Vec3& p,
+                           double within = std::numeric_limits<double>::infinity()) const;
+  /// A `within` with which query(p) answers the same and sooner: `near` is a point of the surface.
+  double reach(const Vec3& p, const Vec3& near) const;
   /// One answer a row, computed in parallel; the same numbers as query().
   std::vector<ClosestPoint> query_all(const Points& points) const;
+  /// The same, found sooner where `near` has an answer for each row: for points that moved little
+  /// since then.
+  std::vector<ClosestPoint> query_all(const Points& points,
+                                      const std::vector<ClosestPoint>& near) const;
 
  private:
   struct Impl;

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstdint>
 #include <stdexcept>
+#include <type_traits>
 
 #include "hyperex/core/files.hpp"
 
@@ -41,6 +42,33 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
+/// zlib's streams, one a block, from one state: making that takes as long as a small block.
+class Deflater {
+ public:
+  explicit Deflater(int strategy) : room_(compressBound(block_bytes)) {
+    if (deflateInit2(&stream_, 1, Z_DEFLATED, MAX_WBITS, 8, strategy) != Z_OK)
+      throw std::runtime_error("zlib does not start");
+  }
+  ~Deflater() { deflateEnd(&stream_); }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+
+  void append(const Bytef* data, std::size_t size, std::string& packed) {
+    deflateReset(&stream_);
+    stream_.next_in = const_cast<Bytef*>(data);
+    stream_.avail_in = static_cast<uInt>(size);
+    stream_.next_out = room_.data();
+    stream_.avail_out = static_cast<uInt>(room_.size());
+    if (deflate(&stream_, Z_FINISH) != Z_STREAM_END)
+      throw std::runtime_error("zlib could not compress a block");
+    packed.append(reinterpret_cast<const char*>(room_.data()), room_.size() - stream_.avail_out);
+  }
+
+ private:
+  z_stream stream_{};
+  std::vector<Bytef> room_;
+};
+
 /// Collects the XML's DataArray lines and the bytes behind them.
 class AppendedData {
  public:
@@ -52,7 +80,8 @@ class AppendedData {
       constexpr const char* tensor[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
       for (int k = 0; k < 6; ++k) names += fmt::format(" ComponentName{}=\"{}\"", k, tensor[k]);
     }
-    return add(type, name, components, names, compressed(static_cast<const Bytef*>(bytes), size));
+    return add(type, name, components, names,
+               compressed(static_cast<const Bytef*>(bytes), size, Z_RLE));
   }
   /// The same with bytes compressed before.
   std::string add_compressed(const std::string& type, const std::string& name,
@@ -62,18 +91,18 @@ class AppendedData {
   const std::string& bytes() const { return bytes_; }
 
   /// VTK's layout: number of blocks, bytes of a block, bytes of a shorter last one (or 0), bytes
-  /// of each block once compressed, then the blocks.
-  static std::string compressed(const Bytef* data, std::size_t size) {
+  /// of each block once compressed, then the blocks. `strategy`: zlib's. In the bits of real
+  /// numbers nothing but rows of equal bytes comes again, and Z_RLE looks for no more: a third of
+  /// the time, and no byte more (measured on frames of subject A).
+  static std::string compressed(const Bytef* data, std::size_t size, int strategy) {
     const std::size_t full = size / block_bytes, rest = size % block_bytes;
     std::vector<std::uint64_t> head{full + (rest > 0), block_bytes, rest};
     std::string packed;
-    std::vector<Bytef> room(compressBound(block_bytes));
+    Deflater deflater(strategy);
     for (std::size_t at = 0; at < size; at += block_bytes) {
-      uLongf length = room.size();
-      if (compress2(room.data(), &length, data + at, std::min(block_bytes, size - at), 1) != Z_OK)
-        throw std::runtime_error("zlib could not compress a block");
-      head.push_back(length);
-      packed.append(reinterpret_cast<const char*>(room.data()), length);
+      const std::size_t before = packed.size();
+      deflater.append(data + at, std::min(block_bytes, size - at), packed);
+      head.push_back(packed.size() - before);
     }
     return std::string(reinterpret_cast<const char*>(head.data()), 8 * head.size()) + packed;
   }
@@ -114,7 +143,8 @@ std::string section(const char* name, const std::vector<VtuArray>& arrays, Eigen
 
 template <class T>
 std::string compressed(const T* values, std::size_t count) {
-  return AppendedData::compressed(reinterpret_cast<const Bytef*>(values), sizeof(T) * count);
+  return AppendedData::compressed(reinterpret_cast<const Bytef*>(values), sizeof(T) * count,
+                                  std::is_floating_point_v<T> ? Z_RLE : Z_DEFAULT_STRATEGY);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/metrics/asymmetry.hpp"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
@@ -15,24 +15,17 @@
 namespace hyperex::metrics {
 namespace {
 
-/// The surface without the triangles that hold a vertex of side `barred`.
-struct Part {
-  std::vector<int> triangle;  // rows of the whole
-  std::unique_ptr<SurfaceTree> tree;
-
-  Part(const TriMesh& rest, const std::vector<int>& side, int barred) {
-    for (int f = 0; f < rest.triangles.rows(); ++f) {
-      bool keep = true;
-      for (int k = 0; k < 3 && barred != 0; ++k)
-        keep &= side[static_cast<size_t>(rest.triangles(f, k))] != barred;
-      if (keep) triangle.push_back(f);
-    }
-    TriMesh mesh{rest.points, Triangles(static_cast<Eigen::Index>(triangle.size()), 3)};
-    for (size_t i = 0; i < triangle.size(); ++i)
-      mesh.triangles.row(static_cast<Eigen::Index>(i)) = rest.triangles.row(triangle[i]);
-    if (!triangle.empty()) tree = std::make_unique<SurfaceTree>(mesh);
+/// The triangles that hold no vertex of side `barred`; empty where that is none.
+std::vector<char> triangles_without(const TriMesh& rest, const std::vector<int>& side, int barred) {
+  std::vector<char> keep(static_cast<size_t>(rest.triangles.rows()), 1);
+  bool any = false;
+  for (int f = 0; f < rest.triangles.rows(); ++f) {
+    char& kept = keep[static_cast<size_t>(f)];
+    for (int k = 0; k < 3; ++k) kept &= side[static_cast<size_t>(rest.triangles(f, k))] != barred;
+    any |= kept != 0;
   }
-};
+  return any ? keep : std::vector<char>();
+}
 
 std::vector<int> with_counterpart(const Region* region, const Counterparts& pairs) {
   std::vector<int> kept;
@@ -51,22 +44,24 @@ Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
   std::vector<char> on_border(static_cast<size_t>(rest.points.rows()), 0);
   for (const auto& loop : boundary_loops(rest.triangles))
     for (const int v : loop) on_border[static_cast<size_t>(v)] = 1;
-  const Part whole(rest, side, 0);
-  std::unique_ptr<Part> without_upper, without_lower;
+  const SurfaceTree tree(rest);
+  std::vector<char> without_upper, without_lower;
   if (!side.empty()) {
-    without_upper = std::make_unique<Part>(rest, side, 1);
-    without_lower = std::make_unique<Part>(rest, side, -1);
+    without_upper = triangles_without(rest, side, 1);
+    without_lower = triangles_without(rest, side, -1);
   }
+  const std::vector<char> whole(static_cast<size_t>(rest.triangles.rows()), 1);
   const auto count = static_cast<size_t>(rest.points.rows());
   Counterparts pairs{std::vector<std::array<int, 3>>(count), std::vector<Vec3>(count),
                      Eigen::VectorXd(rest.points.rows()), std::vector<char>(count, 0)};
-  tbb::parallel_for(size_t{0}, count, [&](size_t i) {
-    const Part* part = &whole;
-    if (!side.empty() && side[i] > 0 && without_lower->tree) part = without_lower.get();
-    if (!side.empty() && side[i] < 0 && without_upper->tree) part = without_upper.get();
+  const auto part_of = [&](size_t i) -> const std::vector<char>* {
+    if (!side.empty() && side[i] > 0 && !without_lower.empty()) return &without_lower;
+    if (!side.empty() && side[i] < 0 && !without_upper.empty()) return &without_upper;
+    return &whole;
+  };
+  const auto pair = [&](size_t i, const ClosestPoint& foot) {
     const auto row = static_cast<Eigen::Index>(i);
-    const ClosestPoint foot = part->tree->query(plane.reflect(rest.points.row(row)));
-    const int f = part->triangle[static_cast<size_t>(foot.triangle)];
+    const int f = foot.triangle;
     bool border = foot.weights.minCoeff() <= 1e-9;
     for (int k = 0; k < 3; ++k) {
       pairs.vertices[i][static_cast<size_t>(k)] = rest.triangles(f, k);
@@ -76,6 +71,20 @@ Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
     pairs.weights[i] = foot.weights;
     pairs.distance_m[row] = std::sqrt(foot.squared_distance);
     pairs.found[i] = pairs.distance_m[row] <= (border ? upon_m : reach_m);
+  };
+  // Vertices that follow each other are mostly neighbours: from the foot of one that of the next is
+  // found sooner.
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count), [&](const auto& range) {
+    const std::vector<char>* last = nullptr;
+    ClosestPoint foot;
+    for (size_t i = range.begin(); i < range.end(); ++i) {
+      const std::vector<char>* part = part_of(i);
+      const Vec3 reflected = plane.reflect(rest.points.row(static_cast<Eigen::Index>(i)));
+      foot = part == last ? tree.query_among(*part, reflected, tree.reach(reflected, foot.point))
+                          : tree.query_among(*part, reflected);
+      last = part;
+      pair(i, foot);
+    }
   });
   return pairs;
 }

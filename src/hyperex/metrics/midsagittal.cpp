@@ -123,13 +123,14 @@ struct Contact {
   Vec3 p, foot, normal;
 };
 
+/// `feet`: of the round before, or empty; those of this round, then.
 std::vector<Contact> contacts(const Surface& surface, const MidsagittalPlane& plane,
-                              const Vec3& middle) {
+                              const Vec3& middle, std::vector<ClosestPoint>& feet) {
   Points reflected(static_cast<Eigen::Index>(surface.sample.size()), 3);
   for (Eigen::Index i = 0; i < reflected.rows(); ++i)
     reflected.row(i) =
         plane.reflect(surface.mesh.points.row(surface.sample[static_cast<size_t>(i)])).transpose();
-  const auto feet = surface.tree.query_all(reflected);
+  feet = surface.tree.query_all(reflected, feet);
   std::vector<Contact> list;
   for (size_t i = 0; i < feet.size(); ++i) {
     const ClosestPoint& foot = feet[i];
@@ -214,8 +215,9 @@ MidsagittalPlane midsagittal_plane(const TriMesh& rest, const io::Landmarks& lan
   MidsagittalPlane plane = start;
   double delta = start.offset_m - start.normal.dot(middle);
   const double first_delta = delta;
+  std::vector<ClosestPoint> feet;
   for (plane.rounds = 0; plane.rounds < most_rounds;) {
-    const auto list = contacts(surface, plane, middle);
+    const auto list = contacts(surface, plane, middle, feet);
     if (list.size() < 100) {
       plane = start;
       plane.note = "too little of the reflected face lies near the face to refine its plane";

@@ -75,36 +75,6 @@ std::optional<Hit> RayScene::look_at(float x, float y) const {
   return hit;
 }
 
-void RayScene::look_along(float x, float step, float y, int count, Packet& hits) const {
-  alignas(32) std::array<int, kPacket> valid{};
-  alignas(32) RTCRayHit8 query;
-  for (int i = 0; i < kPacket; ++i) {
-    valid[i] = i < count ? -1 : 0;
-    query.ray.org_x[i] = x + static_cast<float>(i) * step;
-    query.ray.org_y[i] = y;
-    query.ray.org_z[i] = above_;
-    query.ray.dir_x[i] = query.ray.dir_y[i] = query.ray.time[i] = query.ray.tnear[i] = 0;
-    query.ray.dir_z[i] = -1;
-    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
-    query.ray.mask[i] = ~0u;
-    query.ray.id[i] = query.ray.flags[i] = 0;
-    query.hit.geomID[i] = query.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid.data(), scene_, &context, &query);
-  const RTCHit8& met = query.hit;
-  for (int i = 0; i < count; ++i) {
-    hits[i].reset();
-    if (met.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    hits[i] = Hit{static_cast<int>(met.geomID[i]),
-                  static_cast<int>(met.primID[i]),
-                  {1.0 - met.u[i] - met.v[i], met.u[i], met.v[i]},
-                  Eigen::Vector3f(met.Ng_x[i], met.Ng_y[i], met.Ng_z[i]).normalized()};
-  }
-}
-
 bool RayScene::hides(const Eigen::Vector3f& point, float bias) const {
   if (point[2] + bias >= above_) return false;
   RTCRay ray = downward_ray(point[0], point[1], above_, point[2] + bias);

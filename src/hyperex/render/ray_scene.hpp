@@ -3,21 +3,14 @@
 // Inside the room: Embree's scene of some surfaces as one camera sees it.
 #include <embree3/rtcore.h>
 
-#include <array>
 #include <optional>
 #include <vector>
 
 #include "hyperex/render/camera.hpp"
+#include "hyperex/render/hit.hpp"
 #include "hyperex/render/render.hpp"
 
 namespace hyperex::render {
-
-/// Where a ray met a surface.
-struct Hit {
-  int surface = -1, triangle = -1;
-  double weight[3] = {0, 0, 0};  // barycentric
-  Eigen::Vector3f normal;        // of the facet, camera frame, unit
-};
 
 /// All in the camera's frame (x right, y up, z to the viewer, origin at the target), where rays run
 /// along -z.
@@ -29,12 +22,6 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
 
   std::optional<Hit> look_at(float x, float y) const;
-
-  static constexpr int kPacket = 8;
-  using Packet = std::array<std::optional<Hit>, kPacket>;
-  /// What the first `count` (at most kPacket) of the rays x, x + step, x + 2 step ... meet: several
-  /// times as fast as one by one.
-  void look_along(float x, float step, float y, int count, Packet& hits) const;
   /// Whether a surface lies more than `bias` in front of the point (camera frame).
   bool hides(const Eigen::Vector3f& point, float bias) const;
 

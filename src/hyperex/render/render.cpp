@@ -9,7 +9,8 @@
 #include <stdexcept>
 
 #include "hyperex/render/canvas.hpp"
-#include "ray_scene.hpp"
+#include "hyperex/render/raster.hpp"
+#include "hyperex/render/ray_scene.hpp"
 
 namespace hyperex::render {
 namespace {
@@ -21,6 +22,35 @@ Vec3f linear(const Colour& colour) {
   return Eigen::Vector3d(linear_from_srgb(colour.r), linear_from_srgb(colour.g),
                          linear_from_srgb(colour.b))
       .cast<float>();
+}
+
+/// Of a channel's byte.
+float linear_byte(std::uint8_t byte) {
+  static const auto table = [] {
+    std::array<float, 256> t{};
+    for (std::size_t i = 0; i < t.size(); ++i) t[i] = float(linear_from_srgb(double(i) / 255.0));
+    return t;
+  }();
+  return table[byte];
+}
+
+std::uint8_t srgb_byte_exactly(float light) {
+  return static_cast<std::uint8_t>(
+      std::lround(255 * std::clamp(srgb_from_linear(std::min(light, 1.f)), 0.0, 1.0)));
+}
+
+/// The same from a table of the byte at 4096 lights: where the next light's byte is another, the
+/// power is taken.
+std::uint8_t srgb_byte(float light) {
+  constexpr int last = 4095;
+  static const auto table = [] {
+    std::array<std::uint8_t, last + 1> t{};
+    for (int i = 0; i <= last; ++i) t[std::size_t(i)] = srgb_byte_exactly(float(i) / last);
+    return t;
+  }();
+  if (!(light > 0) || light >= 1) return srgb_byte_exactly(light);
+  const auto below = std::size_t(light * last);
+  return table[below] == table[below + 1] ? table[below] : srgb_byte_exactly(light);
 }
 
 // Fine enough for 8 bits a channel.
@@ -65,9 +95,8 @@ struct Prepared {
       normals = (sum * camera_from_world.transpose()).rowwise().normalized().cast<float>();
     }
     if (s.scalar.size() == 0)
-      for (Eigen::Index i = 0; i < s.colours.rows(); ++i)
-        colours.push_back(
-            linear({s.colours(i, 0) / 255.0, s.colours(i, 1) / 255.0, s.colours(i, 2) / 255.0}));
+      for (const auto bytes : s.colours.rowwise())
+        colours.push_back({linear_byte(bytes[0]), linear_byte(bytes[1]), linear_byte(bytes[2])});
   }
 
   Vec3f colour_at(const Hit& hit) const {
@@ -112,45 +141,40 @@ Vec3f shaded(const Vec3f& colour, Vec3f normal, bool back) {
   return (colour * light).array() * (back ? 0.4f : 1.f) + (back ? 0.f : sheen);
 }
 
-void cast_rays(const std::vector<Prepared>& prepared, const RayScene& scene, const Camera& camera,
-               const RenderOptions& options, Image& image) {
-  const double m_per_px = camera.height_m / options.height_px;
+void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& surfaces,
+           const Camera& camera, const RenderOptions& options, Image& image) {
+  constexpr int band_px = 8;
   const Vec3f background = linear(options.background);
   const int n = options.samples;
-  const int along = n * options.width_px;  // rays in a row
-  const auto m_per_ray = static_cast<float>(m_per_px / n);
-  const auto x_first = static_cast<float>((0.5 / n - options.width_px / 2.0) * m_per_px);
+  const int along = n * options.width_px;  // samples in a row
+  const Raster raster(surfaces, camera, along, n * options.height_px,
+                      camera.height_m / options.height_px / n, n * band_px);
   struct Sum {
     Vec3f light = Vec3f::Zero();
     int hits = 0;
   };
-  tbb::parallel_for(0, options.height_px, [&](int y) {
-    std::vector<Sum> row(static_cast<std::size_t>(options.width_px));
-    RayScene::Packet packet;
-    for (int s = 0; s < n; ++s) {
-      const auto py = static_cast<float>((options.height_px / 2.0 - y - (s + 0.5) / n) * m_per_px);
-      for (int first = 0; first < along; first += RayScene::kPacket) {
-        const int count = std::min(RayScene::kPacket, along - first);
-        scene.look_along(x_first + static_cast<float>(first) * m_per_ray, m_per_ray, py, count,
-                         packet);
-        for (int i = 0; i < count; ++i) {
-          const auto& hit = packet[static_cast<std::size_t>(i)];
-          if (!hit || (options.hide_backs && hit->normal.z() < 0)) continue;
-          const Prepared& p = prepared[static_cast<std::size_t>(hit->surface)];
-          Sum& sum = row[static_cast<std::size_t>((first + i) / n)];
-          sum.light += shaded(p.colour_at(*hit), p.normal_at(*hit), hit->normal.z() < 0);
+  tbb::parallel_for(0, raster.bands(), [&](int band) {
+    std::vector<Hit> hits;
+    raster.look(band, hits);
+    const int rows = int(hits.size()) / along / n;
+    for (int y = 0; y < rows; ++y) {
+      std::vector<Sum> row(static_cast<std::size_t>(options.width_px));
+      for (int s = 0; s < n; ++s)
+        for (int x = 0; x < along; ++x) {
+          const Hit& hit = hits[static_cast<std::size_t>((y * n + s) * along + x)];
+          if (hit.surface < 0 || (options.hide_backs && hit.normal.z() < 0)) continue;
+          const Prepared& p = prepared[static_cast<std::size_t>(hit.surface)];
+          Sum& sum = row[static_cast<std::size_t>(x / n)];
+          sum.light += shaded(p.colour_at(hit), p.normal_at(hit), hit.normal.z() < 0);
           ++sum.hits;
         }
+      for (int x = 0; x < options.width_px; ++x) {
+        const Sum& sum = row[static_cast<std::size_t>(x)];
+        if (sum.hits == 0) continue;
+        const Vec3f light = (sum.light + static_cast<float>(n * n - sum.hits) * background) /
+                            static_cast<float>(n * n);
+        for (int k = 0; k < 3; ++k) image.pixel(x, band * band_px + y)[k] = srgb_byte(light[k]);
       }
-    }
-    for (int x = 0; x < options.width_px; ++x) {
-      const Sum& sum = row[static_cast<std::size_t>(x)];
-      if (sum.hits == 0) continue;
-      const Vec3f light = (sum.light + static_cast<float>(n * n - sum.hits) * background) /
-                          static_cast<float>(n * n);
-      for (int k = 0; k < 3; ++k)
-        image.pixel(x, y)[k] = static_cast<std::uint8_t>(
-            std::lround(255 * std::clamp(srgb_from_linear(std::min(light[k], 1.f)), 0.0, 1.0)));
     }
   });
 }
@@ -194,10 +218,10 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
     throw std::invalid_argument("render: a picture needs at least one pixel and one sample");
   std::vector<Prepared> prepared;
   for (const Surface& surface : surfaces) prepared.emplace_back(surface, camera.axes());
-  const RayScene scene(surfaces, camera);
   Image image(options.width_px, options.height_px, options.background);
-  cast_rays(prepared, scene, camera, options, image);
+  paint(prepared, surfaces, camera, options, image);
   if (markers.empty() && lines.empty()) return image;
+  const RayScene scene(surfaces, camera);
   Canvas canvas(image);
   for (const Polyline& line : lines) draw_line(line, scene, camera, options, canvas);
   for (const Marker& marker : markers) draw_marker(marker, scene, camera, options, canvas);

@@ -51,7 +51,7 @@ struct RenderOptions {
   bool hide_backs = false;
 };
 
-/// Casts rays at the surfaces (Embree, one geometry a surface; back faces darkened) under two
+/// Draws the surfaces as parallel rays meet them (back faces darkened) under two
 /// lamps fixed to the camera, then draws markers and lines over them. The same picture for any
 /// number of threads. Throws std::invalid_argument where sizes do not agree (scalar or colours and
 /// vertices; an index out of range; no pixels).

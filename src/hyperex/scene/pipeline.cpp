@@ -134,10 +134,26 @@ std::vector<std::string> idle_variants(const Json& table) {
   return notes;
 }
 
+/// After what was noted so far.
+class NotesPlace {
+ public:
+  explicit NotesPlace(const Results& results)
+      : notes_(std::ptrdiff_t(results.notes.size())),
+        warnings_(std::ptrdiff_t(results.warnings.size())) {}
+
+  /// Told now, noted there: what is known late may come before what was known sooner.
+  void warn(const std::vector<std::string>& notes, Results& results) const {
+    for (const std::string& note : notes) spdlog::warn("{}", note);
+    results.notes.insert(results.notes.begin() + notes_, notes.begin(), notes.end());
+    results.warnings.insert(results.warnings.begin() + warnings_, notes.begin(), notes.end());
+  }
+
+ private:
+  std::ptrdiff_t notes_, warnings_;
+};
+
 void warn(const std::vector<std::string>& notes, Results& results) {
-  for (const std::string& note : notes) spdlog::warn("{}", note);
-  results.notes.insert(results.notes.end(), notes.begin(), notes.end());
-  results.warnings.insert(results.warnings.end(), notes.begin(), notes.end());
+  NotesPlace(results).warn(notes, results);
 }
 
 }  // namespace
@@ -187,6 +203,10 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   for (const auto& note : inputs.notes) spdlog::info("{}", note);
   for (const auto& warning : inputs.warnings) spdlog::warn("{}", warning);
 
+  // Beside all else, at once where the scan stays what it is.
+  std::optional<LandmarkSearch> search;
+  const bool thinned = inputs.scan.mesh.points.rows() > tissue::thinned_above_vertices;
+  if (!scene.scan.landmarks.empty() && !thinned) search.emplace(inputs);
   std::shared_ptr<const tissue::TissueMesh> made;
   {
     Progress progress("meshing the soft tissue", 0);
@@ -208,8 +228,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
-  std::optional<LandmarkSearch> search;  // beside the simulation
-  if (!scene.scan.landmarks.empty()) search.emplace(inputs);
+  if (!scene.scan.landmarks.empty() && !search) search.emplace(inputs);
   metrics::RestAsymmetry at_rest;
   reenact::Simulator simulator(made, inputs.landmarks, inputs.motion, std::move(options));
   const reenact::Simulator before_run = simulator;
@@ -249,7 +268,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
     results.notes.push_back(fmt::format(
         "{} of {} tetrahedra turned inside out in some frame, too few to matter", few, tets));
   warn(warnings_of(simulation.report, tets), results);
-  if (search) warn(search->doubts(results.warnings), results);
+  const NotesPlace before_doubts(results);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty()) warn({note}, results);
   if (!twin.why_not.empty())
     results.notes.push_back("the mesh's own floor of symmetry is not known: " + twin.why_not);
@@ -265,6 +284,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
                   seconds["variants"] = own.lap();
                   summary["variants"] = write_variants(results, variants, mesh, directory);
                 }});
+  if (search) before_doubts.warn(search->doubts(results.warnings), results);
   if (glb) {
     summary["glb"] = glb_json(*glb);
     if (const auto note = glb_note(scene.output, *glb); !note.empty()) warn({note}, results);

@@ -58,6 +58,46 @@ TEST_P(OnShapes, TriangleAnswerIsOptimal) {
   }
 }
 
+// The same triangle and the same bits, from wherever on the surface the search begins.
+TEST_P(OnShapes, AnAnswerFoundFromNearbyIsTheSame) {
+  const TriMesh mesh = triangles_of(GetParam(), 400, 5);
+  const SurfaceTree tree(mesh);
+  Points queries = 1.5 * Points::Random(500, 3);
+  queries.topRows(100) = mesh.points.topRows(100);  // upon it: distance 0
+  const auto plain = tree.query_all(queries);
+  auto near = plain;
+  for (int shift : {0, 1, 250}) {
+    std::rotate(near.begin(), near.begin() + shift, near.end());
+    const auto found = tree.query_all(queries, near);
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      EXPECT_EQ(found[i].triangle, plain[i].triangle);
+      EXPECT_EQ(found[i].squared_distance, plain[i].squared_distance);
+      EXPECT_EQ(found[i].weights, plain[i].weights);
+    }
+  }
+}
+
+TEST_P(OnShapes, AmongSomeTrianglesTheAnswerIsThatOfATreeOfThoseAlone) {
+  const TriMesh mesh = triangles_of(GetParam(), 400, 6);
+  const SurfaceTree tree(mesh);
+  std::vector<char> keep(400, 0);
+  TriMesh part{mesh.points, Triangles(200, 3)};
+  for (int f = 0; f < 200; ++f) {
+    keep[std::size_t(2 * f)] = 1;
+    part.triangles.row(f) = mesh.triangles.row(2 * f);
+  }
+  const SurfaceTree alone(part);
+  const Points queries = 1.5 * Points::Random(300, 3);
+  for (const auto p : queries.rowwise()) {
+    const ClosestPoint expected = alone.query(p.transpose());
+    const ClosestPoint found = tree.query_among(keep, p.transpose());
+    EXPECT_EQ(found.triangle, 2 * expected.triangle);
+    EXPECT_EQ(found.squared_distance, expected.squared_distance);
+  }
+  keep.pop_back();
+  EXPECT_THROW(tree.query_among(keep, Vec3::Zero()), std::invalid_argument);
+}
+
 TEST_P(OnShapes, TreeAgreesWithBruteForce) {
   const TriMesh mesh = triangles_of(GetParam(), 400, 3);
   const SurfaceTree tree(mesh);
