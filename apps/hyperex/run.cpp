@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/scene/pipeline.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 struct Options {
   std::filesystem::path scene, out;
   std::vector<std::string> overrides;
-  bool verify = false;
+  bool verify = false, no_cache = false;
 };
 
 std::string solver_line(const nlohmann::ordered_json& summary) {
@@ -82,7 +83,9 @@ void run(const Options& options) {
   take_library_memory();
   auto overrides = options.overrides;
   if (options.verify) overrides.push_back("solver.verify=true");
-  const auto summary = scene::run_scene(scene::read_scene(options.scene, overrides), options.out);
+  scene::Scene scene = scene::read_scene(options.scene, overrides);
+  if (!options.no_cache) scene.kept = KeptResults(user_cache_folder());
+  const auto summary = scene::run_scene(scene, options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
       "{}{}"
@@ -130,6 +133,10 @@ void add_run(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_flag("--verify", options->verify,
                     "Run the full model too and tell the reduced one's true error");
+  command->add_flag("--no-cache", options->no_cache,
+                    "Find landmarks and track recordings anew; without it what was found before in "
+                    "the same files by the same program is taken from $XDG_CACHE_HOME/hyperex (or "
+                    "~/.cache/hyperex, at most 256 MB)");
   command->footer(
       "Example: hyperex run examples/demo.toml --out out/demo --set tissue.young_kpa=300");
   command->callback([options] { run(*options); });

@@ -24,14 +24,38 @@ void Progress::silence(bool silent) {
 
 Progress::Progress(std::string label, long total)
     : label_(std::move(label)), total_(total), start_(Clock::now()), last_draw_(start_) {
+  if (silenced) return;
   // On a terminal the label stands at once: some work is one long call that cannot report.
-  if (!silenced && ::isatty(2)) draw(0, false);
+  if (::isatty(2))
+    draw(false);
+  else
+    teller_ = std::thread([this] { tell_now_and_then(); });
 }
 
 Progress::~Progress() {
+  if (teller_.joinable()) {
+    {
+      const std::lock_guard lock(mutex_);
+      over_ = true;
+    }
+    ended_.notify_one();
+    teller_.join();
+  }
   // Also of one long call that cannot report.
-  if (shown_ || lasted_ || (!silenced && seconds() >= 1)) draw(total_, true);
+  if (shown_ || lasted_ || (!silenced && seconds() >= 1)) draw(true);
   if (standing_) taken = false;
+}
+
+void Progress::tell_now_and_then() {
+  using std::chrono::seconds;
+  constexpr seconds most{60}, lately{1};
+  std::unique_lock lock(mutex_);
+  seconds wait{2};
+  for (Clock::time_point next = start_ + wait;
+       !ended_.wait_until(lock, next, [this] { return over_; }); next += wait) {
+    if (!shown_ || Clock::now() - last_draw_ >= lately) draw(false);
+    if (next - start_ > seconds(2)) wait = std::min(most, 2 * wait);
+  }
 }
 
 double Progress::seconds() const {
@@ -40,22 +64,24 @@ double Progress::seconds() const {
 
 void Progress::update(long done) {
   if (silenced) return;
+  const std::lock_guard lock(mutex_);
+  done_ = done;
   const bool terminal = ::isatty(2);
   if (seconds_since(last_draw_) < (terminal ? 0.1 : 1.0)) return;
   if (!terminal && shown_) return;
   lasted_ = true;
   if (!terminal && total_ > 0 && done >= total_) return;  // the line at the end says it
-  draw(done, false);
+  draw(false);
 }
 
-void Progress::draw(long done, bool last) {
+void Progress::draw(bool last) {
   if (silenced) return;
   if (!standing_ && taken.exchange(true)) return;
   standing_ = shown_ = true;
   last_draw_ = Clock::now();
   constexpr int width = 30;
   const double share = last         ? 1.0
-                       : total_ > 0 ? std::clamp(double(done) / double(total_), 0., 1.)
+                       : total_ > 0 ? std::clamp(double(done_) / double(total_), 0., 1.)
                                     : 0.;
   const int filled = int(share * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
@@ -65,8 +91,8 @@ void Progress::draw(long done, bool last) {
                    .c_str(),
                stderr);
   } else {
-    std::fputs(fmt::format("{:<28} {:3.0f} % {:6.1f} s\n", label_, 100 * share, seconds()).c_str(),
-               stderr);
+    const std::string part = last || total_ > 0 ? fmt::format("{:3.0f} %", 100 * share) : "  ...";
+    std::fputs(fmt::format("{:<28} {} {:6.1f} s\n", label_, part, seconds()).c_str(), stderr);
   }
   std::fflush(stderr);
 }

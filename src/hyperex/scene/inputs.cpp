@@ -17,6 +17,7 @@
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/scene/driven_points.hpp"
+#include "hyperex/scene/kept.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/scene/plausible.hpp"
@@ -29,7 +30,6 @@
 #include "hyperex/tissue/landmarks.hpp"
 #include "hyperex/tracking/expression/blend_shapes.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
-#include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -154,14 +154,15 @@ tracking::Tracking tracked(const MotionOptions& options, capture::FrameSource& s
 }
 
 /// The face that a camera has recorded; with the tracked mesh where skin is to follow it.
-motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
+RecordedFace track_face(const Scene& scene, Look look) {
+  RecordedFace recorded;
   std::optional<tracking::FaceModel> own;
   const tracking::FaceModel& model = face_model(scene.motion, own);
   const auto source = open_recording(scene.motion);
   const tracking::Tracking tracking = tracked(scene.motion, *source, model, look);
   const auto lost = std::count_if(tracking.frames.begin(), tracking.frames.end(),
                                   [](const auto& frame) { return !frame.valid; });
-  in.notes.push_back(
+  recorded.notes.push_back(
       look == Look::quick
           ? fmt::format("motion: there is a face in frame {} of the recording; not checked: the "
                         "frames after it, which a run tracks",
@@ -169,18 +170,26 @@ motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
           : fmt::format("motion: a face tracked in {} of {} frames", tracking.frames.size() - lost,
                         tracking.frames.size()));
   if (!tracking.neutral->metric)
-    in.notes.push_back(
+    recorded.notes.push_back(
         "motion: no depth in the recording; lengths rest on a usual distance between the eyes");
+  for (const auto& note : source->notes()) recorded.notes.push_back("motion: " + note);
+  recorded.motion =
+      tracking::motion_of(model, tracking, scene.region.measured != reenact::Measured::none);
+  return recorded;
+}
+
+motion::Motion track_recording(const Scene& scene, Look look, Inputs& in) {
+  RecordedFace recorded = look == Look::quick
+                              ? track_face(scene, look)
+                              : recorded_face(scene, [&] { return track_face(scene, look); });
+  in.notes.insert(in.notes.end(), recorded.notes.begin(), recorded.notes.end());
   if (capture::source_kind(scene.motion.recording.string()) == capture::SourceKind::video &&
       !scene.origins.contains("motion.mirrored"))
     in.warnings.push_back(
         "the video is taken as not mirrored, as it does not tell; where it is (many selfie videos "
         "are), left and right are exchanged: say motion.mirrored = true, or false");
-  for (const auto& note : source->notes()) in.notes.push_back("motion: " + note);
-  motion::Motion m =
-      tracking::motion_of(model, tracking, scene.region.measured != reenact::Measured::none);
-  m.source = scene.motion.recording.string();
-  return m;
+  recorded.motion.source = scene.motion.recording.string();
+  return std::move(recorded.motion);
 }
 
 motion::Motion read_motion(const Scene& scene, Look look, Inputs& in) {
@@ -376,9 +385,8 @@ void check_element_size(const Scene& scene, const Inputs& in) {
 }  // namespace
 
 io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
-                             std::vector<std::string>& notes) {
-  auto found =
-      tracking::find_scan_landmarks(scan.mesh, tracking::picture_colours(scan), scan.file.string());
+                             std::vector<std::string>& notes, const KeptResults& kept) {
+  FoundLandmarks found = landmarks_on(scan, std::nullopt, kept);
   notes.push_back(fmt::format(
       "{}: {} were found on the scan in {} pictures, which lie {:.1f} mm (median) from where all "
       "agree; hyperex landmarks --picture draws them",
@@ -409,7 +417,7 @@ Inputs read_inputs(const Scene& scene, Look look) {
   const bool to_find = scene.scan.landmarks.empty() && !scene.scan.source.embedded;
   if (to_find && look == Look::whole) {
     problems.throw_if_any();
-    given = find_landmarks(in.scan, "the scene names no landmarks", in.notes);
+    given = find_landmarks(in.scan, "the scene names no landmarks", in.notes, scene.kept);
   }
   if (scan_read && !given.empty()) problems.attempt([&] { complete(scene, given, in); });
   if (scene.motion.source.embedded && !in.landmarks.empty())

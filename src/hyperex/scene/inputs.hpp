@@ -26,9 +26,10 @@ struct Inputs {
 };
 
 /// The landmarks of a scan that has none (tracking/scan), and a note that says so: `why`, and how
-/// well the pictures agree. Takes seconds. Throws InputError where no face is found.
+/// well the pictures agree. Takes seconds, unless they were found before and `kept`. Throws
+/// InputError where no face is found.
 io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
-                             std::vector<std::string>& notes);
+                             std::vector<std::string>& notes, const KeptResults& kept = {});
 
 /// How far what a scene names is looked at.
 enum class Look {

@@ -6,9 +6,9 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "hyperex/scene/kept.hpp"
 #include "hyperex/tissue/known_landmarks.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
-#include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::scene {
 
@@ -28,14 +28,12 @@ std::optional<Similarity> canonical_face_on(const io::Landmarks& given) {
 
 }  // namespace
 
-LandmarkSearch::LandmarkSearch(const Inputs& inputs) {
-  doubts_ = std::async(std::launch::async, [&inputs]() -> std::vector<std::string> {
+LandmarkSearch::LandmarkSearch(const Inputs& inputs, const KeptResults& kept) {
+  doubts_ = std::async(std::launch::async, [&inputs, kept]() -> std::vector<std::string> {
     io::Landmarks given = inputs.landmarks;
     for (const std::string& name : inputs.placed) given.erase(name);
     try {
-      const auto found = tracking::find_scan_landmarks(
-          inputs.scan.mesh, tracking::picture_colours(inputs.scan), inputs.scan.file.string(),
-          {.scan_from_canonical = canonical_face_on(given)});
+      const FoundLandmarks found = landmarks_on(inputs.scan, canonical_face_on(given), kept);
       return tissue::landmark_doubts(given, found.landmarks);
     } catch (const InputError&) {  // no face in the pictures: nothing to compare with
       return {};

@@ -12,8 +12,9 @@ namespace hyperex::scene {
 /// seconds: in the background.
 class LandmarkSearch {
  public:
-  /// `inputs` must outlive this and stay as they are.
-  explicit LandmarkSearch(const Inputs& inputs);
+  /// `inputs` must outlive this and stay as they are. What was found before on the same scan is
+  /// taken from `kept`.
+  LandmarkSearch(const Inputs& inputs, const KeptResults& kept);
 
   /// Waits. A sentence for each doubtful landmark that `said` does not name yet; nothing where no
   /// face is found in pictures of the scan.

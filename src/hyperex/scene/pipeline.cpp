@@ -159,7 +159,10 @@ void warn(const std::vector<std::string>& notes, Results& results) {
 }  // namespace
 
 Checked check_scene(const Scene& scene) {
-  const Inputs inputs = read_inputs(scene, Look::quick);
+  const Inputs inputs = [&] {
+    Progress progress("reading scan and recording", 0);
+    return read_inputs(scene, Look::quick);
+  }();
   std::vector<std::string> notes = inputs.notes;
   const auto has_regions = [](const Scene& s) { return !s.tissue.regions.empty(); };
   if (has_regions(scene) ||
@@ -206,7 +209,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   // Beside all else, at once where the scan stays what it is.
   std::optional<LandmarkSearch> search;
   const bool thinned = inputs.scan.mesh.points.rows() > tissue::thinned_above_vertices;
-  if (!scene.scan.landmarks.empty() && !thinned) search.emplace(inputs);
+  if (!scene.scan.landmarks.empty() && !thinned) search.emplace(inputs, scene.kept);
   std::shared_ptr<const tissue::TissueMesh> made;
   {
     Progress progress("meshing the soft tissue", 0);
@@ -228,7 +231,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
-  if (!scene.scan.landmarks.empty() && !search) search.emplace(inputs);
+  if (!scene.scan.landmarks.empty() && !search) search.emplace(inputs, scene.kept);
   metrics::RestAsymmetry at_rest;
   reenact::Simulator simulator(made, inputs.landmarks, inputs.motion, std::move(options));
   const reenact::Simulator before_run = simulator;

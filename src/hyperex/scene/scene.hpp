@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/kept_results.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/reenact/alignment.hpp"
@@ -93,6 +94,7 @@ struct Scene {
 
   std::filesystem::path file;             ///< the scene file
   std::map<std::string, Origin> origins;  ///< of each key that was given, e.g. "time.step_s"
+  KeptResults kept;  ///< where found landmarks and tracked recordings are kept; nowhere by default
 };
 
 /// The same face and motion with other tissue, support or drive: what a run compares with the

@@ -65,6 +65,37 @@ TEST(Progress, OneLongCallThatReportsNothingShowsOneLine) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
 }
 
+TEST(Progress, OneLongCallThatReportsNothingIsTellingUnderWay) {
+  Progress::silence(false);
+  ::testing::internal::CaptureStderr();
+  {
+    const Progress progress("reading", 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(4300));
+  }
+  const std::string text = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << text;  // at 2 s, at 4 s, at the end
+  EXPECT_THAT(text, ::testing::HasSubstr("...    2.0 s"));
+  EXPECT_THAT(text, ::testing::HasSubstr("...    4.0 s"));
+}
+
+TEST(Progress, LongWorkThatReportsIsToldNowAndThen) {
+  Progress::silence(false);
+  ::testing::internal::CaptureStderr();
+  {
+    Progress progress("simulating", 100);
+    for (int i = 0; i < 44; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      progress.update(i + 1);
+    }
+  }
+  const std::string text = ::testing::internal::GetCapturedStderr();
+  // After 1 s, 2 or 4 s and at the end; how far it was is said each time.
+  EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 3) << text;
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 4) << text;
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("...")));
+  EXPECT_THAT(text, ::testing::ContainsRegex(" [34][0-9] %    4.0 s"));
+}
+
 TEST(Progress, SilencedShowsNothing) {
   Progress::silence(true);
   const std::string text = shown(1050);
