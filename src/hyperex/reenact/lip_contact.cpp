@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/reenact/lip_contact.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -57,34 +56,17 @@ double LipContact::depth(const PointsF& displacement) const {
 
 double LipContact::raw_depth(const Points& lower, const TriMesh& upper) const {
   if (lower.rows() == 0 || upper.triangles.rows() == 0) return 0;
-  // A few hundred triangles, others in each frame: boxes rule most of them out, and building a tree
-  // would take longer.
-  std::vector<Eigen::AlignedBox3d> box(std::size_t(upper.triangles.rows()));
-  for (std::size_t f = 0; f < box.size(); ++f)
-    for (const int v : upper.triangles.row(Eigen::Index(f)))
-      box[f].extend(upper.points.row(v).transpose());
-  const auto corner = [&](int triangle, int k) -> Vec3 {
-    return upper.points.row(upper.triangles(triangle, k)).transpose();
-  };
+  const SurfaceTree tree(upper);
   double deepest = 0;
   for (const Vec3& p : lower.rowwise()) {
-    ClosestPoint c{.squared_distance = deepest_m * deepest_m};
-    for (int f = 0; f < int(box.size()); ++f) {
-      if (box[std::size_t(f)].squaredExteriorDistance(p) > c.squared_distance * (1 + 1e-12))
-        continue;
-      const ClosestPoint foot =
-          closest_point_on_triangle(p, corner(f, 0), corner(f, 1), corner(f, 2));
-      const bool nearer = foot.squared_distance < c.squared_distance;
-      if (!nearer && (c.triangle >= 0 || foot.squared_distance > c.squared_distance)) continue;
-      c = foot;
-      c.triangle = f;
-    }
+    const ClosestPoint c = tree.query(p, deepest_m);
     if (c.triangle < 0) continue;
     // A foot on the rim of the lip says nothing about inside and outside.
     if (c.weights.minCoeff() < 1e-6) continue;
-    const Vec3 normal = (corner(c.triangle, 1) - corner(c.triangle, 0))
-                            .cross(corner(c.triangle, 2) - corner(c.triangle, 0))
-                            .normalized();
+    const auto corner = [&](int k) -> Vec3 {
+      return upper.points.row(upper.triangles(c.triangle, k));
+    };
+    const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
     const double height = (p - c.point).dot(normal);
     if (height < 0) deepest = std::max(deepest, -height);
   }
