@@ -32,10 +32,12 @@ std::atomic<bool> interrupted{false};
 
 enum class Request { not_awaited, awaited, made };
 std::atomic<Request> request{Request::not_awaited};
+std::atomic<int> request_signal{0};
 static_assert(std::atomic<Request>::is_always_lock_free);  // a handler uses it
 
 extern "C" void on_signal(int signal) {
   Request awaited = Request::awaited;
+  if (request == awaited) request_signal = signal;
   if (request.compare_exchange_strong(awaited, Request::made)) return;
   const int kept = errno;
   interrupted = true;
@@ -116,6 +118,10 @@ StopOnRequest::~StopOnRequest() {
 }
 bool StopOnRequest::requested() const {
   return request == Request::made;
+}
+
+int StopOnRequest::signal() const {
+  return request_signal;
 }
 
 void wait_if_interrupted() {

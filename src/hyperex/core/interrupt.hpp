@@ -40,6 +40,7 @@ class StopOnRequest {
   StopOnRequest(const StopOnRequest&) = delete;
   StopOnRequest& operator=(const StopOnRequest&) = delete;
   bool requested() const;
+  int signal() const;  ///< the signal that asked, where one did
 };
 
 /// Where an interruption is under way, does not return: what fails because its files are being

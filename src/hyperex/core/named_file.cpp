@@ -10,6 +10,8 @@ namespace hyperex {
 namespace fs = std::filesystem;
 
 namespace {
+thread_local NamedFiles* listening = nullptr;
+
 void check_regular(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -20,8 +22,16 @@ void check_regular(const fs::path& path) {
 }
 }  // namespace
 
+NamedFiles::NamedFiles() {
+  listening = this;
+}
+NamedFiles::~NamedFiles() {
+  listening = nullptr;
+}
+
 fs::path named_file(const fs::path& folder, const std::string& name) {
   const fs::path path = folder / name;
+  if (listening) listening->asked_.push_back(path);
   check_regular(path);
   std::error_code error;
   const fs::path inside = fs::canonical(folder.empty() ? "." : folder, error);

@@ -4,12 +4,27 @@
 // file may not be whoever reads it, so it gets no other file of the machine, and no device.
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hyperex {
 
 /// `folder` / `name`, where that is a regular file in `folder` or below, links followed. Else
 /// InputError: missing, outside, a folder, pipe or device.
 std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& name);
+
+/// While one lives: the paths that this thread asks named_file() for, also in vain. One at a time.
+class NamedFiles {
+ public:
+  NamedFiles();
+  ~NamedFiles();
+  NamedFiles(const NamedFiles&) = delete;
+  NamedFiles& operator=(const NamedFiles&) = delete;
+  const std::vector<std::filesystem::path>& asked() const { return asked_; }
+
+ private:
+  friend std::filesystem::path named_file(const std::filesystem::path&, const std::string&);
+  std::vector<std::filesystem::path> asked_;
+};
 
 /// As read_file, but a pipe is refused too, before it is opened: it might wait for ever.
 std::string read_regular_file(const std::filesystem::path& path);

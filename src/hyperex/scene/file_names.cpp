@@ -31,6 +31,22 @@ void shorten(const KeyInfo& key, json& value) {
   for_paths(key, value, [](json& path) { path = last_part(path.get<std::string>()); });
 }
 
+}  // namespace
+
+json options_with_paths(const Scene& scene,
+                        const std::function<std::string(const std::string&)>& named) {
+  json options = options_json(scene);
+  for (const Key& key : keys()) {
+    const std::string section = section_of(key.name);
+    if (section.empty()) continue;
+    for_paths(key, options[section][key.name.substr(section.size() + 1)],
+              [&](json& path) { path = named(path.get<std::string>()); });
+  }
+  return options;
+}
+
+namespace {
+
 void add_paths(const Scene& scene, std::vector<std::string>& paths) {
   for (const Key& key : keys()) {
     json value = key.get(scene);
@@ -45,13 +61,7 @@ void add_paths(const Scene& scene, std::vector<std::string>& paths) {
 }  // namespace
 
 json echoed_options(const Scene& scene) {
-  json options = options_json(scene);
-  if (scene.output.full_paths) return options;
-  for (const Key& key : keys()) {
-    const std::string section = section_of(key.name);
-    if (!section.empty()) shorten(key, options[section][key.name.substr(section.size() + 1)]);
-  }
-  return options;
+  return scene.output.full_paths ? options_json(scene) : options_with_paths(scene, last_part);
 }
 
 json echoed_changes(const Scene& scene, const json& changes) {

@@ -2,12 +2,17 @@
 #pragma once
 // Outputs are passed on, and the folders that inputs lie in may tell a patient's name: what is
 // written of a scene names its files without their folders, unless output.full_paths is set.
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "hyperex/scene/scene.hpp"
 
 namespace hyperex::scene {
+
+/// options_json(scene) with `named(path)` in the place of each path, those in rows of tables too.
+nlohmann::json options_with_paths(const Scene& scene,
+                                  const std::function<std::string(const std::string&)>& named);
 
 /// options_json(scene).
 nlohmann::json echoed_options(const Scene& scene);

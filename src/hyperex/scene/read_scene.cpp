@@ -6,6 +6,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/override.hpp"
 #include "hyperex/scene/toml_values.hpp"
 #include "hyperex/scene/variant_names.hpp"
 
@@ -14,11 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const char* const set_option = "--set";
-
 struct Given {
   json value;
   Origin origin;
+  bool is_override = false;
+  fs::path folder = {};  ///< that a relative path is taken from
 };
 
 /// Names of keys in messages: on one line even where someone quoted a strange one.
@@ -27,13 +28,45 @@ std::string plain(const std::string& key) {
   return bare ? key : show(key);
 }
 
+}  // namespace
+
+std::string unknown_key(const std::string& name) {
+  std::vector<std::string> all;
+  std::string siblings;
+  for (const Key& key : keys()) {
+    all.push_back(key.name);
+    if (!section_of(name).empty() && section_of(key.name) == section_of(name))
+      siblings += (siblings.empty() ? "" : ", ") + key.name.substr(section_of(name).size() + 1);
+  }
+  const std::string near = nearest(name, all);
+  if (!near.empty()) return "a known key (did you mean " + near + "?)";
+  if (!siblings.empty())
+    return fmt::format("a known key ([{}] has {})", section_of(name), siblings);
+  return "a known key (docs/scene.md lists them)";
+}
+
+std::map<std::string, json> changes_of(const json& block) {
+  std::map<std::string, json> changes;
+  for (const auto& [section, value] : block.items()) {
+    if (section == "name") continue;
+    if (!value.is_object()) {
+      changes[section] = value;
+      continue;
+    }
+    for (const auto& [key, item] : value.items()) changes[section + "." + key] = item;
+  }
+  return changes;
+}
+
+namespace {
+
 /// A scene being read: what was given, what came of it, what is wrong.
 class Reader {
  public:
   explicit Reader(const fs::path& file) { scene.file = file; }
   /// False where nothing could be read at all.
   bool take_file();
-  void take_override(const std::string& text);
+  void take_override(const Override& given);
   void settle_motion();
   void fill();
   void check_together();
@@ -46,7 +79,7 @@ class Reader {
  private:
   void take_section(const std::string& name, const json& value);
   void settle_variant(const json& block, const std::string& at);
-  void take(const std::string& key, const json& value, const Origin& origin);
+  void take(const std::string& key, const Given& given);
   void complain(const Origin& origin, const std::string& key, const json& value,
                 const std::string& expected);
   void complain_given(const std::string& key, const std::string& expected);
@@ -68,21 +101,6 @@ Origin Reader::in_file(const std::string& name) const {
   return {scene.file, line == lines_.end() ? 0 : line->second};
 }
 
-std::string unknown_key(const std::string& name) {
-  std::vector<std::string> all;
-  std::string siblings;
-  for (const Key& key : keys()) {
-    all.push_back(key.name);
-    if (!section_of(name).empty() && section_of(key.name) == section_of(name))
-      siblings += (siblings.empty() ? "" : ", ") + key.name.substr(section_of(name).size() + 1);
-  }
-  const std::string near = nearest(name, all);
-  if (!near.empty()) return "a known key (did you mean " + near + "?)";
-  if (!siblings.empty())
-    return fmt::format("a known key ([{}] has {})", section_of(name), siblings);
-  return "a known key (docs/scene.md lists them)";
-}
-
 std::string unknown_section(const std::string& name) {
   std::vector<std::string> all;
   std::string list;
@@ -102,11 +120,11 @@ bool is_section(const std::string& name) {
          std::any_of(all.begin(), all.end(), [&](const Section& s) { return s.name == name; });
 }
 
-void Reader::take(const std::string& key, const json& value, const Origin& origin) {
+void Reader::take(const std::string& key, const Given& given) {
   if (find_key(key) == nullptr)
-    complain(origin, key, value, unknown_key(key));
+    complain(given.origin, key, given.value, unknown_key(key));
   else
-    given_[key] = {value, origin};
+    given_[key] = given;
 }
 
 void Reader::take_section(const std::string& name, const json& value) {
@@ -116,7 +134,7 @@ void Reader::take_section(const std::string& name, const json& value) {
   }
   for (const auto& [key, item] : value.items()) {
     const std::string full = name + "." + key;
-    take(full, item, in_file(full));
+    take(full, {item, in_file(full), false, scene.file.parent_path()});
   }
 }
 
@@ -166,7 +184,7 @@ bool Reader::take_file() {
     else if (value.is_object())
       complain(in_file(name), name, nullptr, unknown_section(name));
     else
-      take(name, value, in_file(name));
+      take(name, {value, in_file(name), false, scene.file.parent_path()});
   }
   return true;
 }
@@ -179,8 +197,8 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-void Reader::take_override(const std::string& text) {
-  const Origin origin{set_option, 0};
+void Reader::take_override(const Override& given) {
+  const auto& [text, origin, folder] = given;
   const auto equals = text.find('=');
   std::string name = text.substr(0, equals);
   name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
@@ -198,7 +216,7 @@ void Reader::take_override(const std::string& text) {
   if (is_section(name))
     complain(origin, name, value, "a key of the section, as in " + name + ".KEY=VALUE");
   else
-    take(name, value, origin);
+    take(name, {value, origin, true, folder});
 }
 
 /// One source of motion: an override takes the place of what the file gives.
@@ -207,7 +225,7 @@ void Reader::settle_motion() {
                                             "motion.arkit"};
   const auto overridden = [&](const char* key) {
     const auto found = given_.find(key);
-    return found != given_.end() && found->second.origin.file == set_option;
+    return found != given_.end() && found->second.is_override;
   };
   const bool any_override = std::any_of(std::begin(sources), std::end(sources), overridden);
   std::vector<const char*> given;
@@ -231,9 +249,8 @@ void Reader::fill() {
         complain(in_file(section_of(key.name)), key.name, nullptr, key.expected() + ", required");
       continue;
     }
-    const auto& [value, origin] = found->second;
-    const bool from_file = origin.file != set_option;
-    const fs::path folder = from_file ? scene.file.parent_path() : fs::path();
+    const auto& [value, origin, is_override, folder] = found->second;
+    const bool from_file = !is_override;
     for (const Complaint& complaint : key.set(scene, value, folder)) {
       const std::string part = key.name + complaint.below;
       Origin at = origin;
@@ -277,20 +294,6 @@ void Reader::check_together() {
                                               reenact::kMostSteps, scene.time.end_s));
   if (scene.time.end_s != 0 && scene.time.end_s < scene.time.step_s)
     complain_given("time.end_s", "0, or at least one time.step_s");
-}
-
-/// "tissue.young_kpa": 400 from {"tissue": {"young_kpa": 400}}, and what lies deeper as it is.
-std::map<std::string, json> changes_of(const json& block) {
-  std::map<std::string, json> changes;
-  for (const auto& [section, value] : block.items()) {
-    if (section == "name") continue;
-    if (!value.is_object()) {
-      changes[section] = value;
-      continue;
-    }
-    for (const auto& [key, item] : value.items()) changes[section + "." + key] = item;
-  }
-  return changes;
 }
 
 bool may_vary(const std::string& key) {
@@ -338,7 +341,7 @@ void Reader::settle_variant(const json& block, const std::string& at) {
       complain(in_file(place), place, value, "a key of what may vary: " + what_may_vary());
       continue;
     }
-    varied.take(key, value, in_file(place));
+    varied.take(key, {value, in_file(place), false, scene.file.parent_path()});
     varied.lines_[key] = in_file(place).line;
     variant.changes[key] = value;
   }
@@ -367,21 +370,27 @@ void Reader::settle_variants() {
 
 /// The scene as far as it could be read, and everything that is wrong with it: the file's problems
 /// by line, then those of the overrides.
-Reader read(const fs::path& file, const std::vector<std::string>& overrides) {
+Reader read(const fs::path& file, const std::vector<Override>& overrides) {
   Reader reader(file);
   if (reader.take_file()) {
-    for (const auto& text : overrides) reader.take_override(text);
+    for (const Override& given : overrides) reader.take_override(given);
     reader.settle_motion();
     reader.fill();
     reader.check_together();
     reader.settle_variants();
   }
   std::stable_sort(reader.problems.begin(), reader.problems.end(),
-                   [](const InputProblem& a, const InputProblem& b) {
-                     const bool a_set = a.file == set_option, b_set = b.file == set_option;
+                   [&](const InputProblem& a, const InputProblem& b) {
+                     const bool a_set = a.file != file, b_set = b.file != file;
                      return a_set != b_set ? b_set : a.line < b.line;
                    });
   return reader;
+}
+
+std::vector<Override> from_command_line(const std::vector<std::string>& texts) {
+  std::vector<Override> overrides;
+  for (const std::string& text : texts) overrides.push_back({text});
+  return overrides;
 }
 
 }  // namespace
@@ -391,15 +400,19 @@ const std::vector<std::string>& variant_sections() {
   return sections;
 }
 
-Scene read_scene(const fs::path& file, const std::vector<std::string>& overrides) {
+Scene read_scene_with(const fs::path& file, const std::vector<Override>& overrides) {
   Reader reader = read(file, overrides);
   if (!reader.problems.empty()) throw InputError(reader.problems);
   return std::move(reader.scene);
 }
 
+Scene read_scene(const fs::path& file, const std::vector<std::string>& overrides) {
+  return read_scene_with(file, from_command_line(overrides));
+}
+
 std::vector<InputProblem> problems_of(const fs::path& file,
                                       const std::vector<std::string>& overrides) {
-  return read(file, overrides).problems;
+  return read(file, from_command_line(overrides)).problems;
 }
 
 }  // namespace hyperex::scene

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/scene/toml_values.hpp"
 
+#include <cmath>
 #include <sstream>
 
 #include "hyperex/io/nesting.hpp"
@@ -88,6 +89,28 @@ std::optional<json> parse_toml_value(const std::string& value) {
   } catch (const toml::parse_error&) {
     return std::nullopt;
   }
+}
+
+std::string toml_text(const json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>())) {
+    const double number = value.get<double>();
+    return std::isnan(number) ? "nan" : number > 0 ? "inf" : "-inf";
+  }
+  std::string parts;
+  const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + part; };
+  if (value.is_array()) {
+    for (const json& item : value) add(toml_text(item));
+    return "[" + parts + "]";
+  }
+  if (value.is_object()) {
+    for (const auto& [key, item] : value.items()) add(json(key).dump() + " = " + toml_text(item));
+    return "{" + parts + "}";
+  }
+  // Numbers, words and JSON's escapes in texts are TOML too, save for DEL.
+  std::string text = value.dump();
+  for (auto at = text.find('\x7f'); at != std::string::npos; at = text.find('\x7f', at))
+    text.replace(at, 1, "\\u007f");
+  return text;
 }
 
 }  // namespace hyperex::scene

@@ -25,4 +25,7 @@ TomlValues parse_toml(const std::string& text);
 /// VALUE of KEY=VALUE where it is one TOML value, else nothing.
 std::optional<nlohmann::json> parse_toml_value(const std::string& value);
 
+/// The other way: VALUE that parse_toml_value() gives back, on one line.
+std::string toml_text(const nlohmann::json& value);
+
 }  // namespace hyperex::scene

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/study/case_hash.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/named_file.hpp"
+#include "hyperex/io/scan.hpp"
+#include "hyperex/scene/file_names.hpp"
+#include "hyperex/study/sha256.hpp"
+
+namespace hyperex::study {
+namespace fs = std::filesystem;
+namespace {
+using nlohmann::json;
+
+std::string hash_of_folder(const fs::path& folder) {
+  std::vector<fs::path> files;
+  const auto options = fs::directory_options::follow_directory_symlink;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, options))
+    if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder));
+  std::sort(files.begin(), files.end());
+  Sha256 hash;
+  for (const fs::path& file : files)
+    hash.add(sha256_of(file.generic_string()) + sha256_of_file(folder / file));
+  return hash.hex();
+}
+
+/// The files that `scan` names, found by reading it; none of one that cannot be read.
+std::vector<fs::path> companions_of(const fs::path& scan) {
+  const NamedFiles named;
+  try {
+    io::read_scan(scan);
+  } catch (const InputError&) {
+    // Checking the case tells what is wrong with it.
+  }
+  std::vector<fs::path> files = named.asked();
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
+json described(const scene::Scene& scene, ContentHashes& contents) {
+  const auto by_content = [&](const std::string& path) { return contents.of(path); };
+  json text = {{"options", scene::options_with_paths(scene, by_content)}};
+  if (!scene.scan.source.embedded)
+    text["beside the scan"] = contents.of_companions(scene.scan.source.file);
+  return text;
+}
+
+}  // namespace
+
+std::string ContentHashes::of(const fs::path& path) {
+  const auto known = known_.find(path);
+  if (known != known_.end()) return known->second;
+  std::error_code error;
+  std::string hash = path.string();
+  if (fs::is_directory(path, error))
+    hash = hash_of_folder(path);
+  else if (fs::is_regular_file(path, error))
+    hash = sha256_of_file(path);
+  return known_[path] = hash;
+}
+
+std::string ContentHashes::of_companions(const fs::path& scan) {
+  const auto known = companions_.find(scan);
+  if (known != companions_.end()) return known->second;
+  std::string text;
+  for (const fs::path& file : companions_of(scan)) {
+    std::error_code error;
+    text += file.filename().string() + ' ' +
+            (fs::is_regular_file(file, error) ? of(file) : "missing") + '\n';
+  }
+  return companions_[scan] = sha256_of(text);
+}
+
+std::string hash_of(const scene::Scene& scene, ContentHashes& contents) {
+  json text = described(scene, contents);
+  text["hyperex"] = HYPEREX_VERSION;
+  for (const scene::Variant& variant : scene.variants) {
+    json one = described(variant.scene, contents);
+    one["name"] = variant.name;
+    text["variants"].push_back(one);
+  }
+  return sha256_of(text.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+}  // namespace hyperex::study
