@@ -55,10 +55,14 @@ void check(const study::Study& study, const std::vector<std::size_t>& cases) {
   study::check_inputs(study, cases, [&](std::size_t done) { progress.update(long(done)); });
 }
 
-/// The case of --case: a number from 1, or a name.
-std::size_t index_of(const study::Study& study, const std::string& one) {
+/// The case of --case: a number from 1, a name or the name of the folder.
+std::size_t index_of(const study::Study& study, const std::vector<study::PlannedCase>& planned,
+                     const std::string& one) {
+  const bool number = one.find_first_not_of("0123456789") == std::string::npos;
   for (std::size_t i = 0; i < study.cases.size(); ++i)
-    if (study.cases[i].name == one || std::to_string(i + 1) == one) return i;
+    if (number ? std::to_string(i + 1) == one
+               : study.cases[i].name == one || planned[i].files.folder.filename() == one)
+      return i;
   throw InputError({"--case", 0, "", '"' + one + '"',
                     fmt::format("a number from 1 to {} or a name of a case, as --list shows them",
                                 study.cases.size())});
@@ -70,7 +74,7 @@ std::vector<std::size_t> to_run(const study::Study& study,
                                 const std::string& one) {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < planned.size(); ++i) all.push_back(i);
-  if (!one.empty()) all = {index_of(study, one)};
+  if (!one.empty()) all = {index_of(study, planned, one)};
   std::erase_if(
       all, [&](std::size_t i) { return study::state_of(planned[i].files) == State::finished; });
   return all;
@@ -160,13 +164,13 @@ void run(const Options& options, const study::Study& study,
     if (all) states = study::write_table(study, planned);
   }
   if (signal != 0) {
-    if (!all) states = {study::state_of(planned[index_of(study, options.one)].files)};
+    if (!all) states = {study::state_of(planned[index_of(study, planned, options.one)].files)};
     end_interrupted(signal, states);
   }
   if (all)
     print_end(study, states, before);
   else if (before > 0)
-    say("finished before: " + planned[index_of(study, options.one)].files.folder.string());
+    say("finished before: " + planned[index_of(study, planned, options.one)].files.folder.string());
   if (wrong.empty()) return;
   std::string text =
       fmt::format("{} did not finish; the same command runs them again", cases_words(wrong.size()));

@@ -50,9 +50,18 @@ void write_all(int file, const std::string& text) {
   }
 }
 
-/// In the new process, where nothing but system calls is safe.
+/// In the new process, where nothing but system calls is safe. All signals are blocked there until
+/// their handlers, which are this program's, are gone: one that came before would be lost.
 [[noreturn]] void become(const Command& command, char* const* words, const cpu_set_t* processors,
-                         int log, pid_t parent) {
+                         int log, pid_t parent, const sigset_t* unblocked) {
+  for (int signal = 1; signal < NSIG; ++signal) {
+    struct sigaction action {};
+    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = SIG_DFL;
+    ::sigaction(signal, &action, nullptr);
+  }
+  ::sigprocmask(SIG_SETMASK, unblocked, nullptr);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(128 + SIGTERM);
   if (processors) ::sched_setaffinity(0, sizeof *processors, processors);
@@ -107,9 +116,14 @@ std::optional<Child> Child::start(const Command& command, const fs::path& log) {
   CPU_ZERO(&processors);
   for (const int processor : command.processors) CPU_SET(processor, &processors);
   const pid_t parent = ::getpid();
+  sigset_t all, before;
+  sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
   child.process_ = ::fork();
   if (child.process_ == 0)
-    become(command, words.data(), command.processors.empty() ? nullptr : &processors, file, parent);
+    become(command, words.data(), command.processors.empty() ? nullptr : &processors, file, parent,
+           &before);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (child.process_ < 0)
     throw fail("its process cannot be made (" + std::string(std::strerror(errno)) + ")");
   return child;

@@ -86,23 +86,22 @@ std::string snakefile(const Called& called, const std::vector<PlannedCase>& plan
   std::string text = fmt::format(
       "# {} cases, a job each, and the table made from them. Run it with\n"
       "#   snakemake --snakefile THIS_FILE --cores all --keep-going\n"
-      "# It holds the inputs' hashes: print it again when an input has changed.\n"
+      "# Cases are known by a hash of their inputs: print it again when an input has changed.\n"
       "PROGRAM = {}\n"
       "STUDY = {}\n"
       "OUT = {}\n"
-      "FOLDERS = OUT.replace(\"{{\", \"{{{{\").replace(\"}}\", \"}}}}\") + \"/cases/\"\n"
-      "NUMBERS = {{\n",
+      "FOLDER = OUT.replace(\"{{\", \"{{{{\").replace(\"}}\", \"}}}}\") + \"/cases/{{case}}\"\n"
+      "CASES = [\n",
       planned.size(), python_text(called.program.string()), python_text(called.study.string()),
       python_text(called.out.string()));
-  for (std::size_t i = 0; i < planned.size(); ++i)
-    text += fmt::format("    {}: {},\n", python_text(planned[i].files.folder.filename().string()),
-                        i + 1);
+  for (const PlannedCase& one : planned)
+    text += "    " + python_text(one.files.folder.filename().string()) + ",\n";
   return text +
-         "}\n"
+         "]\n"
          "\n"
          "rule table:\n"
          "    input:\n"
-         "        [OUT + \"/cases/\" + case + \"/summary.json\" for case in NUMBERS],\n"
+         "        expand(FOLDER, case=CASES),\n"
          "    output:\n"
          "        OUT + \"/study.csv\",\n"
          "    shell:\n"
@@ -110,11 +109,9 @@ std::string snakefile(const Called& called, const std::vector<PlannedCase>& plan
          "\n"
          "rule case:\n"
          "    output:\n"
-         "        FOLDERS + \"{case}/summary.json\",\n"
-         "    params:\n"
-         "        number=lambda wildcards: NUMBERS[wildcards.case],\n"
+         "        directory(FOLDER),\n"
          "    shell:\n"
-         "        \"{PROGRAM:q} sweep {STUDY:q} --out {OUT:q} --case {params.number}\"\n"
+         "        \"{PROGRAM:q} sweep {STUDY:q} --out {OUT:q} --case {wildcards.case:q}\"\n"
          "\n"
          "onerror:\n"
          "    shell(\"{PROGRAM:q} sweep {STUDY:q} --out {OUT:q} --collect\")\n";

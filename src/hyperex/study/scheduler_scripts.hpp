@@ -18,7 +18,7 @@ struct Called {
 /// behind them that makes the table, also where cases fail.
 std::string slurm_script(const Called& called, std::size_t cases);
 
-/// A Snakefile: a rule a case, whose output is the case's summary, and one for the table.
+/// A Snakefile: a job a case, whose output is the case's folder, and one for the table.
 std::string snakefile(const Called& called, const std::vector<PlannedCase>& planned);
 
 }  // namespace hyperex::study

@@ -69,6 +69,14 @@ std::string gltf(const std::string& picture, const std::string& buffer) {
          picture + "\"}]}";
 }
 
+TEST_F(NamedFiles, AreRememberedForWhoAsks) {
+  const hyperex::NamedFiles asked;
+  named_file(path("scan"), "face.png");
+  EXPECT_THROW(named_file(path("scan"), "gone.png"), InputError);
+  EXPECT_EQ(asked.asked(),
+            (std::vector<fs::path>{path("scan") / "face.png", path("scan") / "gone.png"}));
+}
+
 TEST_F(NamedFiles, LieInTheFolderOrBelow) {
   EXPECT_EQ(named_file(path("scan"), "face.png"), path("scan/face.png"));
   EXPECT_EQ(named_file(path("scan"), "own/face.png"), path("scan/own/face.png"));

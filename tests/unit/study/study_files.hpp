@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A study in a folder of its own, and a program that stands in for hyperex.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "hyperex/study/study.hpp"
+
+namespace hyperex::study {
+
+class StudyFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "hyperex_study_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    write("scene.toml", "[scan]\nfile = \"embedded\"\n[motion]\nfile = \"embedded\"\n");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  std::string read(const std::filesystem::path& file) const {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  Study study(const std::string& text) const {
+    return read_study(write("study.toml", "scene = \"scene.toml\"\n" + text));
+  }
+  /// What reading it throws, without the folder.
+  template <class Act>
+  std::string refusal(Act act) const {
+    std::string said;
+    try {
+      act();
+    } catch (const InputError& error) {
+      said = error.what();
+    }
+    const std::string prefix = (folder_ / "").string();
+    for (auto at = said.find(prefix); at != std::string::npos; at = said.find(prefix))
+      said.erase(at, prefix.size());
+    return said;
+  }
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace hyperex::study
