@@ -123,9 +123,11 @@ fidelity: build ## errors against true faces, into the table of docs/fidelity.md
 mutations: ## perturb formulas one at a time and show that a test fails for each (ONLY=name: some)
 	tests/mutations/run.sh $(ONLY)
 
-interop: build ## open what a run writes in ParaView and Blender, and check Slicer's landmarks
+interop: build ## open what a run writes in ParaView and Blender, check Slicer's landmarks, run a study by Snakemake and Slurm
 	scripts/setup.sh --interop
 	tests/interop/run.sh $(PROGRAM)
+	tests/schedulers/snakemake_test.sh $(PROGRAM)
+	tests/schedulers/slurm_test.sh $(PROGRAM)
 
 setup: ## install what building takes (asks for sudo where you are not root)
 	scripts/setup.sh

@@ -7,7 +7,7 @@
 #   scripts/setup.sh --tests   also what the tests take (--video, --python, a browser, CalculiX)
 #   scripts/setup.sh --fuzz    also clang and libFuzzer
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
-#   scripts/setup.sh --interop  also the programs that make interop opens files in: ParaView, Blender
+#   scripts/setup.sh --interop  also the programs that make interop tries: ParaView, Blender, Snakemake, Slurm
 #   scripts/setup.sh --lint    also clang-format, clang-tidy and gcovr (with --tests)
 # Says first what it will install and how large it is, installs only what is missing, and is quick
 # when nothing is.
@@ -47,7 +47,7 @@ case "${1:-}" in
     ;;
   --fuzz) packages+=(clang libclang-rt-14-dev) ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
-  --interop) packages+=(paraview python3-paraview blender python3-numpy) ;;
+  --interop) packages+=(paraview python3-paraview blender python3-numpy snakemake slurm-wlm) ;;
   -h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) die "unknown option $1 (there are --video, --python, --tests, --fuzz, --bench, --interop and --lint)" ;;
 esac

@@ -251,6 +251,37 @@ TEST_F(SweepInterrupted, AKilledSweepTakesItsRunsAlong) {
       [&] { return call("sweep study.toml --list").out.find("not run") != std::string::npos; }));
 }
 
+/// The study of docs/studies.md, which is examples/study.toml without its comments.
+TEST_F(Sweep, ThePagesExampleRuns) {
+  const std::string page = read_file(HYPEREX_SOURCE_DIR "/docs/studies.md"), fence = "```toml\n";
+  const auto begin = page.find(fence) + fence.size();
+  fs::create_directory(in("examples"));
+  fs::copy_file(HYPEREX_SOURCE_DIR "/examples/demo.toml", in("examples/demo.toml"));
+  std::ofstream(in("examples/study.toml")) << page.substr(begin, page.find("```", begin) - begin);
+  const Outcome found = call("sweep examples/study.toml");
+  ASSERT_EQ(found.status, 0) << found.err;
+  const Outcome listed =
+      call("sweep '" HYPEREX_SOURCE_DIR "/examples/study.toml' --list --out out/study");
+  EXPECT_EQ(listed.status, 0) << listed.err;
+  for (const char* line :
+       {"    1  finished", "    2  finished", "    3  finished", "    4  finished"})
+    EXPECT_THAT(listed.out, HasSubstr(line)) << "the same hashes in another folder";
+  // A stiff right cheek holds the right side back; so the page's own lines of Python would say.
+  const io::TextTable table = io::read_text_table(in("out/study/study.csv"));
+  const auto cell = [&](std::size_t row, const std::string& name) {
+    const auto at = std::find(table.names.begin(), table.names.end(), name);
+    EXPECT_NE(at, table.names.end()) << name;
+    return table.rows[row].at(std::size_t(at - table.names.begin()));
+  };
+  ASSERT_EQ(table.rows.size(), 4u);
+  EXPECT_EQ(cell(1, "cheeks"), "right stiff");
+  const std::string right = "symmetry.excursions.cheek.excursion_mm.R";
+  EXPECT_NE(cell(0, right), cell(1, right));
+  for (const char* name :
+       {"symmetry.commissure.excursion_mm.L", "symmetry.commissure.floor_mm", "seconds.total"})
+    EXPECT_GT(std::stod(cell(3, name)), 0) << name;
+}
+
 TEST_F(Sweep, ExampleAndHelp) {
   const Outcome help = call("sweep --help");
   EXPECT_EQ(help.status, 0);

@@ -28,38 +28,6 @@ std::string plain(const std::string& key) {
   return bare ? key : show(key);
 }
 
-}  // namespace
-
-std::string unknown_key(const std::string& name) {
-  std::vector<std::string> all;
-  std::string siblings;
-  for (const Key& key : keys()) {
-    all.push_back(key.name);
-    if (!section_of(name).empty() && section_of(key.name) == section_of(name))
-      siblings += (siblings.empty() ? "" : ", ") + key.name.substr(section_of(name).size() + 1);
-  }
-  const std::string near = nearest(name, all);
-  if (!near.empty()) return "a known key (did you mean " + near + "?)";
-  if (!siblings.empty())
-    return fmt::format("a known key ([{}] has {})", section_of(name), siblings);
-  return "a known key (docs/scene.md lists them)";
-}
-
-std::map<std::string, json> changes_of(const json& block) {
-  std::map<std::string, json> changes;
-  for (const auto& [section, value] : block.items()) {
-    if (section == "name") continue;
-    if (!value.is_object()) {
-      changes[section] = value;
-      continue;
-    }
-    for (const auto& [key, item] : value.items()) changes[section + "." + key] = item;
-  }
-  return changes;
-}
-
-namespace {
-
 /// A scene being read: what was given, what came of it, what is wrong.
 class Reader {
  public:
@@ -175,6 +143,9 @@ bool Reader::take_file() {
                                                  "quotes, 'C:\\scans\\me.ply'"
                                                : ""));
   }
+  if (values.root.contains("scene") &&
+      (values.root.contains("grid") || values.root.contains("cases")))
+    return fail(0, "a scene file; this is a study: hyperex sweep " + scene.file.string());
   lines_ = std::move(values.lines);
   for (const auto& [name, value] : values.root.items()) {
     if (name == "variant")

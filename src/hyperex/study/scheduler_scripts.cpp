@@ -99,6 +99,12 @@ std::string snakefile(const Called& called, const std::vector<PlannedCase>& plan
   return text +
          "]\n"
          "\n"
+         // The folders too: without them Snakemake is content with an old table.
+         "rule all:\n"
+         "    input:\n"
+         "        expand(FOLDER, case=CASES),\n"
+         "        OUT + \"/study.csv\",\n"
+         "\n"
          "rule table:\n"
          "    input:\n"
          "        expand(FOLDER, case=CASES),\n"

@@ -21,7 +21,8 @@ const fs::path kExamples = fs::path(HYPEREX_SOURCE_DIR) / "examples";
 std::vector<fs::path> all_examples() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(kExamples))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    if (entry.path().extension() == ".toml" && entry.path().stem() != "study")
+      files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }

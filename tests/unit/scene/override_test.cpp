@@ -33,6 +33,13 @@ TEST(Override, IsToldWithItsPlaceAndTakesPathsFromItsFolder) {
   }
 }
 
+TEST(Override, AStudyInThePlaceOfASceneIsRecognised) {
+  const SceneFolder folder;
+  const auto file = folder.write("study.toml", "scene = \"scene.toml\"\n[grid]\n");
+  EXPECT_THAT(sentences(problems_of(file)),
+              testing::HasSubstr("expected a scene file; this is a study: hyperex sweep "));
+}
+
 /// Another source of motion takes the place of the scene's, as with --set.
 TEST(Override, OfTheMotionReplacesItsSource) {
   const SceneFolder folder;
