@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hyperex/core/vector_clones.hpp"
+
 namespace hyperex::render {
 namespace {
 
@@ -16,42 +18,39 @@ double on_grid(double samples) {
   return std::nearbyint(samples * per_sample) / per_sample;
 }
 
-/// Twice the area of (p, q, sample) along a row of samples, the sign turned so that it is positive
-/// on the triangle's side of the edge from p to q.
-struct Edge {
-  double first, step;  // at the row's first sample, and from one to the next
-
-  template <class Corner>
-  Edge(const Corner& p, const Corner& q, double x, double y, double sign)
-      : first(sign * ((p.x - x) * (q.y - y) - (p.y - y) * (q.x - x))), step(sign * (p.y - q.y)) {}
-  double at(int sample) const { return first + sample * step; }
-  bool holds(int sample) const { return at(sample) >= 0; }
-
-  /// Narrows begin to end, a range of samples, to those that it holds.
-  void narrow(int& begin, int& end) const {
-    if (step == 0) {
-      if (first < 0) end = begin;
-      return;
-    }
-    const double zero = std::clamp(-first / step, double(begin), double(end));
-    if (step > 0) {
-      begin = std::max(begin, int(zero));  // the quotient is rounded: what decides is holds()
-      while (begin < end && !holds(begin)) ++begin;
-    } else {
-      end = std::min(end, int(zero) + 2);
-      while (begin < end && !holds(end - 1)) --end;
-    }
-  }
+/// What is linear over the samples: its value at the first, and how it grows to the right and down.
+struct Plane {
+  double first, right, down;
 };
 
-/// Where a plane over samples `begin` to `end` of a row is nearer than what was seen so far.
-void keep_nearer(float first_z, float step_z, int id, int begin, int end, float* z, int* seen) {
-  for (int x = begin; x < end; ++x) {
-    const float here = first_z + float(x) * step_z;
-    const bool nearer = here > z[x];
-    z[x] = nearer ? here : z[x];
-    seen[x] = nearer ? id : seen[x];
+/// A triangle over a box of samples, which begins at its first.
+struct Cover {
+  Plane inside[3];  // of each edge, not below 0 on the triangle's side of it
+  Plane z;          // depth
+  int columns, rows;
+};
+
+/// Into samples whose rows are `stride` apart: where the triangle is nearer than what was seen.
+HX_CLONES void keep_nearer(const Cover& cover, int id, int stride, float* nearest, int* seen) {
+  const Plane a = cover.inside[0], b = cover.inside[1], c = cover.inside[2];
+  for (int y = 0; y < cover.rows; ++y, nearest += stride, seen += stride) {
+    const double a0 = a.first + y * a.down, b0 = b.first + y * b.down, c0 = c.first + y * c.down;
+    const double z0 = cover.z.first + y * cover.z.down;
+    for (int x = 0; x < cover.columns; ++x) {
+      const auto z = static_cast<float>(z0 + x * cover.z.right);
+      const bool covered = (a0 + x * a.right >= 0) & (b0 + x * b.right >= 0) &
+                           (c0 + x * c.right >= 0) & (z > nearest[x]);
+      nearest[x] = covered ? z : nearest[x];
+      seen[x] = covered ? id : seen[x];
+    }
   }
+}
+
+/// Twice the area of (p, q, sample) over a box that begins at sample (x, y), times `scale`.
+template <class Corner>
+Plane edge(const Corner& p, const Corner& q, double x, double y, double scale) {
+  return {scale * ((p.x - x) * (q.y - y) - (p.y - y) * (q.x - x)), scale * (p.y - q.y),
+          scale * (q.x - p.x)};
 }
 
 }  // namespace
@@ -102,57 +101,52 @@ void Raster::sort_into_bands() {
       of_band_[std::size_t(next[std::size_t(band)]++)] = int(i);
 }
 
-void Raster::look(int band, std::vector<Hit>& hits) const {
+void Raster::look(int band, Seen& seen) const {
   const int begin = band * band_rows_, end = std::min(height_, begin + band_rows_);
   const auto samples = std::size_t(end - begin) * std::size_t(width_);
-  std::vector<float> nearest(samples, -std::numeric_limits<float>::infinity());
-  std::vector<int> seen(samples, -1);
-  for (int i = first_[std::size_t(band)]; i < first_[std::size_t(band) + 1]; ++i) {
-    const int id = of_band_[std::size_t(i)];
-    draw(triangles_[std::size_t(id)], id, begin, end, nearest.data(), seen.data());
-  }
-  hits.resize(samples);
-  int last = -1;
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  for (int y = begin; y < end; ++y)
-    for (int x = 0; x < width_; ++x) {
-      const auto at = std::size_t(y - begin) * std::size_t(width_) + std::size_t(x);
-      Hit& hit = hits[at];
-      hit.surface = -1;
-      if (seen[at] < 0) continue;
-      const Triangle& t = triangles_[std::size_t(seen[at])];
-      if (seen[at] != last) normal = normal_of(t);
-      last = seen[at];
-      const double per_area = 1 / t.area();
-      const double a = per_area * Edge(t.b, t.c, x, y, 1).first;
-      const double b = per_area * Edge(t.c, t.a, x, y, 1).first;
-      hit = {t.surface, t.triangle, {a, b, 1 - a - b}, normal};
-    }
+  seen.first_row = begin;
+  seen.rows = end - begin;
+  seen.nearest.assign(samples, -std::numeric_limits<float>::infinity());
+  seen.triangle.assign(samples, -1);
+  for (int i = first_[std::size_t(band)]; i < first_[std::size_t(band) + 1]; ++i)
+    draw(of_band_[std::size_t(i)], seen);
 }
 
-void Raster::draw(const Triangle& t, int id, int begin, int end, float* nearest, int* seen) const {
+void Raster::draw(int id, Seen& seen) const {
+  const Triangle& t = triangles_[std::size_t(id)];
   const double area = t.area();
   if (area == 0) return;
   const auto [left, right] = std::minmax({t.a.x, t.b.x, t.c.x});
   const auto [top, bottom] = std::minmax({t.a.y, t.b.y, t.c.y});
   const int x0 = int(std::max(0.0, std::ceil(left)));
-  const int count = int(std::min(width_ - 1.0, std::floor(right))) + 1 - x0;
-  const int y0 = std::max(begin, int(std::max(0.0, std::ceil(top))));
-  const int y1 = int(std::min(end - 1.0, std::floor(bottom)));
+  const int x1 = int(std::min(width_ - 1.0, std::floor(right)));
+  const int y0 = std::max(seen.first_row, int(std::max(0.0, std::ceil(top))));
+  const int y1 = int(std::min(seen.first_row + seen.rows - 1.0, std::floor(bottom)));
   const double sign = area > 0 ? 1 : -1, per_area = sign / area;
-  for (int y = y0; y <= y1; ++y) {
-    const Edge of_a(t.b, t.c, x0, y, sign), of_b(t.c, t.a, x0, y, sign),
-        of_c(t.a, t.b, x0, y, sign);
-    int from = 0, to = count;
-    for (const Edge* edge : {&of_a, &of_b, &of_c}) edge->narrow(from, to);
-    if (from >= to) continue;
-    const auto z = [&](double a, double b, double c) {
-      return per_area * (a * t.a.z + b * t.b.z + c * t.c.z);
-    };
-    const auto row = std::size_t(y - begin) * std::size_t(width_) + std::size_t(x0);
-    keep_nearer(float(z(of_a.first, of_b.first, of_c.first)),
-                float(z(of_a.step, of_b.step, of_c.step)), id, from, to, nearest + row, seen + row);
-  }
+  Cover cover{
+      {edge(t.b, t.c, x0, y0, sign), edge(t.c, t.a, x0, y0, sign), edge(t.a, t.b, x0, y0, sign)},
+      {},
+      x1 - x0 + 1,
+      y1 - y0 + 1};
+  const auto mixed = [&](double Plane::*part) {
+    return per_area * (cover.inside[0].*part * t.a.z + cover.inside[1].*part * t.b.z +
+                       cover.inside[2].*part * t.c.z);
+  };
+  cover.z = {mixed(&Plane::first), mixed(&Plane::right), mixed(&Plane::down)};
+  const auto at = std::size_t(y0 - seen.first_row) * std::size_t(width_) + std::size_t(x0);
+  keep_nearer(cover, id, width_, seen.nearest.data() + at, seen.triangle.data() + at);
+}
+
+Facet Raster::facet(int id) const {
+  const Triangle& t = triangles_[std::size_t(id)];
+  return {t.surface, t.triangle, normal_of(t)};
+}
+
+std::array<float, 3> Raster::weights(int id, int x, int y) const {
+  const Triangle& t = triangles_[std::size_t(id)];
+  const double per_area = 1 / t.area();
+  const double a = edge(t.b, t.c, x, y, per_area).first, b = edge(t.c, t.a, x, y, per_area).first;
+  return {float(a), float(b), float(1 - a - b)};
 }
 
 Eigen::Vector3f Raster::normal_of(const Triangle& t) const {

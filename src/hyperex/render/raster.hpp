@@ -3,13 +3,19 @@
 // Inside the room: which triangle each sample of a picture sees, by a depth buffer. Parallel rays
 // on a grid need no tree: a face of 70,000 triangles takes milliseconds, while Embree builds its
 // tree for a tenth of a second, anew for each pose.
+#include <array>
 #include <vector>
 
 #include "hyperex/render/camera.hpp"
-#include "hyperex/render/hit.hpp"
 #include "hyperex/render/render.hpp"
 
 namespace hyperex::render {
+
+/// Of a surface, as a camera sees it.
+struct Facet {
+  int surface, triangle;
+  Eigen::Vector3f normal;  // camera frame, unit
+};
 
 /// Samples in rows from the top, each at the middle of its square; the camera's target is at the
 /// middle of the picture. Triangles that share an edge leave no gap between them. Where two lie
@@ -21,9 +27,18 @@ class Raster {
          double m_per_sample, int band_rows);
 
   int bands() const { return int(first_.size()) - 1; }
-  /// What the samples of a band see, row by row; Hit::surface is -1 where that is nothing. Safe to
-  /// call from several threads.
-  void look(int band, std::vector<Hit>& hits) const;
+
+  /// Rows of samples; room that look() fills.
+  struct Seen {
+    int first_row = 0, rows = 0;
+    std::vector<int> triangle;   // row by row: what facet() and weights() take, or -1
+    std::vector<float> nearest;  // its depth, m to the viewer
+  };
+  /// What the samples of a band see. Safe to call from several threads.
+  void look(int band, Seen& seen) const;
+  Facet facet(int id) const;
+  /// Barycentric, of the sample.
+  std::array<float, 3> weights(int id, int x, int y) const;
 
  private:
   struct Corner {
@@ -38,8 +53,7 @@ class Raster {
 
   void add(const Surface& surface, int index, const Camera& camera, double m_per_sample);
   void sort_into_bands();
-  /// Into rows `begin` to `end`: the nearest depth of each sample and the triangle that has it.
-  void draw(const Triangle& t, int id, int begin, int end, float* nearest, int* seen) const;
+  void draw(int id, Seen& seen) const;
   Eigen::Vector3f normal_of(const Triangle& t) const;
 
   int width_, height_, band_rows_;

@@ -7,10 +7,16 @@
 #include <vector>
 
 #include "hyperex/render/camera.hpp"
-#include "hyperex/render/hit.hpp"
 #include "hyperex/render/render.hpp"
 
 namespace hyperex::render {
+
+/// Where a ray met a surface.
+struct Hit {
+  int surface = -1, triangle = -1;
+  double weight[3] = {0, 0, 0};  // barycentric
+  Eigen::Vector3f normal;        // of the facet, camera frame, unit
+};
 
 /// All in the camera's frame (x right, y up, z to the viewer, origin at the target), where rays run
 /// along -z.

@@ -98,31 +98,43 @@ struct Prepared {
       for (const auto bytes : s.colours.rowwise())
         colours.push_back({linear_byte(bytes[0]), linear_byte(bytes[1]), linear_byte(bytes[2])});
   }
+};
 
-  Vec3f colour_at(const Hit& hit) const {
-    const auto corners = surface->mesh.triangles.row(hit.triangle);
-    if (surface->scalar.size() != 0) {
-      double value = 0;
-      for (int k = 0; k < 3; ++k) value += hit.weight[k] * surface->scalar[corners[k]];
-      if (std::isnan(value)) return plain;
-      const ColourTable& map = linear_moss();
-      return map[std::size_t(
-          std::lround(share_in(surface->range, value) * double(map.size() - 1)))];
+// A triangle with all that its samples take from the surface.
+struct Corners {
+  const Prepared* from;
+  Facet facet;
+  bool coloured = false;
+  double scalar[3] = {0, 0, 0};
+  Eigen::Matrix3f colours, normals;  // a column a corner
+
+  Corners(const Prepared& prepared, const Facet& f) : from(&prepared), facet(f) {
+    const Surface& s = *prepared.surface;
+    for (int k = 0; k < 3; ++k) {
+      const int v = s.mesh.triangles(f.triangle, k);
+      if (s.scalar.size() != 0) scalar[k] = s.scalar[v];
+      coloured = s.scalar.size() == 0 && !prepared.colours.empty();
+      if (coloured) colours.col(k) = prepared.colours[std::size_t(v)];
+      if (s.smooth) normals.col(k) = prepared.normals.row(v).transpose();
     }
-    if (colours.empty()) return plain;
-    Vec3f colour = Vec3f::Zero();
-    for (int k = 0; k < 3; ++k) colour += static_cast<float>(hit.weight[k]) * colours[corners[k]];
-    return colour;
   }
 
-  Vec3f normal_at(const Hit& hit) const {
-    if (!surface->smooth) return hit.normal;
-    Vec3f normal = Vec3f::Zero();
-    for (int k = 0; k < 3; ++k)
-      normal += static_cast<float>(hit.weight[k]) *
-                normals.row(surface->mesh.triangles(hit.triangle, k)).transpose();
+  Vec3f colour_at(const Vec3f& weight) const {
+    if (from->surface->scalar.size() != 0) {
+      const double value =
+          weight[0] * scalar[0] + weight[1] * scalar[1] + double(weight[2]) * scalar[2];
+      if (std::isnan(value)) return from->plain;
+      static const ColourTable& map = linear_moss();
+      return map[std::size_t(share_in(from->surface->range, value) * double(map.size() - 1) + 0.5)];
+    }
+    return coloured ? Vec3f(colours * weight) : from->plain;
+  }
+
+  Vec3f normal_at(const Vec3f& weight) const {
+    if (!from->surface->smooth) return facet.normal;
+    const Vec3f normal = normals * weight;
     const float length = normal.norm();
-    return length > 1e-6f ? Vec3f(normal / length) : hit.normal;
+    return length > 1e-6f ? Vec3f(normal / length) : facet.normal;
   }
 };
 
@@ -154,26 +166,35 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
     int hits = 0;
   };
   tbb::parallel_for(0, raster.bands(), [&](int band) {
-    std::vector<Hit> hits;
-    raster.look(band, hits);
-    const int rows = int(hits.size()) / along / n;
-    for (int y = 0; y < rows; ++y) {
+    Raster::Seen seen;
+    raster.look(band, seen);
+    for (int y = 0; y < seen.rows / n; ++y) {
       std::vector<Sum> row(static_cast<std::size_t>(options.width_px));
-      for (int s = 0; s < n; ++s)
-        for (int x = 0; x < along; ++x) {
-          const Hit& hit = hits[static_cast<std::size_t>((y * n + s) * along + x)];
-          if (hit.surface < 0 || (options.hide_backs && hit.normal.z() < 0)) continue;
-          const Prepared& p = prepared[static_cast<std::size_t>(hit.surface)];
+      for (int s = n * y; s < n * (y + 1); ++s) {
+        const int* ids = seen.triangle.data() + std::ptrdiff_t(s) * along;
+        std::optional<Corners> corners;
+        for (int x = 0, last = -1; x < along; ++x) {
+          if (ids[x] < 0) continue;
+          if (ids[x] != last) {
+            const Facet facet = raster.facet(ids[x]);
+            corners.emplace(prepared[static_cast<std::size_t>(facet.surface)], facet);
+            last = ids[x];
+          }
+          const bool back = corners->facet.normal.z() < 0;
+          if (options.hide_backs && back) continue;
+          const auto w = raster.weights(ids[x], x, seen.first_row + s);
+          const Vec3f weight(w[0], w[1], w[2]);
           Sum& sum = row[static_cast<std::size_t>(x / n)];
-          sum.light += shaded(p.colour_at(hit), p.normal_at(hit), hit.normal.z() < 0);
+          sum.light += shaded(corners->colour_at(weight), corners->normal_at(weight), back);
           ++sum.hits;
         }
+      }
       for (int x = 0; x < options.width_px; ++x) {
         const Sum& sum = row[static_cast<std::size_t>(x)];
         if (sum.hits == 0) continue;
         const Vec3f light = (sum.light + static_cast<float>(n * n - sum.hits) * background) /
                             static_cast<float>(n * n);
-        for (int k = 0; k < 3; ++k) image.pixel(x, band * band_px + y)[k] = srgb_byte(light[k]);
+        for (int k = 0; k < 3; ++k) image.pixel(x, seen.first_row / n + y)[k] = srgb_byte(light[k]);
       }
     }
   });

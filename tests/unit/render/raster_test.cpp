@@ -53,10 +53,18 @@ TriMesh sheet(int cells) {
 }
 
 std::vector<Hit> all_hits(const Raster& raster) {
-  std::vector<Hit> all, band;
+  std::vector<Hit> all;
+  Raster::Seen seen;
   for (int b = 0; b < raster.bands(); ++b) {
-    raster.look(b, band);
-    all.insert(all.end(), band.begin(), band.end());
+    raster.look(b, seen);
+    for (std::size_t i = 0; i < seen.triangle.size(); ++i) {
+      Hit& hit = all.emplace_back();
+      if (seen.triangle[i] < 0) continue;
+      const int id = seen.triangle[i];
+      const Facet facet = raster.facet(id);
+      const auto w = raster.weights(id, int(i) % kSize, seen.first_row + int(i) / kSize);
+      hit = {facet.surface, facet.triangle, {w[0], w[1], w[2]}, facet.normal};
+    }
   }
   return all;
 }
