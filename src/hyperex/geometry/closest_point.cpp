@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/geometry/closest_point.hpp"
 
-#include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "hyperex/geometry/embree_device.hpp"
 
 namespace hyperex {
 namespace {
@@ -56,12 +57,10 @@ struct SurfaceTree::Impl {
   TriMesh mesh;
   Vec3 centre = Vec3::Zero();  // the tree is built about it, to lose no digits in single precision
   double slack = 0;            // how far a bound may be off by rounding
-  RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
   }
 
   Vec3 corner(int triangle, int k) const {
@@ -140,11 +139,10 @@ SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) 
   const Vec3 low = mesh.points.colwise().minCoeff(), high = mesh.points.colwise().maxCoeff();
   impl_->centre = (low + high) / 2;
   impl_->slack = 1e-6 * std::max((high - low).norm(), 1e-12);
-  impl_->device = rtcNewDevice(nullptr);
-  if (!impl_->device) throw std::runtime_error("closest point: Embree does not start");
-  impl_->scene = rtcNewScene(impl_->device);
+  const RTCDevice device = embree_device();
+  impl_->scene = rtcNewScene(device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-  const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_USER);
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(mesh.triangles.rows()));
   rtcSetGeometryUserData(geometry, impl_.get());
   rtcSetGeometryBoundsFunction(geometry, &Impl::bounds, nullptr);
@@ -153,7 +151,7 @@ SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) 
   rtcAttachGeometry(impl_->scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(impl_->scene);
-  if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
+  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
     throw std::runtime_error("closest point: Embree cannot build its tree");
 }
 SurfaceTree::~SurfaceTree() = default;

@@ -2,7 +2,10 @@
 #include "hyperex/metrics/surface_distance.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -12,10 +15,34 @@
 namespace hyperex::metrics {
 namespace {
 
+/// As std::sort does, several times as fast for thousands of values: not below 0, they are in the
+/// order of their bits, which are sorted eleven at a time.
+void sort_distances(std::vector<double>& values) {
+  constexpr int digit_bits = 11;
+  constexpr std::size_t worthwhile = 1000, digits = std::size_t(1) << digit_bits;
+  const auto plain = [](double value) { return !std::signbit(value) && std::isfinite(value); };
+  if (values.size() < worthwhile || !std::all_of(values.begin(), values.end(), plain)) {
+    std::sort(values.begin(), values.end());
+    return;
+  }
+  std::vector<double> sorted(values.size());
+  for (int shift = 0; shift < 64; shift += digit_bits) {
+    const auto digit = [&](double value) {
+      return std::size_t(std::bit_cast<std::uint64_t>(value) >> shift) % digits;
+    };
+    std::array<std::size_t, digits + 1> place{};
+    for (const double value : values) ++place[digit(value) + 1];
+    if (place[digit(values.front()) + 1] == values.size()) continue;  // the same in all
+    for (std::size_t d = 1; d < digits; ++d) place[d] += place[d - 1];
+    for (const double value : values) sorted[place[digit(value)]++] = value;
+    values.swap(sorted);
+  }
+}
+
 DistanceStatistics summary(std::vector<double> values_m) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (values_m.empty()) return {nan, nan, nan, nan, nan, 0};
-  std::sort(values_m.begin(), values_m.end());
+  sort_distances(values_m);
   double sum = 0, squares = 0;
   for (const double value : values_m) {
     sum += value;

@@ -73,22 +73,24 @@ void Raster::add(const Surface& surface, int index, const Camera& camera, double
   }
   for (Eigen::Index f = 0; f < surface.mesh.triangles.rows(); ++f) {
     const auto corner = [&](int k) { return corners[std::size_t(surface.mesh.triangles(f, k))]; };
-    const Triangle t{corner(0), corner(1), corner(2), index, int(f)};
+    Triangle t{corner(0), corner(1), corner(2), index, int(f), 0, 0, 0, 0};
     const auto [left, right] = std::minmax({t.a.x, t.b.x, t.c.x});
     const auto [top, bottom] = std::minmax({t.a.y, t.b.y, t.c.y});
-    // No sample lies in it; false, too, where a coordinate is not finite.
-    if (!(std::ceil(left) <= std::floor(right) && std::ceil(top) <= std::floor(bottom))) continue;
-    if (right < 0 || left > width_ - 1 || bottom < 0 || top > height_ - 1) continue;
-    if (std::isfinite(t.a.z + t.b.z + t.c.z)) triangles_.push_back(t);
+    // Before any rounding; false, too, where a coordinate is not finite.
+    if (!(right >= 0 && left <= width_ - 1 && bottom >= 0 && top <= height_ - 1)) continue;
+    if (!std::isfinite(left + right + top + bottom + t.a.z + t.b.z + t.c.z)) continue;
+    t.left = int(std::max(0.0, std::ceil(left)));
+    t.right = int(std::min(width_ - 1.0, right));
+    t.top = int(std::max(0.0, std::ceil(top)));
+    t.bottom = int(std::min(height_ - 1.0, bottom));
+    if (t.left <= t.right && t.top <= t.bottom && t.area() != 0) triangles_.push_back(t);
   }
 }
 
 void Raster::sort_into_bands() {
   const int count = (height_ + band_rows_ - 1) / band_rows_;
   const auto bands_of = [&](const Triangle& t) {
-    const auto [top, bottom] = std::minmax({t.a.y, t.b.y, t.c.y});
-    return std::pair{int(std::max(0.0, std::ceil(top))) / band_rows_,
-                     int(std::min(height_ - 1.0, std::floor(bottom))) / band_rows_};
+    return std::pair{t.top / band_rows_, t.bottom / band_rows_};
   };
   first_.assign(std::size_t(count) + 1, 0);
   for (const Triangle& t : triangles_)
@@ -115,13 +117,9 @@ void Raster::look(int band, Seen& seen) const {
 void Raster::draw(int id, Seen& seen) const {
   const Triangle& t = triangles_[std::size_t(id)];
   const double area = t.area();
-  if (area == 0) return;
-  const auto [left, right] = std::minmax({t.a.x, t.b.x, t.c.x});
-  const auto [top, bottom] = std::minmax({t.a.y, t.b.y, t.c.y});
-  const int x0 = int(std::max(0.0, std::ceil(left)));
-  const int x1 = int(std::min(width_ - 1.0, std::floor(right)));
-  const int y0 = std::max(seen.first_row, int(std::max(0.0, std::ceil(top))));
-  const int y1 = int(std::min(seen.first_row + seen.rows - 1.0, std::floor(bottom)));
+  const int x0 = t.left, x1 = t.right;
+  const int y0 = std::max(seen.first_row, t.top);
+  const int y1 = std::min(seen.first_row + seen.rows - 1, t.bottom);
   const double sign = area > 0 ? 1 : -1, per_area = sign / area;
   Cover cover{
       {edge(t.b, t.c, x0, y0, sign), edge(t.c, t.a, x0, y0, sign), edge(t.a, t.b, x0, y0, sign)},
@@ -142,11 +140,11 @@ Facet Raster::facet(int id) const {
   return {t.surface, t.triangle, normal_of(t)};
 }
 
-std::array<float, 3> Raster::weights(int id, int x, int y) const {
+Raster::Weights Raster::weights(int id, int x, int y) const {
   const Triangle& t = triangles_[std::size_t(id)];
   const double per_area = 1 / t.area();
-  const double a = edge(t.b, t.c, x, y, per_area).first, b = edge(t.c, t.a, x, y, per_area).first;
-  return {float(a), float(b), float(1 - a - b)};
+  const Plane a = edge(t.b, t.c, x, y, per_area), b = edge(t.c, t.a, x, y, per_area);
+  return {a.first, b.first, a.right, b.right};
 }
 
 Eigen::Vector3f Raster::normal_of(const Triangle& t) const {

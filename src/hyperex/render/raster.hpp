@@ -37,8 +37,15 @@ class Raster {
   /// What the samples of a band see. Safe to call from several threads.
   void look(int band, Seen& seen) const;
   Facet facet(int id) const;
-  /// Barycentric, of the sample.
-  std::array<float, 3> weights(int id, int x, int y) const;
+  /// The first two barycentric weights of a sample, and how they grow from it to the right.
+  struct Weights {
+    double a, b, a_right, b_right;
+    std::array<float, 3> at(int samples) const {
+      const double wa = a + samples * a_right, wb = b + samples * b_right;
+      return {float(wa), float(wb), float(1 - wa - wb)};
+    }
+  };
+  Weights weights(int id, int x, int y) const;
 
  private:
   struct Corner {
@@ -47,6 +54,7 @@ class Raster {
   struct Triangle {
     Corner a, b, c;
     int surface, triangle;
+    int left, right, top, bottom;  // the samples of the picture that may lie in it
     /// Twice the area, in samples; negative where the front is seen.
     double area() const { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
   };

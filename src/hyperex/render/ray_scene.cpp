@@ -2,7 +2,8 @@
 #include "ray_scene.hpp"
 
 #include <limits>
-#include <stdexcept>
+
+#include "hyperex/geometry/embree_device.hpp"
 
 namespace hyperex::render {
 namespace {
@@ -22,16 +23,15 @@ RTCRay downward_ray(float x, float y, float z_from, float z_to) {
 }  // namespace
 
 RayScene::RayScene(const std::vector<Surface>& surfaces, const Camera& camera) {
-  device_ = rtcNewDevice(nullptr);
-  if (!device_) throw std::runtime_error("render: Embree does not start");
-  scene_ = rtcNewScene(device_);
+  const RTCDevice device = embree_device();
+  scene_ = rtcNewScene(device);
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   const Eigen::Matrix3d camera_from_world = camera.axes();
   for (const Surface& surface : surfaces) {
     const auto vertices = static_cast<size_t>(surface.mesh.points.rows());
     const auto triangles = static_cast<size_t>(surface.mesh.triangles.rows());
     if (triangles == 0) continue;
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
     auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
@@ -54,7 +54,6 @@ RayScene::RayScene(const std::vector<Surface>& surfaces, const Camera& camera) {
 
 RayScene::~RayScene() {
   rtcReleaseScene(scene_);
-  rtcReleaseDevice(device_);
 }
 
 std::optional<Hit> RayScene::look_at(float x, float y) const {

@@ -32,7 +32,6 @@ class RayScene {
   bool hides(const Eigen::Vector3f& point, float bias) const;
 
  private:
-  RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
   float above_ = 1;  // z above everything
 };

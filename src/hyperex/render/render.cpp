@@ -173,16 +173,18 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
       for (int s = n * y; s < n * (y + 1); ++s) {
         const int* ids = seen.triangle.data() + std::ptrdiff_t(s) * along;
         std::optional<Corners> corners;
-        for (int x = 0, last = -1; x < along; ++x) {
+        Raster::Weights weights{};
+        for (int x = 0, first = 0, last = -1; x < along; ++x) {
           if (ids[x] < 0) continue;
           if (ids[x] != last) {
             const Facet facet = raster.facet(ids[x]);
             corners.emplace(prepared[static_cast<std::size_t>(facet.surface)], facet);
-            last = ids[x];
+            weights = raster.weights(ids[x], x, seen.first_row + s);
+            first = x, last = ids[x];
           }
           const bool back = corners->facet.normal.z() < 0;
           if (options.hide_backs && back) continue;
-          const auto w = raster.weights(ids[x], x, seen.first_row + s);
+          const auto w = weights.at(x - first);
           const Vec3f weight(w[0], w[1], w[2]);
           Sum& sum = row[static_cast<std::size_t>(x / n)];
           sum.light += shaded(corners->colour_at(weight), corners->normal_at(weight), back);

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 namespace hyperex::metrics {
@@ -23,6 +25,29 @@ TEST(DistanceStatistics, OfAKnownSet) {
   EXPECT_NEAR(some.mean_mm, 3, 1e-12);
   EXPECT_NEAR(some.max_mm, 4, 1e-12);
   EXPECT_EQ(some.count, 2);
+}
+
+// Many are sorted otherwise than few: of every size from nearly nothing to large, zero and twins
+// too.
+TEST(DistanceStatistics, OfManyAreThoseOfTheSortedValues) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> power(-300, 3);
+  Eigen::VectorXd distance(5001);
+  for (double& value : distance) value = std::pow(10, power(generator));
+  distance.segment(100, 50).setZero();
+  distance.segment(200, 50) = distance.segment(300, 50);
+  for (const bool negative : {false, true}) {
+    if (negative) distance[7] = -1;
+    std::vector<double> sorted(distance.begin(), distance.end());
+    std::sort(sorted.begin(), sorted.end());
+    double sum = 0;
+    for (const double value : sorted) sum += value;
+    const DistanceStatistics s = statistics_of(distance);
+    EXPECT_EQ(s.mean_mm, 1e3 * sum / 5001);  // to the bit: the order of the sum is that
+    EXPECT_EQ(s.median_mm, 1e3 * sorted[2500]);
+    EXPECT_EQ(s.p95_mm, 1e3 * sorted[4750]);
+    EXPECT_EQ(s.max_mm, 1e3 * sorted.back());
+  }
 }
 
 TEST(DistanceStatistics, OfNothingIsNaN) {

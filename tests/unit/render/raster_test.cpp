@@ -62,7 +62,7 @@ std::vector<Hit> all_hits(const Raster& raster) {
       if (seen.triangle[i] < 0) continue;
       const int id = seen.triangle[i];
       const Facet facet = raster.facet(id);
-      const auto w = raster.weights(id, int(i) % kSize, seen.first_row + int(i) / kSize);
+      const auto w = raster.weights(id, int(i) % kSize, seen.first_row + int(i) / kSize).at(0);
       hit = {facet.surface, facet.triangle, {w[0], w[1], w[2]}, facet.normal};
     }
   }
