@@ -8,9 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
-#include <string_view>
-
-#include "hyperex/core/files.hpp"
 
 namespace hyperex::render {
 
@@ -164,44 +161,6 @@ void Canvas::colour_bar(double x, double y, double height_px, const ColourBar& b
     text(x + width_px + 8, at + 4, fmt::format("{}{:.{}f}", top ? "\u2265 " : "", value, decimals),
          small);
   }
-}
-
-namespace {
-
-cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned int length) {
-  auto& bytes = *static_cast<std::vector<std::uint8_t>*>(target);
-  bytes.insert(bytes.end(), data, data + length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
-}  // namespace
-
-std::vector<std::uint8_t> png_bytes(const Image& image) {
-  std::vector<std::uint32_t> packed(std::size_t(image.width) * image.height);
-  for (std::size_t i = 0; i < packed.size(); ++i)
-    packed[i] =
-        0xff000000u | image.rgb[3 * i] << 16 | image.rgb[3 * i + 1] << 8 | image.rgb[3 * i + 2];
-  cairo_surface_t* surface = cairo_image_surface_create_for_data(
-      reinterpret_cast<unsigned char*>(packed.data()), CAIRO_FORMAT_RGB24, image.width,
-      image.height, 4 * image.width);
-  std::vector<std::uint8_t> bytes;
-  const cairo_status_t status = cairo_surface_write_to_png_stream(surface, append_bytes, &bytes);
-  cairo_surface_destroy(surface);
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw std::runtime_error(std::string("render: no PNG: ") + cairo_status_to_string(status));
-  // A chunk of text after the header (8 bytes of signature, 25 of IHDR) by which a later command
-  // knows the file for one of its own: length, kind, text, CRC-32.
-  constexpr std::string_view made_by("\0\0\0\x10tEXtSoftware\0Hyperex\x0a\xcc\xe3\x25", 28);
-  constexpr std::ptrdiff_t header_bytes = 33;
-  bytes.insert(bytes.begin() + header_bytes, made_by.begin(), made_by.end());
-  return bytes;
-}
-
-void write_png(const std::filesystem::path& file, const Image& image) {
-  const std::vector<std::uint8_t> bytes = png_bytes(image);
-  write_file_atomically(file, [&](std::ostream& stream) {
-    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-  });
 }
 
 }  // namespace hyperex::render

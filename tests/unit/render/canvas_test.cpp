@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/render/canvas.hpp"
 
+#include <cairo.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
@@ -72,6 +75,36 @@ TEST(Canvas, ColourBarRunsFromLowAtTheFootToHighAtTheTop) {
   const Image image = canvas.image();
   EXPECT_NEAR(image.pixel(18, 26)[0], 255 * moss(0.985).r, 1);
   EXPECT_NEAR(image.pixel(18, 123)[2], 255 * moss(0.015).b, 1);
+}
+
+cairo_status_t next_bytes(void* from, unsigned char* to, unsigned int count) {
+  auto& left = *static_cast<std::vector<std::uint8_t>*>(from);
+  if (left.size() < count) return CAIRO_STATUS_READ_ERROR;
+  std::copy_n(left.begin(), count, to);
+  left.erase(left.begin(), left.begin() + count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+// As another program reads it (cairo by libpng, which checks the sums).
+TEST(Png, HoldsThePicturesColours) {
+  Image image(37, 21);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i)
+    image.rgb[i] = static_cast<std::uint8_t>(i * i % 251 + i / 100);
+  std::vector<std::uint8_t> bytes = png_bytes(image);
+  cairo_surface_t* read = cairo_image_surface_create_from_png_stream(next_bytes, &bytes);
+  ASSERT_EQ(cairo_surface_status(read), CAIRO_STATUS_SUCCESS);
+  ASSERT_EQ(cairo_image_surface_get_width(read), 37);
+  ASSERT_EQ(cairo_image_surface_get_height(read), 21);
+  const unsigned char* pixels = cairo_image_surface_get_data(read);
+  for (int y = 0; y < 21; ++y)
+    for (int x = 0; x < 37; ++x) {
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, pixels + y * cairo_image_surface_get_stride(read) + 4 * x, 4);
+      for (int k = 0; k < 3; ++k)
+        ASSERT_EQ((pixel >> (16 - 8 * k)) & 0xff, image.pixel(x, y)[k]) << x << ' ' << y;
+    }
+  cairo_surface_destroy(read);
+  EXPECT_THROW(png_bytes(Image()), std::invalid_argument);
 }
 
 TEST(Png, IsOneAndIsRefusedWhereItCannotBe) {
