@@ -23,7 +23,7 @@ packages=(
   libembree-dev libtbb-dev # rays and closest points; threads
   libtinygltf-dev libtinyobjloader-dev libstb-dev zlib1g-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
-  nettle-dev               # SHA-256: which cases of a study are done
+  nettle-dev               # SHA-256: what was computed before
   libopencv-dnn-dev libflatbuffers-dev flatbuffers-compiler  # the landmark networks
   libcairo2-dev fonts-dejavu-core  # pictures with words on them
   libopencv-core-dev libopencv-imgproc-dev libturbojpeg0-dev libpng-dev  # pictures of recordings

@@ -6,14 +6,26 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/named_file.hpp"
+#include "hyperex/core/sha256.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/scene/file_names.hpp"
-#include "hyperex/study/sha256.hpp"
 
 namespace hyperex::study {
 namespace fs = std::filesystem;
 namespace {
 using nlohmann::json;
+
+std::string sha256_of(const std::string& text) {
+  Sha256 hash;
+  hash.add(text.data(), text.size());
+  return hash.hex();
+}
+
+std::string sha256_of_file(const fs::path& file) {
+  Sha256 hash;
+  if (!hash.add_file(file)) throw InputError(file, "cannot be read");
+  return hash.hex();
+}
 
 std::string hash_of_folder(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -21,10 +33,10 @@ std::string hash_of_folder(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder, options))
     if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder));
   std::sort(files.begin(), files.end());
-  Sha256 hash;
+  std::string text;
   for (const fs::path& file : files)
-    hash.add(sha256_of(file.generic_string()) + sha256_of_file(folder / file));
-  return hash.hex();
+    text += sha256_of(file.generic_string()) + sha256_of_file(folder / file);
+  return sha256_of(text);
 }
 
 /// The files that `scan` names, found by reading it; none of one that cannot be read.

@@ -2,22 +2,11 @@
 #include "hyperex/study/case_hash.hpp"
 
 #include "hyperex/study/plan_cases.hpp"
-#include "hyperex/study/sha256.hpp"
 #include "unit/study/study_files.hpp"
 
 namespace hyperex::study {
 namespace {
 namespace fs = std::filesystem;
-
-/// FIPS 180-4's examples.
-TEST(Sha256, HasTheStandardsValues) {
-  EXPECT_EQ(sha256_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(sha256_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  Sha256 parts;
-  parts.add("a");
-  parts.add("bc");
-  EXPECT_EQ(parts.hex(), sha256_of("abc"));
-}
 
 class CaseHash : public StudyFiles {
  protected:
