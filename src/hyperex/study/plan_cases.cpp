@@ -33,12 +33,14 @@ class Sentences {
   std::string text_;
 };
 
-/// What check_scene() looks at: not how stiff the tissue is, how it is solved or what is written.
+/// What check_scene() looks at: not how stiff tissue and support are, how it is solved or what is
+/// written.
 std::string looked_at(const scene::Scene& scene) {
   json options = scene::options_json(scene);
   for (const char* section : {"solver", "time", "output", "title"}) options.erase(section);
-  for (json& value : options["tissue"])
-    if (value.is_number()) value = nullptr;
+  for (const char* section : {"tissue", "support"})
+    for (json& value : options[section])
+      if (value.is_number()) value = nullptr;
   std::string text = options.dump(-1, ' ', false, json::error_handler_t::replace);
   for (const scene::Variant& variant : scene.variants) text += looked_at(variant.scene);
   return text;
