@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Measures and writes docs/performance.md with its figures: bench/run.sh BUILD [--quick|--tracking]
+# Measures and writes docs/performance.md with its figures: bench/run.sh BUILD [--quick|--tracking|--runs]
 # One program after the other, so that none disturbs another. --quick leaves out the large meshes
 # and the fine tolerances, and writes its page into BUILD/bench instead. --tracking measures tracking
-# alone again and keeps what an earlier run found of the rest.
+# alone again and keeps what an earlier run found of the rest, --runs likewise whole runs of the command.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=$1
 quick=${2:-}
 results=$build/bench/results
-[[ "$quick" == --tracking ]] || rm -rf "$results"
+[[ "$quick" == --tracking || "$quick" == --runs ]] || rm -rf "$results"
 mkdir -p "$results"
 SECONDS=0
 say() { printf 'bench: %4d s  %s\n' "$SECONDS" "$*"; }
@@ -31,8 +31,14 @@ measure_tracking() {
     2> "$results/tracking.log"
 }
 
-if [[ "$quick" == --tracking ]]; then
-  measure_tracking
+measure_runs() {
+  say "whole runs"
+  stamp whole_run
+  /usr/bin/python3 bench/whole_run.py "$build/bin/hyperex" "$results/whole_run.json" "$@"
+}
+
+if [[ "$quick" == --tracking || "$quick" == --runs ]]; then
+  if [[ "$quick" == --runs ]]; then measure_runs; else measure_tracking; fi
   /usr/bin/python3 bench/report.py "$results" docs
   say "written: docs/performance.md"
   exit
@@ -47,6 +53,7 @@ say "the full model, number types, CalculiX"
 say "the reduced model"
 "$build/bin/reduced_bench" "$results/reduced.json" $quick
 
+measure_runs $quick
 measure_tracking
 
 # Size of elements at the mouth and layers for about 6, 25, 100 and 250 thousand nodes.
