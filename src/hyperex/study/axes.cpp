@@ -83,7 +83,9 @@ bool are_tables(const json& value) {
 
 int StudyText::line_of(const std::string& name) const {
   const auto found = lines.find(name);
-  return found == lines.end() ? 0 : found->second;
+  if (found != lines.end()) return found->second;
+  const auto dot = name.rfind('.');  // what is missing has no line of its own: its table has
+  return dot == std::string::npos ? 0 : line_of(name.substr(0, dot));
 }
 
 void StudyText::complain(const std::string& name, const json& value, const std::string& expected) {

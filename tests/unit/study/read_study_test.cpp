@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
               "study.toml:2: grid: expected a key with a list of values, or cases = \"FILE.csv\", "
               "required"},
         Fault{"NoName", "[[grid.a]]\ntissue.young_kpa = 5\n",
-              "study.toml: grid.a[0].name: expected a name of letters, digits, spaces and any of "
+              "study.toml:2: grid.a[0].name: expected a name of letters, digits, spaces and any of "
               "-_.,;:+=%&'()[], at most 100, a letter or digit among them"},
         Fault{"NameTwice", "[[grid.a]]\nname = \"x\"\n[[grid.a]]\nname = \"x\"\n",
               "study.toml:5: grid.a[1].name = \"x\": expected a name that no other table of the "
