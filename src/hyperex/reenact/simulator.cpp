@@ -360,6 +360,7 @@ struct Simulator::Impl {
     p.held_points_rest.resize(held.size(), 3);
     for (std::size_t i = 0; i < held.size(); ++i)
       p.held_points_rest.row(i) = mesh->volume.nodes.row(held[i]);
+    if (callbacks.skin_alone) return;
     std::vector<int> inverted(p.node_displacement_m.size());
     tbb::parallel_for(std::size_t(0), inverted.size(), [&](std::size_t f) {
       const auto marks =
@@ -384,6 +385,7 @@ struct Simulator::Impl {
     p.driven_points_rest = driven_points->rest;
     p.peak_frame =
         peak_frame(p.frame_time_s, options.time.peak_time_s, driven_points->rows, points);
+    if (callbacks.skin_alone) return;
     const Readout::Lips lips = readout->lips(p.landmarks, p.skin_displacement_m);
     report.lip_overlap_mm = lips.overlap_mm;
     report.lip_gap_mm = lips.gap_mm;

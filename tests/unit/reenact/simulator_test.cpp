@@ -228,6 +228,19 @@ TEST_F(SimulatorOfAFace, AValueOutOfRangeChangesNothing) {
   EXPECT_THROW(made(options_), InputError);
 }
 
+TEST_F(SimulatorOfAFace, OfTheSkinAloneNothingElseIsMeasured) {
+  const SimulationResult whole = made(options_).run();
+  const SimulationResult skin =
+      made(options_).run({.progress = {}, .cancelled = {}, .skin_alone = true});
+  ASSERT_GT(whole.report.lip_gap_mm, 0);
+  EXPECT_EQ(skin.report.lip_gap_mm, 0);
+  EXPECT_EQ(skin.report.driven_off_mm, 0);
+  for (std::size_t f = 0; f < whole.performance.skin_displacement_m.size(); ++f) {
+    EXPECT_EQ(skin.performance.skin_displacement_m[f], whole.performance.skin_displacement_m[f]);
+    EXPECT_EQ(skin.performance.landmarks.positions[f], whole.performance.landmarks.positions[f]);
+  }
+}
+
 TEST_F(SimulatorOfAFace, TellsItsProgressAndCanBeCancelled) {
   options_.solver.method = SolverMethod::direct;
   Simulator simulator = made(options_);
