@@ -95,14 +95,35 @@ Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmark
                    const SupportOptions& support)
     : mesh_(mesh), rest_(motion.rest), jaw_(landmarks), driven_(std::move(driven)) {
   set_jaw_points(motion, support);
-  const std::vector<char> moves_with_jaw = near_jaw(mesh, landmarks);
-  if (support.border_held)
-    for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
-      if (mesh.on_border[v] && !moves_with_jaw[v])
-        for (int level = 0; level <= mesh.volume.layers; ++level)
-          fixed_nodes_.push_back(static_cast<int>(level * mesh.volume.surface_nodes()) + v);
+  hold_border(landmarks, support);
   set_bones(landmarks, support);
   number_unknowns();
+}
+
+Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                   const SupportOptions& support)
+    : mesh_(mesh), jaw_(landmarks), driven_(std::make_shared<const DrivenSkin>()) {
+  hold_border(landmarks, support);
+  set_bones(landmarks, support);
+  number_unknowns();
+}
+
+Boundary Boundary::released() const {
+  Boundary out = *this;
+  out.driven_ = std::make_shared<const DrivenSkin>();
+  out.prescribed_.clear();
+  out.source_.clear();
+  out.number_unknowns();
+  return out;
+}
+
+void Boundary::hold_border(const io::Landmarks& landmarks, const SupportOptions& support) {
+  if (!support.border_held) return;
+  const std::vector<char> moves_with_jaw = near_jaw(mesh_, landmarks);
+  for (int v = 0; v < mesh_.volume.surface_nodes(); ++v)
+    if (mesh_.on_border[v] && !moves_with_jaw[v])
+      for (int level = 0; level <= mesh_.volume.layers; ++level)
+        fixed_nodes_.push_back(static_cast<int>(level * mesh_.volume.surface_nodes()) + v);
 }
 
 void Boundary::set_jaw_points(const AlignedMotion& motion, const SupportOptions& support) {
@@ -132,11 +153,25 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
   const std::vector<Bone> bones = bones_under(mesh_, landmarks);
   const Points normals = vertex_normals(mesh_.volume.outer);
   const Eigen::VectorXd areas = node_areas(mesh_.volume.outer);
+  const std::vector<double> to_lips = distances_to_lips(mesh_, landmarks);
+  const bool follows_field = driven_->field_weights.rows() > 0;
+  const auto layered = [&](int v, const BoneLayer& layer) {
+    const Vec3 n = normals.row(v);
+    const Eigen::Matrix3d across = n * n.transpose();
+    return Eigen::Matrix3d(areas[v] *
+                           (layer.across_pa_per_m * across +
+                            layer.along_pa_per_m * (Eigen::Matrix3d::Identity() - across)));
+  };
   for (int v = 0; v < static_cast<int>(bones.size()); ++v) {
     const int node = mesh_.volume.inner_node(v);
-    if (support.muscle_pa_per_m > 0 && bones[v] != Bone::mandible)
+    if (support.muscle_pa_per_m > 0 &&
+        (follows_field ? bones[v] != Bone::mandible : bones[v] == Bone::none))
       springs_.push_back({node, areas[v] * support.muscle_pa_per_m * Eigen::Matrix3d::Identity(),
-                          Spring::field, v});
+                          follows_field ? Spring::field : Spring::rest, v});
+    if (bones[v] == Bone::none && support.teeth_layer.across_pa_per_m > 0 &&
+        to_lips[v] < support.teeth_reach_m)
+      springs_.push_back({node, layered(v, support.teeth_layer),
+                          mesh_.upper_margin[v] > 0 ? Spring::rest : Spring::jaw, v});
     if (bones[v] == Bone::none) continue;
     const bool skull = bones[v] == Bone::skull;
     if (skull ? support.skull == Hold::free : support.mandible == Mandible::free) continue;
@@ -147,12 +182,7 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
       continue;
     }
     const BoneLayer& layer = skull ? support.skull_layer : support.mandible_layer;
-    const Vec3 n = normals.row(v);
-    const Eigen::Matrix3d across = n * n.transpose();
-    springs_.push_back({node,
-                        areas[v] * (layer.across_pa_per_m * across +
-                                    layer.along_pa_per_m * (Eigen::Matrix3d::Identity() - across)),
-                        follows ? Spring::jaw : Spring::rest, v});
+    springs_.push_back({node, layered(v, layer), follows ? Spring::jaw : Spring::rest, v});
   }
 }
 
@@ -190,6 +220,15 @@ Boundary::JawMotion Boundary::follow(const Points& point_displacement) {
   }
   const Eigen::Isometry3d to = jaw_.follow(at, by);
   return {to.linear() - Eigen::Matrix3d::Identity(), to.translation()};
+}
+
+Eigen::VectorXd Boundary::forces_of_jaw(const JawMotion& jaw) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * mesh_.volume.nodes.rows());
+  for (const Spring& s : springs_)
+    if (s.target == Spring::jaw)
+      force.segment<3>(3 * s.node) +=
+          s.stiffness * (jaw.turn * mesh_.volume.nodes.row(s.node).transpose() + jaw.slide);
+  return force;
 }
 
 void Boundary::prescribe(const Points& point_displacement, const JawMotion& jaw,

@@ -39,6 +39,14 @@ class Boundary {
            const AlignedMotion& motion, std::shared_ptr<const DrivenSkin> driven,
            const SupportOptions& support);
 
+  /// Nothing driven by points: what forces act against. Springs that would follow the points'
+  /// field hold the rest position, the jaw is given to forces_of_jaw().
+  Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+           const SupportOptions& support);
+
+  /// The same springs and held nodes, with nothing prescribed that moves.
+  Boundary released() const;
+
   /// Adds the springs' stiffness (their blocks lie within the pattern of K).
   void add_springs(fem::SparseMatrix& stiffness) const;
   /// Sorted unknowns 3 n + axis.
@@ -50,6 +58,8 @@ class Boundary {
     Vec3 slide = Vec3::Zero();
   };
   JawMotion follow(const Points& point_displacement);
+  /// Forces (all unknowns, N) of the springs that follow the jaw: linear in its motion.
+  Eigen::VectorXd forces_of_jaw(const JawMotion& jaw) const;
   double jaw_opening_deg() const { return jaw_.opening_deg(); }  ///< of the last answer
 
   /// Sets values (one a prescribed unknown) and forces (all unknowns): linear in both arguments.
@@ -74,6 +84,7 @@ class Boundary {
     enum Target { rest, jaw, field } target;
     int row;  // of the field
   };
+  void hold_border(const io::Landmarks& landmarks, const SupportOptions& support);
   void set_bones(const io::Landmarks& landmarks, const SupportOptions& support);
   void set_jaw_points(const AlignedMotion& motion, const SupportOptions& support);
   void number_unknowns();

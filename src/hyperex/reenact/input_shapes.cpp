@@ -9,9 +9,6 @@
 namespace hyperex::reenact {
 namespace {
 
-/// Steps beyond the end that the spline sees, so that its condition there does not reach back: a
-/// disturbance falls to 2 - sqrt 3 at each knot.
-constexpr int kBeyond = 12;
 /// A turn counts as much as the way of a point at this distance from the axis (m).
 constexpr double kLever = 0.1;
 /// Less is rounding of places in space (m).
@@ -79,31 +76,17 @@ Eigen::MatrixXd principal_directions(const Eigen::MatrixXd& input, double tolera
 
 }  // namespace
 
-InputShapes input_shapes(Boundary& boundary, const std::function<Points(double)>& points_at,
-                         double dt_s, int steps, double tolerance) {
-  InputShapes out;
-  const Layout layout(boundary);
-  Eigen::MatrixXd input(layout.size(), steps + 1 + kBeyond);
-  std::vector<double> time_s;
-  for (Eigen::Index k = 0; k < input.cols(); ++k) {
-    time_s.push_back(static_cast<double>(k) * dt_s);
-    const Points points = points_at(time_s.back());
-    layout.pack(points, boundary.follow(points), input.col(k));
-    if (k <= steps)
-      out.greatest_opening_deg = std::max(out.greatest_opening_deg, boundary.jaw_opening_deg());
-  }
+fem::Drive compressed_drive(const Eigen::MatrixXd& input, double dt_s, int steps, double tolerance,
+                            Eigen::Index prescribed, Eigen::Index unknowns, const FillShape& fill) {
   const Eigen::MatrixXd directions = principal_directions(input, tolerance);
-
   const Eigen::Index r = directions.cols();
-  fem::Drive& drive = out.drive;
-  drive.prescribed.resize(static_cast<Eigen::Index>(boundary.prescribed().size()), r);
-  drive.force.resize(3 * boundary.node_count(), r);
-  for (Eigen::Index i = 0; i < r; ++i) {
-    Points points;
-    Boundary::JawMotion jaw;
-    layout.unpack(directions.col(i), points, jaw);
-    boundary.prescribe(points, jaw, drive.prescribed.col(i), drive.force.col(i));
-  }
+  fem::Drive drive;
+  drive.prescribed.resize(prescribed, r);
+  drive.force.resize(unknowns, r);
+  for (Eigen::Index i = 0; i < r; ++i)
+    fill(directions.col(i), drive.prescribed.col(i), drive.force.col(i));
+  std::vector<double> time_s;
+  for (Eigen::Index k = 0; k < input.cols(); ++k) time_s.push_back(static_cast<double>(k) * dt_s);
   const Eigen::MatrixXd value = input.transpose() * directions;  // a row a step
   const Eigen::MatrixXd slope = motion::spline_slopes(time_s, value);
   drive.s = value.topRows(steps + 1).transpose();
@@ -113,6 +96,30 @@ InputShapes input_shapes(Boundary& boundary, const std::function<Points(double)>
     drive.second.col(k) = (6 / (dt_s * dt_s) * (value.row(k + 1) - value.row(k)) -
                            (4 * slope.row(k) + 2 * slope.row(k + 1)) / dt_s)
                               .transpose();
+  return drive;
+}
+
+InputShapes input_shapes(Boundary& boundary, const std::function<Points(double)>& points_at,
+                         double dt_s, int steps, double tolerance) {
+  InputShapes out;
+  const Layout layout(boundary);
+  Eigen::MatrixXd input(layout.size(), steps + 1 + kBeyond);
+  for (Eigen::Index k = 0; k < input.cols(); ++k) {
+    const Points points = points_at(static_cast<double>(k) * dt_s);
+    layout.pack(points, boundary.follow(points), input.col(k));
+    if (k <= steps)
+      out.greatest_opening_deg = std::max(out.greatest_opening_deg, boundary.jaw_opening_deg());
+  }
+  out.drive = compressed_drive(
+      input, dt_s, steps, tolerance, static_cast<Eigen::Index>(boundary.prescribed().size()),
+      3 * boundary.node_count(),
+      [&](const Eigen::VectorXd& direction, Eigen::Ref<Eigen::VectorXd> prescribed,
+          Eigen::Ref<Eigen::VectorXd> force) {
+        Points points;
+        Boundary::JawMotion jaw;
+        layout.unpack(direction, points, jaw);
+        boundary.prescribe(points, jaw, prescribed, force);
+      });
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
 #include "hyperex/fem/solve/linear_solver.hpp"
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/muscles/force_shape.hpp"
 #include "hyperex/tissue/field/options.hpp"
 
 namespace hyperex::reenact {
@@ -46,12 +47,23 @@ struct SupportOptions {
   /// The muscles under the skin follow the interpolated motion of the driven points: springs per
   /// area at the inner surface, everywhere but over the mandible. 0: none.
   double muscle_pa_per_m = 5e6;
+  /// Lips on the teeth: springs per area at the inner surface within `teeth_reach_m` of the lips,
+  /// where neither skull nor mandible is; those of the lower lip follow the jaw. 0: none.
+  BoneLayer teeth_layer{0, 0};
+  double teeth_reach_m = 0.014;
   std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
   static constexpr Bounds stiffness_pa_per_m_in{0, 1e12};  ///< of each of the five
   bool operator==(const SupportOptions&) const = default;
 };
 
+enum class DriveBy {
+  displacement,  ///< patches of skin are carried to where the points are recorded
+  muscles,       ///< forces: muscles, the jaw, and what they leave over at the points
+  reactions      ///< forces: those that hold the patches of a run by displacement
+};
+
 struct DriveOptions {
+  DriveBy by = DriveBy::displacement;
   bool all_points = false;  ///< every point of the motion, whatever `points` holds
   std::vector<std::string> points = {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57",
                                      "ibug68_8",  "ibug68_58", "ibug68_56"};
@@ -65,6 +77,44 @@ struct DriveOptions {
     return all_points ? motion.names : points;
   }
   bool operator==(const DriveOptions&) const = default;
+};
+
+/// A factor on muscles' activations: of one ("zyg_major_R"), of a branch of the facial nerve on one
+/// side ("zygomatic_R"), or of a side ("side_R").
+struct MuscleGain {
+  std::string muscle;
+  double gain = 1;
+  bool operator==(const MuscleGain&) const = default;
+};
+
+/// Muscles and what they pull against, where DriveOptions::by is `muscles`. The constants were
+/// chosen together on one rig and two real faces (docs/muscles.md).
+struct MuscleOptions {
+  std::vector<MuscleGain> gains;
+  bool mirrored = false;  ///< each muscle takes the activation of its counterpart
+  static constexpr Bounds gain_in{0, 5};
+
+  /// In the place of SimulationOptions::support's layers.
+  BoneLayer skull_layer{2.5e6, 4.8e6}, mandible_layer{3.3e7, 1e7}, teeth_layer{3.1e5, 1.04e6};
+  /// The ring of muscle in the lips is denser than other tissue: E is `lip_stiffening` times as
+  /// large there, falling off as exp(-(d / lip_reach_m)^2) with the distance d to the lips' points.
+  double lip_stiffening = 3.2, lip_reach_m = 0.0085;
+  double foundation_pa_per_m = 3.1e5;  ///< under tissue over neither bone
+  double teeth_reach_m = 0.013;
+  muscles::ForceShape shape;
+  /// A pull's band grows with its activation a: of its force, a / (a + half) acts in a band
+  /// `widening` times as wide.
+  double widening = 2.3, half = 0.62;
+
+  /// 1 sigma: of the error of a point's displacement where few points are driven (up to
+  /// kFewPoints) and where many are; of an activation before a point is seen, on the side below
+  /// rest of those that may relax; of rings; of the jaw's slide.
+  double few_sigma_m = 0.0008, many_sigma_m = 0.0016;
+  double activation_sigma = 0.34, ring_sigma = 0.14, tone_sigma = 0.075, slide_sigma_m = 0.0028;
+  /// Radius of the patches of skin at many points, over which what muscles leave over is spread; at
+  /// few it is DriveOptions::patch_radius_m.
+  double many_patch_m = 0.015;
+  bool operator==(const MuscleOptions&) const = default;
 };
 
 /// What the tissue is made of, and the elements that stand for it.
@@ -120,6 +170,7 @@ struct SimulationOptions {
   TissueValues tissue;
   SupportOptions support;
   DriveOptions drive;
+  MuscleOptions muscles;
   RegionOptions region;
   SolverOptions solver;
   TimeOptions time;

@@ -9,6 +9,15 @@
 
 namespace hyperex::reenact {
 
+/// What muscles did over a motion.
+struct MuscleCourse {
+  std::vector<std::string> names;   ///< "zyg_major_L", ...
+  std::vector<double> time_s;       ///< samples
+  Eigen::MatrixXd activation;       ///< |names| x samples; 1 moves the skin by 10 mm where most
+  Eigen::MatrixXd sigma;            ///< of it, 1 sigma, from the points' errors and the prior
+  Eigen::VectorXd jaw_opening_deg;  ///< a sample each
+};
+
 /// A face in motion: the contract between the simulation and every output. Scan frame, metres.
 struct Performance {
   /// The scan at rest: its own vertices in their order, then those of a cut along the lips; its own
@@ -33,6 +42,7 @@ struct Performance {
   /// (polyline; empty where none was made): for pictures.
   Points driven_points_rest, held_points_rest, lip_cut_rest;
   std::vector<std::string> driven_names;
+  MuscleCourse muscles;  ///< no names where no muscles drive
 };
 
 }  // namespace hyperex::reenact

@@ -16,7 +16,9 @@
 #include "hyperex/fem/form/inverted.hpp"
 #include "hyperex/fem/reduced/reduced_model.hpp"
 #include "hyperex/reenact/boundary.hpp"
+#include "hyperex/reenact/held_load.hpp"
 #include "hyperex/reenact/input_shapes.hpp"
+#include "hyperex/reenact/muscle_load.hpp"
 #include "hyperex/reenact/readout.hpp"
 #include "hyperex/reenact/solve.hpp"
 #include "hyperex/reenact/stream.hpp"
@@ -50,6 +52,12 @@ bool same_but_gain(DriveOptions a, const DriveOptions& b) {
   return a == b;
 }
 
+bool same_but_gains(MuscleOptions a, const MuscleOptions& b) {
+  a.gains = b.gains;
+  a.mirrored = b.mirrored;
+  return a == b;
+}
+
 std::vector<float> floats(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
@@ -76,6 +84,8 @@ struct Simulator::Impl {
     std::shared_ptr<const fem::NodeOrder> nodes;
   };
   std::shared_ptr<const Order> order;
+  std::shared_ptr<const HeldLoad> load;
+  bool load_held = false;
   std::shared_ptr<const InputShapes> input;
   // Of this simulator alone.
   std::optional<fem::ReducedModel> reduced;
@@ -105,14 +115,22 @@ struct Simulator::Impl {
     input.reset();
     response.reset();
   }
+  /// Of what it was found in: tissue and support; held, it stays.
+  void drop_load() {
+    if (load_held || !by_forces()) return;
+    load.reset();
+    drop_input();
+  }
   void drop_boundary() {
     boundary.reset();
+    drop_load();
     drop_input();
     drop_values();  // the springs' stiffness; the factors go where other nodes are prescribed
   }
   void drop_driven() {
     driven.reset();
     driven_points.reset();
+    load.reset();
     drop_boundary();
   }
   void drop_region() {
@@ -126,22 +144,32 @@ struct Simulator::Impl {
     options = std::move(next);
     if (options.region != before.region) drop_region();
     if (!same_but_gain(before.drive, options.drive)) drop_driven();
-    if (options.drive.gain != before.drive.gain) drop_input();
+    if (options.drive.gain != before.drive.gain) {
+      load.reset();
+      drop_input();
+    }
+    if (!same_but_gains(before.muscles, options.muscles)) drop_driven();
+    if (before.muscles != options.muscles) drop_input();
     if (options.support != before.support) drop_boundary();
     if (options.model.element != before.model.element) {
       assembler.reset();
       order.reset();
       drop_factors();
     }
-    if (options.model != before.model || options.tissue != before.tissue) drop_values();
+    if (options.model != before.model || options.tissue != before.tissue) {
+      drop_values();
+      drop_load();
+    }
     if (options.solver.linear != before.solver.linear) drop_factors();
     if (options.solver.newmark_beta != before.solver.newmark_beta ||
         options.solver.newmark_gamma != before.solver.newmark_gamma ||
         options.time.step_s != before.time.step_s)
       full.reset();
     if (options.solver != before.solver) drop_input();
-    if (options.time.step_s != before.time.step_s || options.time.end_s != before.time.end_s)
+    if (options.time.step_s != before.time.step_s || options.time.end_s != before.time.end_s) {
+      if (options.drive.by == DriveBy::reactions) load.reset();  // at steps
       drop_input();
+    }
   }
 
   template <class Part>
@@ -184,13 +212,26 @@ struct Simulator::Impl {
           measured_region(*mesh, *landmarks, *motion, options.region));
   }
 
+  bool by_forces() const { return options.drive.by != DriveBy::displacement; }
+
   void need_boundary() {
+    if (!boundary && options.drive.by == DriveBy::muscles) {
+      boundary = std::make_shared<const Boundary>(
+          *mesh, *landmarks, muscle_support(options.support, options.muscles));
+      keep_or_drop_order();
+      return;
+    }
     if (!driven)
       driven = std::make_shared<const DrivenSkin>(
           driven_skin(*mesh, *landmarks, *motion, *region, options.drive));
-    if (!boundary)
-      boundary =
-          std::make_shared<const Boundary>(*mesh, *landmarks, *motion, driven, options.support);
+    if (!boundary) {
+      const Boundary whole(*mesh, *landmarks, *motion, driven, options.support);
+      boundary = std::make_shared<const Boundary>(by_forces() ? whole.released() : whole);
+    }
+    keep_or_drop_order();
+  }
+
+  void keep_or_drop_order() {
     if (order && order->prescribed != boundary->prescribed()) {
       order.reset();
       drop_factors();
@@ -198,8 +239,11 @@ struct Simulator::Impl {
   }
 
   fem::Material material() const {
-    return options.tissue.material(static_cast<std::size_t>(mesh->volume.tets.rows()),
-                                   options.model.viscous_form);
+    fem::Material out = options.tissue.material(
+        static_cast<std::size_t>(mesh->volume.tets.rows()), options.model.viscous_form);
+    if (options.drive.by == DriveBy::muscles)
+      stiffen_lips(*mesh, *landmarks, options.muscles, out);
+    return out;
   }
 
   void need_assembler() {
@@ -260,8 +304,44 @@ struct Simulator::Impl {
     });
   }
 
+  /// The forces that make the motion in the tissue that is set.
+  void need_load(const PointCurve& points) {
+    if (load || !by_forces()) return;
+    if (options.region.measured != Measured::none)
+      throw InputError("drive.by",
+                       "forces cannot drive a face of which a region follows the recording "
+                       "(region.measured): expected drive.by = \"displacement\"");
+    fem::System system;
+    assembler->assemble(material(), system);
+    if (options.drive.by == DriveBy::muscles) {
+      std::shared_ptr<const fem::NodeOrder> nodes = known_order();
+      load = std::make_shared<const HeldLoad>(
+          muscle_load(*mesh, *landmarks, *motion, *region, options, system.stiffness, nodes));
+      keep_order(nodes);
+      return;
+    }
+    Boundary whole(*mesh, *landmarks, *motion, driven, options.support);
+    whole.add_springs(system.stiffness);
+    const InputShapes shapes = input_shapes(
+        whole, [&](double t) { return points.at(t); }, options.time.step_s, steps(),
+        1e-3 * options.solver.tolerance);
+    HeldLoad found = reactions_of(shapes.drive, system.stiffness, whole.prescribed(),
+                                  options.time.step_s);
+    found.greatest_opening_deg = shapes.greatest_opening_deg;
+    load = std::make_shared<const HeldLoad>(std::move(found));
+  }
+
   void need_input(const PointCurve& points) {
     if (input) return;
+    if (by_forces()) {
+      need_load(points);
+      input = std::make_shared<const InputShapes>(InputShapes{
+          drive_of(*load, options.muscles, options.time.step_s, steps(),
+                   1e-3 * options.solver.tolerance,
+                   static_cast<Eigen::Index>(boundary->prescribed().size())),
+          load->greatest_opening_deg});
+      return;
+    }
     // Following the jaw begins at its last position: of this run, not of the one before.
     Boundary own = *boundary;
     // What the shapes leave out must not show beside the error that the solver may make.
@@ -383,6 +463,7 @@ struct Simulator::Impl {
                                                            options.drive.names_in(motion->motion));
     p.driven_names = driven_points->names;
     p.driven_points_rest = driven_points->rest;
+    if (load) p.muscles = changed_muscles(load->muscles, options.muscles);
     p.peak_frame =
         peak_frame(p.frame_time_s, options.time.peak_time_s, driven_points->rows, points);
     if (callbacks.skin_alone) return;
@@ -414,6 +495,8 @@ struct Simulator::Impl {
                        fmt::format("interval_s = {:g}: expected more than 0 s", interval_s));
     if (options.region.measured == Measured::all)
       throw InputError("stream", "the whole skin is measured: there is nothing to simulate");
+    if (by_forces())
+      throw InputError("stream", "forces need the whole motion: expected drive.by = displacement");
     stream.reset();
     renew_stream(interval_s);
   }
@@ -492,6 +575,8 @@ Simulator::Simulator(const Simulator& other) : impl_(std::make_unique<Impl>()) {
   impl_->boundary = from.boundary;
   impl_->assembler = from.assembler;
   impl_->order = from.order;
+  impl_->load = from.load;
+  impl_->load_held = from.load_held;
   impl_->input = from.input;
 }
 Simulator::Simulator(Simulator&&) noexcept = default;
@@ -528,6 +613,9 @@ void Simulator::set_drive(DriveOptions drive) {
 }
 void Simulator::set_motion(AlignedMotion motion) {
   impl_->set(std::move(motion));
+}
+void Simulator::hold_load() {
+  impl_->load_held = true;
 }
 
 SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,

@@ -71,7 +71,10 @@ class Cancelled : public std::runtime_error {
 ///   pattern of the matrices  model.element
 ///   order of elimination     pattern, which unknowns are prescribed, solver.linear
 ///   factor                   order, tissue, model, stiffness of the support
-///   input                    boundary, motion, drive.gain, time.step_s, end_s, solver.tolerance
+///   load (drive.by forces)   driven skin, motion, drive.gain, support, tissue, model, muscles but
+///                            their gains; with hold_load() nothing
+///   input                    boundary or load, motion, drive.gain, muscles, time.step_s, end_s,
+///                            solver.tolerance
 ///   reduced motion           factor, input, solver
 ///   frames of the skin       reduced motion, time
 ///   stream                   factor, boundary; begins anew with another order
@@ -101,6 +104,11 @@ class Simulator {
   void set_support(SupportOptions support);
   void set_drive(DriveOptions drive);
   void set_motion(AlignedMotion motion);
+
+  /// Where forces drive (DriveBy::muscles, reactions): the forces found by the next run, or by the
+  /// last, are kept whatever tissue and support are set from now on. Copies keep them too, so that
+  /// a variant answers base's forces. A new motion, drive or muscle (not a gain) finds new ones.
+  void hold_load();
 
   /// Throws InputError for points that do not exist, NumericalError where the model cannot be
   /// solved, Cancelled.

@@ -29,13 +29,19 @@ class BoneMap {
   /// `inner` and `outer`: the two ends of the layer at one node.
   Bone under(const Vec3& inner, const Vec3& outer) const {
     const Vec3 q = frame_.local(inner), p = frame_.local(outer);
-    double to_lips = 1;
-    for (const Vec3& l : lips_) to_lips = std::min(to_lips, (p - l).norm());
+    const double to_lips = distance_to_lips(p);
     if (q.y() > skull_line(q.z()) && to_lips >= skull_off_lips_m) return Bone::skull;
     if (p.y() < lower_lip_ - jaw_below_lip_m && p.y() > jaw_edge(p.x()) - jaw_below_edge_m &&
         distance_to_jaw(p, chin_first, chin_last) < jaw_reach_m && to_lips >= jaw_off_lips_m)
       return Bone::mandible;
     return Bone::none;
+  }
+
+  /// From a point in the face's frame to the nearest of the lips' points.
+  double distance_to_lips(const Vec3& p) const {
+    double best = 1;
+    for (const Vec3& l : lips_) best = std::min(best, (p - l).norm());
+    return best;
   }
 
   /// From a point in the face's frame to the jaw's line between two of its points.
@@ -83,6 +89,16 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
   for (int v = 0; v < volume.surface_nodes(); ++v)
     bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v));
   return bones;
+}
+
+std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,
+                                      const io::Landmarks& landmarks) {
+  const BoneMap map(landmarks);
+  const Points& skin = mesh.volume.outer.points;
+  std::vector<double> distances(skin.rows());
+  for (Eigen::Index v = 0; v < skin.rows(); ++v)
+    distances[v] = map.distance_to_lips(map.frame().local(skin.row(v)));
+  return distances;
 }
 
 std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {

@@ -18,6 +18,10 @@ enum class Bone : char { none, skull, mandible };
 ///  * none elsewhere: cheeks, the floor of the mouth and the neck.
 std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
+/// Distance of each outer node to the nearest of ibug68_48 to 67, m.
+std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,
+                                      const io::Landmarks& landmarks);
+
 /// Outer nodes within 35 mm of the jaw's line (ibug68_4 to 12): where a scan ends just under the
 /// chin, its border moves with the jaw and cannot be held.
 std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);

@@ -77,6 +77,9 @@ std::string KeyInfo::expected() const {
              (choices.empty() ? "" : ", or " + words(choices));
     case Kind::places:
       return "a list of places [x, y, z]" + (unit.empty() ? "" : " (" + unit + ")");
+    case Kind::factors:
+      return fmt::format("a table of names and numbers {}, as in {{ {} = 0.5 }}", range.text(),
+                         choices.empty() ? "name" : choices.front());
     case Kind::rows:
       break;
   }
@@ -164,6 +167,22 @@ std::vector<Complaint> check_places(const KeyInfo& info, const json& value) {
     if (!value[i].is_array() || value[i].size() != 3 ||
         !std::all_of(value[i].begin(), value[i].end(), is_number))
       complaints.push_back({"[" + std::to_string(i) + "]", value[i], "three numbers [x, y, z]"});
+  return complaints;
+}
+
+std::vector<Complaint> check_factors(const KeyInfo& info, const json& value) {
+  if (!value.is_object()) return {{"", value, info.expected()}};
+  std::vector<Complaint> complaints;
+  for (const auto& [name, factor] : value.items()) {
+    if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end()) {
+      const std::string near = nearest(name, info.choices);
+      complaints.push_back({"." + name, factor,
+                            near.empty() ? "one of " + fmt::format("{}", fmt::join(info.choices, ", "))
+                                         : "another name; did you mean " + near + "?"});
+    } else if (!factor.is_number() || !info.range.holds(factor.get<double>())) {
+      complaints.push_back({"." + name, factor, number_text(info, "a number")});
+    }
+  }
   return complaints;
 }
 

@@ -28,6 +28,7 @@ std::vector<Complaint> check_text(const KeyInfo& info, const nlohmann::json& val
 std::vector<Complaint> check_file(const KeyInfo& info, const nlohmann::json& value,
                                   const std::filesystem::path& folder, bool folder_too = false);
 std::vector<Complaint> check_places(const KeyInfo& info, const nlohmann::json& value);
+std::vector<Complaint> check_factors(const KeyInfo& info, const nlohmann::json& value);
 std::vector<Complaint> check_rows(const KeyInfo& info, const nlohmann::json& value);
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 
@@ -88,6 +89,36 @@ Field<Owner> places(std::string name, Unit unit, At at, std::string description)
     for (const auto& p : at(owner))
       list.push_back({unit.from_si(p[0]), unit.from_si(p[1]), unit.from_si(p[2])});
     return list;
+  };
+  return field;
+}
+
+/// A table { name = factor } of the names `choices`, into a vector of `Row` by its two members.
+template <class Owner, class Row, class At>
+Field<Owner> factors(std::string name, At at, std::string Row::*word, double Row::*factor,
+                     std::vector<std::string> choices, Range range, std::string description) {
+  Field<Owner> field{{.name = std::move(name),
+                      .kind = Kind::factors,
+                      .range = range,
+                      .choices = std::move(choices),
+                      .description = std::move(description)}};
+  field.set = [info = KeyInfo(field), at, word, factor](Owner& owner, const nlohmann::json& value,
+                                                        const std::filesystem::path&) {
+    auto complaints = check_factors(info, value);
+    if (!complaints.empty()) return complaints;
+    at(owner).clear();
+    for (const auto& [key, number] : value.items()) {
+      Row row;
+      row.*word = key;
+      row.*factor = number.template get<double>();
+      at(owner).push_back(std::move(row));
+    }
+    return complaints;
+  };
+  field.get = [at, word, factor](const Owner& owner) {
+    auto table = nlohmann::json::object();
+    for (const Row& row : at(owner)) table[row.*word] = row.*factor;
+    return table;
   };
   return field;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/scene/keys.hpp"
 
+#include "hyperex/reenact/held_load.hpp"
 #include "hyperex/scene/fields.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 
@@ -25,6 +26,7 @@ using Drive = reenact::DriveOptions;
 using Solver = reenact::SolverOptions;
 using Time = reenact::TimeOptions;
 using reenact::AlignmentMethod;
+using reenact::DriveBy;
 using reenact::Hold;
 using reenact::Mandible;
 using reenact::Measured;
@@ -334,6 +336,15 @@ std::vector<Key> run_keys() {
           "drive.points", AT(drive.points), AT(drive.all_points),
           "Points of the recording that drive the skin. With motion.candide and no points named: "
           "those of the default that the model has."),
+      choice<Scene, DriveBy>(
+          "drive.by", AT(drive.by),
+          {{"displacement", DriveBy::displacement},
+           {"muscles", DriveBy::muscles},
+           {"reactions", DriveBy::reactions}},
+          "What the points are: places that the skin is carried to, whatever the tissue; or what "
+          "muscles, the jaw and forces at the points are found from (docs/muscles.md), or forces "
+          "alone. Forces are found once, in the scene's tissue, and variants answer the same "
+          "forces."),
       number<Scene>(
           "drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m),
           in(Drive::patch_radius_m_in, millimetres),
@@ -341,6 +352,14 @@ std::vector<Key> run_keys() {
           "as much again where they stay closed. 0 takes the nearest node alone."),
       names<Scene>("drive.still_points", AT(drive.still_points), 0,
                    "Points that are held still on the skin."),
+      factors<Scene, reenact::MuscleGain>(
+          "muscles.gain", AT(muscles.gains), &reenact::MuscleGain::muscle,
+          &reenact::MuscleGain::gain, reenact::gain_names(),
+          in(reenact::MuscleOptions::gain_in, none),
+          "Factors on activations as they were found: of one muscle, of those that a branch of the "
+          "facial nerve moves on one side, or of a side; 0 is a palsy. Several multiply."),
+      flag<Scene>("muscles.mirrored", AT(muscles.mirrored),
+                  "Each muscle takes the activation of its counterpart on the other side."),
       choice<Scene, SolverMethod>(
           "solver.method", AT(solver.method),
           {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},
@@ -432,6 +451,7 @@ const std::vector<Section>& sections() {
       {"tissue", "The material."},
       {"support", "What holds the tissue from within and at its border."},
       {"drive", "What moves it."},
+      {"muscles", "Muscles, where they are what moves it (`drive.by`)."},
       {"solver", "How the equations of motion are solved."},
       {"time", "Steps and frames."},
       {"output", "What is written."},

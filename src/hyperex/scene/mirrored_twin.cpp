@@ -103,9 +103,12 @@ MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
   options.solver.method = reenact::SolverMethod::reduced;
   options.solver.verify = false;
   options.time.still_times_s.clear();
+  for (reenact::MuscleGain& gain : options.muscles.gains)
+    gain.muscle.back() = gain.muscle.back() == 'L' ? 'R' : 'L';
   if (field) options.tissue.element = mirrored_elements(*field, run.mesh(), plane);
   if (of_base && of_base->simulator) {
     twin.simulator = std::make_shared<reenact::Simulator>(*of_base->simulator);
+    twin.simulator->hold_load();
   } else {
     twin.simulator = std::make_shared<reenact::Simulator>(run);
     twin.simulator->set_motion(std::move(*motion));

@@ -38,6 +38,7 @@ reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& 
   o.drive = scene.drive;
   o.drive.all_points = false;
   o.drive.points = inputs.driven;
+  o.muscles = scene.muscles;
   o.region = scene.region;
   o.solver = scene.solver;
   o.time = scene.time;

@@ -255,6 +255,16 @@ void Reader::check_together() {
   if (scene.region.measured == reenact::Measured::none && !scene.drive.all_points &&
       scene.drive.points.empty())
     complain_given("drive.points", "one or more names, or \"all\", as region.measured is \"none\"");
+  const bool by_muscles = scene.drive.by == reenact::DriveBy::muscles;
+  if (!by_muscles && !scene.muscles.gains.empty())
+    complain_given("muscles.gain",
+                   "drive.by = \"muscles\" in the scene: muscles move nothing otherwise");
+  if (!by_muscles && scene.muscles.mirrored)
+    complain_given("muscles.mirrored",
+                   "drive.by = \"muscles\" in the scene: muscles move nothing otherwise");
+  if (scene.drive.by != reenact::DriveBy::displacement &&
+      scene.region.measured != reenact::Measured::none)
+    complain_given("region.measured", "\"none\", as drive.by is not \"displacement\"");
   if (scene.solver.newmark_gamma > 2 * scene.solver.newmark_beta)
     complain_given("solver.newmark_gamma",
                    "at most twice solver.newmark_beta: beyond, steps are not always stable");
@@ -367,7 +377,7 @@ std::vector<Override> from_command_line(const std::vector<std::string>& texts) {
 }  // namespace
 
 const std::vector<std::string>& variant_sections() {
-  static const std::vector<std::string> sections = {"tissue", "support", "drive", "region"};
+  static const std::vector<std::string> sections = {"tissue", "support", "drive", "muscles", "region"};
   return sections;
 }
 

@@ -52,6 +52,8 @@ std::string type_of(const KeyInfo& key) {
       return "list of names";
     case Kind::places:
       return "list of places";
+    case Kind::factors:
+      return "table of numbers";
     case Kind::rows:
       break;
   }
@@ -65,6 +67,11 @@ std::string code(const std::string& text) {
 std::string allowed(const KeyInfo& key) {
   std::string text;
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  if (key.kind == Kind::factors) {
+    std::string names;
+    for (const auto& word : key.choices) names += (names.empty() ? "" : ", ") + code(word);
+    return names + "; each " + key.range.text();
+  }
   for (const auto& word : key.choices) add(code('"' + word + '"'));
   if (key.kind == Kind::integer || key.kind == Kind::number) add(key.range.text());
   if (key.kind == Kind::numbers)

@@ -85,6 +85,7 @@ struct Scene {
   reenact::ModelOptions model;
   reenact::RegionOptions region;
   reenact::SupportOptions support;
+  reenact::MuscleOptions muscles;
   reenact::DriveOptions drive;  ///< gain: of the key motion.gain
   reenact::SolverOptions solver;
   /// peak_time_s, still_times_s (up to 12; none: spread_frames()): of the section output.

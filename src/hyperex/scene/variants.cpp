@@ -190,6 +190,7 @@ void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& 
       reenact::SimulationOptions options = simulation_options(run.scene, run.inputs);
       if (run.field) options.tissue.element = run.field->element;
       reenact::Simulator simulator = base;
+      simulator.hold_load();
       simulator.set_options(std::move(options));
       run.simulation = simulator.run();
       const MirroredTwin twin =

@@ -42,6 +42,8 @@ inline nlohmann::json other_value(const Key& key) {
       return {"one", "two", "three"};
     case Kind::places:
       return {{1.5, 2, 3}};
+    case Kind::factors:
+      return {{key.choices.front(), (key.range.low + key.range.high) / 2}};
     case Kind::rows:
       break;
   }

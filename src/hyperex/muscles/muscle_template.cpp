@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/muscles/muscle_template.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <optional>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/io/number.hpp"
+#include "hyperex/io/toml.hpp"
+
+__asm__(
+    ".pushsection .rodata\n"
+    ".global hyperex_muscles_begin\n"
+    ".global hyperex_muscles_end\n"
+    "hyperex_muscles_begin:\n"
+    ".incbin \"" HYPEREX_MUSCLES_TOML
+    "\"\n"
+    "hyperex_muscles_end:\n"
+    ".byte 0\n"
+    ".popsection\n");
+
+extern "C" const char hyperex_muscles_begin[], hyperex_muscles_end[];
+
+namespace hyperex::muscles {
+namespace {
+
+/// Reads "0.35*45 + 0.65*54 (2, -8) d0.4" from left to right.
+class PlaceReader {
+ public:
+  explicit PlaceReader(std::string_view text) : rest_(text) {}
+
+  std::optional<TemplatePlace> read() {
+    TemplatePlace place;
+    double sum = 0;
+    do {
+      const auto first = number();
+      if (!first) return {};
+      double weight = 1, point = *first;
+      if (take('*')) {
+        const auto second = number();
+        if (!second) return {};
+        weight = *first, point = *second;
+      }
+      if (point < 0 || point > 67 || point != std::floor(point)) return {};
+      place.ibug.emplace_back(static_cast<int>(point), weight);
+      sum += weight;
+    } while (take('+'));
+    if (std::abs(sum - 1) > 1e-6) return {};
+    if (take('(')) {
+      const auto out = number();
+      if (!out || !take(',')) return {};
+      const auto up = number();
+      if (!up || !take(')')) return {};
+      place.out_mm = *out, place.up_mm = *up;
+    }
+    if (take('d')) {
+      const auto depth = number();
+      if (!depth || *depth < 0 || *depth > 1) return {};
+      place.depth = *depth;
+    }
+    skip();
+    if (!rest_.empty()) return {};
+    return place;
+  }
+
+ private:
+  void skip() {
+    while (!rest_.empty() && rest_.front() == ' ') rest_.remove_prefix(1);
+  }
+  bool take(char c) {
+    skip();
+    if (rest_.empty() || rest_.front() != c) return false;
+    rest_.remove_prefix(1);
+    return true;
+  }
+  std::optional<double> number() {
+    skip();
+    std::size_t n = 0;
+    while (n < rest_.size() && (std::isdigit(static_cast<unsigned char>(rest_[n])) ||
+                                rest_[n] == '.' || (n == 0 && rest_[n] == '-')))
+      ++n;
+    const auto value = io::parse_number(rest_.substr(0, n));
+    rest_.remove_prefix(n);
+    return value;
+  }
+  std::string_view rest_;
+};
+
+/// One table, with the errors that name it.
+class MuscleReader {
+ public:
+  MuscleReader(const toml::table& table, const std::string& source)
+      : table_(table), source_(source), name_(table["name"].value_or(std::string())) {}
+
+  TemplateMuscle read() const {
+    TemplateMuscle m;
+    if (name_.empty()) fail("name", "a name");
+    m.name = name_;
+    m.latin = table_["latin"].value_or(name_);
+    m.group = table_["group"].value_or(name_);
+    m.branch = table_["branch"].value_or(std::string());
+    m.path = path();
+    m.width_mm = positive("width_mm", m.width_mm);
+    if (table_.contains("band")) m.band = positive("band", 1);
+    m.kind = one_of("kind", {"pull", "ring"}) == 1 ? MuscleKind::ring : MuscleKind::pull;
+    m.lip = static_cast<MuscleLip>(one_of("lip", {"both", "upper", "lower"}));
+    m.jaw = table_["jaw"].value_or(false);
+    m.tone = table_["tone"].value_or(false);
+    return m;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& key, const std::string& expected) const {
+    throw InputError(source_, fmt::format("muscle {}: {}: expected {}",
+                                          name_.empty() ? "without name" : name_, key, expected));
+  }
+  std::vector<TemplatePlace> path() const {
+    constexpr const char* kExpected =
+        "two or more places like \"0.35*45 + 0.65*54 (2, -8) d0.4\": weights that sum to 1 of "
+        "iBUG points, offset out and up in mm, depth 0 to 1, first and last with a depth";
+    std::vector<TemplatePlace> path;
+    if (const toml::array* places = table_["path"].as_array())
+      for (const auto& entry : *places) {
+        const auto text = entry.value<std::string>();
+        const auto place = text ? PlaceReader(*text).read() : std::nullopt;
+        if (!place) fail("path", kExpected);
+        path.push_back(*place);
+      }
+    if (path.size() < 2 || path.front().depth < 0 || path.back().depth < 0)
+      fail("path", kExpected);
+    return path;
+  }
+  double positive(const char* key, double otherwise) const {
+    const double value = table_[key].value_or(otherwise);
+    if (!(value > 0 && value <= 100)) fail(key, "a number above 0, at most 100");
+    return value;
+  }
+  int one_of(const char* key, const std::vector<std::string>& values) const {
+    const std::string value = table_[key].value_or(values.front());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (values[i] == value) return static_cast<int>(i);
+    fail(key, fmt::format("one of {}", fmt::join(values, ", ")));
+  }
+
+  const toml::table& table_;
+  const std::string& source_;
+  std::string name_;
+};
+
+}  // namespace
+
+std::vector<TemplateMuscle> read_muscles(std::string_view toml, const std::string& source) {
+  toml::table file;
+  try {
+    file = toml::parse(toml);
+  } catch (const toml::parse_error& e) {
+    throw InputError(source, std::string(e.description()));
+  }
+  std::vector<TemplateMuscle> muscles;
+  if (const toml::array* tables = file["muscle"].as_array())
+    for (const auto& entry : *tables)
+      if (const toml::table* table = entry.as_table())
+        muscles.push_back(MuscleReader(*table, source).read());
+  return muscles;
+}
+
+const std::vector<TemplateMuscle>& muscle_template() {
+  static const std::vector<TemplateMuscle> muscles = read_muscles(
+      {hyperex_muscles_begin, hyperex_muscles_end}, "the muscles inside this program");
+  return muscles;
+}
+
+const TemplateMuscle* find_muscle(const std::string& name) {
+  for (const TemplateMuscle& muscle : muscle_template())
+    if (muscle.name == name) return &muscle;
+  return nullptr;
+}
+
+}  // namespace hyperex::muscles

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/held_load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/fem/solve/static_solve.hpp"
+#include "hyperex/motion/resample.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/reenact/input_shapes.hpp"
+
+namespace hyperex::reenact {
+namespace {
+
+std::string side_of(const std::string& muscle) {
+  return muscle.substr(muscle.size() - 2);  // "_L"
+}
+
+/// Everything that a gain may name of this muscle.
+std::set<std::string> names_of(const std::string& muscle) {
+  const std::string side = side_of(muscle);
+  std::set<std::string> names = {muscle, "side" + side};
+  const muscles::TemplateMuscle* row =
+      muscles::find_muscle(muscle.substr(0, muscle.size() - 2));
+  if (row && !row->branch.empty()) names.insert(row->branch + side);
+  return names;
+}
+
+/// The counterpart's index.
+int counterpart(const std::vector<std::string>& muscles, std::size_t m) {
+  std::string other = muscles[m];
+  other.back() = other.back() == 'L' ? 'R' : 'L';
+  const auto it = std::find(muscles.begin(), muscles.end(), other);
+  return static_cast<int>(it == muscles.end() ? m : it - muscles.begin());
+}
+
+/// Courses (rows) at `count` times, `dt_s` apart, from 0.
+Eigen::MatrixXd at_steps(const std::vector<double>& time_s, const Eigen::MatrixXd& course,
+                         double dt_s, Eigen::Index count) {
+  Eigen::MatrixXd out(course.rows(), count);
+  if (time_s.size() < 2) return course.col(0).replicate(1, count);
+  const Eigen::MatrixXd slope = motion::spline_slopes(time_s, course.transpose()).transpose();
+  Eigen::Index i = 0;
+  const auto last = static_cast<Eigen::Index>(time_s.size()) - 1;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double t = static_cast<double>(k) * dt_s;
+    while (i + 1 < last && time_s[i + 1] <= t) ++i;
+    const double h = time_s[i + 1] - time_s[i];
+    const double x = std::clamp((t - time_s[i]) / h, 0.0, 1.0);
+    const double y = 1 - x;
+    out.col(k) = (1 + 2 * x) * y * y * course.col(i) + x * x * (3 - 2 * x) * course.col(i + 1) +
+                 h * x * y * (y * slope.col(i) - x * slope.col(i + 1));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> gain_names() {
+  std::set<std::string> all;
+  for (const muscles::TemplateMuscle& muscle : muscles::muscle_template())
+    for (const char* side : {"_L", "_R"}) {
+      const std::set<std::string> names = names_of(muscle.name + side);
+      all.insert(names.begin(), names.end());
+    }
+  return {all.begin(), all.end()};
+}
+
+Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
+                             const std::vector<MuscleGain>& gains) {
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(muscles.size()));
+  for (const MuscleGain& gain : gains) {
+    bool found = false;
+    std::set<std::string> all;
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+      const std::set<std::string> names = names_of(muscles[m]);
+      all.insert(names.begin(), names.end());
+      if (!names.contains(gain.muscle)) continue;
+      factor[static_cast<Eigen::Index>(m)] *= gain.gain;
+      found = true;
+    }
+    if (!found)
+      throw InputError("muscles.gain",
+                       fmt::format("{} is no muscle; there are {}", gain.muscle,
+                                   fmt::join(all, ", ")));
+  }
+  return factor;
+}
+
+MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options) {
+  MuscleCourse out = muscles;
+  if (options.mirrored)
+    for (std::size_t m = 0; m < muscles.names.size(); ++m) {
+      const int from = counterpart(muscles.names, m);
+      out.activation.row(static_cast<Eigen::Index>(m)) = muscles.activation.row(from);
+      out.sigma.row(static_cast<Eigen::Index>(m)) = muscles.sigma.row(from);
+    }
+  const Eigen::VectorXd factor = muscle_gains(muscles.names, options.gains);
+  out.activation = factor.asDiagonal() * out.activation;
+  out.sigma = factor.asDiagonal() * out.sigma;
+  return out;
+}
+
+fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
+                    double tolerance, Eigen::Index prescribed) {
+  Eigen::MatrixXd course = load.course;
+  const auto& names = load.muscles.names;
+  if (!names.empty()) {
+    const Eigen::VectorXd factor = muscle_gains(names, options.gains);
+    const auto count = static_cast<Eigen::Index>(names.size());
+    for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * count; ++m) {
+      const Eigen::Index own = m % count;
+      const int from = options.mirrored ? counterpart(names, std::size_t(own)) : int(own);
+      course.row(m) = factor[own] * load.course.row(m - own + from);
+    }
+  }
+  // Each row as large as the force that it stands for.
+  const Eigen::VectorXd size = load.force.colwise().norm().transpose().cwiseMax(1e-12);
+  course = size.asDiagonal() * course;
+  return compressed_drive(at_steps(load.time_s, course, dt_s, steps + 1 + kBeyond), dt_s, steps,
+                          tolerance, prescribed, load.force.rows(),
+                          [&](const Eigen::VectorXd& direction, Eigen::Ref<Eigen::VectorXd> values,
+                              Eigen::Ref<Eigen::VectorXd> force) {
+                            values.setZero();
+                            force.noalias() = load.force * direction.cwiseQuotient(size);
+                          });
+}
+
+HeldLoad reactions_of(const fem::Drive& drive, const fem::SparseMatrix& stiffness,
+                      const std::vector<int>& prescribed, double dt_s) {
+  HeldLoad load;
+  const fem::StaticSolver solver(stiffness, prescribed);
+  load.force.resize(stiffness.rows(), drive.shapes());
+  for (Eigen::Index k = 0; k < drive.shapes(); ++k) {
+    const Eigen::VectorXd force =
+        drive.force.rows() > 0 ? Eigen::VectorXd(drive.force.col(k)) : Eigen::VectorXd();
+    load.force.col(k) = stiffness * solver.solve(drive.prescribed.col(k), force);
+  }
+  load.course = drive.s;
+  for (int step = 0; step <= drive.steps(); ++step) load.time_s.push_back(step * dt_s);
+  return load;
+}
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/fem/time/drive.hpp"
+#include "hyperex/reenact/options.hpp"
+#include "hyperex/reenact/performance.hpp"
+
+namespace hyperex::reenact {
+
+/// Forces that move a face as it was recorded, found once in its own tissue and then held: other
+/// tissue or weaker muscles answer the same forces otherwise.
+struct HeldLoad {
+  std::vector<double> time_s;  ///< of the samples, from the start of the motion, rising
+  Eigen::MatrixXd force;       ///< 3 |nodes| x k, N
+  Eigen::MatrixXd course;      ///< k x samples: the force at sample i is force * course.col(i)
+  /// Of the first columns: of each muscle its narrow band, then, where there are `wide_bands`, of
+  /// each its wide one.
+  bool wide_bands = false;
+  MuscleCourse muscles;  ///< no names where there are none
+  double greatest_opening_deg = 0;
+};
+
+/// Per muscle: the product of the gains that name it, its branch on its side, or its side. Throws
+/// InputError for a name that is none of these, listing those that are.
+Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
+                             const std::vector<MuscleGain>& gains);
+
+/// Everything that a gain may name, sorted.
+std::vector<std::string> gain_names();
+
+/// The activations after mirroring and gains.
+MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);
+
+/// The load over a run as few shapes, in the form of compressed_drive(); between samples by the C2
+/// cubic spline, after the last it is held. Nothing prescribed moves.
+fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
+                    double tolerance, Eigen::Index prescribed);
+
+/// Moving what is prescribed by `drive` makes the same motion, at rest in each instant, as these
+/// forces on the same stiffness with nothing of it prescribed that moves: K u for the static answer
+/// u to each shape. `stiffness`: with springs; `prescribed`: what the drive prescribes.
+HeldLoad reactions_of(const fem::Drive& drive, const fem::SparseMatrix& stiffness,
+                      const std::vector<int>& prescribed, double dt_s);
+
+}  // namespace hyperex::reenact

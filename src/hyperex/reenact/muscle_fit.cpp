@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/muscle_fit.hpp"
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "hyperex/muscles/bounded_least_squares.hpp"
+
+namespace hyperex::reenact {
+namespace {
+constexpr int kMostIterations = 8;
+}
+
+JawKinematics::JawKinematics(const io::Landmarks& landmarks)
+    : frame_(tissue::face_frame(landmarks)),
+      centre_(0.5 * (landmarks.at(tissue::ibug(1)) + landmarks.at(tissue::ibug(15)))) {}
+
+Eigen::Matrix<double, 12, 1> JawKinematics::motion(const JawPose& p) const {
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(p[0], frame_.x) * Eigen::AngleAxisd(p[1], frame_.y) *
+       Eigen::AngleAxisd(p[2], frame_.z))
+          .toRotationMatrix() -
+      Eigen::Matrix3d::Identity();
+  Eigen::Matrix<double, 12, 1> out;
+  out.head<9>() = turn.reshaped();
+  out.tail<3>() = -turn * centre_ + p[3] * frame_.x + p[4] * frame_.y + p[5] * frame_.z;
+  return out;
+}
+
+Eigen::Matrix<double, 12, 6> JawKinematics::derivative(const JawPose& pose) const {
+  Eigen::Matrix<double, 12, 6> out;
+  constexpr double h = 1e-6;
+  for (int k = 0; k < 6; ++k) {
+    JawPose plus = pose, minus = pose;
+    plus[k] += h;
+    minus[k] -= h;
+    out.col(k) = (motion(plus) - motion(minus)) / (2 * h);
+  }
+  return out;
+}
+
+MuscleFit::MuscleFit(PointResponse response, const JawKinematics& jaw, const FitPriors& priors,
+                     double sigma_m, std::vector<char> tone,
+                     std::vector<char> ring)
+    : response_(std::move(response)),
+      jaw_(jaw),
+      priors_(priors),
+      sigma_m_(sigma_m),
+      tone_(std::move(tone)),
+      ring_(std::move(ring)) {
+  last_.activation = Eigen::VectorXd::Zero(response_.of_muscles.cols());
+}
+
+/// The columns at the activations of the last answer.
+Eigen::MatrixXd MuscleFit::blend(const Eigen::MatrixXd& narrow, const Eigen::MatrixXd& wide) const {
+  if (wide.cols() == 0) return narrow;
+  const Eigen::RowVectorXd share =
+      last_.activation.unaryExpr([&](double a) { return response_.wide_share(a); }).transpose();
+  return narrow + (wide - narrow) * share.asDiagonal();
+}
+
+FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
+  const Eigen::Index muscles = response_.of_muscles.cols(), all = muscles + 6;
+  const double weight = 1 / sigma_m_;
+  JawPose prior;
+  prior << priors_.opening_rad, priors_.turn_rad, priors_.tilt_rad, priors_.slide_m,
+      priors_.slide_m, priors_.slide_m;
+  Eigen::VectorXd lower = Eigen::VectorXd::Zero(all);
+  lower.tail<6>().setConstant(-std::numeric_limits<double>::infinity());
+  for (Eigen::Index m = 0; m < muscles; ++m)
+    if (tone_[m]) lower[m] = -std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    const Eigen::MatrixXd jaw = weight * response_.of_jaw * jaw_.derivative(last_.jaw);
+    const Eigen::VectorXd right =
+        weight * (displacement - response_.of_jaw * jaw_.motion(last_.jaw)) + jaw * last_.jaw;
+    const Eigen::MatrixXd pulls = weight * blend(response_.of_muscles, response_.of_wide);
+    Eigen::MatrixXd h(all, all);
+    h.topLeftCorner(muscles, muscles).noalias() = pulls.transpose() * pulls;
+    h.topRightCorner(muscles, 6) = pulls.transpose() * jaw;
+    h.bottomLeftCorner(6, muscles) = h.topRightCorner(muscles, 6).transpose();
+    h.bottomRightCorner(6, 6) = jaw.transpose() * jaw;
+    for (Eigen::Index m = 0; m < muscles; ++m) {
+      const double sigma =
+          tone_[m] && last_.activation[m] < 0 ? priors_.tone
+                           : ring_[m]                           ? priors_.ring
+                                                                : priors_.activation;
+      h(m, m) += 1 / (sigma * sigma);
+    }
+    for (int k = 0; k < 6; ++k) h(muscles + k, muscles + k) += 1 / (prior[k] * prior[k]);
+    Eigen::VectorXd g(all), x(all);
+    g << pulls.transpose() * right, jaw.transpose() * right;
+    x << last_.activation, last_.jaw;
+    muscles::bounded_least_squares(h, g, lower, x);
+    const double change = (x.head(muscles) - last_.activation).cwiseAbs().maxCoeff() +
+                          (x.tail<6>() - last_.jaw).cwiseAbs().maxCoeff();
+    last_.activation = x.head(muscles);
+    last_.jaw = x.tail<6>();
+    if (change < 1e-6 || iteration == kMostIterations - 1) {
+      last_.sigma = h.llt()
+                        .solve(Eigen::MatrixXd::Identity(all, all))
+                        .diagonal()
+                        .head(muscles)
+                        .cwiseSqrt();
+      break;
+    }
+  }
+  last_.left_over = displacement -
+                    blend(response_.of_muscles, response_.of_wide) * last_.activation -
+                    response_.of_jaw * jaw_.motion(last_.jaw);
+  return last_;
+}
+
+}  // namespace hyperex::reenact

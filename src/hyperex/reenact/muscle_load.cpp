@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/muscle_load.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/reenact/muscle_fit.hpp"
+#include "hyperex/reenact/muscle_model.hpp"
+#include "hyperex/reenact/skin_places.hpp"
+#include "hyperex/reenact/support.hpp"
+
+namespace hyperex::reenact {
+namespace {
+
+/// Of what is left over at the points, this share of the greatest may be lost between its shapes.
+constexpr double kLeftOverLost = 1e-4;
+
+/// Displacements at the points (3 P x n) of nodal ones (3 |nodes| x n).
+Eigen::MatrixXd at_points(const CarrierMatrix& carrier, const Eigen::MatrixXd& nodal) {
+  Eigen::MatrixXd out(3 * carrier.rows(), nodal.cols());
+  for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
+    const Points moved =
+        carrier * Eigen::Map<const Points>(nodal.col(c).data(), carrier.cols(), 3);
+    out.col(c) = Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
+  }
+  return out;
+}
+
+/// The points that drive.
+struct Driven {
+  std::vector<int> rows;
+  CarrierMatrix carrier;
+
+  Driven(const tissue::TissueMesh& mesh, const AlignedMotion& motion, const DriveOptions& drive) {
+    std::vector<std::string> names;
+    for (const std::string& name : drive.names_in(motion.motion))
+      if (const int row = motion.motion.index_of(name);
+          row >= 0 && !std::count(rows.begin(), rows.end(), row)) {
+        rows.push_back(row);
+        names.push_back(name);
+      }
+    Points rest(static_cast<Eigen::Index>(rows.size()), 3);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rest.row(static_cast<Eigen::Index>(i)) = motion.rest.row(rows[i]);
+    carrier = carriers(mesh, skin_places(mesh, names, rest));
+  }
+  bool few() const { return rows.size() <= std::size_t(kFewPoints); }
+  Eigen::VectorXd of(const Points& all) const {
+    Eigen::VectorXd out(3 * static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      out.segment<3>(3 * static_cast<Eigen::Index>(i)) = all.row(rows[i]).transpose();
+    return out;
+  }
+};
+
+MuscleModelOptions model_options(const SimulationOptions& options) {
+  return {muscle_support(options.support, options.muscles), options.muscles.shape,
+          options.muscles.widening};
+}
+
+MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model,
+                 const Driven& driven, const MuscleOptions& options) {
+  const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
+  FitPriors priors;
+  priors.activation = options.activation_sigma;
+  priors.ring = options.ring_sigma;
+  priors.tone = options.tone_sigma;
+  priors.slide_m = options.slide_sigma_m;
+  std::vector<char> tone, ring;
+  for (const muscles::MuscleLine& line : model.lines()) {
+    const muscles::TemplateMuscle& muscle = muscles::muscle_template()[std::size_t(line.row)];
+    tone.push_back(muscle.tone);
+    ring.push_back(muscle.kind == muscles::MuscleKind::ring);
+  }
+  return MuscleFit({at_points(driven.carrier, model.response()),
+                    at_points(driven.carrier, model.jaw_response()),
+                    at_points(driven.carrier, model.wide_response()), options.half},
+                   JawKinematics(landmarks), priors, sigma, std::move(tone),
+                   std::move(ring));
+}
+
+/// Forces that hold the patches of the driven points at unit left-overs (columns, 3 P of the driven
+/// points), the rest of the face being in equilibrium without.
+Eigen::MatrixXd left_over_forces(const MuscleModel& model, const DrivenSkin& patches,
+                                 const Driven& driven, const Eigen::MatrixXd& left_over,
+                                 Eigen::Index points) {
+  std::set<int> unknowns(model.boundary().prescribed().begin(),
+                         model.boundary().prescribed().end());
+  for (const int node : patches.nodes)
+    for (int axis = 0; axis < 3; ++axis) unknowns.insert(3 * node + axis);
+  const std::vector<int> prescribed(unknowns.begin(), unknowns.end());
+  fem::PartitionedFactor factor(model.stiffness(), prescribed, "patches of the driven points");
+  const fem::SparseMatrix coupling = fem::coupling(model.stiffness(), factor.partition());
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(model.stiffness().rows(), left_over.cols());
+  for (Eigen::Index c = 0; c < left_over.cols(); ++c) {
+    Points all = Points::Zero(points, 3);
+    for (std::size_t i = 0; i < driven.rows.size(); ++i)
+      all.row(driven.rows[i]) = left_over.col(c).segment<3>(3 * Eigen::Index(i)).transpose();
+    const Points patch = patches.weights * all;
+    for (std::size_t j = 0; j < patches.nodes.size(); ++j)
+      moved.col(c).segment<3>(3 * patches.nodes[j]) = patch.row(Eigen::Index(j)).transpose();
+  }
+  Eigen::MatrixXd free = -(coupling * moved(factor.prescribed(), Eigen::all));
+  factor.solve(free);
+  moved(factor.free(), Eigen::all) = free;
+  return model.stiffness() * moved;
+}
+
+/// Orthonormal directions of the columns, as many as matter.
+Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
+  const auto& size = svd.singularValues();
+  Eigen::Index kept = 0;
+  while (kept < size.size() && size[kept] > kLeftOverLost * size[0] && size[kept] > 1e-9) ++kept;
+  return svd.matrixU().leftCols(kept);
+}
+
+}  // namespace
+
+SupportOptions muscle_support(const SupportOptions& given, const MuscleOptions& options) {
+  SupportOptions support = given;
+  support.skull_layer = options.skull_layer;
+  support.mandible_layer = options.mandible_layer;
+  support.teeth_layer = options.teeth_layer;
+  support.teeth_reach_m = options.teeth_reach_m;
+  support.muscle_pa_per_m = options.foundation_pa_per_m;
+  return support;
+}
+
+void stiffen_lips(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                  const MuscleOptions& options, fem::Material& material) {
+  const std::vector<double> to_lips = distances_to_lips(mesh, landmarks);
+  const auto columns = static_cast<int>(mesh.volume.surface_nodes());
+  for (Eigen::Index t = 0; t < mesh.volume.tets.rows(); ++t) {
+    double distance = 0;
+    for (int a = 0; a < 4; ++a) distance += 0.25 * to_lips[mesh.volume.tets(t, a) % columns];
+    material.young_pa[std::size_t(t)] *=
+        1 + (options.lip_stiffening - 1) * std::exp(-std::pow(distance / options.lip_reach_m, 2));
+  }
+}
+
+HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                     const AlignedMotion& motion, const MeasuredRegion& region,
+                     const SimulationOptions& options, const fem::SparseMatrix& stiffness,
+                     std::shared_ptr<const fem::NodeOrder>& order) {
+  // First, since it says what is wrong with the points.
+  const Driven driven(mesh, motion, options.drive);
+  DriveOptions drive = options.drive;
+  if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
+  const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
+  MuscleModel model(mesh, landmarks, stiffness, muscles::muscle_template(),
+                    model_options(options), order);
+  order = model.order();
+  MuscleFit fit = fit_of(landmarks, model, driven, options.muscles);
+  const JawKinematics jaw(landmarks);
+
+  HeldLoad load;
+  const auto count = static_cast<Eigen::Index>(model.lines().size());
+  const auto samples = static_cast<Eigen::Index>(motion.motion.time_s.size());
+  load.wide_bands = model.wide_force().cols() > 0;
+  const Eigen::Index of_jaw = (load.wide_bands ? 2 : 1) * count;
+  MuscleCourse& muscle = load.muscles;
+  for (const muscles::MuscleLine& line : model.lines()) muscle.names.push_back(line.name);
+  muscle.activation.resize(count, samples);
+  muscle.sigma.resize(count, samples);
+  muscle.jaw_opening_deg.resize(samples);
+  Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
+  Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
+    const Points moved =
+        options.drive.gain * (motion.motion.positions[std::size_t(k)] -
+                              motion.motion.positions.front());
+    const FitResult fitted = fit.fit(driven.of(moved));
+    muscle.activation.col(k) = fitted.activation;
+    muscle.sigma.col(k) = fitted.sigma;
+    muscle.jaw_opening_deg[k] = fitted.jaw[0] * 180 / std::numbers::pi;
+    for (Eigen::Index m = 0; m < count; ++m) {
+      const double a = fitted.activation[m];
+      const double wide = load.wide_bands ? fit.wide_share(a) * a : 0;
+      course(m, k) = a - wide;
+      if (load.wide_bands) course(count + m, k) = wide;
+    }
+    course.col(k).tail<12>() = jaw.motion(fitted.jaw);
+    left_over.col(k) = fitted.left_over;
+  }
+  muscle.time_s = load.time_s;
+  load.greatest_opening_deg = muscle.jaw_opening_deg.maxCoeff();
+
+  const Eigen::MatrixXd directions = directions_of(left_over);
+  load.course.resize(course.rows() + directions.cols(), samples);
+  load.course << course, directions.transpose() * left_over;
+  load.force.resize(model.force().rows(), load.course.rows());
+  load.force << model.force(), model.wide_force(), model.jaw_force(),
+      left_over_forces(model, patches, driven, directions, motion.rest.rows());
+  return load;
+}
+
+}  // namespace hyperex::reenact

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <memory>
+
+#include "hyperex/fem/solve/node_order.hpp"
+#include "hyperex/fem/form/system.hpp"
+#include "hyperex/reenact/alignment.hpp"
+#include "hyperex/reenact/held_load.hpp"
+#include "hyperex/reenact/point_curve.hpp"
+#include "hyperex/reenact/skin_measured.hpp"
+#include "hyperex/tissue/tissue_mesh.hpp"
+
+namespace hyperex::reenact {
+
+/// Up to so many driven points are few: they move as one measures a landmark, and most muscles are
+/// a matter of the prior.
+inline constexpr int kFewPoints = 20;
+/// What the tissue rests on where muscles drive it.
+SupportOptions muscle_support(const SupportOptions& given, const MuscleOptions& options);
+
+/// Raises E in the lips (MuscleOptions::lip_stiffening).
+void stiffen_lips(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                  const MuscleOptions& options, fem::Material& material);
+
+/// The forces that make a recorded motion in this tissue. At each sample of the motion activations
+/// and the jaw's pose are fitted to the driven points (muscle_fit.hpp). What they leave over at the
+/// points becomes forces too: those that hold patches of skin around the points (driven_skin) where
+/// the muscles put them, plus the left-over interpolated. In static equilibrium the driven points
+/// end where patches would put them, and nothing is prescribed.
+/// `stiffness`: assembled, without springs. `order`: where it was found before, of the same pattern
+/// and held nodes; else it is found and left there.
+HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                     const AlignedMotion& motion, const MeasuredRegion& region,
+                     const SimulationOptions& options, const fem::SparseMatrix& stiffness,
+                     std::shared_ptr<const fem::NodeOrder>& order);
+
+}  // namespace hyperex::reenact
