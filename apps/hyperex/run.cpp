@@ -79,6 +79,34 @@ std::string corners_line(const nlohmann::ordered_json& summary) {
          "\n";
 }
 
+/// "9.7 to 7.9 mm, 1.8 mm less"
+std::string change_text(double from, double to) {
+  const double change = to - from;
+  return std::abs(change) < 0.05
+             ? fmt::format("{:.1f} mm as before", to)
+             : fmt::format("{:.1f} to {:.1f} mm, {:.1f} mm {}", from, to, std::abs(change),
+                           change < 0 ? "less" : "more");
+}
+
+/// What each variant makes of the corners of the mouth, a line each.
+std::string variant_lines(const nlohmann::ordered_json& summary) {
+  std::string lines;
+  if (!summary.contains("variants")) return lines;
+  const auto& table = summary["variants"]["table"];
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const auto side = [&](const char* key) {
+      const auto &from = table[0][key], &to = table[i][key];
+      return from.is_number() && to.is_number()
+                 ? change_text(from.get<double>(), to.get<double>())
+                 : std::string("not known");
+    };
+    lines += fmt::format("  {}: corner of the mouth left {}; right {}\n",
+                         table[i]["name"].get<std::string>(), side("commissure_L_mm"),
+                         side("commissure_R_mm"));
+  }
+  return lines;
+}
+
 void run(const Options& options) {
   take_library_memory();
   auto overrides = options.overrides;
@@ -88,11 +116,12 @@ void run(const Options& options) {
   const auto summary = scene::run_scene(scene, options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
-      "{}{}"
+      "{}{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), corners_line(summary),
+      variant_lines(summary),
       options.out.string());
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
@@ -105,6 +134,7 @@ void run(const Options& options) {
       {"variants.png", "where and how far the variants differ"},
       {"variants_symmetry.png", "S(t) of all variants"},
       {"variants.csv", "the variants as a table; each has its folder in variants/"},
+      {"activations.csv", "what the muscles did"},
       {"excursions.csv", "how far and how fast either side moves"},
       {"asymmetry.png", "the face against its reflection"},
       {"summary.json", "counts, times, options"}};

@@ -154,7 +154,9 @@ Regions regions_of(const Points& rest, const io::Landmarks& landmarks) {
     for (const auto& [name, point] : landmarks) face.points.push_back(point);
     face.by_names = !face.points.empty();
   }
-  if (build.defined("face", face, 1)) build.add("face", within(rest, face.points, 0.040));
+  Mask whole = build.none();
+  if (build.defined("face", face, 1))
+    build.add("face", whole = within(rest, face.points, 0.040));
 
   Mask lips = build.none();
   const Seeds lip = lip_seeds(landmarks);
@@ -191,6 +193,18 @@ Regions regions_of(const Points& rest, const io::Landmarks& landmarks) {
   const Seeds chin = seeds_of(landmarks, 7, 9, {"pogonion", "gnathion"});
   if (build.defined("chin", chin, 1))
     build.add("chin", without(within(rest, chin.points, 0.020), lips));
+
+  auto tip = landmarks.find("pronasale");
+  if (tip == landmarks.end()) tip = landmarks.find("ibug68_30");
+  const auto axes = face_axes(landmarks);
+  if (tip == landmarks.end() || !axes) {
+    out.notes.push_back("below_eyes: left out, the tip of the nose or the way up is not known");
+  } else {
+    const Vec3 up = axes->row(1);
+    for (Eigen::Index i = 0; i < rest.rows(); ++i)
+      whole[i] = whole[i] && up.dot(rest.row(i).transpose() - tip->second) < 0.015;
+    build.add("below_eyes", whole);
+  }
   return out;
 }
 

@@ -31,6 +31,8 @@ struct Regions {
 ///   middle
 ///             of 48-67 to that of 36-47); not lips, nose or eyes
 ///   chin      within 20 mm of 7-9; not lips
+///   below_eyes  of the face, what lies lower than 15 mm above the tip of the nose (pronasale, else
+///             30) along the face's axis
 /// Cheeks and chin may share vertices with neighbours; the lips share none. Where some of the 68
 /// are absent, those that are there are used, and where a region has none or too few, anatomical
 /// names: lips by cheilion, labiale_superius, labiale_inferius, stomion, crista_philtri_inferior

@@ -98,6 +98,10 @@ MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& o
       out.activation.row(static_cast<Eigen::Index>(m)) = muscles.activation.row(from);
       out.sigma.row(static_cast<Eigen::Index>(m)) = muscles.sigma.row(from);
     }
+  if (!options.mirrored && options.gains.empty()) return out;
+  out.groups.clear();
+  out.group_activation.resize(0, 0);
+  out.group_sigma.resize(0, 0);
   const Eigen::VectorXd factor = muscle_gains(muscles.names, options.gains);
   out.activation = factor.asDiagonal() * out.activation;
   out.sigma = factor.asDiagonal() * out.sigma;

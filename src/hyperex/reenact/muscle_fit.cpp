@@ -96,11 +96,9 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
     last_.activation = x.head(muscles);
     last_.jaw = x.tail<6>();
     if (change < 1e-6 || iteration == kMostIterations - 1) {
-      last_.sigma = h.llt()
-                        .solve(Eigen::MatrixXd::Identity(all, all))
-                        .diagonal()
-                        .head(muscles)
-                        .cwiseSqrt();
+      last_.covariance = h.llt()
+                             .solve(Eigen::MatrixXd::Identity(all, all))
+                             .topLeftCorner(muscles, muscles);
       break;
     }
   }

@@ -43,7 +43,7 @@ struct PointResponse {
 struct FitResult {
   Eigen::VectorXd activation;
   JawPose jaw = JawPose::Zero();
-  Eigen::VectorXd sigma;      ///< of each activation, no bound seen
+  Eigen::MatrixXd covariance;  ///< of the activations, no bound seen
   Eigen::VectorXd left_over;  ///< observed less modelled, 3 P, m
 };
 

@@ -112,6 +112,24 @@ Eigen::MatrixXd left_over_forces(const MuscleModel& model, const DrivenSkin& pat
   return model.stiffness() * moved;
 }
 
+/// Names the groups of each side, in the template's order; 1 where a muscle (column) is in a group.
+Eigen::MatrixXd name_groups(const std::vector<muscles::MuscleLine>& lines,
+                            std::vector<std::string>& groups) {
+  Eigen::MatrixXd members = Eigen::MatrixXd::Zero(0, static_cast<Eigen::Index>(lines.size()));
+  for (std::size_t m = 0; m < lines.size(); ++m) {
+    const std::string name = muscles::muscle_template()[std::size_t(lines[m].row)].group +
+                             (lines[m].left ? "_L" : "_R");
+    const auto at = std::find(groups.begin(), groups.end(), name) - groups.begin();
+    if (at == static_cast<std::ptrdiff_t>(groups.size())) {
+      groups.push_back(name);
+      members.conservativeResize(members.rows() + 1, Eigen::NoChange);
+      members.bottomRows<1>().setZero();
+    }
+    members(at, static_cast<Eigen::Index>(m)) = 1;
+  }
+  return members;
+}
+
 /// Orthonormal directions of the columns, as many as matter.
 Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
@@ -167,6 +185,9 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Eigen::Index of_jaw = (load.wide_bands ? 2 : 1) * count;
   MuscleCourse& muscle = load.muscles;
   for (const muscles::MuscleLine& line : model.lines()) muscle.names.push_back(line.name);
+  const Eigen::MatrixXd members = name_groups(model.lines(), muscle.groups);
+  muscle.group_activation.resize(members.rows(), samples);
+  muscle.group_sigma.resize(members.rows(), samples);
   muscle.activation.resize(count, samples);
   muscle.sigma.resize(count, samples);
   muscle.jaw_opening_deg.resize(samples);
@@ -179,7 +200,10 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
                               motion.motion.positions.front());
     const FitResult fitted = fit.fit(driven.of(moved));
     muscle.activation.col(k) = fitted.activation;
-    muscle.sigma.col(k) = fitted.sigma;
+    muscle.sigma.col(k) = fitted.covariance.diagonal().cwiseSqrt();
+    muscle.group_activation.col(k) = members * fitted.activation;
+    muscle.group_sigma.col(k) =
+        (members * fitted.covariance * members.transpose()).diagonal().cwiseSqrt();
     muscle.jaw_opening_deg[k] = fitted.jaw[0] * 180 / std::numbers::pi;
     for (Eigen::Index m = 0; m < count; ++m) {
       const double a = fitted.activation[m];

@@ -16,6 +16,10 @@ struct MuscleCourse {
   Eigen::MatrixXd activation;       ///< |names| x samples; 1 moves the skin by 10 mm where most
   Eigen::MatrixXd sigma;            ///< of it, 1 sigma, from the points' errors and the prior
   Eigen::VectorXd jaw_opening_deg;  ///< a sample each
+  /// Sums over muscles that points on the skin can hardly tell apart, a side each: "lip corner
+  /// elevators_L". Of what was found: none where gains or mirroring change it.
+  std::vector<std::string> groups;
+  Eigen::MatrixXd group_activation, group_sigma;  ///< |groups| x samples
 };
 
 /// A face in motion: the contract between the simulation and every output. Scan frame, metres.

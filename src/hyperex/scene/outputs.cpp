@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/activations.hpp"
 #include "hyperex/scene/outputs.hpp"
 
 #include <fmt/format.h>
@@ -292,6 +293,8 @@ std::optional<report::GlbReport> write_outputs(const Results& r,
          if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
          motion::write_motion_csv(directory / "motion.csv", p.landmarks);
          metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
+         if (!p.muscles.names.empty())
+           write_activations_csv(directory / "activations.csv", p.muscles);
          metrics::write_excursions_csv(directory / "excursions.csv", r.symmetry.excursions);
        }});
   return glb;

@@ -15,6 +15,7 @@
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
+#include "hyperex/scene/activations.hpp"
 #include "hyperex/scene/earlier_run.hpp"
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/frames.hpp"
@@ -105,6 +106,8 @@ Json summary_of(const Results& r, const SkinOff& off) {
   s["head_turn_uncertainty_deg"] = r.inputs.head_turn_uncertainty_deg;
   s["mesh_quality"] = quality_json(r.mesh, off);
   s["symmetry"] = metrics::summary_of(r.symmetry);
+  if (!p.muscles.names.empty())
+    s["muscles"] = activations_json(p.muscles, p.driven_names.size());
   return s;
 }
 

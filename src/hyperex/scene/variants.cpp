@@ -125,6 +125,8 @@ std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& 
           {"mean_change_at_peak_mm", c.mean_change_mm},
           {"mean_displacement_L_mm", c.mean_displacement_left_mm},
           {"mean_displacement_R_mm", c.mean_displacement_right_mm},
+          {"commissure_L_mm", c.commissure_left_mm},
+          {"commissure_R_mm", c.commissure_right_mm},
           {"asymmetry_rms_mm", c.asymmetry_mm},
           {"added_xi_difference", c.added_xi_difference},
           {"added_xi_floor", c.added_xi_floor},
@@ -257,6 +259,13 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
         c.farthest_near = landmark;
       }
   }
+  c.commissure_left_mm = c.commissure_right_mm = std::nan("");
+  const metrics::Excursions& excursions = run.symmetry.excursions;
+  for (const metrics::PairExcursion& points : excursions.pairs)
+    if (points.left >= 0 && points.left == excursions.commissure.left) {
+      c.commissure_left_mm = points.left_side.excursion_mm;
+      c.commissure_right_mm = points.right_side.excursion_mm;
+    }
   const metrics::Asymmetry& map = *run.symmetry.map;
   measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);
   c.asymmetry_mm = map.frames[peak].face_rms_mm;

@@ -45,6 +45,8 @@ struct VariantComparison {
   double rms_distance_mm = 0, mean_change_mm = 0;  ///< at the peak, over the skin's area
   /// At the peak, mean over the face's area on the subject's left and right; NaN without a plane.
   double mean_displacement_left_mm = 0, mean_displacement_right_mm = 0;
+  /// How far the corners of the mouth travel; NaN where they are not known.
+  double commissure_left_mm = 0, commissure_right_mm = 0;
   double asymmetry_mm = 0;  ///< at the peak, root mean square over the face
   /// What the variant adds to xi_L - xi_R, where it adds most.
   double added_xi_difference = 0;
