@@ -95,20 +95,22 @@ class MuscleReader {
   MuscleReader(const toml::table& table, const std::string& source)
       : table_(table), source_(source), name_(table["name"].value_or(std::string())) {}
 
-  TemplateMuscle read() const {
+  TemplateMuscle read(const std::vector<TemplateMuscle>& before) const {
     TemplateMuscle m;
     if (name_.empty()) fail("name", "a name");
+    for (const TemplateMuscle& other : before)
+      if (other.name == name_) fail("name", "a name that no other muscle has");
     m.name = name_;
-    m.latin = table_["latin"].value_or(name_);
-    m.group = table_["group"].value_or(name_);
-    m.branch = table_["branch"].value_or(std::string());
+    m.latin = value("latin", name_, "text");
+    m.group = value("group", name_, "text");
+    m.branch = value("branch", std::string(), "text");
     m.path = path();
     m.width_mm = positive("width_mm", m.width_mm);
     if (table_.contains("band")) m.band = positive("band", 1);
     m.kind = one_of("kind", {"pull", "ring"}) == 1 ? MuscleKind::ring : MuscleKind::pull;
     m.lip = static_cast<MuscleLip>(one_of("lip", {"both", "upper", "lower"}));
-    m.jaw = table_["jaw"].value_or(false);
-    m.tone = table_["tone"].value_or(false);
+    m.jaw = value("jaw", false, "true or false");
+    m.tone = value("tone", false, "true or false");
     return m;
   }
 
@@ -116,6 +118,14 @@ class MuscleReader {
   [[noreturn]] void fail(const std::string& key, const std::string& expected) const {
     throw InputError(source_, fmt::format("muscle {}: {}: expected {}",
                                           name_.empty() ? "without name" : name_, key, expected));
+  }
+  /// `otherwise` where the key is not given.
+  template <class T>
+  T value(const char* key, const T& otherwise, const std::string& expected) const {
+    if (!table_.contains(key)) return otherwise;
+    const std::optional<T> given = table_[key].value_exact<T>();
+    if (!given) fail(key, expected);
+    return *given;
   }
   std::vector<TemplatePlace> path() const {
     constexpr const char* kExpected =
@@ -129,20 +139,21 @@ class MuscleReader {
         if (!place) fail("path", kExpected);
         path.push_back(*place);
       }
-    if (path.size() < 2 || path.front().depth < 0 || path.back().depth < 0)
-      fail("path", kExpected);
+    if (path.size() < 2 || path.front().depth < 0 || path.back().depth < 0) fail("path", kExpected);
     return path;
   }
   double positive(const char* key, double otherwise) const {
-    const double value = table_[key].value_or(otherwise);
+    if (!table_.contains(key)) return otherwise;
+    const double value = table_[key].value<double>().value_or(0);
     if (!(value > 0 && value <= 100)) fail(key, "a number above 0, at most 100");
     return value;
   }
   int one_of(const char* key, const std::vector<std::string>& values) const {
-    const std::string value = table_[key].value_or(values.front());
+    const std::string expected = fmt::format("one of {}", fmt::join(values, ", "));
+    const std::string word = value(key, values.front(), expected);
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (values[i] == value) return static_cast<int>(i);
-    fail(key, fmt::format("one of {}", fmt::join(values, ", ")));
+      if (values[i] == word) return static_cast<int>(i);
+    fail(key, expected);
   }
 
   const toml::table& table_;
@@ -160,16 +171,18 @@ std::vector<TemplateMuscle> read_muscles(std::string_view toml, const std::strin
     throw InputError(source, std::string(e.description()));
   }
   std::vector<TemplateMuscle> muscles;
-  if (const toml::array* tables = file["muscle"].as_array())
-    for (const auto& entry : *tables)
-      if (const toml::table* table = entry.as_table())
-        muscles.push_back(MuscleReader(*table, source).read());
+  if (!file.contains("muscle")) return muscles;
+  const toml::array* tables = file["muscle"].as_array();
+  if (!tables || !tables->is_array_of_tables())
+    throw InputError(source, "muscle: expected tables, [[muscle]]");
+  for (const auto& entry : *tables)
+    muscles.push_back(MuscleReader(*entry.as_table(), source).read(muscles));
   return muscles;
 }
 
 const std::vector<TemplateMuscle>& muscle_template() {
-  static const std::vector<TemplateMuscle> muscles = read_muscles(
-      {hyperex_muscles_begin, hyperex_muscles_end}, "the muscles inside this program");
+  static const std::vector<TemplateMuscle> muscles =
+      read_muscles({hyperex_muscles_begin, hyperex_muscles_end}, "the muscles inside this program");
   return muscles;
 }
 
