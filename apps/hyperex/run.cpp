@@ -82,10 +82,9 @@ std::string corners_line(const nlohmann::ordered_json& summary) {
 /// "9.7 to 7.9 mm, 1.8 mm less"
 std::string change_text(double from, double to) {
   const double change = to - from;
-  return std::abs(change) < 0.05
-             ? fmt::format("{:.1f} mm as before", to)
-             : fmt::format("{:.1f} to {:.1f} mm, {:.1f} mm {}", from, to, std::abs(change),
-                           change < 0 ? "less" : "more");
+  return std::abs(change) < 0.05 ? fmt::format("{:.1f} mm as before", to)
+                                 : fmt::format("{:.1f} to {:.1f} mm, {:.1f} mm {}", from, to,
+                                               std::abs(change), change < 0 ? "less" : "more");
 }
 
 /// What each variant makes of the corners of the mouth, a line each.
@@ -96,9 +95,8 @@ std::string variant_lines(const nlohmann::ordered_json& summary) {
   for (std::size_t i = 1; i < table.size(); ++i) {
     const auto side = [&](const char* key) {
       const auto &from = table[0][key], &to = table[i][key];
-      return from.is_number() && to.is_number()
-                 ? change_text(from.get<double>(), to.get<double>())
-                 : std::string("not known");
+      return from.is_number() && to.is_number() ? change_text(from.get<double>(), to.get<double>())
+                                                : std::string("not known");
     };
     lines += fmt::format("  {}: corner of the mouth left {}; right {}\n",
                          table[i]["name"].get<std::string>(), side("commissure_L_mm"),
@@ -121,8 +119,7 @@ void run(const Options& options) {
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), corners_line(summary),
-      variant_lines(summary),
-      options.out.string());
+      variant_lines(summary), options.out.string());
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},

@@ -155,8 +155,7 @@ Regions regions_of(const Points& rest, const io::Landmarks& landmarks) {
     face.by_names = !face.points.empty();
   }
   Mask whole = build.none();
-  if (build.defined("face", face, 1))
-    build.add("face", whole = within(rest, face.points, 0.040));
+  if (build.defined("face", face, 1)) build.add("face", whole = within(rest, face.points, 0.040));
 
   Mask lips = build.none();
   const Seeds lip = lip_seeds(landmarks);

@@ -36,8 +36,8 @@ Eigen::VectorXd muscle_force(const MuscleLine& line, const TemplateMuscle& muscl
   const tissue::VolumeMesh& volume = mesh.volume;
   const Points normals = vertex_normals(volume.outer);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * volume.nodes.rows());
-  const double reach = (muscle.band > 0 ? muscle.band : shape.band) * 1e-3 * muscle.width_mm *
-                       line.scale;
+  const double reach =
+      (muscle.band > 0 ? muscle.band : shape.band) * 1e-3 * muscle.width_mm * line.scale;
   const double farthest = reach * std::sqrt(-std::log(kLeastWeight));
   const Vec3 low = line.line.colwise().minCoeff().transpose().array() - farthest;
   const Vec3 high = line.line.colwise().maxCoeff().transpose().array() + farthest;

@@ -37,8 +37,8 @@ class Laying {
       const int pieces = std::max(1, static_cast<int>((at[i + 1] - at[i]).norm() / kStep_m));
       for (int k = i == 0 ? 0 : 1; k <= pieces; ++k) {
         const double t = static_cast<double>(k) / pieces;
-        line.push_back(sunk((1 - t) * at[i] + t * at[i + 1],
-                            (1 - t) * depth[i] + t * depth[i + 1]));
+        line.push_back(
+            sunk((1 - t) * at[i] + t * at[i + 1], (1 - t) * depth[i] + t * depth[i + 1]));
       }
     }
     out.line.resize(static_cast<Eigen::Index>(line.size()), 3);
@@ -68,10 +68,10 @@ class Laying {
     const ClosestPoint c = skin_.query(p);
     Vec3 inner = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
-      inner += c.weights[k] * mesh_.volume.nodes
-                                  .row(mesh_.volume.inner_node(
-                                      mesh_.volume.outer.triangles(c.triangle, k)))
-                                  .transpose();
+      inner += c.weights[k] *
+               mesh_.volume.nodes
+                   .row(mesh_.volume.inner_node(mesh_.volume.outer.triangles(c.triangle, k)))
+                   .transpose();
     return (1 - depth) * c.point + depth * inner;
   }
 
@@ -79,8 +79,7 @@ class Laying {
   static std::vector<double> depths(const std::vector<TemplatePlace>& path,
                                     const std::vector<Vec3>& at) {
     std::vector<double> depth(path.size()), way(path.size(), 0);
-    for (std::size_t i = 1; i < path.size(); ++i)
-      way[i] = way[i - 1] + (at[i] - at[i - 1]).norm();
+    for (std::size_t i = 1; i < path.size(); ++i) way[i] = way[i - 1] + (at[i] - at[i - 1]).norm();
     for (std::size_t i = 0; i < path.size(); ++i) {
       std::size_t a = i, b = i;
       while (path[a].depth < 0) --a;

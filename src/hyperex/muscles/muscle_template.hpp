@@ -9,7 +9,8 @@ namespace hyperex::muscles {
 
 /// A place on or under the skin of any face: the mean of landmarks, an offset, a depth.
 struct TemplatePlace {
-  std::vector<std::pair<int, double>> ibug;  ///< iBUG-68 numbers of the left side, weights summing to 1
+  std::vector<std::pair<int, double>>
+      ibug;                      ///< iBUG-68 numbers of the left side, weights summing to 1
   double out_mm = 0, up_mm = 0;  ///< on a face whose outer eye corners are kTemplateEyes_mm apart
   double depth = -1;             ///< 0 on the skin to 1 on the bone; below 0: interpolated
 };

@@ -23,8 +23,7 @@ std::string side_of(const std::string& muscle) {
 std::set<std::string> names_of(const std::string& muscle) {
   const std::string side = side_of(muscle);
   std::set<std::string> names = {muscle, "side" + side};
-  const muscles::TemplateMuscle* row =
-      muscles::find_muscle(muscle.substr(0, muscle.size() - 2));
+  const muscles::TemplateMuscle* row = muscles::find_muscle(muscle.substr(0, muscle.size() - 2));
   if (row && !row->branch.empty()) names.insert(row->branch + side);
   return names;
 }
@@ -83,9 +82,8 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
       found = true;
     }
     if (!found)
-      throw InputError("muscles.gain",
-                       fmt::format("{} is no muscle; there are {}", gain.muscle,
-                                   fmt::join(all, ", ")));
+      throw InputError("muscles.gain", fmt::format("{} is no muscle; there are {}", gain.muscle,
+                                                   fmt::join(all, ", ")));
   }
   return factor;
 }

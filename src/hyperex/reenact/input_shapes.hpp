@@ -18,9 +18,9 @@ inline constexpr int kBeyond = 12;
 
 /// What one direction of the input prescribes (a value a prescribed unknown) and its forces (all
 /// unknowns).
-using FillShape = std::function<void(const Eigen::VectorXd& direction,
-                                     Eigen::Ref<Eigen::VectorXd> prescribed,
-                                     Eigen::Ref<Eigen::VectorXd> force)>;
+using FillShape =
+    std::function<void(const Eigen::VectorXd& direction, Eigen::Ref<Eigen::VectorXd> prescribed,
+                       Eigen::Ref<Eigen::VectorXd> force)>;
 
 /// An input of many numbers (a row each) over the steps and kBeyond more (a column each) as few
 /// shapes with their courses: its principal directions (eigenvectors of its own second moments), as

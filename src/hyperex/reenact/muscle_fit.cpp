@@ -40,8 +40,7 @@ Eigen::Matrix<double, 12, 6> JawKinematics::derivative(const JawPose& pose) cons
 }
 
 MuscleFit::MuscleFit(PointResponse response, const JawKinematics& jaw, const FitPriors& priors,
-                     double sigma_m, std::vector<char> tone,
-                     std::vector<char> ring)
+                     double sigma_m, std::vector<char> tone, std::vector<char> ring)
     : response_(std::move(response)),
       jaw_(jaw),
       priors_(priors),
@@ -80,10 +79,9 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
     h.bottomLeftCorner(6, muscles) = h.topRightCorner(muscles, 6).transpose();
     h.bottomRightCorner(6, 6) = jaw.transpose() * jaw;
     for (Eigen::Index m = 0; m < muscles; ++m) {
-      const double sigma =
-          tone_[m] && last_.activation[m] < 0 ? priors_.tone
-                           : ring_[m]                           ? priors_.ring
-                                                                : priors_.activation;
+      const double sigma = tone_[m] && last_.activation[m] < 0 ? priors_.tone
+                           : ring_[m]                          ? priors_.ring
+                                                               : priors_.activation;
       h(m, m) += 1 / (sigma * sigma);
     }
     for (int k = 0; k < 6; ++k) h(muscles + k, muscles + k) += 1 / (prior[k] * prior[k]);
@@ -96,9 +94,8 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
     last_.activation = x.head(muscles);
     last_.jaw = x.tail<6>();
     if (change < 1e-6 || iteration == kMostIterations - 1) {
-      last_.covariance = h.llt()
-                             .solve(Eigen::MatrixXd::Identity(all, all))
-                             .topLeftCorner(muscles, muscles);
+      last_.covariance =
+          h.llt().solve(Eigen::MatrixXd::Identity(all, all)).topLeftCorner(muscles, muscles);
       break;
     }
   }

@@ -44,7 +44,7 @@ struct FitResult {
   Eigen::VectorXd activation;
   JawPose jaw = JawPose::Zero();
   Eigen::MatrixXd covariance;  ///< of the activations, no bound seen
-  Eigen::VectorXd left_over;  ///< observed less modelled, 3 P, m
+  Eigen::VectorXd left_over;   ///< observed less modelled, 3 P, m
 };
 
 class MuscleFit {
@@ -52,8 +52,7 @@ class MuscleFit {
   /// `sigma_m`: of a coordinate's error. `tone[m]`: may go below 0; `ring[m]`: acts as a
   /// ring.
   MuscleFit(PointResponse response, const JawKinematics& jaw, const FitPriors& priors,
-            double sigma_m, std::vector<char> tone,
-            std::vector<char> ring);
+            double sigma_m, std::vector<char> tone, std::vector<char> ring);
   /// `displacement`: of the points, 3 P. Starts from the last answer.
   FitResult fit(const Eigen::VectorXd& displacement);
   double wide_share(double activation) const { return response_.wide_share(activation); }

@@ -25,8 +25,7 @@ constexpr double kLeftOverLost = 1e-4;
 Eigen::MatrixXd at_points(const CarrierMatrix& carrier, const Eigen::MatrixXd& nodal) {
   Eigen::MatrixXd out(3 * carrier.rows(), nodal.cols());
   for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
-    const Points moved =
-        carrier * Eigen::Map<const Points>(nodal.col(c).data(), carrier.cols(), 3);
+    const Points moved = carrier * Eigen::Map<const Points>(nodal.col(c).data(), carrier.cols(), 3);
     out.col(c) = Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
   }
   return out;
@@ -64,8 +63,8 @@ MuscleModelOptions model_options(const SimulationOptions& options) {
           options.muscles.widening};
 }
 
-MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model,
-                 const Driven& driven, const MuscleOptions& options) {
+MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const Driven& driven,
+                 const MuscleOptions& options) {
   const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
   FitPriors priors;
   priors.activation = options.activation_sigma;
@@ -78,11 +77,10 @@ MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model,
     tone.push_back(muscle.tone);
     ring.push_back(muscle.kind == muscles::MuscleKind::ring);
   }
-  return MuscleFit({at_points(driven.carrier, model.response()),
-                    at_points(driven.carrier, model.jaw_response()),
-                    at_points(driven.carrier, model.wide_response()), options.half},
-                   JawKinematics(landmarks), priors, sigma, std::move(tone),
-                   std::move(ring));
+  return MuscleFit(
+      {at_points(driven.carrier, model.response()), at_points(driven.carrier, model.jaw_response()),
+       at_points(driven.carrier, model.wide_response()), options.half},
+      JawKinematics(landmarks), priors, sigma, std::move(tone), std::move(ring));
 }
 
 /// Forces that hold the patches of the driven points at unit left-overs (columns, 3 P of the driven
@@ -117,8 +115,8 @@ Eigen::MatrixXd name_groups(const std::vector<muscles::MuscleLine>& lines,
                             std::vector<std::string>& groups) {
   Eigen::MatrixXd members = Eigen::MatrixXd::Zero(0, static_cast<Eigen::Index>(lines.size()));
   for (std::size_t m = 0; m < lines.size(); ++m) {
-    const std::string name = muscles::muscle_template()[std::size_t(lines[m].row)].group +
-                             (lines[m].left ? "_L" : "_R");
+    const std::string name =
+        muscles::muscle_template()[std::size_t(lines[m].row)].group + (lines[m].left ? "_L" : "_R");
     const auto at = std::find(groups.begin(), groups.end(), name) - groups.begin();
     if (at == static_cast<std::ptrdiff_t>(groups.size())) {
       groups.push_back(name);
@@ -172,8 +170,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
   const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
-  MuscleModel model(mesh, landmarks, stiffness, muscles::muscle_template(),
-                    model_options(options), order);
+  MuscleModel model(mesh, landmarks, stiffness, muscles::muscle_template(), model_options(options),
+                    order);
   order = model.order();
   MuscleFit fit = fit_of(landmarks, model, driven, options.muscles);
   const JawKinematics jaw(landmarks);
@@ -195,9 +193,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
   for (Eigen::Index k = 0; k < samples; ++k) {
     load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
-    const Points moved =
-        options.drive.gain * (motion.motion.positions[std::size_t(k)] -
-                              motion.motion.positions.front());
+    const Points moved = options.drive.gain * (motion.motion.positions[std::size_t(k)] -
+                                               motion.motion.positions.front());
     const FitResult fitted = fit.fit(driven.of(moved));
     muscle.activation.col(k) = fitted.activation;
     muscle.sigma.col(k) = fitted.covariance.diagonal().cwiseSqrt();

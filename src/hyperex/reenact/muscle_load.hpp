@@ -2,8 +2,8 @@
 #pragma once
 #include <memory>
 
-#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/fem/form/system.hpp"
+#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/reenact/alignment.hpp"
 #include "hyperex/reenact/held_load.hpp"
 #include "hyperex/reenact/point_curve.hpp"

@@ -49,10 +49,8 @@ void MuscleModel::scale_to_unit(double unit_m, Eigen::MatrixXd& force, Eigen::Ma
   response = solve(force);
   const Eigen::Index skin = mesh_.volume.surface_nodes();
   for (Eigen::Index m = 0; m < force.cols(); ++m) {
-    const double most = Eigen::Map<const Points>(response.col(m).data(), skin, 3)
-                            .rowwise()
-                            .norm()
-                            .maxCoeff();
+    const double most =
+        Eigen::Map<const Points>(response.col(m).data(), skin, 3).rowwise().norm().maxCoeff();
     const double scale = most > 0 ? unit_m / most : 0;
     force.col(m) *= scale;
     response.col(m) *= scale;

@@ -216,8 +216,8 @@ struct Simulator::Impl {
 
   void need_boundary() {
     if (!boundary && options.drive.by == DriveBy::muscles) {
-      boundary = std::make_shared<const Boundary>(
-          *mesh, *landmarks, muscle_support(options.support, options.muscles));
+      boundary = std::make_shared<const Boundary>(*mesh, *landmarks,
+                                                  muscle_support(options.support, options.muscles));
       keep_or_drop_order();
       return;
     }
@@ -239,10 +239,9 @@ struct Simulator::Impl {
   }
 
   fem::Material material() const {
-    fem::Material out = options.tissue.material(
-        static_cast<std::size_t>(mesh->volume.tets.rows()), options.model.viscous_form);
-    if (options.drive.by == DriveBy::muscles)
-      stiffen_lips(*mesh, *landmarks, options.muscles, out);
+    fem::Material out = options.tissue.material(static_cast<std::size_t>(mesh->volume.tets.rows()),
+                                                options.model.viscous_form);
+    if (options.drive.by == DriveBy::muscles) stiffen_lips(*mesh, *landmarks, options.muscles, out);
     return out;
   }
 
@@ -325,8 +324,8 @@ struct Simulator::Impl {
     const InputShapes shapes = input_shapes(
         whole, [&](double t) { return points.at(t); }, options.time.step_s, steps(),
         1e-3 * options.solver.tolerance);
-    HeldLoad found = reactions_of(shapes.drive, system.stiffness, whole.prescribed(),
-                                  options.time.step_s);
+    HeldLoad found =
+        reactions_of(shapes.drive, system.stiffness, whole.prescribed(), options.time.step_s);
     found.greatest_opening_deg = shapes.greatest_opening_deg;
     load = std::make_shared<const HeldLoad>(std::move(found));
   }
@@ -335,11 +334,11 @@ struct Simulator::Impl {
     if (input) return;
     if (by_forces()) {
       need_load(points);
-      input = std::make_shared<const InputShapes>(InputShapes{
-          drive_of(*load, options.muscles, options.time.step_s, steps(),
-                   1e-3 * options.solver.tolerance,
-                   static_cast<Eigen::Index>(boundary->prescribed().size())),
-          load->greatest_opening_deg});
+      input = std::make_shared<const InputShapes>(
+          InputShapes{drive_of(*load, options.muscles, options.time.step_s, steps(),
+                               1e-3 * options.solver.tolerance,
+                               static_cast<Eigen::Index>(boundary->prescribed().size())),
+                      load->greatest_opening_deg});
       return;
     }
     // Following the jaw begins at its last position: of this run, not of the one before.

@@ -10,8 +10,7 @@ namespace hyperex::scene {
 /// activations.csv: a row a sample of the motion; time_s, jaw_opening_deg, then of each muscle its
 /// activation (1 moves the skin by 10 mm where most) and its standard deviation. `muscles` has
 /// names.
-void write_activations_csv(const std::filesystem::path& file,
-                           const reenact::MuscleCourse& muscles);
+void write_activations_csv(const std::filesystem::path& file, const reenact::MuscleCourse& muscles);
 
 /// Where the summed activation is greatest: each group's activation and standard deviation by side,
 /// and what may be read from it. `driven_points`: how many there were.

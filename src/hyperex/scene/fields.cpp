@@ -177,8 +177,9 @@ std::vector<Complaint> check_factors(const KeyInfo& info, const json& value) {
     if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end()) {
       const std::string near = nearest(name, info.choices);
       complaints.push_back({"." + name, factor,
-                            near.empty() ? "one of " + fmt::format("{}", fmt::join(info.choices, ", "))
-                                         : "another name; did you mean " + near + "?"});
+                            near.empty()
+                                ? "one of " + fmt::format("{}", fmt::join(info.choices, ", "))
+                                : "another name; did you mean " + near + "?"});
     } else if (!factor.is_number() || !info.range.holds(factor.get<double>())) {
       complaints.push_back({"." + name, factor, number_text(info, "a number")});
     }

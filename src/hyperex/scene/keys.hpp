@@ -12,7 +12,19 @@
 
 namespace hyperex::scene {
 
-enum class Kind { flag, integer, number, numbers, text, choice, path, names, places, factors, rows };
+enum class Kind {
+  flag,
+  integer,
+  number,
+  numbers,
+  text,
+  choice,
+  path,
+  names,
+  places,
+  factors,
+  rows
+};
 
 /// Allowed numbers, in the unit of the key.
 struct Range {

@@ -114,7 +114,8 @@ MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
     twin.simulator->set_motion(std::move(*motion));
   }
   twin.simulator->set_options(std::move(options));
-  reenact::SimulationResult result = twin.simulator->run({.progress = {}, .cancelled = {}, .skin_alone = true});
+  reenact::SimulationResult result =
+      twin.simulator->run({.progress = {}, .cancelled = {}, .skin_alone = true});
   twin.landmarks = std::move(result.performance.landmarks);
   twin.skin_displacement_m = std::move(result.performance.skin_displacement_m);
   return twin;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/activations.hpp"
 #include "hyperex/scene/outputs.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +17,7 @@
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/glb.hpp"
+#include "hyperex/scene/activations.hpp"
 #include "hyperex/scene/asymmetry_picture.hpp"
 #include "hyperex/scene/face_box.hpp"
 #include "hyperex/scene/frames.hpp"

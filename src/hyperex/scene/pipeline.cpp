@@ -106,8 +106,7 @@ Json summary_of(const Results& r, const SkinOff& off) {
   s["head_turn_uncertainty_deg"] = r.inputs.head_turn_uncertainty_deg;
   s["mesh_quality"] = quality_json(r.mesh, off);
   s["symmetry"] = metrics::summary_of(r.symmetry);
-  if (!p.muscles.names.empty())
-    s["muscles"] = activations_json(p.muscles, p.driven_names.size());
+  if (!p.muscles.names.empty()) s["muscles"] = activations_json(p.muscles, p.driven_names.size());
   return s;
 }
 

@@ -377,7 +377,8 @@ std::vector<Override> from_command_line(const std::vector<std::string>& texts) {
 }  // namespace
 
 const std::vector<std::string>& variant_sections() {
-  static const std::vector<std::string> sections = {"tissue", "support", "drive", "muscles", "region"};
+  static const std::vector<std::string> sections = {"tissue", "support", "drive", "muscles",
+                                                    "region"};
   return sections;
 }
 

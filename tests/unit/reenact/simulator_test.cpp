@@ -261,7 +261,13 @@ TEST_F(SimulatorOfAFace, AMatrixThatCannotBeFactoredLeavesItUsable) {
   SimulationOptions loose = options_;
   loose.drive.points = {"ibug68_8"};
   loose.drive.patch_radius_m = 0;
-  loose.support = {false, Hold::free, Mandible::free, {}, {}, 0, {}};
+  loose.support = {.border_held = false,
+                   .skull = Hold::free,
+                   .mandible = Mandible::free,
+                   .skull_layer = {},
+                   .mandible_layer = {},
+                   .muscle_pa_per_m = 0,
+                   .jaw_points = {}};
   simulator.set_options(loose);
   try {
     simulator.run();
