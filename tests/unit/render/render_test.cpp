@@ -153,6 +153,52 @@ TEST(Render, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(render({surface}, front, square).rgb, many.rgb);
 }
 
+/// A lopsided quadrilateral in the plane z = 0, its colour growing along x and y.
+TEST(Render, IsWhatSingleRaysThroughTheSamplesMeet) {
+  TriMesh mesh{Points(4, 3), Triangles(2, 3)};
+  mesh.points << -0.11, -0.09, 0, 0.12, -0.13, 0, 0.08, 0.14, 0, -0.13, 0.1, 0;
+  mesh.triangles << 0, 1, 2, 0, 2, 3;
+  VertexColours colours(4, 3);
+  colours << 20, 200, 128, 250, 180, 128, 240, 10, 128, 10, 30, 128;
+  const Camera camera{.target = {0.003, -0.002, 0}, .to_viewer = {0.2, 0.1, 1}, .height_m = 0.31};
+  constexpr int size = 61, n = 2;
+  const RenderOptions options{.width_px = size, .height_px = size, .samples = n};
+  const Image image = render({{.mesh = mesh, .colours = colours}}, camera, options);
+
+  // Flat, so that the light is one factor and one addend of the colour: those of black and white.
+  const auto light_of = [&](double grey) {
+    return linear_from_srgb(render({{.mesh = mesh, .plain = {grey, grey, grey}}}, camera, options)
+                                .pixel(size / 2, size / 2)[0] /
+                            255.0);
+  };
+  const double sheen = light_of(0), lit = light_of(0.5) - sheen;
+  Eigen::MatrixX2d places(size * size * n * n, 2);
+  for (Eigen::Index i = 0; i < places.rows(); ++i)
+    places.row(i) << (double(i % (size * n)) + 0.5) / n, (double(i / (size * n)) + 0.5) / n;
+  const auto rays = pick({{.mesh = mesh}}, camera, size, size, places);
+  const double grey = linear_from_srgb(0.5), behind = linear_from_srgb(options.background.r);
+  int others = 0, met = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      double light = 0;
+      for (int k = 0; k < n * n; ++k) {
+        const auto& ray = rays[std::size_t((y * n + k / n) * size * n + x * n + k % n)];
+        if (!ray) light += behind;
+        if (!ray) continue;
+        double colour = 0;
+        for (int c = 0; c < 3; ++c)
+          colour += ray->weights[c] *
+                    linear_from_srgb(colours(mesh.triangles(ray->triangle, c), 0) / 255.0);
+        light += sheen + lit * colour / grey;
+        ++met;
+      }
+      const double expected = 255 * srgb_from_linear(std::min(1.0, light / (n * n)));
+      others += std::abs(image.pixel(x, y)[0] - expected) > 2;  // light_of is of whole bytes
+    }
+  EXPECT_GT(met, size * size);
+  EXPECT_LE(others, 2) << "on an edge, by rounding";
+}
+
 TEST(Render, FramingHoldsEveryPoint) {
   const TriMesh mesh = ball();
   for (const double aspect : {0.5, 1.0, 2.0}) {
