@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The keys of muscles: drive.by, [muscles], and what they do not go with.
+#include <gmock/gmock.h>
+
+#include "hyperex/scene/file_names.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "unit/scene/scene_files.hpp"
+
+namespace hyperex::scene {
+namespace {
+using reenact::DriveBy;
+using reenact::MuscleGain;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string by_muscles = std::string(smallest) + "[drive]\nby = \"muscles\"\n";
+
+/// The one problem of a scene text, without its folder.
+std::string only_problem(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const SceneFolder folder;
+  const auto problems = problems_of(folder.write("scene.toml", text), overrides);
+  EXPECT_EQ(problems.size(), 1u) << sentences(problems);
+  const std::string sentence = problems.empty() ? "" : problems[0].sentence();
+  const std::string prefix = (folder / "").string();
+  return sentence.starts_with(prefix) ? sentence.substr(prefix.size()) : sentence;
+}
+
+Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const SceneFolder folder;
+  return read_scene(folder.write("scene.toml", text), overrides);
+}
+
+TEST(MuscleKeys, SayWhatDrives) {
+  EXPECT_EQ(scene_of(smallest).drive.by, DriveBy::displacement);
+  EXPECT_EQ(scene_of(by_muscles).drive.by, DriveBy::muscles);
+  EXPECT_EQ(scene_of(smallest, {"drive.by=reactions"}).drive.by, DriveBy::reactions);
+  EXPECT_THAT(only_problem(smallest, {"drive.by=muscle"}),
+              HasSubstr("--set: drive.by = \"muscle\": expected \"displacement\", \"muscles\""));
+}
+
+TEST(MuscleKeys, GainsAreATableOfNamesAndNumbers) {
+  EXPECT_THAT(scene_of(by_muscles).muscles.gains, IsEmpty());
+  const Scene scene = scene_of(by_muscles +
+                               "[muscles]\nmirrored = true\n"
+                               "gain = { zygomatic_R = 0, zyg_major_L = 0.3, side_L = 5 }\n");
+  EXPECT_TRUE(scene.muscles.mirrored);
+  EXPECT_THAT(scene.muscles.gains,
+              ElementsAre(MuscleGain{"side_L", 5}, MuscleGain{"zyg_major_L", 0.3},
+                          MuscleGain{"zygomatic_R", 0}));
+  EXPECT_THAT(scene_of(by_muscles + "[muscles.gain]\nside_R = 0.5\n").muscles.gains,
+              ElementsAre(MuscleGain{"side_R", 0.5}));
+  EXPECT_THAT(
+      scene_of(by_muscles + "[muscles.gain]\nside_R = 0.5\n", {"muscles.gain={ malaris_L = 0.25 }"})
+          .muscles.gains,
+      ElementsAre(MuscleGain{"malaris_L", 0.25}))
+      << "--set takes the place of the table";
+}
+
+TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
+  EXPECT_EQ(only_problem(by_muscles + "[muscles]\ngain = { zyg_mayor_L = 0.3 }\n"),
+            "scene.toml:8: muscles.gain.zyg_mayor_L = 0.3: expected another name; did you mean "
+            "zyg_major_L?");
+  EXPECT_EQ(only_problem(by_muscles, {"muscles.gain={ side_l = 0.3 }"}),
+            "--set: muscles.gain.side_l = 0.3: expected another name; did you mean side_L?");
+  EXPECT_THAT(only_problem(by_muscles + "[muscles]\ngain = { weather = 1 }\n"),
+              HasSubstr("muscles.gain.weather = 1: expected one of buccal_L, buccal_R, "));
+}
+
+TEST(MuscleKeys, AFactorIsANumberFrom0To5) {
+  for (const char* bad : {"-0.1", "5.1", "\"weak\"", "true", "nan"})
+    EXPECT_THAT(only_problem(by_muscles + "[muscles]\ngain = { side_R = " + bad + " }\n"),
+                HasSubstr("expected a number from 0 to 5"))
+        << bad;
+  for (const char* bad : {"0.5", "[0.5]", "\"side_R\""})
+    EXPECT_THAT(only_problem(by_muscles + "[muscles]\ngain = " + bad + "\n"),
+                HasSubstr("expected a table of names and numbers "))
+        << bad;
+  EXPECT_THAT(only_problem(by_muscles, {"muscles.mirrored=3"}), HasSubstr("muscles.mirrored = 3"));
+}
+
+TEST(MuscleKeys, NeedMusclesThatDrive) {
+  EXPECT_THAT(only_problem(smallest, {"muscles.gain={ side_R = 0.5 }"}),
+              HasSubstr("expected drive.by = \"muscles\" in the scene"));
+  EXPECT_THAT(only_problem(smallest, {"drive.by=reactions", "muscles.mirrored=true"}),
+              HasSubstr("muscles.mirrored = true: expected drive.by = \"muscles\""));
+}
+
+TEST(MuscleKeys, VaryAndBelongToTheVariant) {
+  const std::string variant = "[[variant]]\nname = \"palsy\"\n[variant.muscles]\n";
+  const Scene scene = scene_of(by_muscles + "[muscles.gain]\nside_L = 0.9\n" + variant +
+                               "gain = { zygomatic_R = 0.25 }\n");
+  ASSERT_EQ(scene.variants.size(), 1u);
+  EXPECT_THAT(scene.variants[0].scene.muscles.gains, ElementsAre(MuscleGain{"zygomatic_R", 0.25}));
+  EXPECT_THAT(scene.muscles.gains, ElementsAre(MuscleGain{"side_L", 0.9}));
+  EXPECT_THAT(only_problem(std::string(smallest) + variant + "gain = { zygomatic_R = 0.25 }\n"),
+              HasSubstr("expected drive.by = \"muscles\" in the scene"));
+  EXPECT_THAT(only_problem(by_muscles + variant + "gain = { zygomatik_R = 0.25 }\n"),
+              HasSubstr("did you mean zygomatic_"));
+}
+
+TEST(MuscleKeys, AreEchoed) {
+  const SceneFolder folder;
+  const Scene scene = read_scene(folder.write(
+      "scene.toml", by_muscles + "[muscles]\ngain = { side_R = 0.5, malaris_L = 2 }\n"));
+  const auto options = echoed_options(scene);
+  EXPECT_EQ(options.at("drive").at("by"), "muscles");
+  EXPECT_EQ(options.at("muscles").at("gain"), (nlohmann::json{{"side_R", 0.5}, {"malaris_L", 2}}));
+  EXPECT_EQ(options.at("muscles").at("mirrored"), false);
+  const Scene plain = read_scene(folder.write("plain.toml", smallest));
+  EXPECT_EQ(echoed_options(plain).at("muscles").at("gain"), nlohmann::json::object());
+}
+
+TEST(MuscleKeys, ARegionThatIsMeasuredIsRefused) {
+  for (const char* by : {"muscles", "reactions"}) {
+    const std::string drive = std::string("drive.by=") + by;
+    EXPECT_THAT(only_problem(smallest, {drive, "region.measured=points",
+                                        "region.measured_points=[\"ibug68_8\"]"}),
+                HasSubstr("region.measured = \"points\": expected \"none\", as drive.by is not"));
+    EXPECT_THAT(only_problem(smallest, {drive, "region.measured=all"}),
+                HasSubstr("region.measured = \"all\": expected \"none\""));
+  }
+}
+
+}  // namespace
+}  // namespace hyperex::scene
