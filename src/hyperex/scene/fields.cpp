@@ -171,7 +171,8 @@ std::vector<Complaint> check_places(const KeyInfo& info, const json& value) {
 }
 
 std::vector<Complaint> check_factors(const KeyInfo& info, const json& value) {
-  if (!value.is_object()) return {{"", value, info.expected()}};
+  // A date comes as a table of this one name.
+  if (!value.is_object() || value.contains("date or time")) return {{"", value, info.expected()}};
   std::vector<Complaint> complaints;
   for (const auto& [name, factor] : value.items()) {
     if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end()) {

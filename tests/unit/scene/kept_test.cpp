@@ -2,6 +2,7 @@
 #include "hyperex/scene/kept.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -74,8 +75,8 @@ TEST(Kept, BytesOfSomethingElseAreNothing) {
 class KeptRecording : public testing::Test {
  protected:
   void SetUp() override {
-    folder = fs::path(testing::TempDir()) / "kept_recording";
-    fs::remove_all(folder);
+    // Cases run beside each other.
+    folder = fs::path(testing::TempDir()) / ("kept_recording_" + std::to_string(getpid()));
     fs::create_directories(folder / "recording" / "depth");
     write("recording/colour.txt", "one");
     write("recording/depth/1.png", "two");

@@ -80,6 +80,7 @@ inline std::string scene_with(const std::string& key, const std::string& value) 
       key != "motion.arkit")
     text += "motion.file = \"embedded\"\n";
   if (key == "solver.newmark_gamma") text += "solver.newmark_beta = 0.5\n";  // at least half of it
+  if (key.starts_with("muscles.")) text += "drive.by = \"muscles\"\n";       // else refused
   if (key == "scan.file") text += "scan.landmarks = \"points.json\"\n";
   return text;
 }

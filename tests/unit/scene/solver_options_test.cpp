@@ -67,6 +67,11 @@ void add_simulation(const reenact::SimulationOptions& o, Options& all) {
   add("support.mandible_layer.along", o.support.mandible_layer.along_pa_per_m);
   add("support.muscle", o.support.muscle_pa_per_m);
   add("support.jaw_points", o.support.jaw_points);
+  add("drive.by", o.drive.by);
+  std::string gains;
+  for (const reenact::MuscleGain& g : o.muscles.gains) gains += g.muscle + shown(g.gain) + ";";
+  all["muscles.gains"] = gains;
+  add("muscles.mirrored", o.muscles.mirrored);
   add("drive.points", o.drive.points);
   add("drive.still_points", o.drive.still_points);
   add("drive.patch_radius_m", o.drive.patch_radius_m);
@@ -163,6 +168,9 @@ const std::map<std::string, Targets>& targets() {
       {"support.mandible_along_kpa_per_mm", {"support.mandible_layer.along"}},
       {"support.muscle_kpa_per_mm", {"support.muscle"}},
       {"support.jaw_points", {"support.jaw_points"}},
+      {"drive.by", {"drive.by"}},
+      {"muscles.gain", {"muscles.gains"}},
+      {"muscles.mirrored", {"muscles.mirrored"}},
       {"drive.points", {"drive.points"}},
       {"drive.patch_radius_mm", {"drive.patch_radius_m"}},
       {"drive.still_points", {"drive.still_points"}},
