@@ -192,6 +192,10 @@ void bind_simulator(py::module_& m) {
           },
           "drive"_a)
       .def(
+          "hold_load", [](S& self) { self.change([](auto& s) { s.hold_load(); }); },
+          "From now on the forces found by muscles or reactions are kept whatever tissue and "
+          "support are set.")
+      .def(
           "set_motion",
           [](S& self, const AlignedMotion& motion) {
             self.change([&](auto& s) { s.set_motion(motion); });

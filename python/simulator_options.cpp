@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of a simulation: the structs of reenact/options.hpp.
+#include <pybind11/stl.h>
+
+#include <map>
+
 #include "hyperex/reenact/options.hpp"
 #include "options_class.hpp"
 
@@ -32,12 +36,34 @@ void bind_support(py::module_& m) {
 void bind_drive(py::module_& m) {
   OptionsClass<DriveOptions>(m, "DriveOptions", "Which points move the skin.")
       .list("points", &DriveOptions::points, "Names of the motion's points.")
+      .word("by", &DriveOptions::by,
+            {{"displacement", DriveBy::displacement},
+             {"muscles", DriveBy::muscles},
+             {"reactions", DriveBy::reactions}},
+            "displacement; muscles or reactions: forces, which other tissue answers.")
       .field("all_points", &DriveOptions::all_points, "Every point of the motion.")
       .list("still_points", &DriveOptions::still_points,
             "Names of landmarks that are kept where they are.")
       .field("patch_radius_m", &DriveOptions::patch_radius_m,
              "Of the skin that a point moves, 0 to 0.03 m; 0: the nearest node.")
       .field("gain", &DriveOptions::gain, "On all displacements.");
+  OptionsClass<MuscleOptions>(m, "MuscleOptions", "Muscles, where they are what drives.")
+      .custom(
+          "gains",
+          [](const MuscleOptions& self) -> py::object {
+            py::dict gains;
+            for (const MuscleGain& gain : self.gains) gains[py::str(gain.muscle)] = gain.gain;
+            return gains;
+          },
+          [](MuscleOptions& self, py::handle v) {
+            self.gains.clear();
+            for (const auto& [muscle, gain] : v.cast<std::map<std::string, double>>())
+              self.gains.push_back({muscle, gain});
+          },
+          "Factors (0 to 5) on activations by muscle (zyg_major_R), branch of the facial nerve "
+          "(zygomatic_R) or side (side_R): a dict, handed out as a copy.")
+      .field("mirrored", &MuscleOptions::mirrored,
+             "Each muscle takes the activation of its counterpart.");
   OptionsClass<RegionOptions>(m, "RegionOptions",
                               "Which part of the skin follows the recording directly.")
       .word("measured", &RegionOptions::measured,
@@ -91,6 +117,7 @@ void bind_simulator_options(py::module_& m) {
       .field("tissue", &SimulationOptions::tissue, "A Tissue.")
       .field("support", &SimulationOptions::support, "SupportOptions.")
       .field("drive", &SimulationOptions::drive, "DriveOptions.")
+      .field("muscles", &SimulationOptions::muscles, "MuscleOptions.")
       .field("region", &SimulationOptions::region, "RegionOptions.")
       .field("model", &SimulationOptions::model, "ModelOptions.")
       .field("solver", &SimulationOptions::solver, "SolverOptions.")

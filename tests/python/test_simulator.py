@@ -140,6 +140,27 @@ class Setters(unittest.TestCase):
             simulator.run()
 
 
+class Forces(unittest.TestCase):
+    def test_other_muscles_answer_other_than_prescribed_points(self):
+        simulator = small_simulator()
+        simulator.set_drive(simulator.options.drive.replace(by="muscles"))
+        base = simulator.run()
+        self.assertLess(base.report.driven_off_mm, 0.5)
+        simulator.hold_load()
+        weak = hyperex.MuscleOptions(gains={"side_R": 0.0})
+        simulator.set_options(simulator.options.replace(muscles=weak))
+        self.assertEqual(simulator.options.muscles.gains, {"side_R": 0.0})
+        peak = base.peak_frame
+        change = simulator.run().skin_displacement_m[peak] - base.skin_displacement_m[peak]
+        self.assertGreater(np.abs(change).max(), 1e-4)
+
+    def test_refused(self):
+        simulator = small_simulator()
+        weak = hyperex.MuscleOptions(gains={"side_R": 0.5})
+        with self.assertRaisesRegex(ValueError, "drive.by"):
+            simulator.set_options(simulator.options.replace(muscles=weak))
+
+
 class Stream(unittest.TestCase):
     def test_skin_follows_samples(self):
         simulator = small_simulator()

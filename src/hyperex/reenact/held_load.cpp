@@ -96,7 +96,7 @@ MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& o
       out.activation.row(static_cast<Eigen::Index>(m)) = muscles.activation.row(from);
       out.sigma.row(static_cast<Eigen::Index>(m)) = muscles.sigma.row(from);
     }
-  if (!options.mirrored && options.gains.empty()) return out;
+  if (muscles.names.empty() || (!options.mirrored && options.gains.empty())) return out;
   out.groups.clear();
   out.group_activation.resize(0, 0);
   out.group_sigma.resize(0, 0);

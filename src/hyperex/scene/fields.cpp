@@ -78,7 +78,7 @@ std::string KeyInfo::expected() const {
     case Kind::places:
       return "a list of places [x, y, z]" + (unit.empty() ? "" : " (" + unit + ")");
     case Kind::factors:
-      return fmt::format("a table of names and numbers {}, as in {{ {} = 0.5 }}", range.text(),
+      return fmt::format("a table of names and numbers from {}, as in {{ {} = 0.5 }}", range.text(),
                          choices.empty() ? "name" : choices.front());
     case Kind::rows:
       break;

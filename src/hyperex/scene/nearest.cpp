@@ -49,7 +49,7 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
   for (const auto& candidate : candidates) {
     const std::string last = last_part(candidate);
     // The same last part in another section, or without its unit, is as near as one slip.
-    std::size_t far = std::min(slips(given, candidate), slips(given_last, last) + 1);
+    std::size_t far = std::min(slips(given, lower(candidate)), slips(given_last, lower(last)) + 1);
     if (!given_last.empty() && last.rfind(given_last + "_", 0) == 0)
       far = std::min<std::size_t>(far, section_of(given) == section_of(candidate) ? 0 : 1);
     if (far >= best_slips) continue;
