@@ -192,4 +192,19 @@ const TemplateMuscle* find_muscle(const std::string& name) {
   return nullptr;
 }
 
+std::set<std::string> names_for(const std::string& muscle) {
+  const std::string side = muscle.substr(muscle.size() - 2);  // "_L"
+  std::set<std::string> names = {muscle, "side" + side};
+  const TemplateMuscle* row = find_muscle(muscle.substr(0, muscle.size() - 2));
+  if (row && !row->branch.empty()) names.insert(row->branch + side);
+  return names;
+}
+
+std::vector<std::string> gain_names() {
+  std::set<std::string> all;
+  for (const TemplateMuscle& muscle : muscle_template())
+    for (const char* side : {"_L", "_R"}) all.merge(names_for(muscle.name + side));
+  return {all.begin(), all.end()};
+}
+
 }  // namespace hyperex::muscles

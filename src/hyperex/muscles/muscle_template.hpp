@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,5 +43,11 @@ std::vector<TemplateMuscle> read_muscles(std::string_view toml, const std::strin
 const std::vector<TemplateMuscle>& muscle_template();
 /// By its name without side; null where there is none.
 const TemplateMuscle* find_muscle(const std::string& name);
+
+/// What may name a muscle of one side ("zyg_major_R"), alone or with others: itself, its branch on
+/// its side ("zygomatic_R"), its side ("side_R").
+std::set<std::string> names_for(const std::string& muscle);
+/// All of these, of the template's muscles, sorted.
+std::vector<std::string> gain_names();
 
 }  // namespace hyperex::muscles

@@ -15,19 +15,6 @@
 namespace hyperex::reenact {
 namespace {
 
-std::string side_of(const std::string& muscle) {
-  return muscle.substr(muscle.size() - 2);  // "_L"
-}
-
-/// Everything that a gain may name of this muscle.
-std::set<std::string> names_of(const std::string& muscle) {
-  const std::string side = side_of(muscle);
-  std::set<std::string> names = {muscle, "side" + side};
-  const muscles::TemplateMuscle* row = muscles::find_muscle(muscle.substr(0, muscle.size() - 2));
-  if (row && !row->branch.empty()) names.insert(row->branch + side);
-  return names;
-}
-
 /// The counterpart's index.
 int counterpart(const std::vector<std::string>& muscles, std::size_t m) {
   std::string other = muscles[m];
@@ -58,16 +45,6 @@ Eigen::MatrixXd at_steps(const std::vector<double>& time_s, const Eigen::MatrixX
 
 }  // namespace
 
-std::vector<std::string> gain_names() {
-  std::set<std::string> all;
-  for (const muscles::TemplateMuscle& muscle : muscles::muscle_template())
-    for (const char* side : {"_L", "_R"}) {
-      const std::set<std::string> names = names_of(muscle.name + side);
-      all.insert(names.begin(), names.end());
-    }
-  return {all.begin(), all.end()};
-}
-
 Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
                              const std::vector<MuscleGain>& gains) {
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(muscles.size()));
@@ -75,7 +52,7 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
     bool found = false;
     std::set<std::string> all;
     for (std::size_t m = 0; m < muscles.size(); ++m) {
-      const std::set<std::string> names = names_of(muscles[m]);
+      const std::set<std::string> names = muscles::names_for(muscles[m]);
       all.insert(names.begin(), names.end());
       if (!names.contains(gain.muscle)) continue;
       factor[static_cast<Eigen::Index>(m)] *= gain.gain;

@@ -27,9 +27,6 @@ struct HeldLoad {
 Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
                              const std::vector<MuscleGain>& gains);
 
-/// Everything that a gain may name, sorted.
-std::vector<std::string> gain_names();
-
 /// The activations after mirroring and gains.
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);
 

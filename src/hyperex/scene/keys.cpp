@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/scene/keys.hpp"
 
-#include "hyperex/reenact/held_load.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/fields.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 
@@ -354,7 +354,7 @@ std::vector<Key> run_keys() {
                    "Points that are held still on the skin."),
       factors<Scene, reenact::MuscleGain>(
           "muscles.gain", AT(muscles.gains), &reenact::MuscleGain::muscle,
-          &reenact::MuscleGain::gain, reenact::gain_names(),
+          &reenact::MuscleGain::gain, muscles::gain_names(),
           in(reenact::MuscleOptions::gain_in, none),
           "Factors on activations as they were found: of one muscle, of those that a branch of the "
           "facial nerve moves on one side, or of a side; 0 is a palsy. Several multiply."),

@@ -46,7 +46,7 @@ TEST(MuscleGains, AnUnknownNameIsToldWithThoseThereAre) {
 }
 
 TEST(MuscleGains, EveryNameIsListed) {
-  const std::vector<std::string> names = gain_names();
+  const std::vector<std::string> names = muscles::gain_names();
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
   EXPECT_EQ(names.size(), 2 * (muscles::muscle_template().size() + 5 + 1));
   std::vector<std::string> all;
