@@ -80,20 +80,10 @@ CsvTable read_csv(const std::filesystem::path& file) {
 }
 
 CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of) {
-  const std::string text = read_file(file);
   CsvTable table;
   table.file = file;
   std::vector<double> values;
-  char separator = ',';
-  Lines lines(text);
-  std::string_view line;
-  while (lines.next(line)) {
-    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
-    if (table.names.empty()) {
-      separator = separator_of(line);
-      table.names = read_names(file, lines.number(), line, separator);
-      continue;
-    }
+  walk_table(file, table.names, [&](std::string_view line, int number, char separator) {
     std::vector<std::string> unquoted;
     std::vector<std::string_view> cells;
     if (line.find('"') == std::string_view::npos) {
@@ -102,13 +92,11 @@ CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of
       unquoted = cells_of(line, separator);
       cells.assign(unquoted.begin(), unquoted.end());
     }
-    check_length(file, lines.number(), cells.size(), table.names.size(), separator);
+    check_length(file, number, cells.size(), table.names.size(), separator);
     for (std::size_t c = 0; c < cells.size(); ++c)
-      values.push_back(read_cell(table, lines.number(), c, cells[c], number_of));
-    table.lines.push_back(lines.number());
-  }
-  if (table.names.empty())
-    throw InputError(file, "is empty; expected a table whose first line names its columns");
+      values.push_back(read_cell(table, number, c, cells[c], number_of));
+    table.lines.push_back(number);
+  });
   table.values = Eigen::Map<const decltype(table.values)>(
       values.data(), static_cast<Eigen::Index>(table.lines.size()),
       static_cast<Eigen::Index>(table.names.size()));

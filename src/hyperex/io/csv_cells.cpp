@@ -6,6 +6,7 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/io/number.hpp"
 
 namespace hyperex::io {
@@ -84,6 +85,25 @@ void check_length(const std::filesystem::path& file, int line, std::size_t cells
                    commas ? "; are its decimals behind commas? Then cells must be separated by "
                             "semicolons, and decimals by points"
                           : "")});
+}
+
+void walk_table(const std::filesystem::path& file, std::vector<std::string>& names,
+                const std::function<void(std::string_view line, int number, char separator)>& row) {
+  const std::string text = read_file(file);
+  char separator = ',';
+  Lines lines(text);
+  std::string_view line;
+  while (lines.next(line)) {
+    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
+    if (!names.empty()) {
+      row(line, lines.number(), separator);
+      continue;
+    }
+    separator = separator_of(line);
+    names = read_names(file, lines.number(), line, separator);
+  }
+  if (names.empty())
+    throw InputError(file, "is empty; expected a table whose first line names its columns");
 }
 
 }  // namespace hyperex::io

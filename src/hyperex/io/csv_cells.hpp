@@ -2,6 +2,7 @@
 #pragma once
 // What the readers and writers of tables of numbers (csv.hpp) and of texts (text_table.hpp) share.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,11 @@ std::string in_quotes_where_needed(const std::string& name);
 /// printable or there twice.
 std::vector<std::string> read_names(const std::filesystem::path& file, int line,
                                     std::string_view header, char separator);
+
+/// Calls `row` with each line below that of names, its number and the separator; comments and empty
+/// lines are left out. `names` are there before the first call. InputError: no names.
+void walk_table(const std::filesystem::path& file, std::vector<std::string>& names,
+                const std::function<void(std::string_view line, int number, char separator)>& row);
 
 /// InputError where a row has another number of cells than there are names.
 void check_length(const std::filesystem::path& file, int line, std::size_t cells, std::size_t names,

@@ -2,34 +2,20 @@
 #include "hyperex/io/text_table.hpp"
 
 #include "hyperex/core/assert.hpp"
-#include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/csv_cells.hpp"
-#include "hyperex/io/number.hpp"
 
 namespace hyperex::io {
 
 TextTable read_text_table(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
   TextTable table;
   table.file = file;
-  char separator = ',';
-  Lines lines(text);
-  std::string_view line;
-  while (lines.next(line)) {
-    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
-    if (table.names.empty()) {
-      separator = separator_of(line);
-      table.names = read_names(file, lines.number(), line, separator);
-      continue;
-    }
+  walk_table(file, table.names, [&](std::string_view line, int number, char separator) {
     std::vector<std::string> cells = cells_of(line, separator);
-    check_length(file, lines.number(), cells.size(), table.names.size(), separator);
+    check_length(file, number, cells.size(), table.names.size(), separator);
     table.rows.push_back(std::move(cells));
-    table.lines.push_back(lines.number());
-  }
-  if (table.names.empty())
-    throw InputError(file, "is empty; expected a table whose first line names its columns");
+    table.lines.push_back(number);
+  });
   return table;
 }
 

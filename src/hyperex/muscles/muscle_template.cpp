@@ -200,6 +200,11 @@ std::set<std::string> names_for(const std::string& muscle) {
   return names;
 }
 
+std::string other_side(std::string name) {
+  name.back() = name.back() == 'L' ? 'R' : 'L';
+  return name;
+}
+
 std::vector<std::string> gain_names() {
   std::set<std::string> all;
   for (const TemplateMuscle& muscle : muscle_template())

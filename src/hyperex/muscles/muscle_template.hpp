@@ -47,6 +47,8 @@ const TemplateMuscle* find_muscle(const std::string& name);
 /// What may name a muscle of one side ("zyg_major_R"), alone or with others: itself, its branch on
 /// its side ("zygomatic_R"), its side ("side_R").
 std::set<std::string> names_for(const std::string& muscle);
+/// The same muscle, branch or side of the other side: "side_L" -> "side_R".
+std::string other_side(std::string name);
 /// All of these, of the template's muscles, sorted.
 std::vector<std::string> gain_names();
 

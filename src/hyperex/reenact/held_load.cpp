@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/static_solve.hpp"
@@ -17,9 +16,7 @@ namespace {
 
 /// The counterpart's index.
 int counterpart(const std::vector<std::string>& muscles, std::size_t m) {
-  std::string other = muscles[m];
-  other.back() = other.back() == 'L' ? 'R' : 'L';
-  const auto it = std::find(muscles.begin(), muscles.end(), other);
+  const auto it = std::find(muscles.begin(), muscles.end(), muscles::other_side(muscles[m]));
   return static_cast<int>(it == muscles.end() ? m : it - muscles.begin());
 }
 
@@ -50,17 +47,14 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(muscles.size()));
   for (const MuscleGain& gain : gains) {
     bool found = false;
-    std::set<std::string> all;
     for (std::size_t m = 0; m < muscles.size(); ++m) {
-      const std::set<std::string> names = muscles::names_for(muscles[m]);
-      all.insert(names.begin(), names.end());
-      if (!names.contains(gain.muscle)) continue;
+      if (!muscles::names_for(muscles[m]).contains(gain.muscle)) continue;
       factor[static_cast<Eigen::Index>(m)] *= gain.gain;
       found = true;
     }
     if (!found)
       throw InputError("muscles.gain", fmt::format("{} is no muscle; there are {}", gain.muscle,
-                                                   fmt::join(all, ", ")));
+                                                   fmt::join(muscles::gain_names(), ", ")));
   }
   return factor;
 }

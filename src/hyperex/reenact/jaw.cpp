@@ -10,18 +10,26 @@ namespace {
 constexpr double slide_weight = 0.3, turn_weight_per_rad = 20;
 }  // namespace
 
-Jaw::Jaw(const io::Landmarks& landmarks, double condyle_forward_m)
-    : frame_(tissue::face_frame(landmarks)) {
-  centre_ = 0.5 * (landmarks.at(tissue::ibug(1)) + landmarks.at(tissue::ibug(15))) +
-            condyle_forward_m * frame_.z;
+JawHinge::JawHinge(const io::Landmarks& landmarks, double forward_m)
+    : frame(tissue::face_frame(landmarks)),
+      centre(0.5 * (landmarks.at(tissue::ibug(1)) + landmarks.at(tissue::ibug(15))) +
+             forward_m * frame.z) {}
+
+Eigen::Matrix3d JawHinge::turned(double opening, double turn, double tilt) const {
+  return (Eigen::AngleAxisd(opening, frame.x) * Eigen::AngleAxisd(turn, frame.y) *
+          Eigen::AngleAxisd(tilt, frame.z))
+      .toRotationMatrix();
 }
+
+Jaw::Jaw(const io::Landmarks& landmarks, double condyle_forward_m)
+    : hinge_(landmarks, condyle_forward_m) {}
 
 Eigen::Isometry3d Jaw::transform(const Parameters& p) const {
   Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
-  t.linear() =
-      (Eigen::AngleAxisd(p[0], frame_.x) * Eigen::AngleAxisd(p[1], frame_.y)).toRotationMatrix();
+  const tissue::FaceFrame& axes = hinge_.frame;
+  t.linear() = hinge_.turned(p[0], p[1]);
   t.translation() =
-      centre_ - t.linear() * centre_ + p[2] * frame_.x + p[3] * frame_.y + p[4] * frame_.z;
+      hinge_.centre - t.linear() * hinge_.centre + p[2] * axes.x + p[3] * axes.y + p[4] * axes.z;
   return t;
 }
 
@@ -40,14 +48,7 @@ Eigen::Isometry3d Jaw::follow(const Points& rest, const Points& displacement) {
   };
   for (int iteration = 0; iteration < 20; ++iteration) {
     const Eigen::VectorXd r = residual(last_);
-    Eigen::MatrixXd jacobian(r.size(), 5);
-    constexpr double h = 1e-6;
-    for (int k = 0; k < 5; ++k) {
-      Parameters plus = last_, minus = last_;
-      plus[k] += h;
-      minus[k] -= h;
-      jacobian.col(k) = (residual(plus) - residual(minus)) / (2 * h);
-    }
+    const Eigen::MatrixXd jacobian = central_differences(residual, last_);
     const Eigen::Matrix<double, 5, 5> normal = jacobian.transpose() * jacobian;
     const Parameters change = normal.ldlt().solve(jacobian.transpose() * r);
     last_ -= change;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/reenact/muscle_fit.hpp"
 
-#include <Eigen/Geometry>
 #include <limits>
 
 #include "hyperex/muscles/bounded_least_squares.hpp"
@@ -11,32 +10,17 @@ namespace {
 constexpr int kMostIterations = 8;
 }
 
-JawKinematics::JawKinematics(const io::Landmarks& landmarks)
-    : frame_(tissue::face_frame(landmarks)),
-      centre_(0.5 * (landmarks.at(tissue::ibug(1)) + landmarks.at(tissue::ibug(15)))) {}
-
 Eigen::Matrix<double, 12, 1> JawKinematics::motion(const JawPose& p) const {
-  const Eigen::Matrix3d turn =
-      (Eigen::AngleAxisd(p[0], frame_.x) * Eigen::AngleAxisd(p[1], frame_.y) *
-       Eigen::AngleAxisd(p[2], frame_.z))
-          .toRotationMatrix() -
-      Eigen::Matrix3d::Identity();
+  const tissue::FaceFrame& axes = hinge_.frame;
+  const Eigen::Matrix3d turn = hinge_.turned(p[0], p[1], p[2]) - Eigen::Matrix3d::Identity();
   Eigen::Matrix<double, 12, 1> out;
   out.head<9>() = turn.reshaped();
-  out.tail<3>() = -turn * centre_ + p[3] * frame_.x + p[4] * frame_.y + p[5] * frame_.z;
+  out.tail<3>() = -turn * hinge_.centre + p[3] * axes.x + p[4] * axes.y + p[5] * axes.z;
   return out;
 }
 
 Eigen::Matrix<double, 12, 6> JawKinematics::derivative(const JawPose& pose) const {
-  Eigen::Matrix<double, 12, 6> out;
-  constexpr double h = 1e-6;
-  for (int k = 0; k < 6; ++k) {
-    JawPose plus = pose, minus = pose;
-    plus[k] += h;
-    minus[k] -= h;
-    out.col(k) = (motion(plus) - motion(minus)) / (2 * h);
-  }
-  return out;
+  return central_differences([this](const JawPose& p) { return motion(p); }, pose);
 }
 
 MuscleFit::MuscleFit(PointResponse response, const JawKinematics& jaw, const FitPriors& priors,

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "hyperex/geometry/types.hpp"
-#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/reenact/jaw.hpp"
 
 namespace hyperex::reenact {
 
@@ -15,13 +15,12 @@ using JawPose = Eigen::Matrix<double, 6, 1>;
 /// The jaw's displacement as turn (9, column by column) and slide (3) of Boundary::JawMotion.
 class JawKinematics {
  public:
-  explicit JawKinematics(const io::Landmarks& landmarks);
+  explicit JawKinematics(const io::Landmarks& landmarks) : hinge_(landmarks) {}
   Eigen::Matrix<double, 12, 1> motion(const JawPose& pose) const;
   Eigen::Matrix<double, 12, 6> derivative(const JawPose& pose) const;
 
  private:
-  tissue::FaceFrame frame_;
-  Vec3 centre_;
+  JawHinge hinge_;
 };
 
 /// What is known of the numbers to fit before any point is seen: 1 sigma.

@@ -5,6 +5,7 @@
 
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/tissue/face_frame.hpp"
@@ -104,7 +105,7 @@ MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
   options.solver.verify = false;
   options.time.still_times_s.clear();
   for (reenact::MuscleGain& gain : options.muscles.gains)
-    gain.muscle.back() = gain.muscle.back() == 'L' ? 'R' : 'L';
+    gain.muscle = muscles::other_side(gain.muscle);
   if (field) options.tissue.element = mirrored_elements(*field, run.mesh(), plane);
   if (of_base && of_base->simulator) {
     twin.simulator = std::make_shared<reenact::Simulator>(*of_base->simulator);
