@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/scene/activations.hpp"
 
-#include <fmt/ostream.h>
-
-#include "hyperex/core/files.hpp"
+#include "hyperex/io/csv.hpp"
 #include "hyperex/reenact/muscle_load.hpp"
 
 namespace hyperex::scene {
 
 void write_activations_csv(const std::filesystem::path& file,
                            const reenact::MuscleCourse& muscles) {
-  write_file_atomically(file, [&](std::ostream& out) {
-    out << "time_s,jaw_opening_deg";
-    for (const std::string& name : muscles.names) fmt::print(out, ",{0},{0}_sigma", name);
-    out << '\n';
-    for (std::size_t k = 0; k < muscles.time_s.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      fmt::print(out, "{:.6g},{:.5g}", muscles.time_s[k], muscles.jaw_opening_deg[column]);
-      for (Eigen::Index m = 0; m < muscles.activation.rows(); ++m)
-        fmt::print(out, ",{:.5g},{:.3g}", muscles.activation(m, column), muscles.sigma(m, column));
-      out << '\n';
-    }
-  });
+  std::vector<std::string> columns = {"time_s", "jaw_opening_deg"};
+  for (const std::string& name : muscles.names) {
+    columns.push_back(name);
+    columns.push_back(name + "_sigma");
+  }
+  io::write_csv(file, columns, static_cast<long>(muscles.time_s.size()),
+                [&](long row, std::vector<double>& values) {
+                  values[0] = muscles.time_s[std::size_t(row)];
+                  values[1] = muscles.jaw_opening_deg[row];
+                  for (std::size_t m = 0; m < muscles.names.size(); ++m) {
+                    values[2 + 2 * m] = muscles.activation(Eigen::Index(m), row);
+                    values[3 + 2 * m] = muscles.sigma(Eigen::Index(m), row);
+                  }
+                });
 }
 
 nlohmann::ordered_json activations_json(const reenact::MuscleCourse& muscles,
