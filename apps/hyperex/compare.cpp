@@ -16,6 +16,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/baseline.hpp"
@@ -224,7 +225,8 @@ void write_picture(const Options& options, const Surfaces& surfaces, const io::L
       face ? metrics::statistics_of(distance, face->vertices) : metrics::statistics_of(distance);
   ComparePicture picture{.surface = surfaces.a, .distance_m = distance};
   if (face) picture.framed = face->vertices;
-  if (const auto axes = metrics::face_axes(landmarks)) picture.face_from_scan = *axes;
+  if (const auto frame = face::face_frame_of_corners(landmarks))
+    picture.face_from_scan = frame->face_from_scan();
   picture.title =
       fmt::format("{} and {}", options.a.filename().string(), options.b.filename().string());
   picture.note = fmt::format("{}; {}: mean {:.2f} mm, 95 % below {:.2f} mm",

@@ -7,6 +7,7 @@
 
 #include "experiments/pictures.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/regions.hpp"
 
@@ -81,7 +82,7 @@ MeasuredWay way_of(const std::string& name, const Study& study, const Peak& peak
                            metrics::statistics_of(corresponding, part.vertices),
                            double(over) / double(part.vertices.size())});
     if (part.name != "whole face" || over == 0) continue;
-    const double chin = study.frame().local(study.inputs().landmarks.at(tissue::ibug(8))).y();
+    const double chin = study.frame().local(study.inputs().landmarks.at(face::ibug(8))).y();
     const auto below = std::count_if(part.vertices.begin(), part.vertices.end(), [&](int v) {
       return closest[v] > 0.010 && study.frame().local(rest.row(v)).y() < chin;
     });

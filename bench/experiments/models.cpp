@@ -8,6 +8,7 @@
 
 #include "experiments/curves.hpp"
 #include "experiments/model_pictures.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/metrics/lag.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
@@ -149,7 +150,7 @@ ModelPair pair_of(const Study& study, const std::string& name, const Performance
   const Points& rest = one.skin_rest.points;
   const auto& landmarks = study.inputs().landmarks;
   const Vec3 cphs = landmarks.at(kChanged);
-  const Vec3 mouth = (landmarks.at(tissue::ibug(48)) + landmarks.at(tissue::ibug(54))) / 2;
+  const Vec3 mouth = (landmarks.at(face::ibug(48)) + landmarks.at(face::ibug(54))) / 2;
   const Eigen::VectorXd area = metrics::vertex_areas(one.skin_rest);
   const int last = int(one.frame_time_s.size()) - 1;
   const auto d =
@@ -239,7 +240,7 @@ ModelsFace face_of(const Setting& setting, bool subject_a, std::vector<CurvePane
   const auto& landmarks = study.inputs().landmarks;
   face.area_share = metrics::share_within(ones, base.skin_rest.points,
                                           landmarks.at(kChanged).transpose(), kNear_m, area);
-  const Vec3 mouth = (landmarks.at(tissue::ibug(48)) + landmarks.at(tissue::ibug(54))) / 2;
+  const Vec3 mouth = (landmarks.at(face::ibug(48)) + landmarks.at(face::ibug(54))) / 2;
   face.area_share_mouth =
       metrics::share_within(ones, base.skin_rest.points, mouth.transpose(), kNear_m, area);
   for (std::size_t m = 1; m < 3; ++m) {

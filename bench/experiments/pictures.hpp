@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/study.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 
@@ -33,7 +34,7 @@ class FacePictures {
   render::Image draw(const std::vector<Layer>& layers, const render::Camera& camera, int width_px,
                      int height_px, const std::vector<render::Marker>& markers) const;
 
-  const tissue::FaceFrame& frame_;
+  const face::FaceFrame& frame_;
   Points framed_;
   double widened_;
 };

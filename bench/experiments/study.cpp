@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/midsagittal.hpp"
 #include "hyperex/scene/pipeline.hpp"
 
@@ -18,7 +19,7 @@ Study::Study(const std::filesystem::path& scene, const std::vector<std::string>&
       inputs_(scene::read_inputs(scene_)),
       mesh_(std::make_shared<const tissue::TissueMesh>(tissue::build_tissue_mesh(
           inputs_.scan.mesh, inputs_.landmarks, scene_.mesh, inputs_.scan.file.string()))),
-      frame_(tissue::face_frame(inputs_.landmarks)),
+      frame_(face::face_frame(inputs_.landmarks)),
       fields_(inputs_, *mesh_),
       base_(mesh_, inputs_.landmarks, inputs_.motion, scene::simulation_options(scene_, inputs_)) {
   base_.run();

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/scene/inputs.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::bench {
 
@@ -38,7 +38,7 @@ class Study {
   const scene::Scene& scene() const { return scene_; }
   const scene::Inputs& inputs() const { return inputs_; }
   const tissue::TissueMesh& mesh() const { return *mesh_; }
-  const tissue::FaceFrame& frame() const { return frame_; }
+  const face::FaceFrame& frame() const { return frame_; }
   bool embedded() const { return scene_.scan.source.embedded; }
   /// "embedded face", "subject A"
   std::string name() const;
@@ -68,7 +68,7 @@ class Study {
   scene::Scene scene_;
   scene::Inputs inputs_;
   std::shared_ptr<const tissue::TissueMesh> mesh_;
-  tissue::FaceFrame frame_;
+  face::FaceFrame frame_;
   scene::TissueFields fields_;
   reenact::Simulator base_;  // has run: what every trial begins with
 };

@@ -6,6 +6,8 @@
 // In: scans, landmarks, motions.
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/remarks.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/embedded_motion.hpp"

@@ -25,6 +25,12 @@ if grep -rnE '#include [<"]hyperex/[a-z_]+\.hpp' src/hyperex/*/ apps/hyperex; th
   echo "rooms include what they need, not hyperex/hyperex.hpp or hyperex/fem.hpp"
   status=1
 fi
+# The names of the 68 iBUG points have one home; defaults and sentences may spell one out.
+if grep -rnE '"ibug68_[^0-9]*"|"ibug68_[^"]*\{' src/hyperex apps/hyperex --include='*.[ch]pp' |
+  grep -v '^src/hyperex/face/ibug.cpp'; then
+  echo "expected face::ibug(k) (face/ibug.hpp)"
+  status=1
+fi
 # NDEBUG takes assert() out of the builds that users run; HX_ASSERT (core/assert.hpp) stays.
 if grep -rnE '(^|[^_a-zA-Z])assert\(|<cassert>' src/hyperex apps/hyperex --include='*.[ch]pp' |
   grep -vE '^src/hyperex/core/(assert|error).hpp'; then

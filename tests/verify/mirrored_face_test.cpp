@@ -6,7 +6,6 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "reenact/small_face.hpp"
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/face/ibug.hpp"
 
 // Two small texts, made and kept as files, copied into the library by the assembler.
 __asm__(
@@ -177,10 +178,10 @@ const std::vector<int>& mirrored_vertices() {
 }
 
 std::string mirrored_landmark(const std::string& name) {
-  static const std::string prefix = "ibug68_";
   if (name.size() > 2 && name.ends_with("_L")) return name.substr(0, name.size() - 1) + "R";
   if (name.size() > 2 && name.ends_with("_R")) return name.substr(0, name.size() - 1) + "L";
-  if (!name.starts_with(prefix) || !canonical_face().landmarks.contains(name)) return name;
+  const auto number = ibug_number(name);
+  if (!number) return name;
   static const std::vector<int> mirror = [] {
     std::vector<int> table(68);
     const auto pair = [&](int first, int last, int sum) {
@@ -201,7 +202,7 @@ std::string mirrored_landmark(const std::string& name) {
     pair(65, 67, 132);  // and below
     return table;
   }();
-  return prefix + std::to_string(mirror[std::size_t(std::stoi(name.substr(prefix.size())))]);
+  return ibug(mirror[std::size_t(*number)]);
 }
 
 }  // namespace hyperex::face

@@ -7,6 +7,8 @@
 #include <map>
 #include <string_view>
 
+#include "hyperex/face/ibug.hpp"
+
 namespace hyperex::face {
 namespace {
 
@@ -118,25 +120,14 @@ std::string with_side(std::string_view words, char side) {
   return std::string(words) + (side == 'L' ? ", left" : side == 'R' ? ", right" : "");
 }
 
-/// 0 to 67, or -1.
-int ibug_number(std::string_view digits) {
-  int k = -1;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), k);
-  return error == std::errc() && end == digits.data() + digits.size() && k >= 0 && k < 68 ? k : -1;
-}
-
 }  // namespace
 
 std::string point_words(const std::string& name) {
-  constexpr std::string_view prefix = "ibug68_";
   const std::string_view view = name;
-  if (view.starts_with(prefix)) {
-    const std::string_view rest = view.substr(prefix.size());
-    const auto slash = rest.find('/');
-    const int k = ibug_number(rest.substr(0, slash));
-    if (k < 0) return plain(view);
-    const IbugWords& point = ibug_points[std::size_t(k)];
-    return with_side(point.words, slash == rest.npos ? point.side : 'M');
+  const auto slash = view.find('/');
+  if (const auto k = ibug_number(view.substr(0, slash))) {
+    const IbugWords& point = ibug_points[std::size_t(*k)];
+    return with_side(point.words, slash == view.npos ? point.side : 'M');
   }
   const bool sided = view.size() > 2 && (view.ends_with("_L") || view.ends_with("_R"));
   const std::string_view stem = sided ? view.substr(0, view.size() - 2) : view;

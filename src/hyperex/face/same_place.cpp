@@ -3,25 +3,27 @@
 
 #include <map>
 
+#include "hyperex/face/ibug.hpp"
+
 namespace hyperex::face {
 
 std::string other_name(const std::string& name) {
   static const std::map<std::string, std::string> both = [] {
     std::map<std::string, std::string> table;
-    for (const auto& [anatomical, ibug] : {std::pair{"exocanthion_R", "ibug68_36"},
-                                           {"exocanthion_L", "ibug68_45"},
-                                           {"endocanthion_R", "ibug68_39"},
-                                           {"endocanthion_L", "ibug68_42"},
-                                           {"pronasale", "ibug68_30"},
-                                           {"subnasale", "ibug68_33"},
-                                           {"cheilion_R", "ibug68_48"},
-                                           {"cheilion_L", "ibug68_54"},
-                                           {"crista_philtri_inferior_R", "ibug68_50"},
-                                           {"crista_philtri_inferior_L", "ibug68_52"},
-                                           {"labiale_superius", "ibug68_51"},
-                                           {"labiale_inferius", "ibug68_57"}}) {
-      table[anatomical] = ibug;
-      table[ibug] = anatomical;
+    for (const auto& [anatomical, k] : {std::pair{"exocanthion_R", 36},
+                                        {"exocanthion_L", 45},
+                                        {"endocanthion_R", 39},
+                                        {"endocanthion_L", 42},
+                                        {"pronasale", 30},
+                                        {"subnasale", 33},
+                                        {"cheilion_R", 48},
+                                        {"cheilion_L", 54},
+                                        {"crista_philtri_inferior_R", 50},
+                                        {"crista_philtri_inferior_L", 52},
+                                        {"labiale_superius", 51},
+                                        {"labiale_inferius", 57}}) {
+      table[anatomical] = ibug(k);
+      table[ibug(k)] = anatomical;
     }
     return table;
   }();
@@ -31,6 +33,14 @@ std::string other_name(const std::string& name) {
 
 bool same_place(const std::string& a, const std::string& b) {
   return !b.empty() && other_name(a) == b;
+}
+
+std::optional<Vec3> find_place(const io::Landmarks& landmarks, const std::string& name) {
+  for (const std::string& either : {name, other_name(name)})
+    if (const auto found = landmarks.find(either);
+        found != landmarks.end() && found->second.allFinite())
+      return found->second;
+  return std::nullopt;
 }
 
 }  // namespace hyperex::face

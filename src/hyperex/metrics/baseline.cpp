@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
 
@@ -28,7 +29,7 @@ Carried landmarks_carried(const TriMesh& rest, const Points& truth, const io::La
   std::string missing;
   const SurfaceTree tree(rest);
   for (size_t i = 0; i < points.size(); ++i) {
-    const std::string name = fmt::format("ibug68_{}", points[i]);
+    const std::string name = face::ibug(points[i]);
     const auto found = landmarks.find(name);
     if (found == landmarks.end()) {
       missing += (missing.empty() ? "" : ", ") + name;

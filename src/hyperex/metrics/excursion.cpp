@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/same_place.hpp"
 #include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/speed_floor.hpp"
 
@@ -108,7 +110,7 @@ std::string full_name(const std::string& name) {
   const bool number =
       !digits.empty() && digits.size() <= 2 &&
       std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return number ? "ibug68_" + digits : name;
+  return number ? face::ibug(std::stoi(digits)) : name;
 }
 
 int column_of(const motion::Motion& motion, const std::string& full) {
@@ -183,20 +185,20 @@ double change_of_distance_mm(const motion::Motion& motion, int a, int b) {
 }
 
 Commissure commissure_of(const motion::Motion& motion, double lowpass_hz) {
-  const auto either = [&](const char* name, const char* stand_in) {
+  const auto either = [&](const std::string& name) {
     const int own = column_of(motion, name);
-    return own >= 0 ? own : column_of(motion, stand_in);
+    return own >= 0 ? own : column_of(motion, face::other_name(name));
   };
   Commissure mouth;
-  mouth.left = either("cheilion_L", "ibug68_54");
-  mouth.right = either("cheilion_R", "ibug68_48");
+  mouth.left = either("cheilion_L");
+  mouth.right = either("cheilion_R");
   mouth.left_from_midlip_mm = mouth.right_from_midlip_mm = nan;
   if (mouth.left < 0 || mouth.right < 0) return mouth;
   mouth.left_mm = distance_from_rest_mm(motion, {mouth.left});
   mouth.right_mm = distance_from_rest_mm(motion, {mouth.right});
   mouth.left_mm_s = speed_mm_s(motion, {mouth.left}, lowpass_hz);
   mouth.right_mm_s = speed_mm_s(motion, {mouth.right}, lowpass_hz);
-  const int lip = either("labiale_inferius", "ibug68_57");
+  const int lip = either("labiale_inferius");
   if (lip < 0) return mouth;
   mouth.left_from_midlip_mm = change_of_distance_mm(motion, mouth.left, lip);
   mouth.right_from_midlip_mm = change_of_distance_mm(motion, mouth.right, lip);

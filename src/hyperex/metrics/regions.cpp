@@ -7,6 +7,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/same_place.hpp"
+
 namespace hyperex::metrics {
 namespace {
 
@@ -19,11 +23,11 @@ struct Seeds {
   bool by_names = false;
 };
 
-Seeds ibug(const io::Landmarks& landmarks, int first, int last) {
+Seeds ibug_seeds(const io::Landmarks& landmarks, int first, int last) {
   Seeds seeds;
   seeds.ibug_wanted = last - first + 1;
   for (int k = first; k <= last; ++k)
-    if (const auto found = landmarks.find(fmt::format("ibug68_{}", k)); found != landmarks.end()) {
+    if (const auto found = landmarks.find(face::ibug(k)); found != landmarks.end()) {
       seeds.points.push_back(found->second);
       ++seeds.ibug_found;
     }
@@ -40,7 +44,7 @@ void add_names(Seeds& seeds, const io::Landmarks& landmarks,
 // iBUG points where all are there; else those there and the names.
 Seeds seeds_of(const io::Landmarks& landmarks, int first, int last,
                const std::vector<std::string>& names) {
-  Seeds seeds = ibug(landmarks, first, last);
+  Seeds seeds = ibug_seeds(landmarks, first, last);
   if (seeds.ibug_found == seeds.ibug_wanted) return seeds;
   const size_t before = seeds.points.size();
   add_names(seeds, landmarks, names);
@@ -149,7 +153,7 @@ const Region* Regions::find(const std::string& name) const {
 Regions regions_of(const Points& rest, const io::Landmarks& landmarks) {
   Regions out;
   Builder build(rest, out);
-  Seeds face = ibug(landmarks, 0, 67);
+  Seeds face = ibug_seeds(landmarks, 0, 67);
   if (face.ibug_found == 0) {
     for (const auto& [name, point] : landmarks) face.points.push_back(point);
     face.by_names = !face.points.empty();
@@ -193,38 +197,16 @@ Regions regions_of(const Points& rest, const io::Landmarks& landmarks) {
   if (build.defined("chin", chin, 1))
     build.add("chin", without(within(rest, chin.points, 0.020), lips));
 
-  auto tip = landmarks.find("pronasale");
-  if (tip == landmarks.end()) tip = landmarks.find("ibug68_30");
-  const auto axes = face_axes(landmarks);
-  if (tip == landmarks.end() || !axes) {
+  const auto tip = face::find_place(landmarks, "pronasale");
+  const auto axes = face::face_frame_of_corners(landmarks);
+  if (!tip || !axes) {
     out.notes.push_back("below_eyes: left out, the tip of the nose or the way up is not known");
   } else {
-    const Vec3 up = axes->row(1);
     for (Eigen::Index i = 0; i < rest.rows(); ++i)
-      whole[i] = whole[i] && up.dot(rest.row(i).transpose() - tip->second) < 0.015;
+      whole[i] = whole[i] && axes->y.dot(rest.row(i).transpose() - *tip) < 0.015;
     build.add("below_eyes", whole);
   }
   return out;
-}
-
-std::optional<Eigen::Matrix3d> face_axes(const io::Landmarks& landmarks) {
-  const auto first_of = [&](std::initializer_list<const char*> names) -> std::optional<Vec3> {
-    for (const char* name : names)
-      if (const auto found = landmarks.find(name); found != landmarks.end()) return found->second;
-    return std::nullopt;
-  };
-  const auto eye_left = first_of({"exocanthion_L", "ibug68_45"});
-  const auto eye_right = first_of({"exocanthion_R", "ibug68_36"});
-  const auto mouth_left = first_of({"cheilion_L", "ibug68_54"});
-  const auto mouth_right = first_of({"cheilion_R", "ibug68_48"});
-  if (!eye_left || !eye_right || !mouth_left || !mouth_right) return std::nullopt;
-  const Vec3 left = (*eye_left - *eye_right).normalized();
-  Vec3 up = (*eye_left + *eye_right - *mouth_left - *mouth_right);
-  up = (up - up.dot(left) * left).normalized();
-  Eigen::Matrix3d face_from_scan;
-  face_from_scan << left.transpose(), up.transpose(), left.cross(up).transpose();
-  if (!face_from_scan.allFinite()) return std::nullopt;
-  return face_from_scan;
 }
 
 }  // namespace hyperex::metrics

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +32,7 @@ struct Regions {
 ///   chin      within 20 mm of 7-9; not lips
 ///   below_eyes  of the face, what lies lower than 15 mm above the tip of the nose (pronasale, else
 ///             30) along the face's axis
+///             (face_frame_of_corners)
 /// Cheeks and chin may share vertices with neighbours; the lips share none. Where some of the 68
 /// are absent, those that are there are used, and where a region has none or too few, anatomical
 /// names: lips by cheilion, labiale_superius, labiale_inferius, stomion, crista_philtri_inferior
@@ -40,9 +40,5 @@ struct Regions {
 /// endocanthion, palpebrale_inferius (two), forehead by glabella, chin by pogonion, gnathion; face
 /// by all landmarks given. What cannot be defined is left out; `notes` says so.
 Regions regions_of(const Points& rest, const io::Landmarks& landmarks);
-
-/// Rows: the subject's left, up, forward (face_from_scan rotation), from the eyes' outer corners
-/// and the mouth or chin; nullopt where those are not all given.
-std::optional<Eigen::Matrix3d> face_axes(const io::Landmarks& landmarks);
 
 }  // namespace hyperex::metrics

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/ibug.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -38,8 +39,9 @@ struct Points10 {
 };
 
 int ibug_column(const motion::Motion& motion, int point) {
-  for (const char* form : {"ibug68_{}", "{}", "p{}"}) {
-    const int column = motion.index_of(fmt::format(fmt::runtime(form), point));
+  const std::string number = std::to_string(point);
+  for (const std::string& name : {face::ibug(point), number, "p" + number}) {
+    const int column = motion.index_of(name);
     if (column >= 0) return column;
   }
   return -1;
@@ -68,8 +70,10 @@ Points10 find_points(const motion::Motion& motion) {
         found.stand_ins.push_back(
             fmt::format("{}: {}{}", name, points.size() > 1 ? "mean of " : "", names));
       } else {
+        std::vector<std::string> others;
+        for (const int point : points) others.push_back(face::ibug(point));
         missing += fmt::format("{}{} (or {})", missing.empty() ? "" : ", ", name,
-                               fmt::format("ibug68_{}", fmt::join(points, " and ibug68_")));
+                               fmt::join(others, " and "));
       }
     }
   if (!missing.empty())

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/ibug.hpp"
 
 namespace hyperex::motion {
 
@@ -23,7 +24,7 @@ double jaw_share(const std::string& name) {
                                           {"labiale_inferius", 1.0},
                                           {"pogonion", 1.0}};
     const auto set = [&](std::initializer_list<int> points, double share) {
-      for (const int k : points) made["ibug68_" + std::to_string(k)] = share;
+      for (const int k : points) made[face::ibug(k)] = share;
     };
     set({6, 7, 8, 9, 10, 56, 57, 58, 65, 66, 67}, 1.0);
     set({5, 11}, 0.9);
@@ -58,8 +59,8 @@ Motion embedded_mouth_opening(const io::Landmarks& landmarks, const MouthOpening
   const int samples = int(std::lround(options.duration_s * options.rate_hz));
   if (!(options.peak_deg > 0) || !(options.rate_hz > 0) || samples < 3)
     throw InputError("embedded motion", "expected a positive angle and rate and three samples");
-  const Vec3 right = needed(landmarks, "ibug68_1"), left = needed(landmarks, "ibug68_15");
-  const Vec3 chin = needed(landmarks, "ibug68_8"), nasion = needed(landmarks, "ibug68_27");
+  const Vec3 right = needed(landmarks, face::ibug(1)), left = needed(landmarks, face::ibug(15));
+  const Vec3 chin = needed(landmarks, face::ibug(8)), nasion = needed(landmarks, face::ibug(27));
   const Vec3 condyle_right = right + kCondyleInwards * (left - right);
   const Vec3 axis =
       (left - right).normalized();  // to the subject's left: a turn about it lowers the chin

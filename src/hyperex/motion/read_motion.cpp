@@ -13,6 +13,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/io/csv.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/trc.hpp"
@@ -143,7 +144,7 @@ void name_ibug68(Columns& columns) {
   for (int k = 0; k < 68; ++k) expected.insert("point_" + std::to_string(k));
   for (const auto& point : columns.points) expected.erase(point.name);
   if (!expected.empty()) return;
-  for (auto& point : columns.points) point.name = "ibug68_" + point.name.substr(6);
+  for (auto& point : columns.points) point.name = face::ibug(std::stoi(point.name.substr(6)));
 }
 
 /// Diagonal of the box around the points: the median over the samples that have two or more.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/expressive_pose.hpp"
 
@@ -20,7 +21,7 @@ constexpr double kLeastSpread = 0.02;
 constexpr double kResidualFloor = 1e-5;
 
 /// The tip of the nose goes with the upper lip: better than a line, worse than anything else.
-const std::vector<std::string> kNoseTip = {"ibug68_30", "pronasale"};
+const std::vector<std::string> kNoseTip = {face::ibug(30), "pronasale"};
 // Eye corners alone spread less than this about their line.
 constexpr double kWellSpread = 0.2;
 // 95 % of a Gaussian lie within this many standard deviations.
@@ -195,8 +196,8 @@ void take_out(const std::vector<UncertainPose>& poses, double widening, Stabilis
 
 const std::vector<std::string>& default_rigid_points() {
   static const std::vector<std::string> names = {
-      "ibug68_36",     "ibug68_39",      "ibug68_42",      "ibug68_45", "ibug68_27",
-      "ibug68_28",     "ibug68_29",      "ibug68_0",       "ibug68_16", "exocanthion_R",
+      face::ibug(36),  face::ibug(39),   face::ibug(42),   face::ibug(45), face::ibug(27),
+      face::ibug(28),  face::ibug(29),   face::ibug(0),    face::ibug(16), "exocanthion_R",
       "exocanthion_L", "endocanthion_R", "endocanthion_L", "nasion"};
   return names;
 }

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/fem/element/tet4.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::muscles {
 namespace {
@@ -32,7 +32,7 @@ bool on_lip(MuscleLip lip, const tissue::TissueMesh& mesh, Eigen::Index tet) {
 Eigen::VectorXd muscle_force(const MuscleLine& line, const TemplateMuscle& muscle,
                              const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                              const ForceShape& shape) {
-  const tissue::FaceFrame frame = tissue::face_frame(landmarks);
+  const face::FaceFrame frame = face::face_frame(landmarks);
   const tissue::VolumeMesh& volume = mesh.volume;
   const Points normals = vertex_normals(volume.outer);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * volume.nodes.rows());

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::muscles {
 namespace {
@@ -19,9 +20,9 @@ class Laying {
   Laying(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks)
       : mesh_(mesh),
         landmarks_(landmarks),
-        frame_(tissue::face_frame(landmarks)),
+        frame_(face::face_frame(landmarks)),
         skin_(mesh.volume.outer),
-        scale_((landmarks.at(tissue::ibug(36)) - landmarks.at(tissue::ibug(45))).norm() /
+        scale_((landmarks.at(face::ibug(36)) - landmarks.at(face::ibug(45))).norm() /
                (1e-3 * kTemplateEyes_mm)) {}
 
   MuscleLine lay(const TemplateMuscle& muscle, bool left) const {
@@ -55,7 +56,7 @@ class Laying {
   Vec3 place_of(const TemplatePlace& place, bool left) const {
     Vec3 mean = Vec3::Zero();
     for (const auto& [k, weight] : place.ibug) {
-      const std::string name = tissue::ibug(k);
+      const std::string name = face::ibug(k);
       mean += weight * landmarks_.at(left ? name : tissue::mirrored_landmark(name));
     }
     const double mm = 1e-3 * scale_;
@@ -92,7 +93,7 @@ class Laying {
 
   const tissue::TissueMesh& mesh_;
   const io::Landmarks& landmarks_;
-  tissue::FaceFrame frame_;
+  face::FaceFrame frame_;
   SurfaceTree skin_;
   double scale_;
 };

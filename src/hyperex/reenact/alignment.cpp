@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 
 namespace hyperex::reenact {
 namespace {
@@ -36,14 +37,14 @@ Pairs common_points(const motion::Motion& m, const io::Landmarks& landmarks) {
 
 /// Width, upper and lower height about the nose apex: the face-part dimensions of [5.1-5.4].
 struct FaceParts {
-  tissue::FaceFrame frame;  // origin at the nose apex
+  face::FaceFrame frame;  // origin at the nose apex
   double width, upper, lower;
 };
 
 FaceParts face_parts(const io::Landmarks& landmarks) {
-  FaceParts parts{tissue::face_frame(landmarks), 0, 0, 0};
-  parts.frame.origin = landmarks.at(tissue::ibug(30));
-  const auto at = [&](int k) { return parts.frame.local(landmarks.at(tissue::ibug(k))); };
+  FaceParts parts{face::face_frame(landmarks), 0, 0, 0};
+  parts.frame.origin = landmarks.at(face::ibug(30));
+  const auto at = [&](int k) { return parts.frame.local(landmarks.at(face::ibug(k))); };
   parts.width = (at(45) - at(36)).x();
   parts.upper = at(27).y();
   parts.lower = -at(8).y();
@@ -56,10 +57,10 @@ void align_by_parts(const motion::Motion& in, const io::Landmarks& landmarks, Al
   for (std::size_t i = 0; i < in.names.size(); ++i)
     own[in.names[i]] = in.positions.front().row(i).transpose();
   for (int k : {8, 27, 30, 36, 45, 48, 54})
-    if (!own.count(tissue::ibug(k)))
+    if (!own.count(face::ibug(k)))
       throw InputError(in.source, fmt::format("has no point {}, which alignment.method = "
                                               "\"normalised\" needs",
-                                              tissue::ibug(k)));
+                                              face::ibug(k)));
   const FaceParts a = face_parts(own), s = face_parts(landmarks);
   const double across = s.width / a.width, up = s.upper / a.upper, down = s.lower / a.lower;
   for (Eigen::Index i = 0; i < out.rest.rows(); ++i) {

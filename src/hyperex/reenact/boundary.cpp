@@ -7,6 +7,8 @@
 #include <map>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/reenact/support.hpp"
 
@@ -67,7 +69,7 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
           fmt::format("{}, which is to be held still, is no landmark of the scan", name));
     if (!std::count(names.begin(), names.end(), name)) points.push_back({name, it->second});
   }
-  const Vec3 up = tissue::face_frame(landmarks).y;
+  const Vec3 up = face::face_frame(landmarks).y;
   const DriveField field(points, still_places(points, landmarks), mesh, up,
                          lip_parting(motion, driven.rows, up));
   const DrivenPatches patches =
@@ -137,16 +139,16 @@ void Boundary::set_jaw_points(const AlignedMotion& motion, const SupportOptions&
   if (!jaw_rows_.empty()) return;
   for (int k = 6; k <= 10; ++k)
     for (int row : driven_->rows)
-      if (motion.motion.names[row] == tissue::ibug(k)) jaw_rows_.push_back(row);
+      if (motion.motion.names[row] == face::ibug(k)) jaw_rows_.push_back(row);
   if (!jaw_rows_.empty()) return;
-  for (const char* name : {"ibug68_8", "pogonion"})
+  for (const std::string& name : {face::ibug(8), std::string("pogonion")})
     if (const int row = motion.motion.index_of(name); row >= 0 && jaw_rows_.empty())
       jaw_rows_.push_back(row);
   if (jaw_rows_.empty() && support.mandible == Mandible::follow)
-    throw InputError(
-        motion.motion.source,
-        "has no point over the chin (ibug68_8 or pogonion) for the jaw to follow; name some in "
-        "support.jaw_points, or set support.mandible = \"free\"");
+    throw InputError(motion.motion.source,
+                     "has no point over the chin (" + face::ibug(8) +
+                         " or pogonion) for the jaw to follow; name some in "
+                         "support.jaw_points, or set support.mandible = \"free\"");
 }
 
 void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& support) {

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::reenact {
@@ -162,7 +162,7 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
   std::vector<Vec3> still;
   for (int k = 0; k < 48; ++k) {
     if (k > 3 && k < 13) continue;
-    const std::string name = tissue::ibug(k);
+    const std::string name = face::ibug(k);
     const bool drives = std::any_of(points.begin(), points.end(),
                                     [&](const DrivenPoint& p) { return p.name == name; });
     if (!drives && landmarks.count(name)) still.push_back(landmarks.at(name));

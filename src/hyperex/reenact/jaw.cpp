@@ -3,6 +3,9 @@
 
 #include <numbers>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
+
 namespace hyperex::reenact {
 namespace {
 // Weights of the priors beside residuals in millimetres: 1 mm of sliding counts as 0.3 mm of
@@ -11,8 +14,8 @@ constexpr double slide_weight = 0.3, turn_weight_per_rad = 20;
 }  // namespace
 
 JawHinge::JawHinge(const io::Landmarks& landmarks, double forward_m)
-    : frame(tissue::face_frame(landmarks)),
-      centre(0.5 * (landmarks.at(tissue::ibug(1)) + landmarks.at(tissue::ibug(15))) +
+    : frame(face::face_frame(landmarks)),
+      centre(0.5 * (landmarks.at(face::ibug(1)) + landmarks.at(face::ibug(15))) +
              forward_m * frame.z) {}
 
 Eigen::Matrix3d JawHinge::turned(double opening, double turn, double tilt) const {
@@ -26,7 +29,7 @@ Jaw::Jaw(const io::Landmarks& landmarks, double condyle_forward_m)
 
 Eigen::Isometry3d Jaw::transform(const Parameters& p) const {
   Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
-  const tissue::FaceFrame& axes = hinge_.frame;
+  const face::FaceFrame& axes = hinge_.frame;
   t.linear() = hinge_.turned(p[0], p[1]);
   t.translation() =
       hinge_.centre - t.linear() * hinge_.centre + p[2] * axes.x + p[3] * axes.y + p[4] * axes.z;

@@ -2,15 +2,15 @@
 #pragma once
 #include <Eigen/Geometry>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::reenact {
 
 /// The axis through both condyles, and turns about it.
 struct JawHinge {
-  tissue::FaceFrame frame;
+  face::FaceFrame frame;
   Vec3 centre;  ///< between the condyles
 
   /// Between ibug68_1 and ibug68_15, `forward_m` in front of them.

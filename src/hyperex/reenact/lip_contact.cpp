@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::reenact {
 namespace {
@@ -19,7 +19,7 @@ LipContact::LipContact(const tissue::TissueMesh& mesh, const io::Landmarks& land
   for (Eigen::Index v = 0; v < skin.rows(); ++v)
     for (int k = 61; k <= 67 && !near[v]; ++k)
       near[v] =
-          k != 64 && (skin.row(v).transpose() - landmarks.at(tissue::ibug(k))).norm() < lip_reach_m;
+          k != 64 && (skin.row(v).transpose() - landmarks.at(face::ibug(k))).norm() < lip_reach_m;
   for (Eigen::Index v = 0; v < skin.rows(); ++v)
     if (near[v] && mesh.skin_upper_margin[v] < 0) lower_.push_back(static_cast<int>(v));
   std::vector<Eigen::Index> kept;

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/muscles/bounded_least_squares.hpp"
 
 namespace hyperex::reenact {
@@ -11,7 +12,7 @@ constexpr int kMostIterations = 8;
 }
 
 Eigen::Matrix<double, 12, 1> JawKinematics::motion(const JawPose& p) const {
-  const tissue::FaceFrame& axes = hinge_.frame;
+  const face::FaceFrame& axes = hinge_.frame;
   const Eigen::Matrix3d turn = hinge_.turned(p[0], p[1], p[2]) - Eigen::Matrix3d::Identity();
   Eigen::Matrix<double, 12, 1> out;
   out.head<9>() = turn.reshaped();

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 
 namespace hyperex::reenact {
 namespace {
@@ -73,7 +73,7 @@ motion::Motion Readout::landmark_tracks(const std::vector<double>& time_s,
 
 Readout::Lips Readout::lips(const motion::Motion& tracks,
                             const std::vector<PointsF>& frames) const {
-  const int upper = tracks.index_of(tissue::ibug(62)), lower = tracks.index_of(tissue::ibug(66));
+  const int upper = tracks.index_of(face::ibug(62)), lower = tracks.index_of(face::ibug(66));
   const auto gap = [&](const Points& at) { return 1e3 * (at.row(upper) - at.row(lower)).norm(); };
   std::vector<double> depth_mm(frames.size());
   tbb::parallel_for(std::size_t(0), frames.size(),

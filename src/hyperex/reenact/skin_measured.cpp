@@ -7,8 +7,9 @@
 #include <cmath>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/reenact/triangulate.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::reenact {
@@ -26,7 +27,7 @@ double share_at(const Vec3& p, const std::vector<Vec3>& centres, const RegionOpt
 
 /// Which lip a place belongs to, told only near the mouth and where it is clear.
 std::vector<int> sides(const Points& places, const std::vector<double>& margin,
-                       const tissue::FaceFrame& frame, double reach) {
+                       const face::FaceFrame& frame, double reach) {
   std::vector<int> side(places.rows(), 0);
   constexpr double sure_m = 0.004;
   for (Eigen::Index i = 0; i < places.rows(); ++i)
@@ -38,7 +39,7 @@ std::vector<int> sides(const Points& places, const std::vector<double>& margin,
 /// Which lip each tracked point belongs to: by its name, or where the motion has a mesh of its own,
 /// whose vertices have numbers for names, by walking on that.
 std::vector<int> point_sides(const TriMesh& tracked, const std::vector<std::string>& names,
-                             const io::Landmarks& landmarks, const tissue::FaceFrame& frame,
+                             const io::Landmarks& landmarks, const face::FaceFrame& frame,
                              double reach) {
   std::vector<int> row(names.size(), -1), used;  // of points that triangles hold
   TriMesh mesh{{}, tracked.triangles};
@@ -79,7 +80,7 @@ MeasuredRegion measured_region(const tissue::TissueMesh& mesh, const io::Landmar
                        fmt::format("has no point {}, whose surroundings are to be measured", name));
     centres.push_back(motion.rest.row(i).transpose());
   }
-  const tissue::FaceFrame frame = tissue::face_frame(landmarks);
+  const face::FaceFrame frame = face::face_frame(landmarks);
   TriMesh tracked{motion.rest, motion.motion.triangles};
   const bool own_mesh = tracked.triangles.rows() > 0;
   if (!own_mesh) tracked.triangles = triangulate_points(motion.motion.names, motion.rest, frame);
@@ -87,7 +88,7 @@ MeasuredRegion measured_region(const tissue::TissueMesh& mesh, const io::Landmar
     throw InputError(motion.motion.source,
                      "has too few points to make triangles of; expected at "
                      "least three, not on one line, for a measured region");
-  const double reach = 1.8 * (landmarks.at(tissue::ibug(54)) - frame.origin).norm();
+  const double reach = 1.8 * (landmarks.at(face::ibug(54)) - frame.origin).norm();
   std::vector<int> point_side;
   if (own_mesh)
     point_side = point_sides(tracked, motion.motion.names, landmarks, frame, reach);

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::reenact {
 namespace {
-using tissue::ibug;
+using face::ibug;
 
 constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
 constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.010, jaw_below_lip_m = 0.016;
@@ -18,12 +19,12 @@ constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
 
 class BoneMap {
  public:
-  explicit BoneMap(const io::Landmarks& landmarks) : frame_(tissue::face_frame(landmarks)) {
-    for (int k = 0; k < 17; ++k) jaw_line_.push_back(frame_.local(landmarks.at(ibug(k))));
-    for (int k = 48; k < 68; ++k) lips_.push_back(frame_.local(landmarks.at(ibug(k))));
-    nose_base_ = frame_.local(landmarks.at(ibug(33)));
+  explicit BoneMap(const io::Landmarks& landmarks) : frame_(face::face_frame(landmarks)) {
+    for (int k = 0; k < 17; ++k) jaw_line_.push_back(frame_.local(landmarks.at(face::ibug(k))));
+    for (int k = 48; k < 68; ++k) lips_.push_back(frame_.local(landmarks.at(face::ibug(k))));
+    nose_base_ = frame_.local(landmarks.at(face::ibug(33)));
     ear_base_ = 0.5 * (jaw_line_[2] + jaw_line_[14]);
-    lower_lip_ = frame_.local(landmarks.at(ibug(57))).y();
+    lower_lip_ = frame_.local(landmarks.at(face::ibug(57))).y();
   }
 
   /// `inner` and `outer`: the two ends of the layer at one node.
@@ -55,7 +56,7 @@ class BoneMap {
     return best;
   }
 
-  const tissue::FaceFrame& frame() const { return frame_; }
+  const face::FaceFrame& frame() const { return frame_; }
 
  private:
   /// Height of the skull's lower border at depth z.
@@ -74,7 +75,7 @@ class BoneMap {
     return 1;
   }
 
-  tissue::FaceFrame frame_;
+  face::FaceFrame frame_;
   std::vector<Vec3> jaw_line_, lips_;
   Vec3 nose_base_, ear_base_;
   double lower_lip_ = 0;

@@ -8,6 +8,8 @@
 #include <map>
 #include <set>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::reenact {
@@ -37,7 +39,7 @@ const std::vector<std::pair<std::vector<int>, bool>>& contours() {
 }  // namespace
 
 Triangles triangulate_points(const std::vector<std::string>& names, const Points& rest,
-                             const tissue::FaceFrame& frame) {
+                             const face::FaceFrame& frame) {
   Delaunay plane;
   std::map<std::string, Delaunay::Vertex_handle> by_name;
   // The lower face is drawn 10 mm further down, so that touching or crossing lips come apart.
@@ -54,7 +56,7 @@ Triangles triangulate_points(const std::vector<std::string>& names, const Points
   for (const auto& [numbers, is_opening] : contours()) {
     std::vector<Delaunay::Vertex_handle> ring;
     for (int k : numbers)
-      if (const auto it = by_name.find(tissue::ibug(k)); it != by_name.end())
+      if (const auto it = by_name.find(face::ibug(k)); it != by_name.end())
         ring.push_back(it->second);
     if (ring.size() != numbers.size()) continue;
     for (std::size_t i = 0; i < ring.size(); ++i)

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/geometry/types.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::reenact {
 
@@ -13,6 +13,6 @@ namespace hyperex::reenact {
 /// nothing is put inside an eye or between the lips; lips that touch are told apart by name, not by
 /// place.
 Triangles triangulate_points(const std::vector<std::string>& names, const Points& rest,
-                             const tissue::FaceFrame& frame);
+                             const face::FaceFrame& frame);
 
 }  // namespace hyperex::reenact

@@ -7,21 +7,14 @@
 #include <numbers>
 #include <optional>
 
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 
 namespace hyperex::report {
 namespace {
 
 using Eigen::Index;
-using Landmarks = std::map<std::string, Vec3>;
-
-std::optional<Vec3> first_of(const Landmarks& landmarks, std::initializer_list<const char*> names) {
-  for (const char* name : names)
-    if (const auto found = landmarks.find(name);
-        found != landmarks.end() && found->second.allFinite())
-      return found->second;
-  return std::nullopt;
-}
 
 struct Corners {
   std::array<std::optional<Vec3>, 2> outer, inner;  ///< of the eyes, right and left
@@ -30,13 +23,13 @@ struct Corners {
 
 /// Axes as the page has them (web/src/replay/face/face_frame.ts): a head held upright has its mouth
 /// corners before its outer eye corners, by some 12 degrees.
-std::optional<Corners> corners_of(const Landmarks& landmarks) {
-  const auto outer_r = first_of(landmarks, {"ibug68_36", "exocanthion_R"});
-  const auto outer_l = first_of(landmarks, {"ibug68_45", "exocanthion_L"});
-  const auto inner_r = first_of(landmarks, {"ibug68_39", "endocanthion_R"});
-  const auto inner_l = first_of(landmarks, {"ibug68_42", "endocanthion_L"});
-  const auto mouth_r = first_of(landmarks, {"ibug68_48", "cheilion_R"});
-  const auto mouth_l = first_of(landmarks, {"ibug68_54", "cheilion_L"});
+std::optional<Corners> corners_of(const io::Landmarks& landmarks) {
+  const auto outer_r = face::find_place(landmarks, face::ibug(36));
+  const auto outer_l = face::find_place(landmarks, face::ibug(45));
+  const auto inner_r = face::find_place(landmarks, face::ibug(39));
+  const auto inner_l = face::find_place(landmarks, face::ibug(42));
+  const auto mouth_r = face::find_place(landmarks, face::ibug(48));
+  const auto mouth_l = face::find_place(landmarks, face::ibug(54));
   if (!outer_r || !outer_l || !mouth_r || !mouth_l) return std::nullopt;
   const Vec3 x = (*outer_l - *outer_r).normalized();
   const Eigen::AngleAxisd lean(12 * std::numbers::pi / 180, x);
@@ -130,7 +123,7 @@ TriMesh zone(const Eyeball& eye, double from, double to, int rings) {
 
 }  // namespace
 
-FaceBacking face_backing(const TriMesh& skin, const Landmarks& landmarks) {
+FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks) {
   FaceBacking backing;
   const auto corners = corners_of(landmarks);
   if (!corners) return backing;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <map>
-#include <string>
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
 
 namespace hyperex::report {
 
@@ -37,7 +36,7 @@ struct FaceBacking {
 /// eyeball's radius is 0.4 of the distance of the eye's corners (an adult's is 12 mm, behind an
 /// opening of some 30 mm). It lies as far forward as lets no vertex of the lids into it: at most a
 /// sixth of that distance before the line between the corners, at least 8 mm behind that place.
-FaceBacking face_backing(const TriMesh& skin, const std::map<std::string, Vec3>& landmarks);
+FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks);
 
 /// The pocket of an opening for vertices at `points`: two rings behind the edge and a point.
 TriMesh pocket(const Opening& opening, const Points& points);

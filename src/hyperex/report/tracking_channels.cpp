@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "hyperex/face/ibug.hpp"
+
 namespace hyperex::report {
 namespace {
 
@@ -104,14 +106,14 @@ void add_travel(Collector& collect, const FaceModel& model, const Points& rest_m
 }
 
 void add_distances(Collector& collect, const FaceModel& model, const Points& rest_m) {
-  add_distance(collect, model, "mouth opening", {{"ibug68_62", "ibug68_66"}});
+  add_distance(collect, model, "mouth opening", {{face::ibug(62), face::ibug(66)}});
   add_distance(collect, model, "mouth width", {{"cheilion_R", "cheilion_L"}});
   add_travel(collect, model, rest_m, "mouth corner's travel L", "cheilion_L");
   add_travel(collect, model, rest_m, "mouth corner's travel R", "cheilion_R");
   add_distance(collect, model, "eye opening L",
-               {{"ibug68_43", "ibug68_47"}, {"ibug68_44", "ibug68_46"}});
+               {{face::ibug(43), face::ibug(47)}, {face::ibug(44), face::ibug(46)}});
   add_distance(collect, model, "eye opening R",
-               {{"ibug68_37", "ibug68_41"}, {"ibug68_38", "ibug68_40"}});
+               {{face::ibug(37), face::ibug(41)}, {face::ibug(38), face::ibug(40)}});
 }
 
 void add_residuals(Collector& collect) {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "hyperex/metrics/regions.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 
@@ -33,8 +33,9 @@ render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm
     top = std::max(top, static_cast<double>(*at));
   }
   if (framed.rows() == 0) framed = moved.points;
+  const auto frame = face::face_frame_of_corners(landmarks);
   const Eigen::Matrix3d scan_from_face =
-      metrics::face_axes(landmarks).value_or(Eigen::Matrix3d::Identity()).transpose();
+      frame ? Eigen::Matrix3d(frame->face_from_scan().transpose()) : Eigen::Matrix3d::Identity();
   const render::Surface surface{.mesh = moved, .scalar = map_mm, .range = {0, top}};
   const render::RenderOptions size{.width_px = 380, .height_px = 480};
   const double aspect = static_cast<double>(size.width_px) / size.height_px;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/io/landmarks.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
 
@@ -14,7 +14,7 @@ struct FaceBox {
   }
 };
 
-inline FaceBox face_box(const io::Landmarks& landmarks, const tissue::FaceFrame& frame) {
+inline FaceBox face_box(const io::Landmarks& landmarks, const face::FaceFrame& frame) {
   const Vec3 beyond_low_m(0.04, 0.045, 0.06), beyond_high_m(0.04, 0.075, 0.02);
   FaceBox box{Vec3::Constant(1e9), Vec3::Constant(-1e9)};
   for (const auto& entry : landmarks) {

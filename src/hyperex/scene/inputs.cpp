@@ -24,7 +24,6 @@
 #include "hyperex/scene/recording_jitter.hpp"
 #include "hyperex/scene/unknown_names.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "hyperex/tissue/landmarks.hpp"

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/scene/pipeline.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -36,7 +36,7 @@ std::vector<std::string> heard_points(const Scene& scene, const Inputs& inputs) 
   std::vector<std::string> names = inputs.driven;
   const auto& jaw = scene.support.jaw_points;
   names.insert(names.end(), jaw.begin(), jaw.end());
-  for (const std::string& chin : {tissue::ibug(8), std::string("pogonion")})
+  for (const std::string& chin : {face::ibug(8), std::string("pogonion")})
     if (inputs.motion.motion.index_of(chin) >= 0) names.push_back(chin);
   return names;
 }

@@ -8,6 +8,7 @@
 
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/run_together.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/render/camera.hpp"
@@ -22,7 +23,6 @@
 #include "hyperex/scene/face_box.hpp"
 #include "hyperex/scene/frames.hpp"
 #include "hyperex/scene/thinned_scan.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -68,7 +68,7 @@ double longest_mm(const PointsF& d) {
   return 1e3 * double(d.rowwise().norm().maxCoeff());
 }
 
-std::vector<render::Marker> markers(const Performance& p, const tissue::FaceFrame& frame) {
+std::vector<render::Marker> markers(const Performance& p, const face::FaceFrame& frame) {
   std::vector<render::Marker> list;
   for (Eigen::Index i = 0; i < p.driven_points_rest.rows(); ++i)
     list.push_back({frame.local(p.driven_points_rest.row(i)), render::palette::driven, 3.5});
@@ -98,7 +98,7 @@ std::vector<Still> stills_of(const Results& r) {
 /// What stands behind the holes of the skin, in the face's frame.
 class BackingSurfaces {
  public:
-  BackingSurfaces(const report::FaceBacking& backing, const tissue::FaceFrame& frame) {
+  BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame) {
     for (const report::Eyeball& eye : backing.eyeballs) {
       int part = 0;
       for (const TriMesh& mesh : report::eyeball_parts(eye))
@@ -136,7 +136,7 @@ class BackingSurfaces {
 
 /// The skin in the face's box, in all its shapes.
 Points framed_points(const Results& r, const std::vector<Still>& stills,
-                     const tissue::FaceFrame& frame) {
+                     const face::FaceFrame& frame) {
   const FaceBox box = face_box(r.inputs.landmarks, frame);
   const Performance& p = r.simulation.performance;
   std::vector<Vec3> kept;
@@ -209,7 +209,7 @@ metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& in
 
 void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   const Performance& p = r.simulation.performance;
-  const tissue::FaceFrame frame = tissue::face_frame(r.inputs.landmarks);
+  const face::FaceFrame frame = face::face_frame(r.inputs.landmarks);
   const std::vector<Still> stills = stills_of(r);
   double top = 1;
   for (const Still& still : stills) top = std::max(top, longest_mm(*still.displacement));

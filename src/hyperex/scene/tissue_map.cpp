@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <array>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/scene/face_box.hpp"
 #include "hyperex/scene/outputs.hpp"
 #include "hyperex/scene/pipeline.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/points.hpp"
 
 namespace hyperex::scene {
@@ -16,7 +16,7 @@ namespace {
 
 /// The skin at rest in the face's box.
 Points near_face(const Points& local, const io::Landmarks& landmarks,
-                 const tissue::FaceFrame& frame) {
+                 const face::FaceFrame& frame) {
   const FaceBox box = face_box(landmarks, frame);
   Points kept(local.rows(), 3);
   Eigen::Index count = 0;
@@ -27,7 +27,7 @@ Points near_face(const Points& local, const io::Landmarks& landmarks,
 
 render::Image sheet_of(const Results& r, int parameter) {
   const tissue::ParameterInfo& info = tissue::parameter_info(parameter);
-  const tissue::FaceFrame frame = tissue::face_frame(r.inputs.landmarks);
+  const face::FaceFrame frame = face::face_frame(r.inputs.landmarks);
   const Eigen::VectorXf values = (r.tissue->skin[parameter] / info.si).cast<float>();
   const render::Range range{values.minCoeff(), values.maxCoeff()};
   const TriMesh local{frame.local_points(r.mesh.skin.points), r.mesh.skin.triangles};

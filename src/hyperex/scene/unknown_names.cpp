@@ -8,6 +8,7 @@
 #include <set>
 
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 
@@ -56,7 +57,7 @@ const std::vector<std::string>& landmark_parts() {
   static const std::vector<std::string> parts = [] {
     std::set<std::string> all;
     for (const auto& entry : face::canonical_face().landmarks)
-      if (!entry.first.starts_with("ibug68_")) all.insert(sided(entry.first).part);
+      if (!face::ibug_number(entry.first)) all.insert(sided(entry.first).part);
     return std::vector<std::string>(all.begin(), all.end());
   }();
   return parts;
@@ -78,7 +79,7 @@ std::string nearest_landmark(const std::string& name) {
   const auto& known = face::canonical_face().landmarks;
   if (known.contains(name)) return "";
   if (const int k = number_at_end(name); k >= 0) {
-    const std::string ibug = fmt::format("ibug68_{}", k);
+    const std::string ibug = face::ibug(k);
     const std::string stem = lower(name).substr(0, lower(name).find_last_not_of("0123456789") + 1);
     const std::set<std::string> stems = {"", "p", "point_", "ibug", "ibug_", "ibug-", "ibug68"};
     return stems.contains(stem) && known.contains(ibug) ? ibug : "";

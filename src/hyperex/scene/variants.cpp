@@ -12,6 +12,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
@@ -19,7 +20,6 @@
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/pipeline.hpp"
 #include "hyperex/scene/variants_picture.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -99,7 +99,7 @@ void measure_sides(const metrics::Asymmetry& map, const TriMesh& rest, const Poi
 /// The border of the lips, corners included, as ibug68_48 to 59 go round it.
 Points lip_outline(const io::Landmarks& landmarks) {
   Points outline(12, 3);
-  for (int k = 0; k < 12; ++k) outline.row(k) = landmarks.at(tissue::ibug(48 + k)).transpose();
+  for (int k = 0; k < 12; ++k) outline.row(k) = landmarks.at(face::ibug(48 + k)).transpose();
   return outline;
 }
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/render/time_plot.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -39,7 +39,7 @@ double draw_legend(render::Canvas& canvas, double left, double right, double y,
 
 void draw_variants(const Results& base, const std::vector<VariantComparison>& compared,
                    const std::vector<VariantRun>& runs, const std::filesystem::path& file) {
-  const tissue::FaceFrame frame = tissue::face_frame(base.inputs.landmarks);
+  const face::FaceFrame frame = face::face_frame(base.inputs.landmarks);
   const reenact::Performance& p = base.simulation.performance;
   const auto skin_at_peak = [&](const reenact::Performance& of) {
     const PointsF& d = of.skin_displacement_m[std::size_t(p.peak_frame)];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/tissue/known_landmarks.hpp"
@@ -24,11 +25,9 @@ constexpr std::size_t kFewest = 5;
 constexpr double kLeastSpread = 0.04;
 
 double place_m(const std::string& name) {
-  const std::string prefix = "ibug68_";
   if (name == "pogonion") return kChin_m;
   if (name == "glabella" || name.starts_with("cheek_")) return kBrow_m;
-  if (!name.starts_with(prefix)) return kPlace_m;
-  const int k = std::stoi(name.substr(prefix.size()));
+  const int k = face::ibug_number(name).value_or(67);
   return k <= 16 ? kJaw_m : k <= 26 ? kBrow_m : kPlace_m;
 }
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/geodesic.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/lip_line.hpp"
 
 namespace hyperex::tissue {
@@ -15,17 +16,23 @@ namespace {
 std::vector<int> vertices_near(const TriMesh& mesh, const io::Landmarks& landmarks,
                                std::initializer_list<int> numbers) {
   std::vector<int> vertices;
-  for (int k : numbers) vertices.push_back(nearest_vertex(mesh.points, landmarks.at(ibug(k))));
+  for (int k : numbers)
+    vertices.push_back(nearest_vertex(mesh.points, landmarks.at(face::ibug(k))));
   return vertices;
 }
 
 /// Right corner, the inner lip line, left corner: each inner point the mean of upper and lower.
 std::vector<Vec3> lip_line(const io::Landmarks& landmarks) {
   const auto mean = [&](int a, int b) {
-    return Vec3(0.5 * (landmarks.at(ibug(a)) + landmarks.at(ibug(b))));
+    return Vec3(0.5 * (landmarks.at(face::ibug(a)) + landmarks.at(face::ibug(b))));
   };
-  return {landmarks.at(ibug(48)), landmarks.at(ibug(60)), mean(61, 67),          mean(62, 66),
-          mean(63, 65),           landmarks.at(ibug(64)), landmarks.at(ibug(54))};
+  return {landmarks.at(face::ibug(48)),
+          landmarks.at(face::ibug(60)),
+          mean(61, 67),
+          mean(62, 66),
+          mean(63, 65),
+          landmarks.at(face::ibug(64)),
+          landmarks.at(face::ibug(54))};
 }
 
 double distance_to_polyline(const Vec3& p, const std::vector<Vec3>& line) {
@@ -120,7 +127,7 @@ struct Rims {
 std::optional<Rims> rims_of(const TriMesh& mesh, const io::Landmarks& landmarks) {
   const std::vector<int> loop = mouth_loop(mesh, landmarks);
   if (loop.empty()) return {};
-  const Vec3 left = landmarks.at(ibug(54)) - landmarks.at(ibug(48));
+  const Vec3 left = landmarks.at(face::ibug(54)) - landmarks.at(face::ibug(48));
   const auto before = [&](int a, int b) {
     return (mesh.points.row(a) - mesh.points.row(b)).dot(left) < 0;
   };
@@ -156,9 +163,9 @@ void settle_at_rims(std::vector<double>& margin, const TriMesh& mesh, const Rims
 
 int lip_of(const std::string& landmark) {
   for (int k : {49, 50, 51, 52, 53, 61, 62, 63})
-    if (landmark == ibug(k)) return 1;
+    if (landmark == face::ibug(k)) return 1;
   for (int k : {55, 56, 57, 58, 59, 65, 66, 67})
-    if (landmark == ibug(k)) return -1;
+    if (landmark == face::ibug(k)) return -1;
   return 0;
 }
 
@@ -183,15 +190,15 @@ Points lip_line_of_landmarks(const io::Landmarks& landmarks) {
 }
 
 std::optional<Points> lip_line_of_crease(const TriMesh& mesh, const io::Landmarks& landmarks) {
-  const FaceFrame frame = face_frame(landmarks);
+  const face::FaceFrame frame = face::face_frame(landmarks);
   Eigen::Matrix3d scan_from_face;
   scan_from_face << frame.x, frame.y, frame.z;
   const auto found = find_lip_line(mesh, lip_line_of_landmarks(landmarks), scan_from_face);
   if (!found) return {};
   // The heights jump where the lips gape; only the course seen from in front counts.
   std::vector<Vec3> crease = as_list(found->points);
-  crease.front() = landmarks.at(ibug(48));
-  crease.back() = landmarks.at(ibug(54));
+  crease.front() = landmarks.at(face::ibug(48));
+  crease.back() = landmarks.at(face::ibug(54));
   const std::vector<Vec3> fine = resampled(crease);
   std::vector<Vec3> line = smoothed(fine, 0.0015);
   constexpr double most_m = 0.0003;

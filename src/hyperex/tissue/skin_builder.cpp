@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::tissue {
@@ -49,7 +49,7 @@ void SkinBuilder::cut(LipCut mode) {
     if (mode == LipCut::always) out_.notes.push_back("the mouth is open already: not cut");
     return;
   }
-  const Vec3 forward = face_frame(landmarks_).z;
+  const Vec3 forward = face::face_frame(landmarks_).z;
   const auto attempt = [&](const Points& line, const char* course) {
     const CutSurface surface = cut_along_line(clean_.mesh, line, forward);
     apply(surface);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 
 namespace hyperex::tissue {
 
@@ -27,7 +27,7 @@ const std::vector<DepthAt>& published_depths() {
         {51, 11}, {57, 12},  // labrale superius and inferius
     };
     std::vector<DepthAt> list;
-    for (const auto& [k, mm] : at_ibug) list.push_back({ibug(k), mm * 1e-3});
+    for (const auto& [k, mm] : at_ibug) list.push_back({face::ibug(k), mm * 1e-3});
     list.push_back({"cheek_L", 12e-3});
     list.push_back({"cheek_R", 12e-3});
     list.push_back({"glabella", 6e-3});

@@ -9,13 +9,14 @@
 #include <stdexcept>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/clean_mesh.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/geodesic.hpp"
 #include "hyperex/geometry/hole_filling.hpp"
 #include "hyperex/geometry/remesh.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/lips.hpp"
 #include "hyperex/tissue/skin_builder.hpp"
 #include "hyperex/tissue/unfold.hpp"
@@ -60,7 +61,7 @@ std::vector<int> outer_border(const TriMesh& mesh) {
 TriMesh mend(TriMesh mesh, const io::Landmarks& landmarks, double trim_m,
              std::vector<std::string>& notes) {
   std::vector<Vec3> open;  // around these, holes stay
-  for (int k = 31; k < 68; ++k) open.push_back(landmarks.at(ibug(k)));
+  for (int k = 31; k < 68; ++k) open.push_back(landmarks.at(face::ibug(k)));
   int mended = 0;
   const auto border = outer_border(mesh);
   for (const auto& loop : boundary_loops(mesh.triangles)) {
@@ -108,8 +109,8 @@ void anchor_skin(TissueMesh& out, const io::Landmarks& landmarks) {
   if (!part[0].empty() && !part[1].empty()) {
     const SurfaceTree side[2] = {SurfaceTree(subset(outer, part[0])),
                                  SurfaceTree(subset(outer, part[1]))};
-    const FaceFrame frame = face_frame(landmarks);
-    const double reach = 1.8 * (landmarks.at(ibug(54)) - frame.origin).norm();
+    const face::FaceFrame frame = face::face_frame(landmarks);
+    const double reach = 1.8 * (landmarks.at(face::ibug(54)) - frame.origin).norm();
     constexpr double sure_m = 0.004;  // beside the mouth corners both walks are equally long
     for (Eigen::Index v = 0; v < out.skin.points.rows(); ++v) {
       if (std::abs(skin_margin[v]) < sure_m) continue;
@@ -181,10 +182,10 @@ TissueMesh build(const TriMesh& scan, const io::Landmarks& landmarks,
   out.skin_upper_margin = skin.on_skin(upper_lip_margin(skin.mesh(), landmarks));
   const TriMesh mended = mend(skin.mesh(), landmarks, options.trim_border_m, out.notes);
 
-  const FaceFrame frame = face_frame(landmarks);
+  const face::FaceFrame frame = face::face_frame(landmarks);
   GradedSize size;
   size.edge_m = options.element_size_m;
-  size.focus = 0.5 * (landmarks.at(ibug(51)) + landmarks.at(ibug(57)));
+  size.focus = 0.5 * (landmarks.at(face::ibug(51)) + landmarks.at(face::ibug(57)));
   size.centre = size.focus + grading_m * frame.z;
   TriMesh outer = remesh_graded(mended, size);
   outer = clean_mesh(unfold(outer, out.notes), cleaned_again).mesh;

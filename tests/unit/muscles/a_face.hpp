@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::muscles::test {

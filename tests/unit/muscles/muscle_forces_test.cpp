@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/fem/element/tet4.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "muscles/a_face.hpp"
@@ -175,7 +176,7 @@ TEST_F(MuscleForces, OfOneLipLeaveTheOtherAlone) {
 }
 
 TEST_F(MuscleForces, EndAtTheMidline) {
-  const tissue::FaceFrame frame = tissue::face_frame(face_.landmarks);
+  const face::FaceFrame frame = face::face_frame(face_.landmarks);
   ForceShape cut = plain_;
   cut.midline_m = 0.005;
   for (const MuscleLine& l : lines_) {
@@ -205,7 +206,7 @@ TEST_F(MuscleForces, EndAtTheMidline) {
 TEST_F(MuscleForces, FadeEvenlyAcrossTheMidline) {
   ForceShape cut = plain_;
   cut.midline_m = 0.005;
-  const tissue::FaceFrame frame = tissue::face_frame(face_.landmarks);
+  const face::FaceFrame frame = face::face_frame(face_.landmarks);
   const Points f = force("procerus_L", cut);
   Vec3 wanted = Vec3::Zero();
   const MuscleLine& l = line("procerus_L");

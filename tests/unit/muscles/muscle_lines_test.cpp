@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "muscles/a_face.hpp"
 
@@ -50,7 +52,7 @@ TEST(MuscleLines, LeftAndRightOfEachInTurn) {
 
 TEST(MuscleLines, BeginAndEndAtTheirPlaces) {
   const test::AFace& face = test::a_face();
-  const tissue::FaceFrame frame = tissue::face_frame(face.landmarks);
+  const face::FaceFrame frame = face::face_frame(face.landmarks);
   const double size_mm =
       1e3 * (face.landmarks.at("ibug68_45") - face.landmarks.at("ibug68_36")).norm();
   std::vector<TemplateMuscle> muscles = muscle_template();
@@ -61,7 +63,7 @@ TEST(MuscleLines, BeginAndEndAtTheirPlaces) {
     const auto by_hand = [&](const TemplatePlace& place) {
       Vec3 p = Vec3::Zero();
       for (const auto& [k, weight] : place.ibug) {
-        const std::string name = tissue::ibug(k);
+        const std::string name = face::ibug(k);
         p += weight * face.landmarks.at(line.left ? name : tissue::mirrored_landmark(name));
       }
       const double side = line.left ? 1 : -1, mm = 1e-3 * size_mm / 87.4;
@@ -122,7 +124,7 @@ TEST(MuscleLines, ADepthThatIsNotGivenIsInterpolatedByTheWay) {
 }
 
 /// Greatest distance of the left lines, mirrored, from the right ones (m).
-double mirrored_off(const std::vector<MuscleLine>& lines, const tissue::FaceFrame& frame) {
+double mirrored_off(const std::vector<MuscleLine>& lines, const face::FaceFrame& frame) {
   double worst = 0;
   for (std::size_t m = 0; m < lines.size(); m += 2)
     for (Eigen::Index i = 0; i < lines[m].line.rows(); ++i) {
@@ -139,7 +141,7 @@ double mirrored_off(const std::vector<MuscleLine>& lines, const tissue::FaceFram
 /// also tell where the mesh has its inner surface, which differs at the corners of the mouth.
 TEST(MuscleLines, LeftAndRightMirrorEachOther) {
   const test::AFace fine(0.0025);
-  const tissue::FaceFrame frame = tissue::face_frame(fine.landmarks);
+  const face::FaceFrame frame = face::face_frame(fine.landmarks);
   std::vector<TemplateMuscle> on_skin = muscle_template();
   for (TemplateMuscle& m : on_skin)
     for (TemplatePlace& place : m.path) place.depth = 0;

@@ -6,19 +6,18 @@
 #include <random>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::reenact {
 namespace {
 
-using tissue::ibug;
+using face::ibug;
 
 io::Landmarks canonical_landmarks() {
   io::Landmarks landmarks;
   const auto& face = tissue::canonical_face();
-  for (const auto& name : tissue::all_ibug())
-    landmarks[name] = face.landmark(name, face.mesh.points);
+  for (const auto& name : face::all_ibug()) landmarks[name] = face.landmark(name, face.mesh.points);
   return landmarks;
 }
 

@@ -6,8 +6,9 @@
 #include <algorithm>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/geodesic.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/lips.hpp"
 #include "reenact/small_face.hpp"
 
@@ -40,7 +41,7 @@ class Drive : public testing::Test {
   }
   DriveField field_of(const std::vector<DrivenPoint>& points,
                       const std::vector<Vec3>& still) const {
-    return DriveField(points, still, face_.mesh, tissue::face_frame(face_.landmarks).y, 0.010);
+    return DriveField(points, still, face_.mesh, face::face_frame(face_.landmarks).y, 0.010);
   }
   DrivenPatches patches(const std::vector<std::string>& names, double radius = 0.006,
                         bool still = false) const {
@@ -112,7 +113,7 @@ TEST_F(Drive, StillPlacesHoldTheRestOfTheFace) {
   Points at(2, 3);
   std::vector<double> margin;
   for (int i = 0; i < 2; ++i) {
-    at.row(i) = face_.landmarks.at(tissue::ibug(i ? 45 : 27)).transpose();
+    at.row(i) = face_.landmarks.at(face::ibug(i ? 45 : 27)).transpose();
     margin.push_back(face_.mesh.upper_margin[nearest_vertex(face_.mesh.skin.points, at.row(i))]);
   }
   EXPECT_LT(field.weights(at, margin).cwiseAbs().maxCoeff(), 1e-9);
@@ -131,7 +132,7 @@ TEST_F(Drive, LipsPart) {
     bool inner = false;
     for (int k : {62, 66})
       inner |=
-          (skin.row(p.nodes[j]).transpose() - face_.landmarks.at(tissue::ibug(k))).norm() < 0.006;
+          (skin.row(p.nodes[j]).transpose() - face_.landmarks.at(face::ibug(k))).norm() < 0.006;
     if (!inner) continue;
     const bool upper = face_.mesh.upper_margin[p.nodes[j]] > 0;
     between[upper] += p.weights.row(j).tail(3).sum();

@@ -6,17 +6,19 @@
 #include <cmath>
 #include <random>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "reenact/small_face.hpp"
 
 namespace hyperex::reenact {
 namespace {
 
-using tissue::ibug;
+using face::ibug;
 
 class JawTest : public testing::Test {
  protected:
   io::Landmarks landmarks_ = test::small_face().landmarks;
-  tissue::FaceFrame frame_ = tissue::face_frame(landmarks_);
+  face::FaceFrame frame_ = face::face_frame(landmarks_);
 
   Points points(std::initializer_list<int> numbers) const {
     Points p(numbers.size(), 3);

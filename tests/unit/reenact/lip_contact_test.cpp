@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "support/sheet_mesh.hpp"
 
 namespace hyperex::reenact {
@@ -26,7 +26,7 @@ struct FlatLips {
     mesh.skin_upper_margin.assign(2 * half, 0.01);
     std::fill(mesh.skin_upper_margin.begin() + half, mesh.skin_upper_margin.end(), -0.01);
     for (int k = 61; k <= 67; ++k)
-      landmarks[tissue::ibug(k)] = {0.015 + 0.004 * (k < 64 ? k - 62 : 66 - k), 0, 0};
+      landmarks[face::ibug(k)] = {0.015 + 0.004 * (k < 64 ? k - 62 : 66 - k), 0, 0};
   }
   PointsF moved(const Points& skin) const { return (skin - mesh.skin.points).cast<float>(); }
   PointsF moved_by(const Vec3& by) const { return moved(lower_moved(by)); }

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "hyperex/face/face_frame.hpp"
 #include "reenact/small_face.hpp"
 
 namespace hyperex::reenact {
@@ -63,7 +64,7 @@ class FitOfPoints : public testing::Test {
 };
 
 TEST_F(FitOfPoints, TheJawTurnsAboutTheCondyles) {
-  const tissue::FaceFrame frame = tissue::face_frame(landmarks_);
+  const face::FaceFrame frame = face::face_frame(landmarks_);
   const Vec3 centre = 0.5 * (landmarks_.at("ibug68_1") + landmarks_.at("ibug68_15"));
   JawPose pose;
   pose << 0.3, -0.04, 0.05, 0.002, -0.001, 0.003;

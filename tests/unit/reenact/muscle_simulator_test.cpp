@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/reenact/simulator.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "reenact/small_face.hpp"
 
 namespace hyperex::reenact {
@@ -13,7 +13,7 @@ namespace {
 
 /// A smile whose right half is `right` as large as its left one, held at the end.
 AlignedMotion smile(const io::Landmarks& landmarks, double right) {
-  const tissue::FaceFrame frame = tissue::face_frame(landmarks);
+  const face::FaceFrame frame = face::face_frame(landmarks);
   return test::motion_of(
       landmarks, 16, 30, [&](const std::string& name, const Vec3&, int k) -> Vec3 {
         const double t = std::min(1.0, k / 10.0), course = t * t * (3 - 2 * t);
@@ -42,7 +42,7 @@ class DrivenByForces : public testing::Test {
     return (tracks.positions.back().row(row) - tracks.positions.front().row(row)).norm();
   }
   TissueValues stiffer(double factor, const std::function<bool(const Vec3&)>& where) const {
-    const tissue::FaceFrame frame = tissue::face_frame(face_.landmarks);
+    const face::FaceFrame frame = face::face_frame(face_.landmarks);
     TissueValues out = options_.tissue;
     const auto& volume = mesh_->volume;
     for (int p = 0; p < tissue::parameter_count; ++p)

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/fem/form/assembler.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/reenact/muscle_fit.hpp"
@@ -25,7 +26,7 @@ class MuscleTwin : public testing::Test {
  protected:
   MuscleTwin() {
     options_.drive.by = DriveBy::muscles;
-    options_.drive.points = tissue::all_ibug();
+    options_.drive.points = face::all_ibug();
     options_.muscles.many_sigma_m = kNoise_m;  // what the points really have
     fem::Material material = options_.tissue.material(std::size_t(face_.mesh.volume.tets.rows()),
                                                       options_.model.viscous_form);
@@ -64,13 +65,13 @@ TEST_F(MuscleTwin, GroupsOfMusclesAreFoundFromLandmarks) {
   const auto count = Eigen::Index(model.lines().size());
   const Eigen::MatrixXd truth = drawn(count);
   Points rest(68, 3);
-  for (int p = 0; p < 68; ++p) rest.row(p) = face_.landmarks.at(tissue::ibug(p)).transpose();
+  for (int p = 0; p < 68; ++p) rest.row(p) = face_.landmarks.at(face::ibug(p)).transpose();
   const CarrierMatrix carrier =
-      carriers(face_.mesh, skin_places(face_.mesh, tissue::all_ibug(), rest));
+      carriers(face_.mesh, skin_places(face_.mesh, face::all_ibug(), rest));
   const JawKinematics jaw(face_.landmarks);
   std::normal_distribution<double> normal;
   AlignedMotion motion;
-  motion.motion.names = motion.common = tissue::all_ibug();
+  motion.motion.names = motion.common = face::all_ibug();
   motion.rest = rest;
   Eigen::VectorXd opening(kSamples);
   for (int k = 0; k < kSamples; ++k) {

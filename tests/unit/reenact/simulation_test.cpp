@@ -6,13 +6,13 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/reenact/boundary.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/reenact/support.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "reenact/small_face.hpp"
 
 namespace hyperex::reenact {
@@ -67,7 +67,7 @@ TEST_F(Simulation, FollowsATranslationOfEverythingDriven) {
   const auto moved = test::motion_of(face_.landmarks, 31, 30, [&](auto&, auto&, int k) {
     return Vec3(shift * std::min(1.0, k / 10.0));
   });
-  options_.drive.points = tissue::all_ibug();
+  options_.drive.points = face::all_ibug();
   options_.time.end_s = 3;
   const SimulationResult r = run(moved);
   const PointsF& last = r.performance.node_displacement_m.back();

@@ -7,14 +7,14 @@
 #include <cmath>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/tissue/lips.hpp"
 #include "reenact/small_face.hpp"
 
 namespace hyperex::reenact {
 namespace {
 
-using tissue::ibug;
+using face::ibug;
 
 class Region : public testing::Test {
  protected:

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/clean_mesh.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::reenact::test {
@@ -15,7 +15,7 @@ namespace hyperex::reenact::test {
 SmallFace small_face(int layers) {
   const tissue::CanonicalFace& canonical = tissue::canonical_face();
   SmallFace face;
-  for (const auto& name : tissue::all_ibug())
+  for (const auto& name : face::all_ibug())
     face.landmarks[name] = canonical.landmark(name, canonical.mesh.points);
   TriMesh open{canonical.mesh.points, Triangles(0, 3)};
   for (int f = 0; f < canonical.mesh.triangles.rows(); ++f) {

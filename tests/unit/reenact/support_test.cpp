@@ -5,16 +5,16 @@
 
 #include <algorithm>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/geodesic.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "reenact/small_face.hpp"
 #include "support/sheet_mesh.hpp"
 
 namespace hyperex::reenact {
 namespace {
 
-using tissue::ibug;
+using face::ibug;
 
 TEST(BonesUnder, FollowTheAnatomy) {
   const test::SmallFace face = test::small_face();

@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/lips.hpp"
 #include "reenact/small_face.hpp"
@@ -14,13 +16,13 @@
 namespace hyperex::reenact {
 namespace {
 
-using tissue::ibug;
+using face::ibug;
 
 class SixtyEight : public testing::Test {
  protected:
   io::Landmarks landmarks_ = test::small_face().landmarks;
-  tissue::FaceFrame frame_ = tissue::face_frame(landmarks_);
-  std::vector<std::string> names_ = tissue::all_ibug();
+  face::FaceFrame frame_ = face::face_frame(landmarks_);
+  std::vector<std::string> names_ = face::all_ibug();
 
   Points rest() const {
     Points p(68, 3);
@@ -94,7 +96,7 @@ TEST_F(SixtyEight, SurvivesCrossingContours) {
 
 TEST_F(SixtyEight, WorksWithoutContours) {
   Points p(4, 3);
-  const tissue::FaceFrame& f = frame_;
+  const face::FaceFrame& f = frame_;
   p.row(0) = f.world({-0.03, 0.03, 0}).transpose();
   p.row(1) = f.world({0.03, 0.03, 0.01}).transpose();
   p.row(2) = f.world({0.03, 0.08, 0}).transpose();

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/frontal.hpp"
 #include "hyperex/tissue/field/harmonic.hpp"
 #include "hyperex/tissue/field/points.hpp"

@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <set>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/landmarks.hpp"
 #include "hyperex/tissue/lips.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
@@ -27,7 +28,7 @@ Face humface() {
   Face face;
   face.scan = io::read_scan(folder / "humface.ply").mesh;
   face.landmarks = complete_landmarks(io::read_landmarks(folder / "humface_landmarks.json"),
-                                      all_ibug(), face.scan)
+                                      face::all_ibug(), face.scan)
                        .landmarks;
   return face;
 }
@@ -40,7 +41,7 @@ bool have_humface() {
 /// The canonical face, whose mouth is closed by triangles.
 Face closed_face() {
   Face face{canonical_face().mesh, {}};
-  for (const auto& name : all_ibug())
+  for (const auto& name : face::all_ibug())
     face.landmarks[name] = canonical_face().landmark(name, face.scan.points);
   return face;
 }
@@ -118,12 +119,13 @@ TEST(LipCut, OnARealScanIsSmoothFromCornerToCorner) {
   expect_rims_on_their_own_lips(mesh);
   // Within a millimetre of the landmarks at its ends, and without teeth: seen from in front, no
   // vertex stands off the chord of the vertices 3 mm beside it by over half a millimetre.
-  const FaceFrame frame = face_frame(face.landmarks);
+  const face::FaceFrame frame = face::face_frame(face.landmarks);
   std::vector<Vec3> line;
   for (Eigen::Index i = 0; i < mesh.lip_cut.rows(); ++i)
     line.push_back(frame.local(mesh.lip_cut.row(i)));
-  EXPECT_LT((mesh.lip_cut.row(0).transpose() - face.landmarks.at(ibug(48))).norm(), 0.001);
-  EXPECT_LT((mesh.lip_cut.bottomRows(1).transpose() - face.landmarks.at(ibug(54))).norm(), 0.001);
+  EXPECT_LT((mesh.lip_cut.row(0).transpose() - face.landmarks.at(face::ibug(48))).norm(), 0.001);
+  EXPECT_LT((mesh.lip_cut.bottomRows(1).transpose() - face.landmarks.at(face::ibug(54))).norm(),
+            0.001);
   const auto height = [&](double x) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
       if (line[i].x() <= x && x <= line[i + 1].x())
@@ -149,7 +151,7 @@ TEST(LipCut, RimOfTheSimulatedSkinLiesOnTheCut) {
   int near_ends = 0;
   for (const auto& loop : boundary_loops(mesh.volume.outer.triangles)) {
     const Vec3 first = outer.row(loop.front());
-    if ((first - face.landmarks.at(ibug(62))).norm() > 0.03 || loop.size() < 10) continue;
+    if ((first - face.landmarks.at(face::ibug(62))).norm() > 0.03 || loop.size() < 10) continue;
     for (int v : loop) {
       EXPECT_LT((mesh.lip_cut.rowwise() - outer.row(v)).rowwise().norm().minCoeff(), 0.0012);
       for (const Eigen::Index end : {Eigen::Index(0), mesh.lip_cut.rows() - 1})

@@ -6,23 +6,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/geodesic.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 
 namespace hyperex::tissue {
 namespace {
 
 io::Landmarks canonical_landmarks() {
   io::Landmarks landmarks;
-  for (const auto& name : all_ibug())
+  for (const auto& name : face::all_ibug())
     landmarks[name] = canonical_face().landmark(name, canonical_face().mesh.points);
   return landmarks;
 }
 
 TEST(LipOf, ToldByTheIbugNumber) {
   int upper = 0, lower = 0;
-  for (const auto& name : all_ibug()) {
+  for (const auto& name : face::all_ibug()) {
     upper += lip_of(name) > 0;
     lower += lip_of(name) < 0;
   }
@@ -38,14 +38,16 @@ TEST(UpperLipMargin, TellsTheLipsApartByTheWalk) {
   const EmbeddedFace face = embedded_face();
   const auto margin = upper_lip_margin(face.mesh, face.landmarks);
   ASSERT_EQ(static_cast<Eigen::Index>(margin.size()), face.mesh.points.rows());
-  for (const auto& name : all_ibug()) {
+  for (const auto& name : face::all_ibug()) {
     const double m = margin[nearest_vertex(face.mesh.points, face.landmarks.at(name))];
     if (lip_of(name) != 0) {
       EXPECT_GT(m * lip_of(name), 0.004) << name;
     }
   }
-  EXPECT_GT(margin[nearest_vertex(face.mesh.points, face.landmarks.at(ibug(30)))], 0.01) << "nose";
-  EXPECT_LT(margin[nearest_vertex(face.mesh.points, face.landmarks.at(ibug(8)))], -0.01) << "chin";
+  EXPECT_GT(margin[nearest_vertex(face.mesh.points, face.landmarks.at(face::ibug(30)))], 0.01)
+      << "nose";
+  EXPECT_LT(margin[nearest_vertex(face.mesh.points, face.landmarks.at(face::ibug(8)))], -0.01)
+      << "chin";
 }
 
 TEST(UpperLipMargin, UnreachedVerticesCountAsFarFromBoth) {
@@ -65,14 +67,14 @@ TEST(LipLineOfLandmarks, RunsFromCornerToCornerBetweenTheLips) {
   const io::Landmarks landmarks = embedded_face().landmarks;
   const Points line = lip_line_of_landmarks(landmarks);
   ASSERT_GT(line.rows(), 50);
-  EXPECT_LT((line.row(0).transpose() - landmarks.at(ibug(48))).norm(), 1e-12);
-  EXPECT_LT((line.row(line.rows() - 1).transpose() - landmarks.at(ibug(54))).norm(), 1e-12);
+  EXPECT_LT((line.row(0).transpose() - landmarks.at(face::ibug(48))).norm(), 1e-12);
+  EXPECT_LT((line.row(line.rows() - 1).transpose() - landmarks.at(face::ibug(54))).norm(), 1e-12);
   for (Eigen::Index i = 0; i + 1 < line.rows(); ++i) {
     EXPECT_GT(line(i + 1, 0), line(i, 0)) << "always towards the subject's left";
     EXPECT_LT((line.row(i + 1) - line.row(i)).norm(), 0.0008);
   }
   for (const auto& [upper, lower] : {std::pair{61, 67}, {62, 66}, {63, 65}}) {
-    const Vec3 middle = (landmarks.at(ibug(upper)) + landmarks.at(ibug(lower))) / 2;
+    const Vec3 middle = (landmarks.at(face::ibug(upper)) + landmarks.at(face::ibug(lower))) / 2;
     EXPECT_LT((line.rowwise() - middle.transpose()).rowwise().norm().minCoeff(), 0.0015);
   }
 }

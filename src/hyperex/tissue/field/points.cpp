@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 
 namespace hyperex::tissue {
@@ -98,7 +98,7 @@ class Resolver {
   void check_side(const ResolvedPoint& point) {
     const std::string side = side_of_landmark(point.landmark);
     if (side.empty()) return;
-    const double lateral = face_frame(landmarks_).local(landmarks_.at(point.landmark)).x();
+    const double lateral = face::face_frame(landmarks_).local(landmarks_.at(point.landmark)).x();
     if (side == "L" ? lateral > -kSideSlack_m : lateral < kSideSlack_m) return;
     complain(
         point.key == "preset" ? "preset" : point.key + ".landmark",

@@ -6,9 +6,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/data.hpp"
 
 namespace hyperex::tissue {
@@ -115,8 +116,8 @@ RegionMap::RegionMap(const TissueMesh& mesh, const io::Landmarks& landmarks,
                      const RegisteredFace& face) {
   const CanonicalFace& canonical = canonical_face();
   open_ = {face.points, face::opened_triangles(canonical)};
-  const FaceFrame frame = face_frame(landmarks);
-  const double reach = 1.8 * (landmarks.at(ibug(54)) - frame.origin).norm();
+  const face::FaceFrame frame = face::face_frame(landmarks);
+  const double reach = 1.8 * (landmarks.at(face::ibug(54)) - frame.origin).norm();
   const SideTree tree(open_, lip_margins(open_.points.rows()), frame.origin, reach);
   const Eigen::VectorXd lateral = face.scan_from_canonical.scale * canonical.mesh.points.col(0);
   foot_.resize(mesh.skin.points.rows());

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/face_frame.hpp"
 #include "hyperex/tissue/field/frontal.hpp"
 #include "hyperex/tissue/field/harmonic.hpp"
 #include "hyperex/tissue/field/per_vertex.hpp"
@@ -21,7 +22,7 @@ namespace {
 using SkinField = std::array<Eigen::VectorXd, parameter_count>;
 
 double reach_of(const io::Landmarks& landmarks) {
-  return 1.8 * (landmarks.at(ibug(54)) - face_frame(landmarks).origin).norm();
+  return 1.8 * (landmarks.at(face::ibug(54)) - face::face_frame(landmarks).origin).norm();
 }
 
 /// As upper_lip_margin: far on the landmark's own lip, 0 for those of neither.
@@ -147,7 +148,7 @@ TissueFieldMaker::TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& 
     : mesh_(mesh),
       landmarks_(landmarks),
       joined_(joined_vertices(mesh.skin.points, mesh.skin_upper_margin)),
-      skin_tree_(mesh.skin, mesh.skin_upper_margin, face_frame(landmarks).origin,
+      skin_tree_(mesh.skin, mesh.skin_upper_margin, face::face_frame(landmarks).origin,
                  reach_of(landmarks)),
       above_(places_above(mesh, skin_tree_)) {
   if (face) regions_.emplace(mesh, landmarks, *face);
@@ -202,7 +203,7 @@ Eigen::VectorXd TissueFieldMaker::on_skin(const Eigen::VectorXd& of_scan) const 
 void TissueFieldMaker::interpolate(const TissueFieldOptions& options, SkinField& field) const {
   std::vector<FieldProblem> problems;
   const auto points = resolve_points(options, landmarks_, problems);
-  const FaceFrame frame = face_frame(landmarks_);
+  const face::FaceFrame frame = face::face_frame(landmarks_);
   const auto frontal = [&](const Points& at) {
     Eigen::MatrixX2d out(at.rows(), 2);
     for (Eigen::Index i = 0; i < at.rows(); ++i)

@@ -10,6 +10,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/io/csv.hpp"
 
 namespace hyperex::tracking {
@@ -56,7 +57,7 @@ std::optional<double> correlation(const std::vector<double>& a, const std::vecto
 Points face_points(const FaceModel& model, const Points& vertices) {
   Points points(Eigen::Index(score_points().size()), 3);
   for (std::size_t i = 0; i < score_points().size(); ++i) {
-    const auto found = model.landmarks.find("ibug68_" + std::to_string(score_points()[i]));
+    const auto found = model.landmarks.find(face::ibug(score_points()[i]));
     if (found == model.landmarks.end())
       points.row(Eigen::Index(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
     else

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/render/hidden.hpp"
 #include "hyperex/tracking/fit/depth_view.hpp"
 
@@ -165,8 +166,8 @@ void PreviewPainter::draw_landmarks(Canvas& canvas, const TriMesh& seen,
     const std::size_t at = row++;
     if (hidden[at]) continue;
     const Eigen::Vector2d px = place(landmarks.row(Eigen::Index(at)));
-    canvas.disc(px.x(), px.y(), name.starts_with("ibug68_") ? 2.4 : 3.2,
-                name.starts_with("ibug68_") ? kIbug : kNamed);
+    canvas.disc(px.x(), px.y(), face::ibug_number(name) ? 2.4 : 3.2,
+                face::ibug_number(name) ? kIbug : kNamed);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hyperex/capture/decode.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
@@ -40,9 +41,9 @@ render::Image draw_scan_landmarks(const TriMesh& scan, const render::VertexColou
                                   const ScanLandmarks& found, const std::string& title) {
   std::vector<render::Marker> markers;
   for (const auto& [name, at] : found.landmarks)
-    markers.push_back(
-        {at, name.starts_with("ibug68_") ? render::palette::held : render::palette::driven,
-         name.starts_with("ibug68_") ? 3.0 : 2.0});
+    markers.push_back({at,
+                       face::ibug_number(name) ? render::palette::held : render::palette::driven,
+                       face::ibug_number(name) ? 3.0 : 2.0});
   const Eigen::Matrix3d scan_from_face = found.scan_from_canonical.rotation;
   const render::RenderOptions size{.width_px = 520, .height_px = 640};
   render::ContactSheet sheet{

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/face_frame.hpp"
+#include "hyperex/face/face_frame.hpp"
 
 #include <gtest/gtest.h>
 
-#include <set>
+#include <cmath>
 #include <stdexcept>
 
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/transform.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 
-namespace hyperex::tissue {
+namespace hyperex::face {
 namespace {
 
 io::Landmarks canonical_landmarks() {
@@ -17,11 +18,6 @@ io::Landmarks canonical_landmarks() {
   for (const auto& name : all_ibug())
     landmarks[name] = canonical_face().landmark(name, canonical_face().mesh.points);
   return landmarks;
-}
-
-TEST(Names, AreTheSixtyEight) {
-  EXPECT_EQ(ibug(48), "ibug68_48");
-  EXPECT_EQ(std::set<std::string>(all_ibug().begin(), all_ibug().end()).size(), 68u);
 }
 
 TEST(FaceFrame, OfTheCanonicalFaceIsItsAxes) {
@@ -62,5 +58,45 @@ TEST(FaceFrame, NeedsItsLandmarks) {
   }
 }
 
+// Of a made-up face whose mouth lies 1 cm before its eyes and whose chin does not count.
+TEST(FaceFrame, OfCornersIsKnownByHand) {
+  const io::Landmarks corners = {{"exocanthion_R", {-0.045, 0.03, 0}},
+                                 {"exocanthion_L", {0.045, 0.03, 0}},
+                                 {"cheilion_R", {-0.025, -0.03, 0.01}},
+                                 {"cheilion_L", {0.025, -0.03, 0.01}}};
+  const auto frame = face_frame_of_corners(corners);
+  ASSERT_TRUE(frame);
+  EXPECT_LT((frame->origin - Vec3(0, -0.03, 0.01)).norm(), 1e-15);
+  EXPECT_LT((frame->x - Vec3(1, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((frame->y - Vec3(0, 6, -1).normalized()).norm(), 1e-14);
+  EXPECT_LT((frame->z - Vec3(0, 1, 6).normalized()).norm(), 1e-14);
+  const Eigen::Matrix3d face_from_scan = frame->face_from_scan();
+  const Vec3 p(0.01, 0.02, 0.03);
+  EXPECT_LT((face_from_scan * (p - frame->origin) - frame->local(p)).norm(), 1e-16);
+}
+
+TEST(FaceFrame, OfCornersKnowsBothNamesOfAPlace) {
+  const io::Landmarks all = canonical_landmarks();  // iBUG names alone
+  const auto frame = face_frame_of_corners(all);
+  ASSERT_TRUE(frame);
+  const FaceFrame whole = face_frame(all);
+  EXPECT_LT((frame->origin - whole.origin).norm(), 1e-15);
+  EXPECT_LT((frame->x - whole.x).norm(), 1e-15);
+  const double lean_deg = std::acos(frame->y.dot(whole.y)) * 180 / M_PI;
+  EXPECT_GT(lean_deg, 1);
+  EXPECT_LT(lean_deg, 20);
+}
+
+TEST(FaceFrame, OfCornersIsNoneWithoutThem) {
+  for (int k : {36, 45, 48, 54}) {
+    io::Landmarks landmarks = canonical_landmarks();
+    landmarks.erase(ibug(k));
+    EXPECT_FALSE(face_frame_of_corners(landmarks)) << k;
+  }
+  const Vec3 one(0.1, 0.2, 0.3);
+  EXPECT_FALSE(
+      face_frame_of_corners({{ibug(36), one}, {ibug(45), one}, {ibug(48), one}, {ibug(54), one}}));
+}
+
 }  // namespace
-}  // namespace hyperex::tissue
+}  // namespace hyperex::face

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyperex::face {
+
+/// The name of one of the 68 iBUG points, 0 to 67: "ibug68_48".
+std::string ibug(int k);
+/// All 68, in order.
+const std::vector<std::string>& all_ibug();
+/// 48 of "ibug68_48"; none of any other name.
+std::optional<int> ibug_number(std::string_view name);
+
+}  // namespace hyperex::face

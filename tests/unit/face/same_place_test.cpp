@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/face/same_place.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "hyperex/face/ibug.hpp"
+
+namespace hyperex::face {
+namespace {
+
+TEST(SamePlace, IsFoundUnderEitherName) {
+  const Vec3 left(1, 2, 3), other(4, 5, 6);
+  EXPECT_EQ(find_place({{ibug(54), left}}, "cheilion_L"), left);
+  EXPECT_EQ(find_place({{"cheilion_L", left}}, ibug(54)), left);
+  const io::Landmarks both = {{"cheilion_L", left}, {ibug(54), other}};
+  EXPECT_EQ(find_place(both, "cheilion_L"), left) << "the name asked for counts first";
+  EXPECT_EQ(find_place(both, ibug(54)), other);
+}
+
+TEST(SamePlace, ThatIsNotGivenOrNotFiniteIsNone) {
+  EXPECT_FALSE(find_place({{"cheilion_R", Vec3::Zero()}}, "cheilion_L"));
+  EXPECT_FALSE(find_place({}, "my_own"));
+  const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(find_place({{"cheilion_L", nowhere}}, "cheilion_L"));
+}
+
+}  // namespace
+}  // namespace hyperex::face
