@@ -32,11 +32,11 @@ class Follower {
   Follower(const std::filesystem::path& scan, const std::filesystem::path& landmarks) {
     skin_ = io::read_scan(scan, std::nullopt).mesh.points;
     const io::Landmarks at = io::read_landmarks(landmarks, std::nullopt);
-    const tracking::FaceModel& model = tracking::canonical_model();
+    const expression::FaceModel& model = expression::canonical_model();
     std::vector<Vec3> from, to;
     for (const auto& [name, vertices] : model.landmarks)
       if (at.contains(name)) {
-        from.push_back(tracking::landmark_at(vertices, model.mesh.points));
+        from.push_back(expression::landmark_at(vertices, model.mesh.points));
         to.push_back(at.at(name));
       }
     Points a(Eigen::Index(from.size()), 3), b(a.rows(), 3);
@@ -75,7 +75,7 @@ struct Pass {
 
 template <class Next>
 Pass run(const capture::Intrinsics& camera, Next next, Follower* follower) {
-  tracking::FaceTracker tracker(tracking::canonical_model(), camera);
+  tracking::FaceTracker tracker(expression::canonical_model(), camera);
   Pass pass;
   Points rest;
   const auto take = [&](const std::vector<TrackedFrame>& given) {

@@ -38,12 +38,12 @@ struct Options {
 constexpr std::string_view kCandide = "candide:";
 
 /// "canonical", or "candide:FILE" read into `own`.
-const tracking::FaceModel& model_of(const std::string& text,
-                                    std::optional<tracking::FaceModel>& own) {
-  if (text == "canonical") return tracking::canonical_model();
+const expression::FaceModel& model_of(const std::string& text,
+                                      std::optional<expression::FaceModel>& own) {
+  if (text == "canonical") return expression::canonical_model();
   if (!text.starts_with(kCandide))
     throw InputError({{}, 0, "--model", text, "canonical or candide:FILE.wfm"});
-  own = tracking::candide_model(text.substr(kCandide.size()));
+  own = expression::candide_model(text.substr(kCandide.size()));
   return *own;
 }
 
@@ -167,8 +167,8 @@ void run(const Options& options) {
     throw InputError("track: --json prints a score: give --score TRUTH_FOLDER too");
   check_outputs(outputs_of(options), inputs_of(options));
   take_library_memory();
-  std::optional<tracking::FaceModel> own;
-  const tracking::FaceModel& model = model_of(options.model, own);
+  std::optional<expression::FaceModel> own;
+  const expression::FaceModel& model = model_of(options.model, own);
   std::vector<OutputFile> kinds = options.outputs.kinds(model);
   kinds.push_back({options.plots, {".html"}, "<!doctype html>", {"<title>Hyperex tracking"}});
   check_output_kinds(kinds);

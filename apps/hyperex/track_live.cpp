@@ -66,7 +66,7 @@ void tell_outcome(const tracking::LiveTracking& live) {
 
 }  // namespace
 
-tracking::Tracking track_live(capture::FrameSource& source, const tracking::FaceModel& model,
+tracking::Tracking track_live(capture::FrameSource& source, const expression::FaceModel& model,
                               const tracking::TrackerOptions& options,
                               std::optional<double> seconds, const tracking::FrameVisitor& visit) {
   const StopOnRequest request;

@@ -8,7 +8,7 @@ namespace hyperex::cli {
 /// user ends it with Ctrl-C: what was tracked until then is then given, and a second Ctrl-C ends
 /// the program. One line on the terminal tells how it goes, and some at the end what was dropped
 /// and how long frames took.
-tracking::Tracking track_live(capture::FrameSource& source, const tracking::FaceModel& model,
+tracking::Tracking track_live(capture::FrameSource& source, const expression::FaceModel& model,
                               const tracking::TrackerOptions& options,
                               std::optional<double> seconds,
                               const tracking::FrameVisitor& visit = {});

@@ -38,7 +38,7 @@ std::vector<std::filesystem::path> TrackOutputs::files() const {
   return all;
 }
 
-std::vector<OutputFile> TrackOutputs::kinds(const tracking::FaceModel& model) const {
+std::vector<OutputFile> TrackOutputs::kinds(const expression::FaceModel& model) const {
   const std::string point = model.landmarks.begin()->first;
   const auto table = [&](const char* kind) {
     return motion.empty() ? motion : beside(motion, kind);
@@ -74,13 +74,13 @@ void add_output_options(CLI::App& command, TrackOutputs& outputs) {
 }
 
 std::unique_ptr<tracking::PreviewMovie> preview_of(const TrackOutputs& outputs,
-                                                   const tracking::FaceModel& model,
+                                                   const expression::FaceModel& model,
                                                    const capture::Intrinsics& camera) {
   if (outputs.preview.empty()) return nullptr;
   return std::make_unique<tracking::PreviewMovie>(outputs.preview, model, camera);
 }
 
-void write_outputs(const TrackOutputs& outputs, const tracking::FaceModel& model,
+void write_outputs(const TrackOutputs& outputs, const expression::FaceModel& model,
                    const tracking::Tracking& tracking, const capture::Intrinsics& camera,
                    bool quiet) {
   const motion::Motion motion = tracking::motion_of(model, tracking, outputs.vertices);

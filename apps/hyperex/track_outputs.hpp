@@ -21,7 +21,7 @@ struct TrackOutputs {
   /// Every file, those beside the motion among them; some empty.
   std::vector<std::filesystem::path> files() const;
   /// The same with what tells earlier ones from other files.
-  std::vector<OutputFile> kinds(const tracking::FaceModel& model) const;
+  std::vector<OutputFile> kinds(const expression::FaceModel& model) const;
   bool any() const {
     return !motion.empty() || !trc.empty() || !preview.empty() || !glb.empty() ||
            !live_link.empty();
@@ -33,11 +33,11 @@ void add_output_options(CLI::App& command, TrackOutputs& outputs);
 /// Draws while tracking runs; null where no preview is asked for. Throws InputError for a name that
 /// is none of a video.
 std::unique_ptr<tracking::PreviewMovie> preview_of(const TrackOutputs& outputs,
-                                                   const tracking::FaceModel& model,
+                                                   const expression::FaceModel& model,
                                                    const capture::Intrinsics& camera);
 
 /// All but the preview; says what was written unless `quiet`.
-void write_outputs(const TrackOutputs& outputs, const tracking::FaceModel& model,
+void write_outputs(const TrackOutputs& outputs, const expression::FaceModel& model,
                    const tracking::Tracking& tracking, const capture::Intrinsics& camera,
                    bool quiet);
 

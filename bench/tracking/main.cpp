@@ -62,7 +62,7 @@ constexpr const char* kTableHead =
     "at rest, mm |\n|---|---|---|---|---|---|---|\n";
 
 /// One table a condition.
-std::string trial_tables(const std::vector<fs::path>& folders, const tracking::FaceModel& model,
+std::string trial_tables(const std::vector<fs::path>& folders, const expression::FaceModel& model,
                          std::size_t conditions) {
   std::string page;
   for (std::size_t c = 0; c < conditions; ++c) {
@@ -135,8 +135,8 @@ std::string scan_table(const fs::path& data) {
 void run(const Options& options) {
   const std::vector<fs::path> folders = recordings(options.data / "rgbd");
   const fs::path candide_file = options.data / "candide/candide3.wfm";
-  std::optional<tracking::FaceModel> candide;
-  if (fs::exists(candide_file)) candide = tracking::candide_model(candide_file.string());
+  std::optional<expression::FaceModel> candide;
+  if (fs::exists(candide_file)) candide = expression::candide_model(candide_file.string());
   std::string page = fmt::format(
       "# Scores of tracking\n\nWritten by `cmake --build build/release --target tracking_scores` "
       "at "
@@ -149,7 +149,7 @@ void run(const Options& options) {
       "elsewhere or not at all and are not scored; *given up* are those of them that the tracker "
       "says are\nnot valid.\n\n## Canonical face\n",
       options.commit, options.machine);
-  page += trial_tables(folders, tracking::canonical_model(), test::standard_trials(0).size());
+  page += trial_tables(folders, expression::canonical_model(), test::standard_trials(0).size());
   if (candide)
     page += "\n## CANDIDE-3\n" + trial_tables(folders, *candide, 2);  // as recorded, colour only
   if (!options.no_scans)

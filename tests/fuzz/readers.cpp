@@ -11,11 +11,11 @@
 #include "hyperex/capture/decode.hpp"
 #include "hyperex/capture/tum_lists.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/expression/candide.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/scene/scene.hpp"
-#include "hyperex/tracking/model/candide.hpp"
 
 namespace hyperex::fuzz {
 namespace fs = std::filesystem;
@@ -51,22 +51,22 @@ void read_picture(const fs::path& file) {
 }
 
 std::vector<Reader> all() {
-  return {
-      {"ply", "in.ply", read_scan, ply_seeds()},
-      {"obj", "in.obj", read_scan, obj_seeds()},
-      {"stl", "in.stl", read_scan, stl_seeds()},
-      {"gltf", "in.gltf", read_scan, gltf_seeds()},
-      {"glb", "in.glb", read_scan, glb_seeds()},
-      {"landmarks", "in.json", read_landmarks, landmark_seeds()},
-      {"markups", "in.mrk.json", read_landmarks, markup_seeds()},
-      {"csv", "in.csv", read_motion, csv_seeds()},
-      {"trc", "in.trc", read_motion, trc_seeds()},
-      {"scene", "in.toml", [](const fs::path& f) { scene::read_scene(f); }, scene_seeds()},
-      {"camera", "camera.toml", [](const fs::path& f) { capture::read_camera_file(f); },
-       camera_seeds()},
-      {"lists", "rgb.txt", read_lists, list_seeds()},
-      {"candide", "in.wfm", [](const fs::path& f) { tracking::read_candide(f); }, candide_seeds()},
-      {"picture", "in.png", read_picture, picture_seeds()}};
+  return {{"ply", "in.ply", read_scan, ply_seeds()},
+          {"obj", "in.obj", read_scan, obj_seeds()},
+          {"stl", "in.stl", read_scan, stl_seeds()},
+          {"gltf", "in.gltf", read_scan, gltf_seeds()},
+          {"glb", "in.glb", read_scan, glb_seeds()},
+          {"landmarks", "in.json", read_landmarks, landmark_seeds()},
+          {"markups", "in.mrk.json", read_landmarks, markup_seeds()},
+          {"csv", "in.csv", read_motion, csv_seeds()},
+          {"trc", "in.trc", read_motion, trc_seeds()},
+          {"scene", "in.toml", [](const fs::path& f) { scene::read_scene(f); }, scene_seeds()},
+          {"camera", "camera.toml", [](const fs::path& f) { capture::read_camera_file(f); },
+           camera_seeds()},
+          {"lists", "rgb.txt", read_lists, list_seeds()},
+          {"candide", "in.wfm", [](const fs::path& f) { expression::read_candide(f); },
+           candide_seeds()},
+          {"picture", "in.png", read_picture, picture_seeds()}};
 }
 }  // namespace
 

@@ -6,7 +6,7 @@
 
 namespace hyperex::test {
 
-TrialResult run_trial(const std::filesystem::path& folder, const tracking::FaceModel& model,
+TrialResult run_trial(const std::filesystem::path& folder, const expression::FaceModel& model,
                       const Degradation& degradation, const tracking::TrackerOptions& options) {
   const tracking::Truth truth = tracking::read_truth(folder);
   const auto source =

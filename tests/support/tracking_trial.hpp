@@ -18,7 +18,7 @@ struct TrialResult {
 };
 
 /// Tracks a recording (a TUM folder with truth files) with `degradation` done to it.
-TrialResult run_trial(const std::filesystem::path& folder, const tracking::FaceModel& model,
+TrialResult run_trial(const std::filesystem::path& folder, const expression::FaceModel& model,
                       const Degradation& degradation = {},
                       const tracking::TrackerOptions& options = {});
 

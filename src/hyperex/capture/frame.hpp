@@ -5,15 +5,9 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-namespace hyperex::capture {
+#include "hyperex/capture/intrinsics.hpp"
 
-/// A pinhole camera without distortion; pixel centres at integers. The camera's frame has x to the
-/// right, y down, z forward:  u = fx x / z + cx,  v = fy y / z + cy.
-struct Intrinsics {
-  double fx_px = 0, fy_px = 0;  ///< > 0
-  double cx_px = 0, cy_px = 0;
-  int width_px = 0, height_px = 0;  ///< > 0
-};
+namespace hyperex::capture {
 
 /// One moment of a recording or a camera.
 struct Frame {

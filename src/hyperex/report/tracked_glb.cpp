@@ -142,7 +142,7 @@ void add_nodes(tinygltf::Model& model, const capture::Intrinsics& camera,
 
 }  // namespace
 
-void write_tracked_glb(const std::filesystem::path& file, const tracking::FaceModel& model,
+void write_tracked_glb(const std::filesystem::path& file, const expression::FaceModel& model,
                        const Tracking& tracking, const capture::Intrinsics& camera,
                        double tolerance_m) {
   if (!tracking.neutral || tracking.neutral->points_m.rows() != model.vertex_count())

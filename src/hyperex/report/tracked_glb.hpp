@@ -2,8 +2,9 @@
 #pragma once
 #include <filesystem>
 
-#include "hyperex/capture/frame.hpp"
-#include "hyperex/tracking/fit/track_source.hpp"
+#include "hyperex/capture/intrinsics.hpp"
+#include "hyperex/expression/face_model.hpp"
+#include "hyperex/tracking/tracked.hpp"
 
 namespace hyperex::report {
 
@@ -19,7 +20,7 @@ namespace hyperex::report {
 /// are not valid the head's scale is 0: nothing is shown then. Valid frames whose time does not
 /// rise are left out. Throws InputError where the file cannot be written, std::invalid_argument
 /// where the tracking has no neutral face or it is another model's.
-void write_tracked_glb(const std::filesystem::path& file, const tracking::FaceModel& model,
+void write_tracked_glb(const std::filesystem::path& file, const expression::FaceModel& model,
                        const tracking::Tracking& tracking, const capture::Intrinsics& camera,
                        double tolerance_m = 3e-4);
 

@@ -13,7 +13,7 @@
 namespace hyperex::report {
 namespace {
 
-using tracking::FaceModel;
+using expression::FaceModel;
 using tracking::TrackedFrame;
 using tracking::Tracking;
 
@@ -88,9 +88,9 @@ void add_distance(Collector& collect, const FaceModel& model, const std::string&
   collect.add("distance", name, "mm", [&](const TrackedFrame& frame) {
     double sum_m = 0;
     for (const auto& [a, b] : ends)
-      sum_m +=
-          (tracking::landmark_at(a, frame.vertices_m) - tracking::landmark_at(b, frame.vertices_m))
-              .norm();
+      sum_m += (expression::landmark_at(a, frame.vertices_m) -
+                expression::landmark_at(b, frame.vertices_m))
+                   .norm();
     return 1e3 * sum_m / double(ends.size());
   });
 }
@@ -99,9 +99,9 @@ void add_travel(Collector& collect, const FaceModel& model, const Points& rest_m
                 const std::string& name, const std::string& landmark) {
   const auto found = model.landmarks.find(landmark);
   if (found == model.landmarks.end()) return;
-  const Vec3 at_rest = tracking::landmark_at(found->second, rest_m);
+  const Vec3 at_rest = expression::landmark_at(found->second, rest_m);
   collect.add("distance", name, "mm", [&](const TrackedFrame& frame) {
-    return 1e3 * (tracking::landmark_at(found->second, frame.vertices_m) - at_rest).norm();
+    return 1e3 * (expression::landmark_at(found->second, frame.vertices_m) - at_rest).norm();
   });
 }
 

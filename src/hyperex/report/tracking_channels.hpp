@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/tracking/fit/track_source.hpp"
+#include "hyperex/expression/face_model.hpp"
+#include "hyperex/tracking/tracked.hpp"
 
 namespace hyperex::report {
 
@@ -47,7 +48,7 @@ struct TrackingCurves {
 ///   residual  "network" (px), "depth" (mm; none where no vertex had depth), "depth seen", "skin
 ///             matched" (shares in %; none where nothing is compared, as in the first frame)
 /// Throws std::invalid_argument where the tracking has no neutral face, or is not of this model.
-TrackingCurves tracking_curves(const tracking::FaceModel& model,
+TrackingCurves tracking_curves(const expression::FaceModel& model,
                                const tracking::Tracking& tracking);
 
 }  // namespace hyperex::report

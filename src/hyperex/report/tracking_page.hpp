@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/tracking/fit/track_source.hpp"
+#include "hyperex/expression/face_model.hpp"
+#include "hyperex/tracking/tracked.hpp"
 
 namespace hyperex::report {
 
 /// What the page shows. References must outlive the call.
 struct TrackingPageInput {
-  const tracking::FaceModel& model;
+  const expression::FaceModel& model;
   const tracking::Tracking& tracking;  ///< of this model, with its neutral face
   std::string recording;               ///< as the user named it; the page shows its last part
   /// Outer eye corner to outer eye corner as stated, which lengths rest on where the neutral face

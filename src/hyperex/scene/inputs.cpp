@@ -10,6 +10,7 @@
 
 #include "hyperex/capture/mirrored.hpp"
 #include "hyperex/capture/open_source.hpp"
+#include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
@@ -27,7 +28,6 @@
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "hyperex/tissue/landmarks.hpp"
-#include "hyperex/tracking/expression/blend_shapes.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
 
 namespace hyperex::scene {
@@ -79,20 +79,20 @@ void complete(const Scene& scene, const io::Landmarks& given, Inputs& in) {
                     in.placed.size(), in.landmarks.size(), given.size()));
 }
 
-const tracking::FaceModel& face_model(const MotionOptions& options,
-                                      std::optional<tracking::FaceModel>& own) {
-  if (options.candide.empty()) return tracking::canonical_model();
-  return own.emplace(tracking::candide_model(options.candide.string()));
+const expression::FaceModel& face_model(const MotionOptions& options,
+                                        std::optional<expression::FaceModel>& own) {
+  if (options.candide.empty()) return expression::canonical_model();
+  return own.emplace(expression::candide_model(options.candide.string()));
 }
 
 /// The points of a face model that recorded expressions move.
 motion::Motion read_expressions(const MotionOptions& options, Inputs& in) {
-  const tracking::BlendShapes shapes = options.arkit.empty()
-                                           ? tracking::read_openface(options.openface)
-                                           : tracking::read_arkit(options.arkit);
+  const expression::BlendShapes shapes = options.arkit.empty()
+                                             ? expression::read_openface(options.openface)
+                                             : expression::read_arkit(options.arkit);
   std::vector<std::string> notes = shapes.notes;
-  std::optional<tracking::FaceModel> own;
-  motion::Motion m = tracking::motion_of(shapes, face_model(options, own), notes);
+  std::optional<expression::FaceModel> own;
+  motion::Motion m = expression::motion_of(shapes, face_model(options, own), notes);
   for (const auto& note : notes) in.notes.push_back("motion: " + note);
   return m;
 }
@@ -102,7 +102,7 @@ constexpr const char* kNoFace = "no face was found in any of the frames";
 /// The first frame with a face, of which alone the person's shape is estimated: names and places
 /// of points as tracking the whole recording would give them, roughly.
 tracking::Tracking track_first_face(const std::string& recording, capture::FrameSource& source,
-                                    const tracking::FaceModel& model) {
+                                    const expression::FaceModel& model) {
   tracking::TrackerOptions options;
   options.neutral_frames = 1;
   tracking::FaceTracker tracker(model, source.intrinsics(), options);
@@ -130,7 +130,7 @@ std::optional<motion::RestStretch> rest_stretch(const MotionOptions& options) {
 }
 
 tracking::Tracking track_whole(const MotionOptions& options, capture::FrameSource& source,
-                               const tracking::FaceModel& model) {
+                               const expression::FaceModel& model) {
   const auto stretch = rest_stretch(options);
   if (!stretch) return tracking::track(source, model);
   // Of a single time its surroundings: one frame alone tells a person's shape badly.
@@ -141,7 +141,7 @@ tracking::Tracking track_whole(const MotionOptions& options, capture::FrameSourc
 }
 
 tracking::Tracking tracked(const MotionOptions& options, capture::FrameSource& source,
-                           const tracking::FaceModel& model, Look look) {
+                           const expression::FaceModel& model, Look look) {
   const std::string recording = options.recording.string();
   if (look == Look::quick) return track_first_face(recording, source, model);
   try {
@@ -155,8 +155,8 @@ tracking::Tracking tracked(const MotionOptions& options, capture::FrameSource& s
 /// The face that a camera has recorded; with the tracked mesh where skin is to follow it.
 RecordedFace track_face(const Scene& scene, Look look) {
   RecordedFace recorded;
-  std::optional<tracking::FaceModel> own;
-  const tracking::FaceModel& model = face_model(scene.motion, own);
+  std::optional<expression::FaceModel> own;
+  const expression::FaceModel& model = face_model(scene.motion, own);
   const auto source = open_recording(scene.motion);
   const tracking::Tracking tracking = tracked(scene.motion, *source, model, look);
   const auto lost = std::count_if(tracking.frames.begin(), tracking.frames.end(),

@@ -8,7 +8,7 @@
 namespace hyperex::report::testing {
 namespace {
 
-using tracking::FaceModel;
+using expression::FaceModel;
 using tracking::TrackedFrame;
 
 Eigen::Isometry3d pose_at(double t) {
@@ -43,7 +43,7 @@ Eigen::VectorXd weights_at(const FaceModel& model, double t) {
 }  // namespace
 
 tracking::Tracking made_up_tracking(int frames, bool with_depth) {
-  const FaceModel& model = tracking::canonical_model();
+  const FaceModel& model = expression::canonical_model();
   tracking::Tracking tracking;
   tracking.neutral = tracking::Neutral{model.mesh.points, 1, {}, with_depth};
   for (int k = 0; k < frames; ++k) {

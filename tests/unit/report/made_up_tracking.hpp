@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "hyperex/tracking/fit/track_source.hpp"
+#include "hyperex/expression/face_model.hpp"
+#include "hyperex/tracking/tracked.hpp"
 
 namespace hyperex::report::testing {
 

@@ -81,7 +81,7 @@ class Player {
 
 std::filesystem::path write(const tracking::Tracking& tracking) {
   const auto file = test_file("tracked.glb");
-  write_tracked_glb(file, tracking::canonical_model(), tracking, kCamera);
+  write_tracked_glb(file, expression::canonical_model(), tracking, kCamera);
   return file;
 }
 
@@ -124,8 +124,9 @@ TEST(TrackedGlb, TurnsTheShortWay) {
 
 TEST(TrackedGlb, RefusesWhatItCannotWrite) {
   auto tracking = testing::made_up_tracking(5);
-  EXPECT_THROW(write_tracked_glb("/nowhere/x.glb", tracking::canonical_model(), tracking, kCamera),
-               InputError);
+  EXPECT_THROW(
+      write_tracked_glb("/nowhere/x.glb", expression::canonical_model(), tracking, kCamera),
+      InputError);
   tracking.neutral->points_m.conservativeResize(100, 3);
   EXPECT_THROW(write(tracking), std::invalid_argument);
   tracking.neutral.reset();

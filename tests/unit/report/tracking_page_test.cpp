@@ -17,9 +17,9 @@
 namespace hyperex::report {
 namespace {
 
+using expression::canonical_model;
 using nlohmann::json;
 using testing::made_up_tracking;
-using tracking::canonical_model;
 using tracking::TrackedFrame;
 
 constexpr double kRadians = std::numbers::pi / 180;

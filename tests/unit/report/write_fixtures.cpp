@@ -94,13 +94,13 @@ int main(int argc, char** argv) {
   for (const auto& [name, frames, with_depth] :
        {std::tuple{"tracking", 2000, true}, std::tuple{"tracking_colour_only", 90, false}})
     write_tracking_page(folder / (std::string(name) + ".html"),
-                        {hyperex::tracking::canonical_model(),
+                        {hyperex::expression::canonical_model(),
                          testing::made_up_tracking(frames, with_depth),
                          "recordings/made-up face/",
                          92,
                          {"A sentence of the source."}});
   write_variants_page(folder);
-  write_tracked_glb(folder / "tracked.glb", hyperex::tracking::canonical_model(),
+  write_tracked_glb(folder / "tracked.glb", hyperex::expression::canonical_model(),
                     testing::made_up_tracking(90), {500, 500, 320, 240, 640, 480});
   return 0;
 }

@@ -36,14 +36,16 @@ Observation seen_from(const Points& head, const Eigen::Isometry3d& camera_from_h
 }
 
 TEST(CanonicalModel, UnitsMoveWhatTheirNamesSay) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   const auto moved = [&](const std::string& name, const std::string& landmark) {
     const int k = model.animation_unit(name);
     EXPECT_GE(k, 0) << name;
     Eigen::VectorXd weights = Eigen::VectorXd::Unit(Eigen::Index(model.animation_units.size()), k);
     const auto& vertices = model.landmarks.at(landmark);
-    return Vec3(landmark_at(vertices, deformed(model.mesh.points, model.animation_units, weights)) -
-                landmark_at(vertices, model.mesh.points));
+    return Vec3(
+        expression::landmark_at(
+            vertices, expression::deformed(model.mesh.points, model.animation_units, weights)) -
+        expression::landmark_at(vertices, model.mesh.points));
   };
   EXPECT_LT(moved("jawOpen", "ibug68_8").y(), -0.02);
   EXPECT_LT(moved("jawOpen", "ibug68_57").y(), -0.015);
@@ -58,7 +60,7 @@ TEST(CanonicalModel, UnitsMoveWhatTheirNamesSay) {
 }
 
 TEST(FrameFit, GradientAgreesWithFiniteDifferences) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   FitOptions options;
   options.network_robust_px = 1e9;  // the cost is then a plain sum of squares
   options.network_px = options.network_outline_px = options.network_inner_lip_px = 1;
@@ -95,7 +97,7 @@ TEST(FrameFit, GradientAgreesWithFiniteDifferences) {
 }
 
 TEST(FrameFit, FindsPoseAndJawFromExactPoints) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   FitOptions options;
   options.iterations = 10;
   options.network_px = options.network_outline_px = options.network_inner_lip_px = 0.1;
@@ -115,7 +117,7 @@ TEST(FrameFit, FindsPoseAndJawFromExactPoints) {
 }
 
 TEST(FrameFit, AVertexThatNothingMeasuresComesToRest) {
-  FaceModel model = canonical_model();
+  expression::FaceModel model = expression::canonical_model();
   const Eigen::Index lone = model.mesh.points.rows();  // of no triangle, as some of CANDIDE-3's are
   model.mesh.points.conservativeResize(lone + 1, 3);
   model.mesh.points.row(lone) << 0, 0.02, 0.05;
@@ -133,7 +135,7 @@ TEST(FrameFit, AVertexThatNothingMeasuresComesToRest) {
 }
 
 TEST(Neutral, ASizeThatNoFaceHasIsRefused) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   Neutral neutral;
   neutral.points_m = model.mesh.points;
   neutral.metric = true;
@@ -173,7 +175,7 @@ struct Told {
 };
 
 Told told(double error_m) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   Eigen::Isometry3d face_from_head = Eigen::Isometry3d::Identity();
   face_from_head.rotate(Eigen::AngleAxisd(0.3, Vec3::UnitX()));
   face_from_head.translation() = Vec3(0.01, -0.02, 0.03);
@@ -184,15 +186,16 @@ Told told(double error_m) {
     frame.valid = true;
     frame.weights =
         0.1 * k * Eigen::VectorXd::Unit(Eigen::Index(model.animation_units.size()), model.jaw_drop);
-    frame.vertices_m = deformed(model.mesh.points, model.animation_units, frame.weights);
+    frame.vertices_m =
+        expression::deformed(model.mesh.points, model.animation_units, frame.weights);
     const Eigen::Isometry3d camera_from_face = pose(2.0 * k, {0.002 * k, 0, 0.6});
     frame.camera_from_head = camera_from_face * face_from_head;
     Points68 landmarks;
     for (int i = 0; i < 68; ++i)
-      landmarks.row(i) =
-          (frame.camera_from_head *
-           landmark_at(model.landmarks.at("ibug68_" + std::to_string(i)), frame.vertices_m))
-              .transpose();
+      landmarks.row(i) = (frame.camera_from_head *
+                          expression::landmark_at(model.landmarks.at("ibug68_" + std::to_string(i)),
+                                                  frame.vertices_m))
+                             .transpose();
     if (k > 0) frame.vertices_m.col(2).array() += error_m;
     made.truth.time_s.push_back(frame.time_s);
     made.truth.camera_from_face.push_back(camera_from_face);
@@ -205,7 +208,7 @@ Told told(double error_m) {
 
 TEST(Score, IsZeroForTheSameMotionInAnotherFrame) {
   const Told same = told(0);
-  const Score score = tracking::score(canonical_model(), same.tracked, same.truth);
+  const Score score = tracking::score(expression::canonical_model(), same.tracked, same.truth);
   EXPECT_EQ(score.frames, 5u);
   EXPECT_EQ(score.lost, 0u);
   EXPECT_LT(score.rotation_deg.p95, 1e-5);
@@ -219,7 +222,7 @@ TEST(Score, TellsErrorsAndLostFrames) {
   Told off = told(0.002);
   off.tracked[3].valid = false;
   off.tracked[2].camera_from_head.translation().x() += 0.005;
-  const Score score = tracking::score(canonical_model(), off.tracked, off.truth);
+  const Score score = tracking::score(expression::canonical_model(), off.tracked, off.truth);
   EXPECT_EQ(score.lost, 1u);
   EXPECT_NEAR(score.deformation_mm.median, 2, 1e-6);
   EXPECT_NEAR(score.translation_mm.p95, 4.5, 1e-6);  // between 0, 0 and 5: 0.9 of the way

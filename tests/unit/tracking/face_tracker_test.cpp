@@ -28,7 +28,7 @@ TrackerOptions options_for(int neutral_frames) {
 }
 
 TEST(FaceTracker, HoldsTheFirstFramesBackThenGivesFrameByFrame) {
-  FaceTracker tracker(canonical_model(), test::kFaceCamera, options_for(3));
+  FaceTracker tracker(expression::canonical_model(), test::kFaceCamera, options_for(3));
   capture::Frame broken = face_frame(0, 0);
   broken.valid = false;
   broken.fault = "torn";
@@ -53,7 +53,7 @@ TEST(FaceTracker, HoldsTheFirstFramesBackThenGivesFrameByFrame) {
 }
 
 TEST(FaceTracker, ShortRecordingsAreGivenAtTheEnd) {
-  FaceTracker tracker(canonical_model(), test::kFaceCamera, options_for(30));
+  FaceTracker tracker(expression::canonical_model(), test::kFaceCamera, options_for(30));
   EXPECT_TRUE(tracker.feed(face_frame(0, 0)).empty());
   EXPECT_TRUE(tracker.feed(face_frame(1, 0)).empty());
   const auto given = tracker.finish();
@@ -62,7 +62,7 @@ TEST(FaceTracker, ShortRecordingsAreGivenAtTheEnd) {
 }
 
 TEST(FaceTracker, FollowsATurnThroughBlackAndBrokenFrames) {
-  FaceTracker tracker(canonical_model(), test::kFaceCamera, options_for(2));
+  FaceTracker tracker(expression::canonical_model(), test::kFaceCamera, options_for(2));
   std::vector<TrackedFrame> given;
   const auto feed = [&](const capture::Frame& frame) {
     for (auto& one : tracker.feed(frame)) given.push_back(std::move(one));
@@ -88,7 +88,7 @@ TEST(FaceTracker, FollowsATurnThroughBlackAndBrokenFrames) {
 }
 
 TEST(FaceTracker, AFaceThatComesBackElsewhereIsFoundAgain) {
-  FaceTracker tracker(canonical_model(), test::kFaceCamera, options_for(2));
+  FaceTracker tracker(expression::canonical_model(), test::kFaceCamera, options_for(2));
   std::vector<TrackedFrame> given;
   const auto feed = [&](capture::Frame frame, int right_px) {
     cv::Mat colour(frame.colour.size(), CV_8UC3, cv::Scalar::all(115)),
@@ -120,15 +120,15 @@ TEST(FaceTracker, WithoutDepthTheSizeIsWhatTheEyesAreSaidToBeApart) {
   TrackerOptions options = options_for(2);
   options.use_depth = false;
   options.neutral.eye_distance_m = 0.08;
-  FaceTracker tracker(canonical_model(), test::kFaceCamera, options);
+  FaceTracker tracker(expression::canonical_model(), test::kFaceCamera, options);
   tracker.feed(face_frame(0, 0));
   const auto given = tracker.feed(face_frame(1, 0));
   ASSERT_EQ(given.size(), 2u);
   ASSERT_TRUE(given[1].valid) << given[1].fault;
   EXPECT_FALSE(tracker.neutral()->metric);
-  const auto& corners = canonical_model().landmarks;
-  EXPECT_NEAR((landmark_at(corners.at("exocanthion_L"), given[1].vertices_m) -
-               landmark_at(corners.at("exocanthion_R"), given[1].vertices_m))
+  const auto& corners = expression::canonical_model().landmarks;
+  EXPECT_NEAR((expression::landmark_at(corners.at("exocanthion_L"), given[1].vertices_m) -
+               expression::landmark_at(corners.at("exocanthion_R"), given[1].vertices_m))
                   .norm(),
               0.08, 0.002);
   EXPECT_EQ(given[1].report.depth_share, 0);

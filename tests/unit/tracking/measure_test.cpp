@@ -45,7 +45,7 @@ struct Seen {
   FaceState truth;
   Observation observation;
 };
-Seen seen_by(const FaceModel& model, const FrameFit& fit) {
+Seen seen_by(const expression::FaceModel& model, const FrameFit& fit) {
   Seen seen{fit.at_rest(), {}};
   seen.truth.camera_from_head = pose(6, {0.01, 0, 0.6});
   seen.truth.weights[model.jaw_drop] = 0.3;
@@ -82,7 +82,7 @@ TEST(Measure, JacobianOfTheProjectionAgreesWithFiniteDifferences) {
 }
 
 TEST(Measure, NetworkTermAgreesWithFiniteDifferencesAtFrozenWeights) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   const FrameFit fit(model, kCamera, model.mesh.points, 1, {});
   Seen seen = seen_by(model, fit);
   seen.observation.depth_m.release();
@@ -111,7 +111,7 @@ TEST(Measure, NetworkTermAgreesWithFiniteDifferencesAtFrozenWeights) {
 }
 
 TEST(Measure, DepthTermAgreesWithFiniteDifferencesAtFrozenPlanes) {
-  FaceModel model = canonical_model();
+  expression::FaceModel model = expression::canonical_model();
   const FrameFit whole(model, kCamera, model.mesh.points, 1, {});
   const Seen seen = seen_by(model, whole);
   model.pairs.clear();  // depth alone
@@ -152,7 +152,7 @@ TEST(Measure, DepthTermAgreesWithFiniteDifferencesAtFrozenPlanes) {
 }
 
 TEST(Measure, WithDepthAFaceIsPutWhereItIs) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   FitOptions options;
   options.iterations = 8;
   FrameFit fit(model, kCamera, model.mesh.points, 1, options);
@@ -169,7 +169,7 @@ TEST(Measure, WithDepthAFaceIsPutWhereItIs) {
 }
 
 /// A person as the canonical face, larger by a fifth, broader and with a longer nose.
-Points person(const FaceModel& model) {
+Points person(const expression::FaceModel& model) {
   Points points = 1.2 * model.mesh.points;
   points.col(0) *= 1.05;
   const Eigen::RowVector3d tip = points.row(4);
@@ -179,7 +179,7 @@ Points person(const FaceModel& model) {
 }
 
 TEST(EstimateNeutral, FindsAPersonsShapeAndSizeFromDepth) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   const Points truth = person(model);
   std::vector<Observation> frames;
   for (const double turn : {-8.0, 0.0, 8.0}) {
@@ -202,7 +202,7 @@ TEST(EstimateNeutral, FindsAPersonsShapeAndSizeFromDepth) {
 }
 
 TEST(EstimateNeutral, WithoutDepthTakesTheStatedDistanceOfTheEyes) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   const Points camera = in_camera(pose(5, {0, 0, 0.6}), person(model));
   NeutralOptions options;
   options.eye_distance_m = 0.101;
@@ -210,7 +210,7 @@ TEST(EstimateNeutral, WithoutDepthTakesTheStatedDistanceOfTheEyes) {
       estimate_neutral(model, kCamera, {{network_of(camera, kCamera), {}, {}}}, options);
   EXPECT_FALSE(neutral.metric);
   const auto corner = [&](const char* name) {
-    return landmark_at(model.landmarks.at(name), neutral.points_m);
+    return expression::landmark_at(model.landmarks.at(name), neutral.points_m);
   };
   EXPECT_NEAR((corner("exocanthion_L") - corner("exocanthion_R")).norm(), 0.101, 1e-9);
 }

@@ -60,7 +60,7 @@ struct Sides {
   Eigen::VectorXd yaw, difference;
 };
 Sides sides_of(const Tracking& tracking) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   const int left = model.animation_unit("mouthSmile_L"),
             right = model.animation_unit("mouthSmile_R");
   Sides sides{Eigen::VectorXd(tracking.frames.size()), Eigen::VectorXd(tracking.frames.size())};
@@ -79,7 +79,7 @@ TEST(MirroredRecording, LeftStaysLeftWhereItIsSaid) {
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   Recorded plain(folder, false), unsaid(folder, true);
   capture::Mirrored said(std::make_unique<Recorded>(folder, true));
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   const Tracking truth = track(plain, model), turned_back = track(said, model);
   ASSERT_EQ(truth.frames.size(), kFrames);
   ASSERT_EQ(turned_back.frames.size(), kFrames);

@@ -6,8 +6,8 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/io/csv.hpp"
-#include "hyperex/tracking/expression/blend_shapes.hpp"
 #include "hyperex/tracking/output/live_link.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 /// Frame 1 of three is not valid; the last has no depth.
 Tracking three_frames() {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   Tracking tracking;
   tracking.neutral = Neutral{model.mesh.points, 1, {}, true};
   for (int k = 0; k < 3; ++k) {
@@ -89,7 +89,7 @@ TEST(TrackingOutputs, PoseSaysWhereLengthsRestOnAStatedDistance) {
 
 TEST(TrackingOutputs, UnitsHaveTheirFacsNamesAndValidity) {
   const auto file = scratch("m.units.csv");
-  write_units_csv(file, canonical_model(), three_frames());
+  write_units_csv(file, expression::canonical_model(), three_frames());
   const io::CsvTable table = io::read_csv(file);
   EXPECT_EQ(table.values(0, table.column("jawOpen [AU26+AU27]")), 0.25);
   EXPECT_EQ(table.values(0, table.column("mouthSmile_L [AU12]")), 0.25);
@@ -100,7 +100,7 @@ TEST(TrackingOutputs, UnitsHaveTheirFacsNamesAndValidity) {
 
 /// Frames over `seconds` at 30 Hz, the weights of frame 5 not known.
 Tracking talking(double seconds) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   Tracking tracking = three_frames();
   const TrackedFrame first = tracking.frames[0];
   tracking.frames.clear();
@@ -117,12 +117,12 @@ Tracking talking(double seconds) {
 }
 
 TEST(LiveLink, IsReadBackAsTheWeightsThatWereTracked) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   const Tracking tracking = talking(3);
   const auto file = scratch("live.csv"), plain = scratch("live.arkit.csv");
   write_live_link_csv(file, model, tracking);
   write_arkit_csv(plain, model, tracking);
-  const BlendShapes read = read_arkit(file);
+  const expression::BlendShapes read = expression::read_arkit(file);
   ASSERT_EQ(read.time_s.size(), tracking.frames.size() - 1) << "no row for a frame without a face";
   const io::CsvTable truth = io::read_csv(plain);
   ASSERT_EQ(read.names.size(), 52u);
@@ -144,7 +144,7 @@ TEST(LiveLink, CountsTimeAsTheAppDoes) {
   Tracking tracking = talking(3);
   tracking.frames[1].time_s += 1e-3;
   tracking.frames.back().time_s = 12.5 + 3661 + 59.5 / 60;
-  write_live_link_csv(file, canonical_model(), tracking);
+  write_live_link_csv(file, expression::canonical_model(), tracking);
   const std::string text = read_file(file);
   EXPECT_THAT(text, testing::HasSubstr("\n00:00:00:00.000,61,"));
   EXPECT_THAT(text, testing::HasSubstr("\n00:00:00:02.060,61,"));
@@ -159,7 +159,7 @@ TEST(LiveLink, HasTheColumnsOfARealRecording) {
   std::string header;
   for (const std::string& name : live_link_columns()) header += (header.empty() ? "" : ",") + name;
   EXPECT_EQ(text.substr(0, text.find_first_of("\r\n")), header);
-  const BlendShapes shapes = read_arkit(real);
+  const expression::BlendShapes shapes = expression::read_arkit(real);
   EXPECT_EQ(shapes.names.size(), 52u);
   EXPECT_EQ(shapes.time_s.size(), 4030u);
   // Rows come at 30 Hz, the timecode counts 60ths.
@@ -169,7 +169,8 @@ TEST(LiveLink, HasTheColumnsOfARealRecording) {
 TEST(LiveLink, RefusesARecordingWithoutAFace) {
   Tracking tracking = talking(1);
   for (TrackedFrame& frame : tracking.frames) frame.valid = false;
-  EXPECT_THROW(write_live_link_csv(scratch("none.csv"), canonical_model(), tracking), InputError);
+  EXPECT_THROW(write_live_link_csv(scratch("none.csv"), expression::canonical_model(), tracking),
+               InputError);
 }
 
 }  // namespace

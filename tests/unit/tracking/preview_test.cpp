@@ -18,7 +18,7 @@ constexpr int kScale = 3;  // 960 / 320
 
 /// The canonical face at 0.5 m, looking at the camera.
 TrackedFrame face_frame(double time_s = 0) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   TrackedFrame frame;
   frame.time_s = time_s;
   frame.valid = true;
@@ -54,7 +54,7 @@ bool is_red(const cv::Vec3b& bgr) {
 }
 
 TEST(Preview, DrawsTheMeshWhereTheFaceIsAndNowhereElse) {
-  PreviewPainter painter(canonical_model(), kCamera);
+  PreviewPainter painter(expression::canonical_model(), kCamera);
   const cv::Mat picture = painter.draw(face_frame(), grey());
   ASSERT_EQ(picture.cols, painter.width_px());
   ASSERT_EQ(picture.rows, painter.height_px());
@@ -69,7 +69,7 @@ TEST(Preview, DrawsTheMeshWhereTheFaceIsAndNowhereElse) {
 }
 
 TEST(Preview, TheSubjectsLeftIsWhereTheAxisSaysSo) {
-  PreviewPainter painter(canonical_model(), kCamera);
+  PreviewPainter painter(expression::canonical_model(), kCamera);
   const cv::Mat picture = painter.draw(face_frame(), grey());
   // Facing the camera, the subject's left is to the right in the picture: the x axis runs there, 9
   // cm or 45 px from the middle.
@@ -88,7 +88,7 @@ TEST(Preview, TheSubjectsLeftIsWhereTheAxisSaysSo) {
 
 TEST(Preview, WiresOfHiddenPartsAreLeftOut) {
   // Seen from behind no triangle faces the camera: landmarks and axes alone are drawn.
-  PreviewPainter painter(canonical_model(), kCamera);
+  PreviewPainter painter(expression::canonical_model(), kCamera);
   TrackedFrame behind = face_frame();
   behind.camera_from_head.linear() = Vec3(-1, -1, 1).asDiagonal();
   const cv::Rect all(0, 0, 960, 720);
@@ -97,7 +97,7 @@ TEST(Preview, WiresOfHiddenPartsAreLeftOut) {
 }
 
 TEST(Preview, AFrameThatIsNotValidHasARedBannerAndNoFace) {
-  PreviewPainter painter(canonical_model(), kCamera);
+  PreviewPainter painter(expression::canonical_model(), kCamera);
   const cv::Mat picture = painter.draw(faulty_frame(), grey());
   EXPECT_TRUE(is_red(picture.at<cv::Vec3b>(4, 4)));
   EXPECT_EQ(drawn_on(picture, {0, 60, 960, 660}), 0);
@@ -108,10 +108,10 @@ TEST(Preview, AFrameThatIsNotValidHasARedBannerAndNoFace) {
 }
 
 TEST(Preview, BarsAreAsLongAsUnitsAreStrong) {
-  PreviewPainter painter(canonical_model(), kCamera);
+  PreviewPainter painter(expression::canonical_model(), kCamera);
   const auto orange = [&](double weight) {
     TrackedFrame frame = face_frame();
-    frame.weights[canonical_model().jaw_drop] = weight;
+    frame.weights[expression::canonical_model().jaw_drop] = weight;
     const cv::Mat picture = painter.draw(frame, grey());
     int count = 0;
     for (int y = 0; y < 720; ++y)
@@ -136,7 +136,7 @@ TEST(FrameRate, IsTheMiddleStepOfTimesThatRise) {
 TEST(PreviewMovie, KeepsTheRecordingsTime) {
   SKIP_WITHOUT_VIDEO();
   const auto file = std::filesystem::path(::testing::TempDir()) / "preview.mp4";
-  PreviewMovie movie(file, canonical_model(), kCamera);
+  PreviewMovie movie(file, expression::canonical_model(), kCamera);
   // At 10 Hz, with 5 frames missing after 0.9 s and one whose time stands still.
   for (int k = 0; k < 10; ++k) movie.add(face_frame(0.1 * k), grey());
   for (int k = 15; k < 20; ++k) movie.add(face_frame(0.1 * k), grey(200));
@@ -156,14 +156,14 @@ TEST(PreviewMovie, KeepsTheRecordingsTime) {
 TEST(PreviewMovie, AShortRecordingIsWrittenTooAndNoneWithoutFrames) {
   SKIP_WITHOUT_VIDEO();
   const auto folder = std::filesystem::path(::testing::TempDir());
-  PreviewMovie movie(folder / "short.mp4", canonical_model(), kCamera);
+  PreviewMovie movie(folder / "short.mp4", expression::canonical_model(), kCamera);
   movie.add(face_frame(), grey());
   movie.finish();
   EXPECT_EQ(capture::open_video(folder / "short.mp4", {})->frame_count(), 1u);
-  PreviewMovie none(folder / "none.mp4", canonical_model(), kCamera);
+  PreviewMovie none(folder / "none.mp4", expression::canonical_model(), kCamera);
   none.finish();
   EXPECT_FALSE(std::filesystem::exists(folder / "none.mp4"));
-  EXPECT_THROW(PreviewMovie(folder / "x.avi", canonical_model(), kCamera), InputError);
+  EXPECT_THROW(PreviewMovie(folder / "x.avi", expression::canonical_model(), kCamera), InputError);
 }
 
 }  // namespace

@@ -16,16 +16,16 @@ const Tracking& tracked() {
   static const Tracking tracking = [] {
     Progress::silence(true);
     test::RenderedClip clip;
-    return track(clip, canonical_model());
+    return track(clip, expression::canonical_model());
   }();
   return tracking;
 }
 
 /// Between the outer edges of the lips' middle (mm), tracked and true.
 std::pair<double, double> lip_opening_mm(const TrackedFrame& frame, const Truth& truth) {
-  const FaceModel& model = canonical_model();
+  const expression::FaceModel& model = expression::canonical_model();
   const auto at = [&](const char* name) {
-    return landmark_at(model.landmarks.at(name), frame.vertices_m);
+    return expression::landmark_at(model.landmarks.at(name), frame.vertices_m);
   };
   const auto& points = truth.landmarks_m[frame.index];
   return {1e3 * (at("ibug68_51") - at("ibug68_57")).norm(),
@@ -33,7 +33,8 @@ std::pair<double, double> lip_opening_mm(const TrackedFrame& frame, const Truth&
 }
 
 TEST(RenderedClip, PoseAndMotionAreFound) {
-  const Score s = score(canonical_model(), tracked().frames, test::RenderedClip::truth());
+  const Score s =
+      score(expression::canonical_model(), tracked().frames, test::RenderedClip::truth());
   EXPECT_EQ(s.lost, 0u);
   EXPECT_LT(s.rotation_deg.median, 0.17);
   EXPECT_LT(s.rotation_deg.p95, 0.28);

@@ -74,7 +74,7 @@ TEST(TrackLive, ASlowConsumerDoesNotFallBehind) {
     ++visited;
     std::this_thread::sleep_for(std::chrono::duration<double>(work_s));
   };
-  const LiveTracking live = track_live(source, canonical_model(), quick(), {}, slow);
+  const LiveTracking live = track_live(source, expression::canonical_model(), quick(), {}, slow);
   const LiveStatus& status = live.status;
   EXPECT_EQ(visited, status.frames);
   EXPECT_EQ(live.tracking.frames.size(), status.frames);
@@ -95,7 +95,7 @@ TEST(TrackLive, EndsWhenItIsToldTo) {
   LiveOptions options;
   options.seconds = 0.6;
   const auto start = Clock::now();
-  const LiveTracking live = track_live(source, canonical_model(), quick(), options);
+  const LiveTracking live = track_live(source, expression::canonical_model(), quick(), options);
   EXPECT_LT(Clock::now() - start, 10s);
   EXPECT_LT(live.tracking.frames.back().time_s, 1.2) << "0.6 s, and what a busy machine adds";
 
@@ -108,7 +108,8 @@ TEST(TrackLive, EndsWhenItIsToldTo) {
     EXPECT_LT(status.held_back, 4u);
   };
   until_asked.stop = [&] { return told == 3; };  // while frames are held back
-  const LiveTracking short_one = track_live(again, canonical_model(), quick(), until_asked);
+  const LiveTracking short_one =
+      track_live(again, expression::canonical_model(), quick(), until_asked);
   EXPECT_EQ(short_one.tracking.frames.size(), 3u) << "what was held back is given";
   EXPECT_EQ(short_one.status.valid, 3u);
   EXPECT_TRUE(short_one.delays_s.empty());
@@ -124,7 +125,7 @@ TEST(TrackLive, WithoutAFaceNothingIsHeldBack) {
     EXPECT_EQ(status.held_back, 0u);
     EXPECT_EQ(status.valid, 0u);
   };
-  EXPECT_THROW(track_live(source, canonical_model(), quick(), options), InputError);
+  EXPECT_THROW(track_live(source, expression::canonical_model(), quick(), options), InputError);
   EXPECT_GT(told, 0u);
 }
 

@@ -25,7 +25,7 @@ constexpr double kRegionMargin = 0.15;  // around the points, of their extent
 /// The options are made for the canonical face. A vertex of a coarser mesh stands for more of the
 /// face: its measurements weigh as those of the canonical vertices in its place would together, and
 /// it may lie farther from its neighbours' mean (which grows with the square of their distance).
-TrackerOptions for_mesh_of(const FaceModel& model, TrackerOptions options) {
+TrackerOptions for_mesh_of(const expression::FaceModel& model, TrackerOptions options) {
   const double network = std::sqrt(double(model.pairs.size()) / face_point_count);
   const double surface = double(model.vertex_count()) / face_point_count;
   for (FitOptions* fit : {&options.fit, &options.neutral.fit}) {
@@ -66,10 +66,10 @@ cv::Rect region_around(const Points& px) {
 }  // namespace
 
 struct FaceTracker::Impl {
-  Impl(const FaceModel& m, const capture::Intrinsics& c, const TrackerOptions& o)
+  Impl(const expression::FaceModel& m, const capture::Intrinsics& c, const TrackerOptions& o)
       : model(m), camera(c), options(for_mesh_of(m, o)), network(o.network) {}
 
-  const FaceModel& model;
+  const expression::FaceModel& model;
   capture::Intrinsics camera;
   TrackerOptions options;
   LandmarkTracker network;
@@ -176,7 +176,7 @@ struct FaceTracker::Impl {
   }
 };
 
-FaceTracker::FaceTracker(const FaceModel& model, const capture::Intrinsics& camera,
+FaceTracker::FaceTracker(const expression::FaceModel& model, const capture::Intrinsics& camera,
                          const TrackerOptions& options)
     : impl_(std::make_unique<Impl>(model, camera, options)) {}
 FaceTracker::~FaceTracker() = default;

@@ -26,26 +26,6 @@ struct TrackerOptions {
   bool use_depth = true;
 };
 
-/// The face in one frame.
-struct TrackedFrame {
-  std::size_t index = 0;  ///< in the source
-  double time_s = 0;
-  bool valid = false;
-  std::string fault;  ///< why not valid
-  Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
-  Eigen::VectorXd weights;  ///< of the model's animation units; empty where not valid
-  Points vertices_m;        ///< |V| x 3, head frame; empty where not valid
-  FitReport report;
-  double network_score = 0;
-  int faces_in_view = 0;
-};
-
-/// Seconds spent, by stage, over the frames so far.
-struct TrackerTimes {
-  double network_s = 0, picture_s = 0, neutral_s = 0, fit_s = 0;
-  std::size_t frames = 0;
-};
-
 /// Follows one face from frame to frame: the landmark network, then the model's fit. The first
 /// frames with a face are held back until the person's shape is known from them; before and after
 /// that a frame fed is a frame given. A frame without a face, or not valid itself, comes back as
@@ -53,7 +33,7 @@ struct TrackerTimes {
 class FaceTracker {
  public:
   /// `model` must outlive the tracker.
-  FaceTracker(const FaceModel& model, const capture::Intrinsics& camera,
+  FaceTracker(const expression::FaceModel& model, const capture::Intrinsics& camera,
               const TrackerOptions& options = {});
   ~FaceTracker();
 

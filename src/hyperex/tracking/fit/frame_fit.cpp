@@ -8,10 +8,10 @@
 #include <set>
 
 #include "hyperex/core/one_thread.hpp"
+#include "hyperex/expression/mesh_border.hpp"
+#include "hyperex/expression/tables.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/transform.hpp"
-#include "hyperex/tracking/model/mesh_border.hpp"
-#include "hyperex/tracking/model/tables.hpp"
 
 namespace hyperex::tracking {
 
@@ -30,7 +30,7 @@ double robust(double residual, double scale) {
 
 std::vector<bool> outline(const TriMesh& mesh) {
   std::vector<bool> on(std::size_t(mesh.points.rows()), false);
-  for (const auto& [a, b] : border_edges(mesh).outline)
+  for (const auto& [a, b] : expression::border_edges(mesh).outline)
     on[std::size_t(a)] = on[std::size_t(b)] = true;
   return on;
 }
@@ -53,18 +53,18 @@ Points normals_of(const Points& points, const Triangles& triangles) {
 /// The network's points of a kind (model/data/network_points.csv).
 std::set<int> network_points(const std::string& kind) {
   std::set<int> points;
-  for (const auto& row : table_rows(network_points_table(), "kind,points"))
+  for (const auto& row : expression::table_rows(expression::network_points_table(), "kind,points"))
     if (row.at(0) == kind)
-      for (const int point : table_indices(row.at(1), 468)) points.insert(point);
+      for (const int point : expression::table_indices(row.at(1), 468)) points.insert(point);
   return points;
 }
 
-SparseMatrix free_prior(const TriMesh& mesh, const FitOptions& options) {
-  const SparseMatrix laplacian = mesh_laplacian(mesh);
-  const SparseMatrix bend = laplacian.transpose() * laplacian;
+expression::SparseMatrix free_prior(const TriMesh& mesh, const FitOptions& options) {
+  const expression::SparseMatrix laplacian = expression::mesh_laplacian(mesh);
+  const expression::SparseMatrix bend = laplacian.transpose() * laplacian;
   std::vector<Eigen::Triplet<double>> entries;
   for (int column = 0; column < bend.cols(); ++column)
-    for (SparseMatrix::InnerIterator it(bend, column); it; ++it) {
+    for (expression::SparseMatrix::InnerIterator it(bend, column); it; ++it) {
       if (it.row() > column) continue;
       // All nine places, for the data couple coordinates.
       for (int r = 0; r < 3; ++r)
@@ -83,14 +83,14 @@ SparseMatrix free_prior(const TriMesh& mesh, const FitOptions& options) {
           entries.emplace_back(
               3 * v + r, 3 * v + c,
               r == c ? 1 / square(options.free_m) + 1 / square(options.free_step_m) : 0.0);
-  SparseMatrix prior(3 * mesh.points.rows(), 3 * mesh.points.rows());
+  expression::SparseMatrix prior(3 * mesh.points.rows(), 3 * mesh.points.rows());
   prior.setFromTriplets(entries.begin(), entries.end());
   return prior;
 }
 
 }  // namespace
 
-FrameFit::FrameFit(const FaceModel& model, const capture::Intrinsics& camera,
+FrameFit::FrameFit(const expression::FaceModel& model, const capture::Intrinsics& camera,
                    const Points& neutral_m, double unit_scale, const FitOptions& options)
     : model_(model),
       camera_(camera),
@@ -119,7 +119,7 @@ FrameFit::FrameFit(const FaceModel& model, const capture::Intrinsics& camera,
   unit_matrix_ = VertexSystem::RowMatrix::Zero(3 * model.vertex_count(), units);
   typical_.resize(units);
   for (Eigen::Index k = 0; k < units; ++k) {
-    const DeformationUnit& unit = model.animation_units[std::size_t(k)];
+    const expression::DeformationUnit& unit = model.animation_units[std::size_t(k)];
     typical_[k] = unit.typical;
     for (std::size_t i = 0; i < unit.vertices.size(); ++i)
       unit_matrix_.block<3, 1>(3 * unit.vertices[i], k) =
@@ -310,7 +310,7 @@ void FrameFit::iterate(const VertexSystem& system, FaceState& state, const FaceS
   if (before)
     right += Eigen::Map<const Eigen::VectorXd>(before->free_m.data(), before->free_m.size()) /
              square(options_.free_step_m);
-  SparseMatrix matrix = free_prior_;
+  expression::SparseMatrix matrix = free_prior_;
   system.add_to(matrix, slots_);
   const OneOpenMpThread alone;
   factor_.factorize(matrix);

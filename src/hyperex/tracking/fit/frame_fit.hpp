@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "hyperex/capture/frame.hpp"
+#include "hyperex/expression/face_model.hpp"
 #include "hyperex/tracking/fit/depth_view.hpp"
 #include "hyperex/tracking/fit/photometric.hpp"
 #include "hyperex/tracking/fit/vertex_system.hpp"
-#include "hyperex/tracking/model/face_model.hpp"
+#include "hyperex/tracking/tracked.hpp"
 
 namespace hyperex::tracking {
 
@@ -76,14 +77,6 @@ struct FitOptions {
 /// `region`: around the face.
 SkinPictures skin_pictures(const cv::Mat& bgr, cv::Rect region, const FitOptions& options);
 
-/// How well a frame was met.
-struct FitReport {
-  double network_rms_px = 0;     ///< over the paired vertices
-  double depth_rms_m = 0;        ///< over the vertices with depth
-  double depth_share = 0;        ///< of the vertices facing the camera that had depth
-  double photometric_share = 0;  ///< of the template's pixels that agree
-};
-
 /// Fits pose, units and free displacements of one person's face to one frame:
 ///   min  sum |project(T (N + A alpha + d)) - u|^2 / s_u^2           network points, robust
 ///      + sum (n . (T (N + A alpha + d) - q))^2 / s_q^2              depth, point to plane, robust
@@ -97,8 +90,8 @@ class FrameFit {
  public:
   /// `neutral_m`: the person's vertices at rest, head frame; `unit_scale`: the person's size
   /// relative to the model's.
-  FrameFit(const FaceModel& model, const capture::Intrinsics& camera, const Points& neutral_m,
-           double unit_scale, const FitOptions& options);
+  FrameFit(const expression::FaceModel& model, const capture::Intrinsics& camera,
+           const Points& neutral_m, double unit_scale, const FitOptions& options);
 
   /// From `start`; `before`, where given, is the state a frame earlier.
   FaceState fit(const Observation& seen, const FaceState& start, const FaceState* before,
@@ -136,7 +129,7 @@ class FrameFit {
   void iterate(const VertexSystem& system, FaceState& state, const FaceState* before,
                bool free_moves);
 
-  const FaceModel& model_;
+  const expression::FaceModel& model_;
   capture::Intrinsics camera_;
   Points neutral_m_;
   FitOptions options_;
@@ -146,8 +139,8 @@ class FrameFit {
   Eigen::VectorXd typical_;
   Eigen::VectorXd off_units_m_;  // of a vertex
   std::vector<bool> on_outline_, in_lip_, on_inner_lip_;
-  SparseMatrix free_prior_;  // upper triangle, with the pattern of the data
-  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor_;
+  expression::SparseMatrix free_prior_;  // upper triangle, with the pattern of the data
+  Eigen::CholmodSupernodalLLT<expression::SparseMatrix, Eigen::Upper> factor_;
   std::vector<Eigen::Index> slots_;  // of the data in free_prior_
 };
 

@@ -25,15 +25,16 @@ struct VertexMean {
   Eigen::VectorXd weight;
 };
 
-double outer_eye_distance(const FaceModel& model, const Points& points) {
-  return (landmark_at(model.landmarks.at("exocanthion_L"), points) -
-          landmark_at(model.landmarks.at("exocanthion_R"), points))
+double outer_eye_distance(const expression::FaceModel& model, const Points& points) {
+  return (expression::landmark_at(model.landmarks.at("exocanthion_L"), points) -
+          expression::landmark_at(model.landmarks.at("exocanthion_R"), points))
       .norm();
 }
 
 /// The person's size relative to the model, from depth: similarities onto the vertices as depth has
 /// them; nothing where there is too little depth.
-std::optional<double> scale_from_depth(const FaceModel& model, const capture::Intrinsics& camera,
+std::optional<double> scale_from_depth(const expression::FaceModel& model,
+                                       const capture::Intrinsics& camera,
                                        const std::vector<Observation>& frames) {
   std::vector<double> scales;
   for (const Observation& seen : frames) {
@@ -71,9 +72,9 @@ std::optional<double> scale_from_depth(const FaceModel& model, const capture::In
 }
 
 /// Where one frame puts the vertices at rest.
-void add_frame(const FaceModel& model, const capture::Intrinsics& camera, const Observation& seen,
-               const FrameFit& fit, const FaceState& state, const PatchOptions& patch_options,
-               VertexMean& mean) {
+void add_frame(const expression::FaceModel& model, const capture::Intrinsics& camera,
+               const Observation& seen, const FrameFit& fit, const FaceState& state,
+               const PatchOptions& patch_options, VertexMean& mean) {
   const Points now = fit.vertices(state);
   const Eigen::Isometry3d head_from_camera = state.camera_from_head.inverse();
   for (const auto& [vertex, network] : model.pairs) {
@@ -96,13 +97,14 @@ void add_frame(const FaceModel& model, const capture::Intrinsics& camera, const 
   }
 }
 
-Eigen::VectorXd fit_shape(const FaceModel& model, double scale, const VertexMean& mean) {
+Eigen::VectorXd fit_shape(const expression::FaceModel& model, double scale,
+                          const VertexMean& mean) {
   const Eigen::Index units = Eigen::Index(model.shape_units.size());
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(units, units);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(units);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3 * model.vertex_count(), units);
   for (Eigen::Index k = 0; k < units; ++k) {
-    const DeformationUnit& unit = model.shape_units[std::size_t(k)];
+    const expression::DeformationUnit& unit = model.shape_units[std::size_t(k)];
     for (std::size_t i = 0; i < unit.vertices.size(); ++i)
       columns.block<3, 1>(3 * unit.vertices[i], k) =
           scale * unit.displacement_m.row(Eigen::Index(i)).transpose();
@@ -121,10 +123,10 @@ Eigen::VectorXd fit_shape(const FaceModel& model, double scale, const VertexMean
 }
 
 /// The means held to the model's shape, its differences smooth over the mesh.
-Points smoothed(const FaceModel& model, const Points& shape, const VertexMean& mean,
+Points smoothed(const expression::FaceModel& model, const Points& shape, const VertexMean& mean,
                 const NeutralOptions& options) {
-  const SparseMatrix laplacian = mesh_laplacian(model.mesh);
-  SparseMatrix matrix = laplacian.transpose() * laplacian / square(options.bend_m);
+  const expression::SparseMatrix laplacian = expression::mesh_laplacian(model.mesh);
+  expression::SparseMatrix matrix = laplacian.transpose() * laplacian / square(options.bend_m);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(model.vertex_count(), 3);
   constexpr double kWeak = 1e2;  // a centimetre: where nothing else is known
   for (Eigen::Index v = 0; v < model.vertex_count(); ++v) {
@@ -133,13 +135,13 @@ Points smoothed(const FaceModel& model, const Points& shape, const VertexMean& m
     if (mean.weight[v] > 0)
       right.row(v) = weight * (mean.sum.row(v) / mean.weight[v] - shape.row(v));
   }
-  const Eigen::SimplicialLDLT<SparseMatrix> factor(matrix);
+  const Eigen::SimplicialLDLT<expression::SparseMatrix> factor(matrix);
   return shape + Points(factor.solve(right));
 }
 
 }  // namespace
 
-Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& camera,
+Neutral estimate_neutral(const expression::FaceModel& model, const capture::Intrinsics& camera,
                          const std::vector<Observation>& frames, const NeutralOptions& options) {
   HX_ASSERT(!frames.empty());
   Neutral neutral;
@@ -167,7 +169,7 @@ Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& came
     }
     neutral.shape = fit_shape(model, neutral.scale, mean);
     const Points shape =
-        neutral.scale * deformed(model.mesh.points, model.shape_units, neutral.shape);
+        neutral.scale * expression::deformed(model.mesh.points, model.shape_units, neutral.shape);
     neutral.points_m = smoothed(model, shape, mean, options);
     if (!neutral.metric)
       neutral.points_m *= options.eye_distance_m / outer_eye_distance(model, neutral.points_m);
@@ -175,7 +177,7 @@ Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& came
   return neutral;
 }
 
-void check_size(const FaceModel& model, const Neutral& neutral) {
+void check_size(const expression::FaceModel& model, const Neutral& neutral) {
   const double eyes_m = outer_eye_distance(model, neutral.points_m);
   constexpr double kLeast_m = 0.05, kMost_m = 0.15;
   if (neutral.metric && !(eyes_m >= kLeast_m && eyes_m <= kMost_m))

@@ -14,24 +14,16 @@ struct NeutralOptions {
   double eye_distance_m = 0.09;  ///< outer corner to outer corner, where there is no depth
 };
 
-/// A person's face at rest.
-struct Neutral {
-  Points points_m;        ///< |V| x 3, head frame
-  double scale = 1;       ///< of the person relative to the model
-  Eigen::VectorXd shape;  ///< weights of the model's shape units
-  bool metric = false;    ///< from depth; false: from the stated distance of the eyes
-};
-
 /// The person's shape from some frames, at least one. Round by round each frame is fitted with the
 /// shape so far; then each vertex becomes the mean over the frames of where the picture and the
 /// depth at its network point put it, taken back to rest, and is held to the model's shape units
 /// and to its neighbours as its spread asks for.
-Neutral estimate_neutral(const FaceModel& model, const capture::Intrinsics& camera,
+Neutral estimate_neutral(const expression::FaceModel& model, const capture::Intrinsics& camera,
                          const std::vector<Observation>& frames,
                          const NeutralOptions& options = {});
 
 /// Throws InputError where depth puts the outer corners of the eyes less than 50 or more than 150
 /// mm apart: the depth's unit or the camera is not as stated then.
-void check_size(const FaceModel& model, const Neutral& neutral);
+void check_size(const expression::FaceModel& model, const Neutral& neutral);
 
 }  // namespace hyperex::tracking

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "hyperex/expression/mesh_border.hpp"
 #include "hyperex/tracking/fit/depth_view.hpp"
-#include "hyperex/tracking/model/mesh_border.hpp"
 
 namespace hyperex::tracking {
 
@@ -41,7 +41,7 @@ Pixels project_all(const capture::Intrinsics& camera, const Eigen::Isometry3d& c
 /// slides over the skin as the head turns, or an opening.
 cv::Mat border_mask(const Pixels& px, const TriMesh& mesh, const FinePicture& picture,
                     const PhotometricOptions& options) {
-  const BorderEdges border = border_edges(mesh);
+  const expression::BorderEdges border = expression::border_edges(mesh);
   constexpr int kShift = 4;
   const auto at = [&](int v) {
     return cv::Point(int(std::lround((px(v, 0) - picture.origin.x) * (1 << kShift))),

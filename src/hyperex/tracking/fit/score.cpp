@@ -54,14 +54,14 @@ std::optional<double> correlation(const std::vector<double>& a, const std::vecto
   return (dx * dy).sum() / norm;
 }
 
-Points face_points(const FaceModel& model, const Points& vertices) {
+Points face_points(const expression::FaceModel& model, const Points& vertices) {
   Points points(Eigen::Index(score_points().size()), 3);
   for (std::size_t i = 0; i < score_points().size(); ++i) {
     const auto found = model.landmarks.find(face::ibug(score_points()[i]));
     if (found == model.landmarks.end())
       points.row(Eigen::Index(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
     else
-      points.row(Eigen::Index(i)) = landmark_at(found->second, vertices).transpose();
+      points.row(Eigen::Index(i)) = expression::landmark_at(found->second, vertices).transpose();
   }
   return points;
 }
@@ -136,7 +136,8 @@ Truth read_truth(const std::filesystem::path& folder) {
   return truth;
 }
 
-Score score(const FaceModel& model, const std::vector<TrackedFrame>& tracked, const Truth& truth) {
+Score score(const expression::FaceModel& model, const std::vector<TrackedFrame>& tracked,
+            const Truth& truth) {
   Score result;
   result.frames = truth.time_s.size();
   std::vector<const TrackedFrame*> match(truth.time_s.size(), nullptr);

@@ -51,6 +51,7 @@ struct Score {
 const std::vector<int>& score_points();
 
 /// Frames are matched by time (to a millisecond).
-Score score(const FaceModel& model, const std::vector<TrackedFrame>& tracked, const Truth& truth);
+Score score(const expression::FaceModel& model, const std::vector<TrackedFrame>& tracked,
+            const Truth& truth);
 
 }  // namespace hyperex::tracking

@@ -21,7 +21,7 @@ struct Fed {
 
 class LiveTracker {
  public:
-  LiveTracker(const FaceModel& model, const capture::Intrinsics& camera,
+  LiveTracker(const expression::FaceModel& model, const capture::Intrinsics& camera,
               const TrackerOptions& options, const FrameVisitor& visit)
       : tracker_(model, camera, options), visit_(visit) {}
 
@@ -91,7 +91,7 @@ class LiveTracker {
 
 }  // namespace
 
-LiveTracking track_live(capture::FrameSource& source, const FaceModel& model,
+LiveTracking track_live(capture::FrameSource& source, const expression::FaceModel& model,
                         const TrackerOptions& options, const LiveOptions& live,
                         const FrameVisitor& visit) {
   LiveTracker tracker(model, source.intrinsics(), options, visit);

@@ -40,7 +40,7 @@ struct LiveTracking {
 /// and the next frame is the newest one. So the delay is bounded by the work for one frame and a
 /// period, and nothing adds up. Times rise and Frame::index tells where frames are missing. Throws
 /// InputError where no frame shows a face.
-LiveTracking track_live(capture::FrameSource& source, const FaceModel& model,
+LiveTracking track_live(capture::FrameSource& source, const expression::FaceModel& model,
                         const TrackerOptions& options, const LiveOptions& live,
                         const FrameVisitor& visit = {});
 

@@ -27,8 +27,8 @@ void learn_rest(FaceTracker& tracker, const RestFrames& rest) {
 
 }  // namespace
 
-Tracking track(capture::FrameSource& source, const FaceModel& model, const TrackerOptions& options,
-               const FrameVisitor& visit, const RestFrames& rest) {
+Tracking track(capture::FrameSource& source, const expression::FaceModel& model,
+               const TrackerOptions& options, const FrameVisitor& visit, const RestFrames& rest) {
   FaceTracker tracker(model, source.intrinsics(), options);
   if (rest.source != nullptr) learn_rest(tracker, rest);
   Tracking tracking;

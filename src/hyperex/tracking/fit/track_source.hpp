@@ -9,13 +9,6 @@
 
 namespace hyperex::tracking {
 
-/// A whole recording, tracked.
-struct Tracking {
-  std::vector<TrackedFrame> frames;
-  std::optional<Neutral> neutral;
-  TrackerTimes times;
-};
-
 /// Told of each frame once it is finished, in order, with its picture (BGR; empty where the source
 /// had none).
 using FrameVisitor = std::function<void(const TrackedFrame&, const cv::Mat& bgr)>;
@@ -30,7 +23,7 @@ struct RestFrames {
 /// Tracks a source to its end, with a progress bar. With `visit` the pictures of frames that are
 /// held back (FaceTracker) are kept in memory until they are finished. Throws InputError where no
 /// frame, or none of those at rest, shows a face.
-Tracking track(capture::FrameSource& source, const FaceModel& model,
+Tracking track(capture::FrameSource& source, const expression::FaceModel& model,
                const TrackerOptions& options = {}, const FrameVisitor& visit = {},
                const RestFrames& rest = {});
 

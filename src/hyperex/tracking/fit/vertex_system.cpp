@@ -81,7 +81,7 @@ VertexSystem VertexSystem::limited(const Eigen::VectorXd& sigma_m) const {
   return out;
 }
 
-std::vector<Eigen::Index> VertexSystem::slots(const SparseMatrix& pattern) const {
+std::vector<Eigen::Index> VertexSystem::slots(const expression::SparseMatrix& pattern) const {
   std::vector<Eigen::Index> found;
   const auto find = [&](Eigen::Index row, Eigen::Index column) {
     const int* begin = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column];
@@ -99,7 +99,8 @@ std::vector<Eigen::Index> VertexSystem::slots(const SparseMatrix& pattern) const
   return found;
 }
 
-void VertexSystem::add_to(SparseMatrix& out, const std::vector<Eigen::Index>& slots) const {
+void VertexSystem::add_to(expression::SparseMatrix& out,
+                          const std::vector<Eigen::Index>& slots) const {
   double* values = out.valuePtr();
   const Eigen::Index* slot = slots.data();
   for (const auto& block : diagonal_)

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "hyperex/expression/mesh_laplacian.hpp"
 #include "hyperex/geometry/types.hpp"
-#include "hyperex/tracking/model/mesh_laplacian.hpp"
 
 namespace hyperex::tracking {
 
@@ -42,9 +42,9 @@ class VertexSystem {
 
   /// Where the upper triangle of H lies among the values of `pattern`, a compressed 3 |V| x 3 |V|
   /// matrix that has an entry wherever H may: to be given to add_to().
-  std::vector<Eigen::Index> slots(const SparseMatrix& pattern) const;
+  std::vector<Eigen::Index> slots(const expression::SparseMatrix& pattern) const;
   /// Adds the upper triangle of H to the values of a matrix of that pattern.
-  void add_to(SparseMatrix& out, const std::vector<Eigen::Index>& slots) const;
+  void add_to(expression::SparseMatrix& out, const std::vector<Eigen::Index>& slots) const;
 
  private:
   struct Edge {

@@ -5,11 +5,12 @@
 
 namespace hyperex::tracking {
 
-ArkitWeights::ArkitWeights(const FaceModel& model) {
+ArkitWeights::ArkitWeights(const expression::FaceModel& model) {
   for (std::size_t k = 0; k < model.animation_units.size(); ++k) {
-    const DeformationUnit& unit = model.animation_units[k];
+    const expression::DeformationUnit& unit = model.animation_units[k];
     const auto add = [&](const std::string& names, double factor) {
-      for (const auto& name : arkit_names(names)) parts_[name].push_back({Eigen::Index(k), factor});
+      for (const auto& name : expression::arkit_names(names))
+        parts_[name].push_back({Eigen::Index(k), factor});
     };
     add(unit.arkit, unit.arkit_scale);
     add(unit.arkit_negative, -unit.arkit_scale);

@@ -12,7 +12,7 @@ namespace hyperex::tracking {
 /// blend shape that several units share is their mean.
 class ArkitWeights {
  public:
-  explicit ArkitWeights(const FaceModel& model);
+  explicit ArkitWeights(const expression::FaceModel& model);
   /// Names that the model has, rising.
   std::vector<std::string> names() const;
   /// 0 to 1 by name. Requires a valid frame.

@@ -96,7 +96,7 @@ const std::vector<std::string>& live_link_columns() {
   return columns;
 }
 
-void write_live_link_csv(const std::filesystem::path& file, const FaceModel& model,
+void write_live_link_csv(const std::filesystem::path& file, const expression::FaceModel& model,
                          const Tracking& tracking) {
   std::vector<const TrackedFrame*> rows;
   for (const TrackedFrame& frame : tracking.frames)

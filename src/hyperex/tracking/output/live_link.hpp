@@ -18,7 +18,7 @@ const std::vector<std::string>& live_link_columns();
 /// not have is 0, and so are the angles, whose signs Epic does not document. The format has no row
 /// for a frame without a face: those, and frames whose time does not rise, are left out.
 /// Throws InputError where the file cannot be written, or where no frame is valid.
-void write_live_link_csv(const std::filesystem::path& file, const FaceModel& model,
+void write_live_link_csv(const std::filesystem::path& file, const expression::FaceModel& model,
                          const Tracking& tracking);
 
 }  // namespace hyperex::tracking

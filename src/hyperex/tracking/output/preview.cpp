@@ -75,7 +75,7 @@ std::string fitted(const Canvas& canvas, std::string text, double width_px,
   return text + "…";
 }
 
-std::string unit_label(const DeformationUnit& unit) {
+std::string unit_label(const expression::DeformationUnit& unit) {
   return unit.facs.empty() ? unit.name : unit.facs + "  " + unit.name;
 }
 
@@ -87,7 +87,8 @@ render::Image to_image(const cv::Mat& bgr) {
 
 }  // namespace
 
-PreviewPainter::PreviewPainter(const FaceModel& model, const capture::Intrinsics& camera)
+PreviewPainter::PreviewPainter(const expression::FaceModel& model,
+                               const capture::Intrinsics& camera)
     : model_(model),
       camera_(camera),
       scale_(double(kLongerSide) / std::max(camera.width_px, camera.height_px)),
@@ -138,7 +139,7 @@ void PreviewPainter::draw_face(Canvas& canvas, const TrackedFrame& frame) const 
   const TriMesh seen{in_camera(frame.vertices_m), model_.mesh.triangles};
   if (seen.points.col(2).minCoeff() <= 0) return;  // not before the camera: nothing to draw
   draw_wires(canvas, seen);
-  draw_landmarks(canvas, seen, in_camera(landmarks_on(model_, frame.vertices_m)));
+  draw_landmarks(canvas, seen, in_camera(expression::landmarks_on(model_, frame.vertices_m)));
   draw_axes(canvas, frame.camera_from_head);
 }
 

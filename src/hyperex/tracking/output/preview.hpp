@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "hyperex/capture/frame.hpp"
+#include "hyperex/expression/face_model.hpp"
 #include "hyperex/render/canvas.hpp"
 #include "hyperex/tracking/fit/face_tracker.hpp"
-#include "hyperex/tracking/model/face_model.hpp"
 
 namespace hyperex::tracking {
 
@@ -18,7 +18,7 @@ namespace hyperex::tracking {
 class PreviewPainter {
  public:
   /// `model` must outlive the painter.
-  PreviewPainter(const FaceModel& model, const capture::Intrinsics& camera);
+  PreviewPainter(const expression::FaceModel& model, const capture::Intrinsics& camera);
 
   /// Of every picture that is drawn; multiples of 16.
   int width_px() const { return width_px_; }
@@ -37,7 +37,7 @@ class PreviewPainter {
   void draw_banner(render::Canvas& canvas, const std::string& fault) const;
   Eigen::Vector2d place(const Vec3& in_camera) const;
 
-  const FaceModel& model_;
+  const expression::FaceModel& model_;
   capture::Intrinsics camera_;
   double scale_;                           // of the drawn picture relative to the recorded one
   int picture_width_, picture_height_;     // as drawn

@@ -25,7 +25,7 @@ double frame_rate_hz(const std::vector<double>& time_s) {
   return std::abs(rate - std::round(rate)) < 0.01 * rate ? std::round(rate) : rate;
 }
 
-PreviewMovie::PreviewMovie(std::filesystem::path file, const FaceModel& model,
+PreviewMovie::PreviewMovie(std::filesystem::path file, const expression::FaceModel& model,
                            const capture::Intrinsics& camera)
     : file_(std::move(file)), painter_(model, camera) {
   capture::VideoWriter::check_name(file_);

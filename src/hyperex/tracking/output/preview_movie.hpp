@@ -15,7 +15,7 @@ namespace hyperex::tracking {
 class PreviewMovie {
  public:
   /// Throws InputError where the name does not end in .mp4. `model` must outlive the movie.
-  PreviewMovie(std::filesystem::path file, const FaceModel& model,
+  PreviewMovie(std::filesystem::path file, const expression::FaceModel& model,
                const capture::Intrinsics& camera);
 
   /// Frames in order. Throws InputError where the video cannot be written.

@@ -17,7 +17,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool with_vertices) {
+motion::Motion motion_of(const expression::FaceModel& model, const Tracking& tracking,
+                         bool with_vertices) {
   motion::Motion motion;
   for (const auto& [name, vertices] : model.landmarks) motion.names.push_back(name);
   const Eigen::Index landmarks = Eigen::Index(motion.names.size());
@@ -28,7 +29,7 @@ motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool 
     if (!motion.time_s.empty() && frame.time_s <= motion.time_s.back()) continue;
     Points sample = Points::Constant(Eigen::Index(motion.names.size()), 3, kNan);
     if (frame.valid) {
-      sample.topRows(landmarks) = landmarks_on(model, frame.vertices_m);
+      sample.topRows(landmarks) = expression::landmarks_on(model, frame.vertices_m);
       if (with_vertices) sample.bottomRows(sample.rows() - landmarks) = frame.vertices_m;
     }
     motion.time_s.push_back(frame.time_s);
@@ -70,7 +71,7 @@ void write_pose_csv(const std::filesystem::path& file, const Tracking& tracking)
   io::write_csv_with_text(file, names, "fault", long(tracking.frames.size()), fill);
 }
 
-void write_units_csv(const std::filesystem::path& file, const FaceModel& model,
+void write_units_csv(const std::filesystem::path& file, const expression::FaceModel& model,
                      const Tracking& tracking) {
   std::vector<std::string> names = {"time_s", "valid"};
   for (const auto& unit : model.animation_units)
@@ -84,7 +85,7 @@ void write_units_csv(const std::filesystem::path& file, const FaceModel& model,
   });
 }
 
-void write_arkit_csv(const std::filesystem::path& file, const FaceModel& model,
+void write_arkit_csv(const std::filesystem::path& file, const expression::FaceModel& model,
                      const Tracking& tracking) {
   const ArkitWeights weights(model);
   std::vector<std::string> names = weights.names();

@@ -10,7 +10,8 @@ namespace hyperex::tracking {
 /// The model's landmarks, and on demand its vertices ("vertex_K"), over time in the head's frame
 /// (+x the subject's left, +y up, +z forward); rows of NaN where a frame is not valid. Frames whose
 /// time does not rise are left out.
-motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool with_vertices);
+motion::Motion motion_of(const expression::FaceModel& model, const Tracking& tracking,
+                         bool with_vertices);
 
 /// Tables with a row a frame, whether valid or not; numbers are "nan" where it is not valid.
 ///  pose:   time_s; valid, 1 or 0; T00 ... T23 (camera_from_head, metres); how well the frame was
@@ -22,9 +23,9 @@ motion::Motion motion_of(const FaceModel& model, const Tracking& tracking, bool 
 ///  arkit:  time_s and ARKit's names, 0 to 1: weights of the model's units by its table; a name
 ///          that several units share is their mean
 void write_pose_csv(const std::filesystem::path& file, const Tracking& tracking);
-void write_units_csv(const std::filesystem::path& file, const FaceModel& model,
+void write_units_csv(const std::filesystem::path& file, const expression::FaceModel& model,
                      const Tracking& tracking);
-void write_arkit_csv(const std::filesystem::path& file, const FaceModel& model,
+void write_arkit_csv(const std::filesystem::path& file, const expression::FaceModel& model,
                      const Tracking& tracking);
 
 }  // namespace hyperex::tracking

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/model/tables.hpp"
+#include "hyperex/expression/tables.hpp"
 
 #include <stdexcept>
 
@@ -28,7 +28,7 @@ extern "C" const char hyperex_canonical_units_begin[], hyperex_canonical_units_e
     hyperex_candide_units_begin[], hyperex_candide_units_end[], hyperex_openface_arkit_begin[],
     hyperex_openface_arkit_end[];
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 namespace {
 [[noreturn]] void damaged() {
@@ -88,4 +88,4 @@ std::vector<int> table_indices(const std::string& cell, int end) {
   return indices;
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -5,7 +5,7 @@
 
 #include "hyperex/geometry/types.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 /// Edges that have one triangle only, as pairs of vertices, the lower first.
 struct BorderEdges {
@@ -14,4 +14,4 @@ struct BorderEdges {
 };
 BorderEdges border_edges(const TriMesh& mesh);
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/model/candide.hpp"
+#include "hyperex/expression/candide.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/number.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 namespace {
 
@@ -226,4 +226,4 @@ void write_candide(const std::filesystem::path& file, const CandideFile& candide
   });
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/expression/timecode.hpp"
+#include "hyperex/expression/timecode.hpp"
 
 #include <cmath>
 
 #include "hyperex/io/number.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 namespace {
 constexpr double kSecond = 1000;  // more than frames in a second
@@ -38,4 +38,4 @@ double timecode_seconds(double code, double rate_hz) {
   return std::floor(code / kSecond) + frames_of(code) / rate_hz;
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/model/face_model.hpp"
+#include "hyperex/expression/face_model.hpp"
 
 #include "hyperex/core/assert.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 int FaceModel::animation_unit(const std::string& unit_name) const {
   for (std::size_t k = 0; k < animation_units.size(); ++k)
@@ -49,4 +49,4 @@ std::vector<std::string> arkit_names(const std::string& pattern) {
   return {left, right};
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

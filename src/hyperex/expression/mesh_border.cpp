@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/model/mesh_border.hpp"
+#include "hyperex/expression/mesh_border.hpp"
 
 #include <algorithm>
 #include <map>
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 BorderEdges border_edges(const TriMesh& mesh) {
   std::map<std::pair<int, int>, int> uses;
@@ -40,4 +40,4 @@ BorderEdges border_edges(const TriMesh& mesh) {
   return border;
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

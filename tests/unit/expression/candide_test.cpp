@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/model/candide.hpp"
+#include "hyperex/expression/candide.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
+#include "hyperex/expression/face_model.hpp"
 #include "hyperex/geometry/transform.hpp"
-#include "hyperex/tracking/model/face_model.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 namespace {
 
 using ::testing::HasSubstr;
@@ -166,4 +166,4 @@ TEST(Candide, TheModelsTrianglesFaceOutwardsAndItsVerticesArePairedAlikeOnBothSi
 }
 
 }  // namespace
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -4,11 +4,11 @@
 #include <map>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/tracking/model/candide.hpp"
-#include "hyperex/tracking/model/face_model.hpp"
-#include "hyperex/tracking/model/tables.hpp"
+#include "hyperex/expression/candide.hpp"
+#include "hyperex/expression/face_model.hpp"
+#include "hyperex/expression/tables.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 namespace {
 
@@ -90,4 +90,4 @@ FaceModel candide_model(const std::string& wfm_file) {
   return model;
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

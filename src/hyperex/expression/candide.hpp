@@ -7,7 +7,7 @@
 
 #include "hyperex/geometry/types.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 /// A unit as the file lists it. A vertex may be listed twice: its displacements then add up.
 struct CandideUnit {
@@ -36,4 +36,4 @@ CandideFile read_candide(const std::filesystem::path& file);
 /// The same layout; what read_candide() gives back is equal, number for number.
 void write_candide(const std::filesystem::path& file, const CandideFile& candide);
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/model/mesh_laplacian.hpp"
+#include "hyperex/expression/mesh_laplacian.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 SparseMatrix mesh_laplacian(const TriMesh& mesh) {
   const Eigen::Index size = mesh.points.rows();
@@ -58,4 +58,4 @@ Points smooth_fill(const SparseMatrix& smoothness, const std::map<int, Vec3>& fi
   return field;
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

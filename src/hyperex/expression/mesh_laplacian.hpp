@@ -5,7 +5,7 @@
 
 #include "hyperex/geometry/types.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
@@ -17,4 +17,4 @@ SparseMatrix mesh_laplacian(const TriMesh& mesh);
 /// semidefinite, definite on the free vertices: std::logic_error otherwise). One row a vertex.
 Points smooth_fill(const SparseMatrix& smoothness, const std::map<int, Vec3>& fixed);
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 /// Timecodes of Live Link Face, "HH:MM:SS:FF.fff": hours, minutes, seconds, frames and thousandths
 /// of a frame. As one number: 1000 times the whole seconds, plus the frames; nothing where the
@@ -18,4 +18,4 @@ double frame_rate_of(const std::vector<double>& codes);
 /// Seconds since midnight.
 double timecode_seconds(double code, double rate_hz);
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 /// The tables of model/data, carried inside the program.
 std::string_view canonical_units_table();
@@ -23,4 +23,4 @@ double table_number(const std::string& cell);
 /// A cell of numbers between blanks, each 0 to end - 1; std::logic_error otherwise.
 std::vector<int> table_indices(const std::string& cell, int end);
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

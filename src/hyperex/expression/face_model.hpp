@@ -6,7 +6,7 @@
 
 #include "hyperex/geometry/types.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 /// One way in which a face differs (shape) or moves (animation): at weight 1 the listed vertices
 /// are displaced, all others stay.
@@ -60,14 +60,14 @@ Points landmarks_on(const FaceModel& model, const Points& points);
 std::vector<std::string> arkit_names(const std::string& pattern);
 
 /// The canonical face (face/canonical_face.hpp) with animation units of its own
-/// (model/data/canonical_units.csv) and three shape units: width, height and depth by 10 %. Each of
+/// (data/canonical_units.csv) and three shape units: width, height and depth by 10 %. Each of
 /// its 468 vertices is one of the network's points. The same object ever after.
 const FaceModel& canonical_model();
 
 /// CANDIDE-3 from a .wfm file, scaled so that its outer eye corners are 94 mm apart, paired with
-/// the network's points by model/data/candide_pairs.csv. Throws InputError where the file is
+/// the network's points by data/candide_pairs.csv. Throws InputError where the file is
 /// malformed (candide.hpp) or has not CANDIDE-3's 113 vertices and 14 animation units, which the
 /// tables are made for.
 FaceModel candide_model(const std::string& wfm_file);
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

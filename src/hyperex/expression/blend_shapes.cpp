@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/expression/blend_shapes.hpp"
+#include "hyperex/expression/blend_shapes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,11 +11,11 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/expression/tables.hpp"
+#include "hyperex/expression/timecode.hpp"
 #include "hyperex/io/csv.hpp"
-#include "hyperex/tracking/expression/timecode.hpp"
-#include "hyperex/tracking/model/tables.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -200,4 +200,4 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
   return out;
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -4,12 +4,12 @@
 #include <map>
 #include <numbers>
 
+#include "hyperex/expression/face_model.hpp"
+#include "hyperex/expression/mesh_laplacian.hpp"
+#include "hyperex/expression/tables.hpp"
 #include "hyperex/face/canonical_face.hpp"
-#include "hyperex/tracking/model/face_model.hpp"
-#include "hyperex/tracking/model/mesh_laplacian.hpp"
-#include "hyperex/tracking/model/tables.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 namespace {
 
@@ -167,4 +167,4 @@ const FaceModel& canonical_model() {
   return model;
 }
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tracking/expression/blend_shapes.hpp"
+#include "hyperex/expression/blend_shapes.hpp"
 
 #include <cmath>
 #include <filesystem>
 
-#include "hyperex/tracking/expression/timecode.hpp"
-#include "hyperex/tracking/model/tables.hpp"
+#include "hyperex/expression/tables.hpp"
+#include "hyperex/expression/timecode.hpp"
 #include "unit/io/io_testing.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 namespace {
 using BlendShapesFile = io::testing::FileTest;
 
@@ -148,4 +148,4 @@ TEST(OpenFaceRecording, OfAPersonTalkingMovesTheMouth) {
 }
 
 }  // namespace
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression

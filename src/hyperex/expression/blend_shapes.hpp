@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/expression/face_model.hpp"
 #include "hyperex/motion/motion.hpp"
-#include "hyperex/tracking/model/face_model.hpp"
 
-namespace hyperex::tracking {
+namespace hyperex::expression {
 
 /// Weights of ARKit's blend shapes (Apple, ARFaceAnchor.BlendShapeLocation) over time.
 struct BlendShapes {
@@ -27,7 +27,7 @@ struct BlendShapes {
 BlendShapes read_arkit(const std::filesystem::path& file);
 
 /// A CSV of OpenFace 2: `timestamp`, `success` and intensities `AU01_r` ... from 0 to 5, made
-/// blend-shape weights by model/data/openface_arkit.csv. Frames of no success are rows of NaN.
+/// blend-shape weights by data/openface_arkit.csv. Frames of no success are rows of NaN.
 /// Throws InputError: no timestamp, no intensities, one outside 0 to 5.
 BlendShapes read_openface(const std::filesystem::path& file);
 
@@ -39,4 +39,4 @@ BlendShapes read_openface(const std::filesystem::path& file);
 motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
                          std::vector<std::string>& notes);
 
-}  // namespace hyperex::tracking
+}  // namespace hyperex::expression
