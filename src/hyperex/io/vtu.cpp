@@ -42,11 +42,17 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
+/// zlib's level and strategy.
+struct Packing {
+  int level, strategy;
+};
+constexpr Packing of_numbers{1, Z_RLE}, of_indices{1, Z_DEFAULT_STRATEGY}, as_it_is{0, Z_RLE};
+
 /// zlib's streams, one a block, from one state: making that takes as long as a small block.
 class Deflater {
  public:
-  explicit Deflater(int strategy) : room_(compressBound(block_bytes)) {
-    if (deflateInit2(&stream_, 1, Z_DEFLATED, MAX_WBITS, 8, strategy) != Z_OK)
+  explicit Deflater(Packing packing) : room_(compressBound(block_bytes)) {
+    if (deflateInit2(&stream_, packing.level, Z_DEFLATED, MAX_WBITS, 8, packing.strategy) != Z_OK)
       throw std::runtime_error("zlib does not start");
   }
   ~Deflater() { deflateEnd(&stream_); }
@@ -80,8 +86,9 @@ class AppendedData {
       constexpr const char* tensor[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
       for (int k = 0; k < 6; ++k) names += fmt::format(" ComponentName{}=\"{}\"", k, tensor[k]);
     }
+    const auto* data = static_cast<const Bytef*>(bytes);
     return add(type, name, components, names,
-               compressed(static_cast<const Bytef*>(bytes), size, Z_RLE));
+               compressed(data, size, worth_packing(data, size) ? of_numbers : as_it_is));
   }
   /// The same with bytes compressed before.
   std::string add_compressed(const std::string& type, const std::string& name,
@@ -91,14 +98,14 @@ class AppendedData {
   const std::string& bytes() const { return bytes_; }
 
   /// VTK's layout: number of blocks, bytes of a block, bytes of a shorter last one (or 0), bytes
-  /// of each block once compressed, then the blocks. `strategy`: zlib's. In the bits of real
-  /// numbers nothing but rows of equal bytes comes again, and Z_RLE looks for no more: a third of
-  /// the time, and no byte more (measured on frames of subject A).
-  static std::string compressed(const Bytef* data, std::size_t size, int strategy) {
+  /// of each block once compressed, then the blocks. In the bits of real numbers nothing but rows
+  /// of equal bytes comes again, and Z_RLE looks for no more: a third of the time, and no byte more
+  /// (measured on frames of subject A).
+  static std::string compressed(const Bytef* data, std::size_t size, Packing packing) {
     const std::size_t full = size / block_bytes, rest = size % block_bytes;
     std::vector<std::uint64_t> head{full + (rest > 0), block_bytes, rest};
     std::string packed;
-    Deflater deflater(strategy);
+    Deflater deflater(packing);
     for (std::size_t at = 0; at < size; at += block_bytes) {
       const std::size_t before = packed.size();
       deflater.append(data + at, std::min(block_bytes, size - at), packed);
@@ -108,6 +115,16 @@ class AppendedData {
   }
 
  private:
+  /// Displacements and strains of a moving face shrink by 6 %, which costs ten times as long as
+  /// writing them: a stretch from the middle tells what packing is worth.
+  static bool worth_packing(const Bytef* data, std::size_t size) {
+    constexpr std::size_t tried_bytes = 1 << 13;
+    if (size < 8 * tried_bytes) return true;
+    std::string packed;
+    Deflater(of_numbers).append(data + size / 2, tried_bytes, packed);
+    return packed.size() < 3 * tried_bytes / 4;
+  }
+
   std::string add(const std::string& type, const std::string& name, Eigen::Index components,
                   const std::string& names, const std::string& packed) {
     std::string line = fmt::format(
@@ -144,7 +161,7 @@ std::string section(const char* name, const std::vector<VtuArray>& arrays, Eigen
 template <class T>
 std::string compressed(const T* values, std::size_t count) {
   return AppendedData::compressed(reinterpret_cast<const Bytef*>(values), sizeof(T) * count,
-                                  std::is_floating_point_v<T> ? Z_RLE : Z_DEFAULT_STRATEGY);
+                                  std::is_floating_point_v<T> ? of_numbers : of_indices);
 }
 
 }  // namespace

@@ -22,12 +22,12 @@ io::VtuArray strain_array(const fem::VoigtRows& strain) {
   return array;
 }
 
-/// Von Mises stress takes Young's modulus and Poisson's ratio alone.
-Eigen::VectorXd von_mises_kpa(const Performance& p, const Points& d) {
+/// What von Mises stress takes: Young's modulus and Poisson's ratio.
+fem::Material elastic_material(const Performance& p) {
   fem::Material material;
   material.young_pa.assign(p.tet_young_pa.begin(), p.tet_young_pa.end());
   material.poisson.assign(p.tet_poisson.begin(), p.tet_poisson.end());
-  return 1e-3 * fem::von_mises_pa(p.nodes, p.tets, material, d);
+  return material;
 }
 
 Eigen::VectorXd greatest_principal(const fem::VoigtRows& strain) {
@@ -74,11 +74,20 @@ std::vector<io::VtuArray> graded_arrays(const Results& r) {
 
 }  // namespace
 
-std::vector<io::VtuArray> frame_cells(const Performance& p, const Points& d, bool with_strain) {
+FrameCells::FrameCells(const Performance& performance, bool with_strain)
+    : performance_(performance),
+      with_strain_(with_strain),
+      strain_(performance.nodes, performance.tets),
+      material_(elastic_material(performance)) {}
+
+std::vector<io::VtuArray> FrameCells::at(const Points& d) const {
+  const fem::VoigtRows strain = strain_.at(d);
   std::vector<io::VtuArray> cells;
-  if (with_strain) cells.push_back(strain_array(fem::element_strain(p.nodes, p.tets, d)));
-  cells.push_back({"von Mises stress (kPa)", von_mises_kpa(p, d).cast<float>()});
-  const std::vector<std::uint8_t> inverted = fem::inverted_tets(p.nodes, p.tets, d);
+  if (with_strain_) cells.push_back(strain_array(strain));
+  cells.push_back(
+      {"von Mises stress (kPa)", (1e-3 * fem::von_mises_pa(strain, material_)).cast<float>()});
+  const std::vector<std::uint8_t> inverted =
+      fem::inverted_tets(performance_.nodes, performance_.tets, d);
   cells.push_back({"inverted",
                    Eigen::Map<const Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1>>(
                        inverted.data(), static_cast<Eigen::Index>(inverted.size()))
@@ -97,9 +106,10 @@ void write_frames(const Performance& p, const std::filesystem::path& directory, 
     frames.emplace_back(p.frame_time_s[f],
                         std::filesystem::path("frames") / fmt::format("frame_{:04}.vtu", f));
   const io::VtuMesh mesh(p.nodes, p.tets);
+  const FrameCells tissue(p, with_strain);
   tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t i) {
     const Points d = p.node_displacement_m[i * step].cast<double>();
-    std::vector<io::VtuArray> cells = frame_cells(p, d, with_strain);
+    std::vector<io::VtuArray> cells = tissue.at(d);
     cells.insert(cells.end(), more.begin(), more.end());
     mesh.write(directory / frames[i].second, {{"displacement (m)", d.cast<float>()}}, cells);
   });
@@ -115,9 +125,10 @@ nlohmann::ordered_json stress_summary(const Performance& p) {
   if (p.tets.rows() == 0) return nullptr;
   const Points d = p.node_displacement_m[static_cast<std::size_t>(p.peak_frame)].cast<double>();
   const auto inverted = fem::inverted_tets(p.nodes, p.tets, d);
-  return {{"von_mises_stress_kpa", spread_of(von_mises_kpa(p, d), inverted)},
-          {"greatest_principal_strain",
-           spread_of(greatest_principal(fem::element_strain(p.nodes, p.tets, d)), inverted)},
+  const fem::VoigtRows strain = fem::ElementStrain(p.nodes, p.tets).at(d);
+  return {{"von_mises_stress_kpa",
+           spread_of(1e-3 * fem::von_mises_pa(strain, elastic_material(p)), inverted)},
+          {"greatest_principal_strain", spread_of(greatest_principal(strain), inverted)},
           {"inverted_tets", std::count(inverted.begin(), inverted.end(), 1)}};
 }
 

@@ -3,18 +3,30 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "hyperex/fem/form/system.hpp"
 #include "hyperex/io/vtu.hpp"
 #include "hyperex/scene/outputs.hpp"
 
 namespace hyperex::scene {
 
-/// What ParaView shows of each tetrahedron at the displacement `d` (|nodes| x 3, metres):
+/// What ParaView shows of each tetrahedron of a performance:
 ///   "strain (1)"              xx, yy, zz, xy, yz, xz of the tensor; only `with_strain`
 ///   "von Mises stress (kPa)"
 ///   "inverted"                1 where the element is turned inside out, else 0: strain and stress
 ///                             mean nothing there
-std::vector<io::VtuArray> frame_cells(const reenact::Performance& performance, const Points& d,
-                                      bool with_strain);
+class FrameCells {
+ public:
+  /// Refers to `performance`.
+  FrameCells(const reenact::Performance& performance, bool with_strain);
+  /// At the displacement `d` (|nodes| x 3, metres).
+  std::vector<io::VtuArray> at(const Points& d) const;
+
+ private:
+  const reenact::Performance& performance_;
+  bool with_strain_;
+  fem::ElementStrain strain_;
+  fem::Material material_;
+};
 
 /// Writes frames.pvd and frames/frame_NNNN.vtu: the tissue in every `every`-th frame (> 0), at
 /// rest, its displacement an array ("Warp By Vector" moves it), with `more` arrays of its

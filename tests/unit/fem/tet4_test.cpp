@@ -39,7 +39,7 @@ TEST(Tet4, StrainIsTheSymmetricGradientWithEngineeringShear) {
   Eigen::Matrix3d g;
   g << 0.1, 0.2, -0.3, 0.05, -0.2, 0.4, 0.15, 0.25, 0.35;
   const Eigen::Matrix<double, 4, 3> d = corner * g.transpose();
-  const Eigen::Matrix<double, 6, 1> strain = strain_of(make_tet4(corner), d);
+  const Eigen::Matrix<double, 6, 1> strain = strain_of(make_tet4(corner).gradient, d);
   const double expected[6] = {g(0, 0),           g(1, 1),           g(2, 2),
                               g(0, 1) + g(1, 0), g(1, 2) + g(2, 1), g(2, 0) + g(0, 2)};
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(strain[i], expected[i], 1e-14) << i;

@@ -34,7 +34,7 @@ const io::VtuArray& named(const std::vector<io::VtuArray>& arrays, const std::st
 }
 
 std::vector<io::VtuArray> cells_of(const reenact::Performance& p, bool with_strain = true) {
-  return frame_cells(p, p.node_displacement_m[0].cast<double>(), with_strain);
+  return FrameCells(p, with_strain).at(p.node_displacement_m[0].cast<double>());
 }
 
 TEST(Frames, StrainComponentsStandInParaViewsOrder) {

@@ -45,12 +45,19 @@ inline Eigen::Matrix<double, 6, 3> strain_displacement(const Eigen::RowVector3d&
   return b;
 }
 
-/// Strain at displacements of the four corners (4 x 3).
-inline Eigen::Matrix<double, 6, 1> strain_of(const Tet4& tet,
+/// Strain at displacements of the four corners (4 x 3): sum_a B_a d_a without B's zeros.
+inline Eigen::Matrix<double, 6, 1> strain_of(const Eigen::Matrix<double, 4, 3>& gradient,
                                              const Eigen::Matrix<double, 4, 3>& d) {
   Eigen::Matrix<double, 6, 1> strain = Eigen::Matrix<double, 6, 1>::Zero();
-  for (int a = 0; a < 4; ++a)
-    strain += strain_displacement(tet.gradient.row(a)) * d.row(a).transpose();
+  for (int a = 0; a < 4; ++a) {
+    const auto g = gradient.row(a), u = d.row(a);
+    strain[0] += g.x() * u.x();
+    strain[1] += g.y() * u.y();
+    strain[2] += g.z() * u.z();
+    strain[3] += g.y() * u.x() + g.x() * u.y();
+    strain[4] += g.z() * u.y() + g.y() * u.z();
+    strain[5] += g.z() * u.x() + g.x() * u.z();
+  }
   return strain;
 }
 

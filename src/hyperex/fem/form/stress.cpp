@@ -18,7 +18,7 @@ VoigtRows Assembler::strain(const Points& d) const {
   HX_ASSERT(d.rows() == node_count());
   VoigtRows strain(element_count(), 6);
   tbb::parallel_for(Eigen::Index{0}, element_count(), [&](Eigen::Index t) {
-    strain.row(t) = strain_of(shapes_[t], corner_values(d, t)).transpose();
+    strain.row(t) = strain_of(shapes_[t].gradient, corner_values(d, t)).transpose();
   });
   return strain;
 }
@@ -96,12 +96,7 @@ double von_mises_of(const Eigen::Matrix<double, 1, 6>& strain, double shear) {
 }  // namespace
 
 Eigen::VectorXd Assembler::von_mises_pa(const Material& material, const Points& d) const {
-  const VoigtRows strain = this->strain(d);
-  Eigen::VectorXd out(element_count());
-  for (Eigen::Index t = 0; t < out.size(); ++t)
-    out[t] =
-        von_mises_of(strain.row(t), shear_modulus_pa(material.young_pa[t], material.poisson[t]));
-  return out;
+  return fem::von_mises_pa(strain(d), material);
 }
 
 System assemble(const Points& nodes, const Tetrahedra& tets, const Material& material,
@@ -111,20 +106,25 @@ System assemble(const Points& nodes, const Tetrahedra& tets, const Material& mat
   return system;
 }
 
-VoigtRows element_strain(const Points& nodes, const Tetrahedra& tets, const Points& d) {
-  HX_ASSERT(d.rows() == nodes.rows());
-  VoigtRows strain(tets.rows(), 6);
+ElementStrain::ElementStrain(const Points& nodes, const Tetrahedra& tets)
+    : nodes_(nodes.rows()), tets_(tets) {
+  gradient_.reserve(static_cast<std::size_t>(tets.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
+    gradient_.push_back(make_tet4(corners_of(nodes, tets, t)).gradient);
+}
+
+VoigtRows ElementStrain::at(const Points& d) const {
+  HX_ASSERT(d.rows() == nodes_);
+  VoigtRows strain(tets_.rows(), 6);
+  for (Eigen::Index t = 0; t < tets_.rows(); ++t)
     strain.row(t) =
-        strain_of(make_tet4(corners_of(nodes, tets, t)), corners_of(d, tets, t)).transpose();
+        strain_of(gradient_[static_cast<std::size_t>(t)], corners_of(d, tets_, t)).transpose();
   return strain;
 }
 
-Eigen::VectorXd von_mises_pa(const Points& nodes, const Tetrahedra& tets, const Material& material,
-                             const Points& d) {
-  const VoigtRows strain = element_strain(nodes, tets, d);
-  Eigen::VectorXd out(tets.rows());
-  for (Eigen::Index t = 0; t < tets.rows(); ++t)
+Eigen::VectorXd von_mises_pa(const VoigtRows& strain, const Material& material) {
+  Eigen::VectorXd out(strain.rows());
+  for (Eigen::Index t = 0; t < out.size(); ++t)
     out[t] =
         von_mises_of(strain.row(t), shear_modulus_pa(material.young_pa[t], material.poisson[t]));
   return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Sparse>
+#include <vector>
 
 #include "hyperex/fem/element/element_kind.hpp"
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
@@ -49,10 +50,21 @@ System assemble(const Points& nodes, const Tetrahedra& tets, const Material& mat
 /// |T| x 6 in the order of Voigt: strains (engineering shear) or stresses (Pa).
 using VoigtRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// Per element at displacement `d` (|nodes| x 3): strain, and von Mises stress (Pa), which is the
-/// same for all element kinds: they differ in the pressure alone.
-VoigtRows element_strain(const Points& nodes, const Tetrahedra& tets, const Points& d);
-Eigen::VectorXd von_mises_pa(const Points& nodes, const Tetrahedra& tets, const Material& material,
-                             const Points& d);
+/// Strains of the elements of one mesh at many displacements: gradients are computed once.
+class ElementStrain {
+ public:
+  ElementStrain(const Points& nodes, const Tetrahedra& tets);
+  /// At displacement `d` (|nodes| x 3).
+  VoigtRows at(const Points& d) const;
+
+ private:
+  Eigen::Index nodes_;
+  Tetrahedra tets_;
+  std::vector<Eigen::Matrix<double, 4, 3>> gradient_;
+};
+
+/// Per element: von Mises stress (Pa) of a strain, which is the same for all element kinds: they
+/// differ in the pressure alone.
+Eigen::VectorXd von_mises_pa(const VoigtRows& strain, const Material& material);
 
 }  // namespace hyperex::fem
