@@ -21,6 +21,7 @@ constexpr double reach_m = 0.010;
 constexpr double least_cosine = 0.5;  // of normals, 60 degrees
 constexpr int most_points = 5000;     // of the surface that are laid on it
 constexpr int most_rounds = 60;
+constexpr int most_idle_rounds = 4;
 constexpr double most_turn_deg = 15, most_shift_m = 0.015;
 
 /// A landmark and where its reflection should lie.
@@ -216,6 +217,9 @@ MidsagittalPlane midsagittal_plane(const TriMesh& rest, const io::Landmarks& lan
   double delta = start.offset_m - start.normal.dot(middle);
   const double first_delta = delta;
   std::vector<ClosestPoint> feet;
+  // On a scan the steps stay at some micrometres in the end, as feet change from facet to facet.
+  double least = std::numeric_limits<double>::infinity();
+  int idle_rounds = 0;
   for (plane.rounds = 0; plane.rounds < most_rounds;) {
     const auto list = contacts(surface, plane, middle, feet);
     if (list.size() < 100) {
@@ -226,7 +230,9 @@ MidsagittalPlane midsagittal_plane(const TriMesh& rest, const io::Landmarks& lan
     const double moved = step(list, plane.normal, delta, plane.surface_rms_m);
     plane.offset_m = delta + plane.normal.dot(middle);
     ++plane.rounds;
-    if (moved < 1e-8) break;
+    idle_rounds = moved < 0.9 * least ? 0 : idle_rounds + 1;
+    least = std::min(least, moved);
+    if (moved < 1e-8 || idle_rounds == most_idle_rounds) break;
   }
   plane.turned_deg = std::acos(std::clamp(plane.normal.dot(start.normal), -1.0, 1.0)) * 180 / M_PI;
   plane.shifted_m = delta - first_delta;

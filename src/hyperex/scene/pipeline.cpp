@@ -209,17 +209,18 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   for (const auto& note : inputs.notes) spdlog::info("{}", note);
   for (const auto& warning : inputs.warnings) spdlog::warn("{}", warning);
 
-  // Beside all else, at once where the scan stays what it is.
-  std::optional<LandmarkSearch> search;
-  const bool thinned = inputs.scan.mesh.points.rows() > tissue::thinned_above_vertices;
-  if (!scene.scan.landmarks.empty() && !thinned) search.emplace(inputs, scene.kept);
+  std::optional<LandmarkSearch> search;  // beside all else
   std::shared_ptr<const tissue::TissueMesh> made;
+  metrics::RestAsymmetry at_rest;
   {
     Progress progress("meshing the soft tissue", 0);
-    made = std::make_shared<const tissue::TissueMesh>(
-        tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, scene.mesh,
-                                  inputs.scan.file.string(), on_seams(inputs.scan)));
-    if (made->full) inputs.scan = thinned_scan(inputs.scan, *made->full, made->skin);
+    tissue::TissueMeshBuilder builder(inputs.scan.mesh, inputs.landmarks, scene.mesh,
+                                      inputs.scan.file.string(), on_seams(inputs.scan));
+    const tissue::TissueMesh& skin = builder.with_skin();
+    if (skin.full) inputs.scan = thinned_scan(inputs.scan, *skin.full, skin.skin);
+    if (!scene.scan.landmarks.empty()) search.emplace(inputs, scene.kept);
+    run_together(
+        {[&] { made = builder.build(); }, [&] { at_rest = rest_asymmetry(skin, inputs); }});
   }
   const tissue::TissueMesh& mesh = *made;
   seconds["mesh"] = stage.lap();
@@ -234,15 +235,12 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
-  if (!scene.scan.landmarks.empty() && !search) search.emplace(inputs, scene.kept);
-  metrics::RestAsymmetry at_rest;
   reenact::Simulator simulator(made, inputs.landmarks, inputs.motion, std::move(options));
   const reenact::Simulator before_run = simulator;
   reenact::SimulationResult simulation;
   MirroredTwin twin;
   run_together({[&] { simulation = run_with_bar(simulator); },
                 [&] {
-                  at_rest = rest_asymmetry(mesh, inputs);
                   twin = simulate_twin(scene, inputs, field ? &*field : nullptr, at_rest.plane,
                                        before_run);
                 }});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
@@ -172,44 +173,60 @@ VolumeMesh thicken(TriMesh outer, const io::Landmarks& landmarks, const TissueMe
   }
 }
 
-TissueMesh build(const TriMesh& scan, const io::Landmarks& landmarks,
-                 const TissueMeshOptions& options, const std::string& source,
-                 const std::vector<char>& held) {
-  TissueMesh out;
-  SkinBuilder skin(scan, landmarks, source, out);
-  skin.cut(options.cut_lips);
-  skin.thin(options.element_size_m, held);
-  out.skin_upper_margin = skin.on_skin(upper_lip_margin(skin.mesh(), landmarks));
-  const TriMesh mended = mend(skin.mesh(), landmarks, options.trim_border_m, out.notes);
-
-  const face::FaceFrame frame = face::face_frame(landmarks);
-  GradedSize size;
-  size.edge_m = options.element_size_m;
-  size.focus = 0.5 * (landmarks.at(face::ibug(51)) + landmarks.at(face::ibug(57)));
-  size.centre = size.focus + grading_m * frame.z;
-  TriMesh outer = remesh_graded(mended, size);
-  outer = clean_mesh(unfold(outer, out.notes), cleaned_again).mesh;
-
-  out.volume = thicken(outer, landmarks, options, source, out.notes);
-  out.notes.insert(out.notes.end(), out.volume.notes.begin(), out.volume.notes.end());
-  out.quality = quality_of(out.volume.nodes, out.volume.tets);
-  out.upper_margin = upper_lip_margin(out.volume.outer, landmarks);
-  out.on_border.assign(out.volume.surface_nodes(), 0);
-  for (int v : outer_border(out.volume.outer)) out.on_border[v] = 1;
-  anchor_skin(out, landmarks);
-  return out;
+/// Some steps know no file: cleaning, say.
+template <class Step>
+void naming(const std::string& source, Step step) {
+  try {
+    step();
+  } catch (const std::invalid_argument& e) {
+    throw InputError(source, e.what());
+  }
 }
 
 }  // namespace
 
+TissueMeshBuilder::TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& landmarks,
+                                     const TissueMeshOptions& options, std::string source,
+                                     const std::vector<char>& held)
+    : landmarks_(landmarks), options_(options), source_(std::move(source)) {
+  naming(source_, [&] {
+    TissueMesh& out = *mesh_;
+    SkinBuilder skin(scan, landmarks, source_, out);
+    skin.cut(options.cut_lips);
+    skin.thin(options.element_size_m, held);
+    out.skin_upper_margin = skin.on_skin(upper_lip_margin(skin.mesh(), landmarks));
+    working_copy_ = skin.mesh();
+  });
+}
+
+std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
+  naming(source_, [&] {
+    TissueMesh& out = *mesh_;
+    const TriMesh mended =
+        mend(std::move(working_copy_), landmarks_, options_.trim_border_m, out.notes);
+    const face::FaceFrame frame = face::face_frame(landmarks_);
+    GradedSize size;
+    size.edge_m = options_.element_size_m;
+    size.focus = 0.5 * (landmarks_.at(face::ibug(51)) + landmarks_.at(face::ibug(57)));
+    size.centre = size.focus + grading_m * frame.z;
+    TriMesh outer = remesh_graded(mended, size);
+    outer = clean_mesh(unfold(outer, out.notes), cleaned_again).mesh;
+
+    out.volume = thicken(outer, landmarks_, options_, source_, out.notes);
+    out.notes.insert(out.notes.end(), out.volume.notes.begin(), out.volume.notes.end());
+    out.quality = quality_of(out.volume.nodes, out.volume.tets);
+    out.upper_margin = upper_lip_margin(out.volume.outer, landmarks_);
+    out.on_border.assign(out.volume.surface_nodes(), 0);
+    for (int v : outer_border(out.volume.outer)) out.on_border[v] = 1;
+    anchor_skin(out, landmarks_);
+  });
+  return std::move(mesh_);
+}
+
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
                              const TissueMeshOptions& options, const std::string& source,
                              const std::vector<char>& held) {
-  try {
-    return build(scan, landmarks, options, source, held);
-  } catch (const std::invalid_argument& e) {  // of a step that knows no file: cleaning, say
-    throw InputError(source, e.what());
-  }
+  return *TissueMeshBuilder(scan, landmarks, options, source, held).build();
 }
 
 }  // namespace hyperex::tissue

@@ -73,6 +73,29 @@ struct TissueMesh {
   std::vector<std::string> notes;  ///< what was mended, trimmed or cut, a sentence each
 };
 
+/// build_tissue_mesh() in two steps, as what needs the skin alone need not wait for the volume.
+class TissueMeshBuilder {
+ public:
+  /// Makes the skin. `scan` and `landmarks` must outlive this. Throws as build_tissue_mesh().
+  TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& landmarks,
+                    const TissueMeshOptions& options, std::string source,
+                    const std::vector<char>& held = {});
+
+  /// `skin`, all that stands above `volume` in TissueMesh, and `skin_upper_margin`: may be read
+  /// while build() runs.
+  const TissueMesh& with_skin() const { return *mesh_; }
+
+  /// The same mesh, whole. Once.
+  std::shared_ptr<const TissueMesh> build();
+
+ private:
+  const io::Landmarks& landmarks_;
+  TissueMeshOptions options_;
+  std::string source_;
+  std::shared_ptr<TissueMesh> mesh_ = std::make_shared<TissueMesh>();
+  TriMesh working_copy_;
+};
+
 /// Cleans a working copy, cuts joined lips, mends small holes, remeshes with a size that grows away
 /// from the mouth, and builds the layer. `landmarks` must hold the 68 iBUG points
 /// (complete_landmarks). `source` names the scan in errors. `held`, per
