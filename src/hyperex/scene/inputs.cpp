@@ -10,6 +10,7 @@
 
 #include "hyperex/capture/mirrored.hpp"
 #include "hyperex/capture/open_source.hpp"
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/exaggerate.hpp"
@@ -45,6 +46,9 @@ class Problems {
       text_ += (text_.empty() ? "" : "\n") + std::string(e.what());
     }
   }
+  void add(const Problems& more) {
+    if (!more.text_.empty()) text_ += (text_.empty() ? "" : "\n") + more.text_;
+  }
   void throw_if_any() const {
     if (!text_.empty()) throw InputError(text_);
   }
@@ -65,11 +69,11 @@ void read_scan(const Scene& scene, Inputs& in) {
         fmt::format("the scan's unit is {}; state it with scan.unit", io::unit_note(in.scan)));
 }
 
-void complete(const Scene& scene, const io::Landmarks& given, Inputs& in) {
+void complete(const Scene& scene, const io::Landmarks& given, const io::Scan& scan, Inputs& in) {
   const std::string source = scene.scan.source.embedded     ? "embedded face"
-                             : scene.scan.landmarks.empty() ? in.scan.file.string()
+                             : scene.scan.landmarks.empty() ? scan.file.string()
                                                             : scene.scan.landmarks.string();
-  auto completed = tissue::complete_landmarks(given, in.scan.mesh, source);
+  auto completed = tissue::complete_landmarks(given, scan.mesh, source);
   in.landmarks = std::move(completed.landmarks);
   in.placed = std::move(completed.placed);
   if (!in.placed.empty())
@@ -393,32 +397,68 @@ io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
   return std::move(found.landmarks);
 }
 
-Inputs read_inputs(const Scene& scene, Look look) {
+namespace {
+
+/// What is read of the scan and, beside it, of the recording: each tells into Inputs of its own.
+struct Reading {
   Inputs in;
   Problems problems;
+};
+
+io::Landmarks given_landmarks(const Scene& scene) {
+  if (!scene.scan.landmarks.empty())
+    return io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);
+  if (scene.scan.source.embedded) return tissue::embedded_face().landmarks;
+  return {};
+}
+
+void take_recording(const Inputs& recording, Inputs& in) {
+  in.notes.insert(in.notes.end(), recording.notes.begin(), recording.notes.end());
+  in.warnings.insert(in.warnings.end(), recording.warnings.begin(), recording.warnings.end());
+  in.head_shift_uncertainty_mm = recording.head_shift_uncertainty_mm;
+  in.head_turn_uncertainty_deg = recording.head_turn_uncertainty_deg;
+}
+
+}  // namespace
+
+Inputs read_inputs(const Scene& scene, Look look) {
+  Reading scan, completion, recording;
   io::Landmarks given;
   std::optional<motion::StabilisedMotion> steadied;
   bool scan_read = false;
-  problems.attempt([&] {
-    read_scan(scene, in);
-    scan_read = true;
-  });
-  if (scan_read) problems.attempt([&] { note_tissue_files(scene, in); });
-  problems.attempt([&] {
-    if (!scene.scan.landmarks.empty())
-      given = io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);
-    else if (scene.scan.source.embedded)
-      given = tissue::embedded_face().landmarks;
-  });
-  if (!scene.motion.source.embedded)
-    problems.attempt([&] { steadied = steady(scene, read_motion(scene, look, in), look, in); });
+  run_together({[&] {
+                  scan.problems.attempt([&] {
+                    read_scan(scene, scan.in);
+                    scan_read = true;
+                  });
+                  if (scan_read) scan.problems.attempt([&] { note_tissue_files(scene, scan.in); });
+                  scan.problems.attempt([&] { given = given_landmarks(scene); });
+                  if (scan_read && !given.empty())
+                    completion.problems.attempt(
+                        [&] { complete(scene, given, scan.in.scan, completion.in); });
+                },
+                [&] {
+                  if (scene.motion.source.embedded) return;
+                  recording.problems.attempt([&] {
+                    steadied =
+                        steady(scene, read_motion(scene, look, recording.in), look, recording.in);
+                  });
+                }});
+  Inputs in = std::move(scan.in);
+  Problems problems = scan.problems;
+  take_recording(recording.in, in);
+  problems.add(recording.problems);
   // Finding landmarks takes long: whatever else is wrong is told before.
   const bool to_find = scene.scan.landmarks.empty() && !scene.scan.source.embedded;
   if (to_find && look == Look::whole) {
     problems.throw_if_any();
     given = find_landmarks(in.scan, "the scene names no landmarks", in.notes, scene.kept);
+    completion.problems.attempt([&] { complete(scene, given, in.scan, completion.in); });
   }
-  if (scan_read && !given.empty()) problems.attempt([&] { complete(scene, given, in); });
+  in.landmarks = std::move(completion.in.landmarks);
+  in.placed = std::move(completion.in.placed);
+  in.notes.insert(in.notes.end(), completion.in.notes.begin(), completion.in.notes.end());
+  problems.add(completion.problems);
   if (scene.motion.source.embedded && !in.landmarks.empty())
     problems.attempt([&] {
       auto opening = motion::embedded_mouth_opening(in.landmarks);
