@@ -21,10 +21,6 @@ Colour moss(double share) {
   return {channel(16), channel(8), channel(0)};
 }
 
-double share_in(const Range& range, double value) {
-  return std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
-}
-
 double linear_from_srgb(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }

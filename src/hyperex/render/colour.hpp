@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <algorithm>
 
 namespace hyperex::render {
 
@@ -21,7 +22,9 @@ struct Range {
 Colour moss(double share);
 
 /// Where `value` lies in `range`, 0 to 1, clamped.
-double share_in(const Range& range, double value);
+inline double share_in(const Range& range, double value) {
+  return std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
+}
 
 double linear_from_srgb(double value);  ///< IEC 61966-2-1, one channel, 0 to 1
 double srgb_from_linear(double value);

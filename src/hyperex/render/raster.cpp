@@ -135,11 +135,6 @@ void Raster::draw(int id, Seen& seen) const {
   keep_nearer(cover, id, width_, seen.nearest.data() + at, seen.triangle.data() + at);
 }
 
-Facet Raster::facet(int id) const {
-  const Triangle& t = triangles_[std::size_t(id)];
-  return {t.surface, t.triangle, normal_of(t)};
-}
-
 Raster::Weights Raster::weights(int id, int x, int y) const {
   const Triangle& t = triangles_[std::size_t(id)];
   const double per_area = 1 / t.area();
@@ -147,7 +142,8 @@ Raster::Weights Raster::weights(int id, int x, int y) const {
   return {a.first, b.first, a.right, b.right};
 }
 
-Eigen::Vector3f Raster::normal_of(const Triangle& t) const {
+Eigen::Vector3f Raster::normal(int id) const {
+  const Triangle& t = triangles_[std::size_t(id)];
   const auto side = [&](const Corner& p, const Corner& q) {
     return Vec3((q.x - p.x) * m_per_sample_, (p.y - q.y) * m_per_sample_, q.z - p.z);
   };

@@ -11,12 +11,6 @@
 
 namespace hyperex::render {
 
-/// Of a surface, as a camera sees it.
-struct Facet {
-  int surface, triangle;
-  Eigen::Vector3f normal;  // camera frame, unit
-};
-
 /// Samples in rows from the top, each at the middle of its square; the camera's target is at the
 /// middle of the picture. Triangles that share an edge leave no gap between them. Where two lie
 /// equally near the first of them is seen, so that the hits do not depend on the number of threads.
@@ -31,12 +25,15 @@ class Raster {
   /// Rows of samples; room that look() fills.
   struct Seen {
     int first_row = 0, rows = 0;
-    std::vector<int> triangle;   // row by row: what facet() and weights() take, or -1
+    std::vector<int> triangle;   // row by row: the id that all below take, or -1
     std::vector<float> nearest;  // its depth, m to the viewer
   };
   /// What the samples of a band see. Safe to call from several threads.
   void look(int band, Seen& seen) const;
-  Facet facet(int id) const;
+  int surface(int id) const { return triangles_[std::size_t(id)].surface; }
+  int triangle(int id) const { return triangles_[std::size_t(id)].triangle; }
+  bool faces_viewer(int id) const { return triangles_[std::size_t(id)].area() < 0; }
+  Eigen::Vector3f normal(int id) const;  // of the facet, unit, camera frame
   /// The first two barycentric weights of a sample, and how they grow from it to the right.
   struct Weights {
     double a, b, a_right, b_right;
@@ -62,7 +59,6 @@ class Raster {
   void add(const Surface& surface, int index, const Camera& camera, double m_per_sample);
   void sort_into_bands();
   void draw(int id, Seen& seen) const;
-  Eigen::Vector3f normal_of(const Triangle& t) const;
 
   int width_, height_, band_rows_;
   double m_per_sample_;

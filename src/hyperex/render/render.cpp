@@ -71,6 +71,7 @@ struct Prepared {
   PointsF normals;
   ColourTable colours;
   Vec3f plain;
+  const ColourTable* map = &linear_moss();
 
   Prepared(const Surface& s, const Eigen::Matrix3d& camera_from_world)
       : surface(&s), plain(linear(s.plain)) {
@@ -100,55 +101,69 @@ struct Prepared {
   }
 };
 
-// A triangle with all that its samples take from the surface.
-struct Corners {
-  const Prepared* from;
-  Facet facet;
-  bool coloured = false;
-  double scalar[3] = {0, 0, 0};
-  Eigen::Matrix3f colours, normals;  // a column a corner
-
-  Corners(const Prepared& prepared, const Facet& f) : from(&prepared), facet(f) {
+// A triangle as its samples take it from the surface. A triangle covers few samples of a row, so
+// that nothing is copied and the facet's own normal is computed where a sample asks for it.
+class Corners {
+ public:
+  Corners(const Prepared& prepared, const Raster& raster, int id)
+      : from_(&prepared), raster_(&raster), id_(id) {
     const Surface& s = *prepared.surface;
+    const auto vertices = s.mesh.triangles.row(raster.triangle(id));
     for (int k = 0; k < 3; ++k) {
-      const int v = s.mesh.triangles(f.triangle, k);
-      if (s.scalar.size() != 0) scalar[k] = s.scalar[v];
-      coloured = s.scalar.size() == 0 && !prepared.colours.empty();
-      if (coloured) colours.col(k) = prepared.colours[std::size_t(v)];
-      if (s.smooth) normals.col(k) = prepared.normals.row(v).transpose();
+      const Eigen::Index v = vertices[k];
+      if (s.smooth) normal_[k] = prepared.normals.row(v).data();
+      if (s.scalar.size() != 0)
+        scalar_[k] = s.scalar[v];
+      else if (!prepared.colours.empty())
+        colour_[k] = &prepared.colours[std::size_t(v)];
     }
   }
 
   Vec3f colour_at(const Vec3f& weight) const {
-    if (from->surface->scalar.size() != 0) {
+    if (from_->surface->scalar.size() != 0) {
       const double value =
-          weight[0] * scalar[0] + weight[1] * scalar[1] + double(weight[2]) * scalar[2];
-      if (std::isnan(value)) return from->plain;
-      static const ColourTable& map = linear_moss();
-      return map[std::size_t(share_in(from->surface->range, value) * double(map.size() - 1) + 0.5)];
+          weight[0] * scalar_[0] + weight[1] * scalar_[1] + double(weight[2]) * scalar_[2];
+      if (std::isnan(value)) return from_->plain;
+      const ColourTable& map = *from_->map;
+      return map[std::size_t(share_in(from_->surface->range, value) * double(map.size() - 1) +
+                             0.5)];
     }
-    return coloured ? Vec3f(colours * weight) : from->plain;
+    if (!colour_[0]) return from_->plain;
+    return *colour_[0] * weight[0] + *colour_[1] * weight[1] + *colour_[2] * weight[2];
   }
 
   Vec3f normal_at(const Vec3f& weight) const {
-    if (!from->surface->smooth) return facet.normal;
-    const Vec3f normal = normals * weight;
+    if (!from_->surface->smooth) return raster_->normal(id_);
+    const auto corner = [&](int k) { return Eigen::Map<const Vec3f>(normal_[k]); };
+    const Vec3f normal = corner(0) * weight[0] + corner(1) * weight[1] + corner(2) * weight[2];
     const float length = normal.norm();
-    return length > 1e-6f ? Vec3f(normal / length) : facet.normal;
+    return length > 1e-6f ? Vec3f(normal / length) : raster_->normal(id_);
   }
+
+ private:
+  const Prepared* from_;
+  const Raster* raster_;
+  int id_;
+  double scalar_[3] = {0, 0, 0};
+  const float* normal_[3] = {nullptr, nullptr, nullptr};
+  const Vec3f* colour_[3] = {nullptr, nullptr, nullptr};
+};
+
+struct Lamps {
+  Vec3f key = Vec3f(-0.42f, 0.52f, 0.74f).normalized();
+  Vec3f fill = Vec3f(0.75f, 0.05f, 0.66f).normalized();
+  Vec3f half_way = (key + Vec3f::UnitZ()).normalized();
 };
 
 // Key lamp up left of the camera, fill lamp at its right, light from all around, and a sheen that
 // keeps the relief visible where the colour is dark.
-Vec3f shaded(const Vec3f& colour, Vec3f normal, bool back) {
-  static const Vec3f key = Vec3f(-0.42f, 0.52f, 0.74f).normalized();
-  static const Vec3f fill = Vec3f(0.75f, 0.05f, 0.66f).normalized();
-  static const Vec3f half_way = (key + Vec3f::UnitZ()).normalized();
+Vec3f shaded(const Lamps& lamps, const Vec3f& colour, Vec3f normal, bool back) {
   if (back) normal = -normal;
-  const float lit = std::max(0.f, normal.dot(key));
+  const float lit = std::max(0.f, normal.dot(lamps.key));
   const float light = 0.26f + 0.10f * (0.5f + 0.5f * normal.y()) + 0.66f * lit +
-                      0.16f * std::max(0.f, normal.dot(fill));
-  const float square = std::pow(std::max(0.f, normal.dot(half_way)), 2), fourth = square * square;
+                      0.16f * std::max(0.f, normal.dot(lamps.fill));
+  const float along = std::max(0.f, normal.dot(lamps.half_way));
+  const float square = along * along, fourth = square * square;
   const float sheen = 0.03f * lit + 0.07f * fourth * fourth * fourth * square;  // power of 14
   return (colour * light).array() * (back ? 0.4f : 1.f) + (back ? 0.f : sheen);
 }
@@ -161,6 +176,7 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
   const int along = n * options.width_px;  // samples in a row
   const Raster raster(surfaces, camera, along, n * options.height_px,
                       camera.height_m / options.height_px / n, n * band_px);
+  const Lamps lamps;
   struct Sum {
     Vec3f light = Vec3f::Zero();
     int hits = 0;
@@ -173,21 +189,21 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
       for (int s = n * y; s < n * (y + 1); ++s) {
         const int* ids = seen.triangle.data() + std::ptrdiff_t(s) * along;
         std::optional<Corners> corners;
+        bool back = false;
         Raster::Weights weights{};
         for (int x = 0, first = 0, last = -1; x < along; ++x) {
           if (ids[x] < 0) continue;
           if (ids[x] != last) {
-            const Facet facet = raster.facet(ids[x]);
-            corners.emplace(prepared[static_cast<std::size_t>(facet.surface)], facet);
-            weights = raster.weights(ids[x], x, seen.first_row + s);
             first = x, last = ids[x];
+            back = !raster.faces_viewer(last);
+            corners.emplace(prepared[static_cast<std::size_t>(raster.surface(last))], raster, last);
+            weights = raster.weights(last, x, seen.first_row + s);
           }
-          const bool back = corners->facet.normal.z() < 0;
           if (options.hide_backs && back) continue;
           const auto w = weights.at(x - first);
           const Vec3f weight(w[0], w[1], w[2]);
           Sum& sum = row[static_cast<std::size_t>(x / n)];
-          sum.light += shaded(corners->colour_at(weight), corners->normal_at(weight), back);
+          sum.light += shaded(lamps, corners->colour_at(weight), corners->normal_at(weight), back);
           ++sum.hits;
         }
       }

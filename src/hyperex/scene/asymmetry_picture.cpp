@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/scene/asymmetry_picture.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -42,13 +45,16 @@ render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm
   Vec3 from_right = render::three_quarter_view();
   from_right.x() *= -1;
   render::ContactSheet sheet{.title = title, .note = note, .columns = 3};
-  for (const auto& [view, caption] :
-       {std::pair{from_right, "right side"}, std::pair{render::front_view(), "front"},
-        std::pair{render::three_quarter_view(), "left side"}}) {
+  const std::array views{std::pair{from_right, "right side"},
+                         std::pair{render::front_view(), "front"},
+                         std::pair{render::three_quarter_view(), "left side"}};
+  sheet.pictures.resize(views.size());
+  tbb::parallel_for(std::size_t(0), views.size(), [&](std::size_t i) {
+    const auto& [view, caption] = views[i];
     const render::Camera camera =
         render::framing(framed, scan_from_face * view, aspect, scan_from_face.col(1));
-    sheet.pictures.push_back({render::render({surface}, camera, size), caption});
-  }
+    sheet.pictures[i] = {render::render({surface}, camera, size), caption};
+  });
   float most = 0;
   for (Eigen::Index i = 0; i < map_mm.size(); ++i)
     if (map_mm[i] > most) most = map_mm[i];

@@ -2,6 +2,7 @@
 #include "hyperex/scene/outputs.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -225,7 +226,6 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
     height_m = std::max(height_m, render::framing(framed, view, aspect).height_m);
 
   report::FaceBacking backing = report::face_backing(p.skin_rest, r.inputs.landmarks);
-  BackingSurfaces behind(backing, frame);
   // Pockets hang on the skin in the face's frame.
   for (report::Opening& opening : backing.openings)
     opening.inward = frame.local(frame.origin + opening.inward);
@@ -236,24 +236,30 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   if (p.lip_cut_rest.rows() > 0) sheet.note += "; orange: where the joined lips were cut";
   sheet.columns = static_cast<int>(stills.size()) + 1;
   sheet.bar = render::ColourBar{{0, top}, "displacement (mm)"};
-  for (const Vec3& view : views) {
-    render::Camera camera = render::framing(framed, view, aspect);
-    camera.height_m = height_m;
-    const TriMesh rest{frame.local_points(p.skin_rest.points), p.skin_rest.triangles};
-    std::vector<render::Polyline> lines;
-    const render::Surface at_rest{.mesh = rest};
-    if (p.lip_cut_rest.rows() > 0) lines.push_back({frame.local_points(p.lip_cut_rest)});
-    sheet.pictures.push_back(
-        {render::render(behind.with(at_rest, backing), camera, options, markers(p, frame), lines),
-         "rest"});
-    for (const Still& still : stills) {
-      const TriMesh mesh{frame.local_points(moved(p, *still.displacement)), p.skin_rest.triangles};
-      const render::Surface surface{
-          .mesh = mesh, .scalar = 1e3F * still.displacement->rowwise().norm(), .range = {0, top}};
-      sheet.pictures.push_back({render::render(behind.with(surface, backing), camera, options),
-                                fmt::format("{:.2f} s", still.time_s)});
+  std::vector<render::Polyline> lines;
+  if (p.lip_cut_rest.rows() > 0) lines.push_back({frame.local_points(p.lip_cut_rest)});
+  const auto draw = [&](const render::Camera& camera, const Still* still) -> render::SheetPicture {
+    BackingSurfaces behind(backing, frame);
+    if (!still) {
+      const TriMesh rest{frame.local_points(p.skin_rest.points), p.skin_rest.triangles};
+      return {render::render(behind.with({.mesh = rest}, backing), camera, options,
+                             markers(p, frame), lines),
+              "rest"};
     }
-  }
+    const TriMesh mesh{frame.local_points(moved(p, *still->displacement)), p.skin_rest.triangles};
+    const render::Surface surface{
+        .mesh = mesh, .scalar = 1e3F * still->displacement->rowwise().norm(), .range = {0, top}};
+    return {render::render(behind.with(surface, backing), camera, options),
+            fmt::format("{:.2f} s", still->time_s)};
+  };
+  const std::size_t columns = stills.size() + 1;
+  sheet.pictures.resize(views.size() * columns);
+  tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t i) {
+    render::Camera camera = render::framing(framed, views[i / columns], aspect);
+    camera.height_m = height_m;
+    const std::size_t column = i % columns;
+    sheet.pictures[i] = draw(camera, column > 0 ? &stills[column - 1] : nullptr);
+  });
   render::write_png(file, render::contact_sheet(sheet));
 }
 

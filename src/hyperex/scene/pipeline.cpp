@@ -251,20 +251,29 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["basis"] = simulation.report.basis_s;
   seconds["simulate"] = simulation.report.simulate_s;
 
+  metrics::SymmetryMeasures symmetry;
+  report::DisplacementModes modes;
+  SkinOff off;
+  run_together({[&] {
+                  symmetry =
+                      symmetry_measures(scene, inputs, at_rest, simulation.performance, twin);
+                  off = skin_off_scan(mesh, inputs.landmarks);
+                },
+                [&] {
+                  if (scene.output.glb || scene.output.report)
+                    modes = report::displacement_modes(simulation.performance.skin_displacement_m);
+                }});
   Results results{scene,
                   inputs,
                   mesh,
                   simulation,
-                  symmetry_measures(scene, inputs, at_rest, simulation.performance, twin),
+                  std::move(symmetry),
                   inputs.notes,
-                  {},
+                  std::move(modes),
                   field ? &*field : nullptr};
-  if (scene.output.glb || scene.output.report)
-    results.modes = report::displacement_modes(simulation.performance.skin_displacement_m);
   results.notes.insert(results.notes.end(), mesh.notes.begin(), mesh.notes.end());
   results.notes.insert(results.notes.end(), inputs.warnings.begin(), inputs.warnings.end());
   results.warnings = inputs.warnings;
-  const SkinOff off = skin_off_scan(mesh, inputs.landmarks);
   if (const auto warning = skin_warning(off); !warning.empty()) warn({warning}, results);
   const Eigen::Index tets = mesh.volume.tets.rows();
   if (const int few = simulation.report.inverted_tets;

@@ -61,9 +61,9 @@ std::vector<Hit> all_hits(const Raster& raster) {
       Hit& hit = all.emplace_back();
       if (seen.triangle[i] < 0) continue;
       const int id = seen.triangle[i];
-      const Facet facet = raster.facet(id);
       const auto w = raster.weights(id, int(i) % kSize, seen.first_row + int(i) / kSize).at(0);
-      hit = {facet.surface, facet.triangle, {w[0], w[1], w[2]}, facet.normal};
+      hit = {raster.surface(id), raster.triangle(id), {w[0], w[1], w[2]}, raster.normal(id)};
+      EXPECT_EQ(raster.faces_viewer(id), hit.normal.z() > 0);
     }
   }
   return all;
