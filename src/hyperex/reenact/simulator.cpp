@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/form/assembler.hpp"
 #include "hyperex/fem/form/inverted.hpp"
@@ -527,6 +528,12 @@ struct Simulator::Impl {
     return readout->skin(*region, stream->step(points), points);
   }
 
+  void prepare() {
+    need_region();
+    if (options.region.measured == Measured::all) return;  // nothing is simulated
+    run_together({[&] { need_boundary(); }, [&] { need_assembler(); }});
+  }
+
   SimulationResult run() {
     report = {};
     ask();
@@ -630,6 +637,10 @@ void Simulator::start_stream(double interval_s) {
 }
 PointsF Simulator::step(const Points& displacement_m) {
   return impl_->step(displacement_m);
+}
+
+void Simulator::prepare() {
+  impl_->prepare();
 }
 
 SimulationResult Simulator::run(const RunCallbacks& callbacks) {

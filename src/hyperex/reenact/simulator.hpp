@@ -110,6 +110,10 @@ class Simulator {
   /// a variant answers base's forces. A new motion, drive or muscle (not a gain) finds new ones.
   void hold_load();
 
+  /// The stages up to the pattern of the matrices, which run() would begin with: so that copies
+  /// made before the first run share them. Throws as run().
+  void prepare();
+
   /// Throws InputError for points that do not exist, NumericalError where the model cannot be
   /// solved, Cancelled.
   SimulationResult run(const RunCallbacks& callbacks = {});

@@ -236,6 +236,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["tissue"] = stage.lap();
 
   reenact::Simulator simulator(made, inputs.landmarks, inputs.motion, std::move(options));
+  simulator.prepare();
   const reenact::Simulator before_run = simulator;
   reenact::SimulationResult simulation;
   MirroredTwin twin;
