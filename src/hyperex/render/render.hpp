@@ -43,7 +43,7 @@ struct Polyline {
 
 struct RenderOptions {
   int width_px = 480, height_px = 600;
-  int samples = 3;  ///< rays a pixel and axis, >= 1
+  int samples = 2;  ///< rays a pixel and axis, >= 1
   Colour background = palette::background;
   /// How far below a surface (along the view) a marker or line still shows, m.
   double overlay_bias_m = 1e-3;
