@@ -132,6 +132,7 @@ void run(const Options& options) {
       {"variants_symmetry.png", "S(t) of all variants"},
       {"variants.csv", "the variants as a table; each has its folder in variants/"},
       {"activations.csv", "what the muscles did"},
+      {"muscles.png", "where they lie"},
       {"excursions.csv", "how far and how fast either side moves"},
       {"asymmetry.png", "the face against its reflection"},
       {"summary.json", "counts, times, options"}};

@@ -14,8 +14,8 @@ using nlohmann::json;
 
 /// What a run writes of the scene and of each variant.
 const std::set<std::string> kOfAFace = {"activations.csv", "asymmetry.png", "contact_sheet.png",
-                                        "excursions.csv",  "motion.csv",    "skin_peak.ply",
-                                        "symmetry.csv",    "tissue_map.png"};
+                                        "excursions.csv",  "motion.csv",    "muscles.png",
+                                        "skin_peak.ply",   "symmetry.csv",  "tissue_map.png"};
 const std::set<std::string> kOfARun = {"frames.pvd",           "performance.glb", "report.html",
                                        "summary.json",         "variants.csv",    "variants.png",
                                        "variants_symmetry.png"};

@@ -26,4 +26,13 @@ inline FaceBox face_box(const io::Landmarks& landmarks, const face::FaceFrame& f
   return box;
 }
 
+/// The rows of `local` (face frame) that the box holds.
+inline Points points_within(const FaceBox& box, const Points& local) {
+  Points kept(local.rows(), 3);
+  Eigen::Index count = 0;
+  for (Eigen::Index v = 0; v < local.rows(); ++v)
+    if (box.holds(local.row(v))) kept.row(count++) = local.row(v);
+  return kept.topRows(count);
+}
+
 }  // namespace hyperex::scene

@@ -23,6 +23,7 @@
 #include "hyperex/scene/asymmetry_picture.hpp"
 #include "hyperex/scene/face_box.hpp"
 #include "hyperex/scene/frames.hpp"
+#include "hyperex/scene/muscle_picture.hpp"
 #include "hyperex/scene/thinned_scan.hpp"
 
 namespace hyperex::scene {
@@ -299,8 +300,11 @@ std::optional<report::GlbReport> write_outputs(const Results& r,
          if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
          motion::write_motion_csv(directory / "motion.csv", p.landmarks);
          metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
-         if (!p.muscles.names.empty())
+         if (!p.muscles.names.empty()) {
            write_activations_csv(directory / "activations.csv", p.muscles);
+           render::write_png(directory / "muscles.png",
+                             draw_muscles(r.mesh, r.inputs.landmarks, p.muscles));
+         }
          metrics::write_excursions_csv(directory / "excursions.csv", r.symmetry.excursions);
        }});
   return glb;

@@ -14,17 +14,6 @@
 namespace hyperex::scene {
 namespace {
 
-/// The skin at rest in the face's box.
-Points near_face(const Points& local, const io::Landmarks& landmarks,
-                 const face::FaceFrame& frame) {
-  const FaceBox box = face_box(landmarks, frame);
-  Points kept(local.rows(), 3);
-  Eigen::Index count = 0;
-  for (Eigen::Index v = 0; v < local.rows(); ++v)
-    if (box.holds(local.row(v))) kept.row(count++) = local.row(v);
-  return kept.topRows(count);
-}
-
 render::Image sheet_of(const Results& r, int parameter) {
   const tissue::ParameterInfo& info = tissue::parameter_info(parameter);
   const face::FaceFrame frame = face::face_frame(r.inputs.landmarks);
@@ -42,7 +31,7 @@ render::Image sheet_of(const Results& r, int parameter) {
   options.width_px = 320;
   options.height_px = 400;
   const double aspect = double(options.width_px) / options.height_px;
-  const Points framed = near_face(local.points, r.inputs.landmarks, frame);
+  const Points framed = points_within(face_box(r.inputs.landmarks, frame), local.points);
   const Vec3 left = render::three_quarter_view(), right(-left.x(), left.y(), left.z());
   const std::array<std::pair<Vec3, const char*>, 3> views{
       {{right, "right side"}, {render::front_view(), "from in front"}, {left, "left side"}}};
