@@ -79,12 +79,15 @@ std::string corners_line(const nlohmann::ordered_json& summary) {
          "\n";
 }
 
-/// "9.7 to 7.9 mm, 1.8 mm less"
-std::string change_text(double from, double to) {
+/// "9.7 to 7.9 mm, 1.8 mm less (+- 0.2)"; `band`: not a number where it is not known.
+std::string change_text(double from, double to, double band) {
   const double change = to - from;
-  return std::abs(change) < 0.05 ? fmt::format("{:.1f} mm as before", to)
-                                 : fmt::format("{:.1f} to {:.1f} mm, {:.1f} mm {}", from, to,
-                                               std::abs(change), change < 0 ? "less" : "more");
+  if (std::abs(change) < 0.05) return fmt::format("{:.1f} mm as before", to);
+  if (std::abs(change) < band)
+    return fmt::format("{:.1f} to {:.1f} mm, undecided (+- {:.1f})", from, to, band);
+  return fmt::format("{:.1f} to {:.1f} mm, {:.1f} mm {}", from, to, std::abs(change),
+                     change < 0 ? "less" : "more") +
+         (std::isnan(band) ? "" : fmt::format(" (+- {:.1f})", band));
 }
 
 /// What each variant makes of the corners of the mouth, a line each.
@@ -93,14 +96,16 @@ std::string variant_lines(const nlohmann::ordered_json& summary) {
   if (!summary.contains("variants")) return lines;
   const auto& table = summary["variants"]["table"];
   for (std::size_t i = 1; i < table.size(); ++i) {
-    const auto side = [&](const char* key) {
-      const auto &from = table[0][key], &to = table[i][key];
-      return from.is_number() && to.is_number() ? change_text(from.get<double>(), to.get<double>())
-                                                : std::string("not known");
+    const auto side = [&](const std::string& corner) {
+      const auto &from = table[0][corner + "_mm"], &to = table[i][corner + "_mm"],
+                 &band = table[i][corner + "_band_mm"];
+      if (!from.is_number() || !to.is_number()) return std::string("not known");
+      return change_text(from.get<double>(), to.get<double>(),
+                         band.is_number() ? band.get<double>() : std::nan(""));
     };
     lines += fmt::format("  {}: corner of the mouth left {}; right {}\n",
-                         table[i]["name"].get<std::string>(), side("commissure_L_mm"),
-                         side("commissure_R_mm"));
+                         table[i]["name"].get<std::string>(), side("commissure_L"),
+                         side("commissure_R"));
   }
   return lines;
 }
@@ -131,6 +136,8 @@ void run(const Options& options) {
       {"variants.png", "where and how far the variants differ"},
       {"variants_symmetry.png", "S(t) of all variants"},
       {"variants.csv", "the variants as a table; each has its folder in variants/"},
+      {"variants_excursions.csv",
+       "how far each point of either side travels, with and without the change"},
       {"activations.csv", "what the muscles did"},
       {"muscles.png", "where they lie"},
       {"excursions.csv", "how far and how fast either side moves"},

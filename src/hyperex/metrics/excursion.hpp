@@ -51,6 +51,10 @@ struct PairExcursion {
   double jitter_floor_mm = 0;
   double mesh_floor_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none (mesh_floor.hpp)
   bool undecided = false;  ///< the excursions differ by less than the larger floor
+  /// The counterpart's excursion in the run's mirrored twin (mesh_floor.hpp): on a mirrored mesh
+  /// that of this side; NaN without a twin.
+  double twin_left_mm = std::numeric_limits<double>::quiet_NaN();
+  double twin_right_mm = std::numeric_limits<double>::quiet_NaN();
 
   double difference_mm() const { return left_side.excursion_mm - right_side.excursion_mm; }
   double floor_mm() const { return std::fmax(jitter_floor_mm, mesh_floor_mm); }

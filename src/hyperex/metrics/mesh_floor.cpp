@@ -17,6 +17,12 @@ double half_sum(const Stretches& values) {
   return sum / 2;
 }
 
+double greatest_mm(const std::vector<double>& distances) {
+  double most = 0;
+  for (const double d : distances) most = d > most ? d : most;  // NaN is passed over
+  return most;
+}
+
 }  // namespace
 
 std::vector<Stretches> twin_remainders(const motion::Motion& run, const motion::Motion& twin) {
@@ -58,6 +64,8 @@ void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::
   curve.mesh_noise = xi_mesh_floor(run, twin, curve.mesh_remainder);
   for (PairExcursion& pair : excursions.pairs) {
     pair.mesh_floor_mm = excursion_mesh_floor_mm(run, twin, pair.left, pair.right);
+    pair.twin_left_mm = greatest_mm(distance_from_rest_mm(twin, {pair.right}));
+    pair.twin_right_mm = greatest_mm(distance_from_rest_mm(twin, {pair.left}));
     pair.undecided = !(std::abs(pair.difference_mm()) >= pair.floor_mm());
   }
 }
@@ -72,6 +80,23 @@ double added_mesh_floor(const SymmetryCurve& variant, const SymmetryCurve& base)
     most = std::max(most, 2 * half_sum(apart));
   }
   return most;
+}
+
+ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Side side,
+                          double jitter_m) {
+  const bool left = side == Side::left;
+  const auto excursion = [&](const PairExcursion& pair) {
+    return (left ? pair.left_side : pair.right_side).excursion_mm;
+  };
+  const auto of_twin = [&](const PairExcursion& pair) {
+    return left ? pair.twin_left_mm : pair.twin_right_mm;
+  };
+  ExcursionChange change{excursion(from), excursion(to)};
+  const double mesh_mm = change.change_mm() - (of_twin(to) - of_twin(from));
+  const double scaled = change.from_mm > 0 ? std::abs(change.to_mm / change.from_mm - 1) : 0;
+  const double jitter_mm = 1e3 * two_sided_95 * std::sqrt(2.0) * jitter_m * scaled;
+  change.band_mm = std::hypot(mesh_mm, jitter_mm) + 1e3 * kResolution_m;
+  return change;
 }
 
 }  // namespace hyperex::metrics

@@ -45,4 +45,25 @@ void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::
 /// symmetric tissue, as there the difference may equal the bound. NaN where either has no twin.
 double added_mesh_floor(const SymmetryCurve& variant, const SymmetryCurve& base);
 
+enum class Side { left, right };
+
+/// What a side's excursion changes by from one run to another that answers the same recording.
+struct ExcursionChange {
+  double from_mm = 0, to_mm = 0;
+  /// 95 %: what the mesh makes of the change, as far as the mirrored twins tell, and the
+  /// recording's jitter: |(to - from) - (to' - from')| of the twins, and 1.96 sqrt(2) jitter
+  /// |to / from - 1|, as a changed face scales the jitter that both runs share; root of the sum of
+  /// squares, and kResolution_m. NaN without twins. Neither wrong tissue nor wrong muscles are in
+  /// it.
+  double band_mm = 0;
+  double change_mm() const { return to_mm - from_mm; }
+  /// 1 where the change is larger than its band, else 0; NaN where no band is known.
+  double decided() const {
+    return std::isnan(band_mm) ? band_mm : double(std::abs(change_mm()) > band_mm);
+  }
+};
+/// Of the same pair of points in both runs, to which add_mesh_floor() has added its twin.
+ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Side side,
+                          double jitter_m);
+
 }  // namespace hyperex::metrics

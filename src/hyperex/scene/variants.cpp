@@ -125,8 +125,12 @@ std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& 
           {"mean_change_at_peak_mm", c.mean_change_mm},
           {"mean_displacement_L_mm", c.mean_displacement_left_mm},
           {"mean_displacement_R_mm", c.mean_displacement_right_mm},
-          {"commissure_L_mm", c.commissure_left_mm},
-          {"commissure_R_mm", c.commissure_right_mm},
+          {"commissure_L_mm", c.commissure_left.to_mm},
+          {"commissure_R_mm", c.commissure_right.to_mm},
+          {"commissure_L_change_mm", c.commissure_left.change_mm()},
+          {"commissure_R_change_mm", c.commissure_right.change_mm()},
+          {"commissure_L_band_mm", c.commissure_left.band_mm},
+          {"commissure_R_band_mm", c.commissure_right.band_mm},
           {"asymmetry_rms_mm", c.asymmetry_mm},
           {"added_xi_difference", c.added_xi_difference},
           {"added_xi_floor", c.added_xi_floor},
@@ -151,6 +155,25 @@ void write_table(const fs::path& file, const VariantComparison& base,
     };
     row(base);
     for (const auto& one : compared) row(one);
+  });
+}
+
+/// A row a variant, pair of landmarks and side: how far it travels in base and in the variant.
+void write_excursion_table(const fs::path& file, const Results& base,
+                           const std::vector<VariantRun>& runs) {
+  write_file_atomically(file, [&](std::ostream& out) {
+    out << "variant,point,side,base_mm,variant_mm,change_mm,band_mm,decided\n";
+    const metrics::Excursions& before = base.symmetry.excursions;
+    for (const VariantRun& run : runs)
+      for (std::size_t i = 0; i < before.pairs.size(); ++i)
+        for (const auto side : {metrics::Side::left, metrics::Side::right}) {
+          const metrics::PairExcursion& pair = run.symmetry.excursions.pairs.at(i);
+          const auto change = metrics::change_of(before.pairs[i], pair, side, before.jitter_m);
+          fmt::print(out, "{},{},{},{},{},{},{},{}\n", cell(run.scene.title), cell(pair.name),
+                     side == metrics::Side::left ? 'L' : 'R', field(change.from_mm),
+                     field(change.to_mm), field(change.change_mm()), field(change.band_mm),
+                     field(change.decided()));
+        }
   });
 }
 
@@ -259,12 +282,17 @@ VariantComparison compare_variant(const std::string& name, const Results& base, 
         c.farthest_near = landmark;
       }
   }
-  c.commissure_left_mm = c.commissure_right_mm = std::nan("");
+  c.commissure_left = c.commissure_right = {std::nan(""), std::nan(""), std::nan("")};
+  const metrics::Excursions& before = base.symmetry.excursions;
   const metrics::Excursions& excursions = run.symmetry.excursions;
-  for (const metrics::PairExcursion& points : excursions.pairs)
-    if (points.left >= 0 && points.left == excursions.commissure.left) {
-      c.commissure_left_mm = points.left_side.excursion_mm;
-      c.commissure_right_mm = points.right_side.excursion_mm;
+  for (std::size_t i = 0; i < excursions.pairs.size(); ++i)
+    if (const int left = excursions.pairs[i].left;
+        left >= 0 && left == excursions.commissure.left) {
+      const auto change = [&](metrics::Side side) {
+        return metrics::change_of(before.pairs.at(i), excursions.pairs[i], side, before.jitter_m);
+      };
+      c.commissure_left = change(metrics::Side::left);
+      c.commissure_right = change(metrics::Side::right);
     }
   const metrics::Asymmetry& map = *run.symmetry.map;
   measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);
@@ -306,6 +334,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
   });
   const VariantComparison own = compare_variant("base", base, base, pair);
   write_table(directory / "variants.csv", own, compared, pair);
+  write_excursion_table(directory / "variants_excursions.csv", base, runs);
   draw_variants(base, compared, runs, directory / "variants.png");
   draw_variant_symmetry(base, runs, directory / "variants_symmetry.png");
   Json json;

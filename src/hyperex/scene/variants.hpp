@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hyperex/metrics/lag.hpp"
+#include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/scene/outputs.hpp"
 #include "hyperex/scene/tissue_fields.hpp"
@@ -46,7 +47,7 @@ struct VariantComparison {
   /// At the peak, mean over the face's area on the subject's left and right; NaN without a plane.
   double mean_displacement_left_mm = 0, mean_displacement_right_mm = 0;
   /// How far the corners of the mouth travel; NaN where they are not known.
-  double commissure_left_mm = 0, commissure_right_mm = 0;
+  metrics::ExcursionChange commissure_left, commissure_right;
   double asymmetry_mm = 0;  ///< at the peak, root mean square over the face
   /// What the variant adds to xi_L - xi_R, where it adds most.
   double added_xi_difference = 0;

@@ -114,5 +114,49 @@ TEST(MeshFloor, OfWhatAVariantAddsIsThatOfTheDifference) {
   EXPECT_TRUE(std::isnan(added_mesh_floor(curve(bent), symmetry_of(bent))));
 }
 
+PairExcursion travels(double left_mm, double right_mm, double twin_left_mm, double twin_right_mm) {
+  PairExcursion pair;
+  pair.left_side.excursion_mm = left_mm;
+  pair.right_side.excursion_mm = right_mm;
+  pair.twin_left_mm = twin_left_mm;
+  pair.twin_right_mm = twin_right_mm;
+  return pair;
+}
+
+TEST(ExcursionChange, BandIsWhatTheTwinsDifferByAndTheJitterThatTheChangeScales) {
+  const PairExcursion base = travels(10, 12, 10.5, 12.25), weak = travels(6, 12, 6.8, 12.25);
+  const ExcursionChange exact = change_of(base, weak, Side::left, 0);
+  EXPECT_EQ(exact.from_mm, 10);
+  EXPECT_EQ(exact.change_mm(), -4);
+  // The twin's side loses 3.7 mm: 0.3 mm are the mesh's.
+  EXPECT_NEAR(exact.band_mm, 0.3 + 0.1, 1e-12);
+  EXPECT_EQ(exact.decided(), 1);
+  // Jitter of 0.1 mm, of which four tenths are lost: 1.96 sqrt(2) 0.1 * 0.4.
+  EXPECT_NEAR(change_of(base, weak, Side::left, 1e-4).band_mm, std::hypot(0.3, 0.110873) + 0.1,
+              1e-5);
+  const ExcursionChange other = change_of(base, weak, Side::right, 1e-4);
+  EXPECT_EQ(other.change_mm(), 0);
+  EXPECT_NEAR(other.band_mm, 0.1, 1e-12) << "the same run has the same jitter";
+  EXPECT_EQ(other.decided(), 0);
+  const double none = std::nan("");
+  EXPECT_TRUE(std::isnan(change_of(travels(10, 12, none, none), weak, Side::left, 1e-4).decided()));
+}
+
+TEST(MeshFloor, KeepsTheTwinsExcursionsForTheSideThatTheyAreTheMirrorImageOf) {
+  const auto run = ten_points([](auto& n) { return Vec3(smile(n)); });
+  const auto twin =
+      ten_points([](auto& n) { return Vec3((n.ends_with("_R") ? 1.5 : 1.0) * smile(n)); });
+  SymmetryCurve curve = symmetry_of(run);
+  Excursions excursions = excursions_of(run);
+  add_mesh_floor(curve, excursions, run, twin);
+  int moved = 0;
+  for (const PairExcursion& pair : excursions.pairs) {
+    EXPECT_NEAR(pair.twin_left_mm, 1.5 * pair.right_side.excursion_mm, 1e-9) << pair.name;
+    EXPECT_NEAR(pair.twin_right_mm, pair.left_side.excursion_mm, 1e-9) << pair.name;
+    moved += pair.twin_left_mm > 0;
+  }
+  EXPECT_GT(moved, 0);
+}
+
 }  // namespace
 }  // namespace hyperex::metrics
