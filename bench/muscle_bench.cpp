@@ -21,8 +21,8 @@
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 #include "hyperex/reenact/simulator.hpp"
-#include "hyperex/scene/inputs.hpp"
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/scene/stages/inputs.hpp"
 
 namespace hyperex {
 namespace {

@@ -7,7 +7,7 @@
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
-#include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/output/outputs.hpp"
 #include "options_class.hpp"
 #include "performance.hpp"
 

@@ -4,8 +4,8 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
-#include "hyperex/scene/frames.hpp"
-#include "hyperex/scene/thinned_scan.hpp"
+#include "hyperex/scene/output/frames.hpp"
+#include "hyperex/scene/stages/thinned_scan.hpp"
 #include "options_class.hpp"
 #include "performance.hpp"
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scene files: what `hyperex run` and `hyperex check` do, and the parts of it.
-#include "hyperex/scene/scene.hpp"
+#include "hyperex/scene/grammar/scene.hpp"
 
 #include <utility>
 
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
-#include "hyperex/scene/pipeline.hpp"
-#include "hyperex/scene/thinned_scan.hpp"
-#include "hyperex/scene/tissue_fields.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/scene/stages/thinned_scan.hpp"
+#include "hyperex/scene/stages/tissue_fields.hpp"
 #include "meshes.hpp"
 
 namespace hyperex::python {

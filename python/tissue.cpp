@@ -2,7 +2,7 @@
 // The mesh of the soft tissue, and what the tissue is made of.
 #include "arrays.hpp"
 #include "hyperex/reenact/options.hpp"
-#include "hyperex/scene/thinned_scan.hpp"
+#include "hyperex/scene/stages/thinned_scan.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 #include "meshes.hpp"
 #include "options_class.hpp"

@@ -3,7 +3,7 @@
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 #include "hyperex/reenact/options.hpp"
-#include "hyperex/scene/thinned_scan.hpp"
+#include "hyperex/scene/stages/thinned_scan.hpp"
 #include "meshes.hpp"
 #include "options_class.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "commands.hpp"
 #include "hyperex/core/printable.hpp"
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
 
 namespace hyperex::cli {
 

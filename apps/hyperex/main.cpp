@@ -24,7 +24,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/remarks.hpp"
 #include "hyperex/core/standard_streams.hpp"
-#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/grammar/keys.hpp"
 
 namespace {
 

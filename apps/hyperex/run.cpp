@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
 
 namespace hyperex::cli {
 namespace {

@@ -22,9 +22,9 @@
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
-#include "hyperex/scene/asymmetry_picture.hpp"
-#include "hyperex/scene/plausible.hpp"
-#include "hyperex/scene/recording_jitter.hpp"
+#include "hyperex/scene/output/asymmetry_picture.hpp"
+#include "hyperex/scene/stages/plausible.hpp"
+#include "hyperex/scene/stages/recording_jitter.hpp"
 #include "symmetry_frames.hpp"
 #include "symmetry_picture.hpp"
 

@@ -10,7 +10,7 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/midsagittal.hpp"
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
 
 namespace hyperex::bench {
 

@@ -10,8 +10,8 @@
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/reenact/simulator.hpp"
-#include "hyperex/scene/inputs.hpp"
-#include "hyperex/scene/tissue_fields.hpp"
+#include "hyperex/scene/stages/inputs.hpp"
+#include "hyperex/scene/stages/tissue_fields.hpp"
 
 namespace hyperex::bench {
 

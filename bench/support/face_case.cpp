@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "hyperex/scene/inputs.hpp"
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/scene/stages/inputs.hpp"
 #include "support/timing.hpp"
 
 namespace hyperex::bench {

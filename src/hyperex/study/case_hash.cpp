@@ -8,7 +8,7 @@
 #include "hyperex/core/named_file.hpp"
 #include "hyperex/core/sha256.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/scene/file_names.hpp"
+#include "hyperex/scene/grammar/file_names.hpp"
 
 namespace hyperex::study {
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/scene/scene.hpp"
+#include "hyperex/scene/grammar/scene.hpp"
 
 namespace hyperex::study {
 

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
 #include "hyperex/study/case_hash.hpp"
 
 namespace hyperex::study {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "hyperex/scene/override.hpp"
+#include "hyperex/scene/grammar/override.hpp"
 
 namespace hyperex::study {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/earlier_run.hpp"
+#include "hyperex/scene/run/earlier_run.hpp"
 
 #include <gmock/gmock.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hyperex/core/files.hpp"
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::scene {

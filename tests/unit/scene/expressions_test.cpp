@@ -3,7 +3,7 @@
 // the head's.
 #include <gtest/gtest.h>
 
-#include "hyperex/scene/inputs.hpp"
+#include "hyperex/scene/stages/inputs.hpp"
 
 namespace hyperex::scene {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/frames.hpp"
+#include "hyperex/scene/output/frames.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/kept.hpp"
+#include "hyperex/scene/stages/kept.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

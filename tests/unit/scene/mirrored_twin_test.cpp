@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Driven points end where they are driven, a symmetric motion is not called asymmetric, a one-sided
 // one is: whole runs without pictures.
-#include "hyperex/scene/mirrored_twin.hpp"
+#include "hyperex/scene/stages/mirrored_twin.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "hyperex/core/progress.hpp"
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
 #include "scene_files.hpp"
 
 namespace hyperex::scene {

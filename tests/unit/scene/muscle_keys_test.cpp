@@ -2,8 +2,8 @@
 // The keys of muscles: drive.by, [muscles], and what they do not go with.
 #include <gmock/gmock.h>
 
-#include "hyperex/scene/file_names.hpp"
-#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/grammar/file_names.hpp"
+#include "hyperex/scene/grammar/keys.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::scene {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/muscle_picture.hpp"
+#include "hyperex/scene/output/muscle_picture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/grammar/keys.hpp"
 
 namespace hyperex::scene {
 

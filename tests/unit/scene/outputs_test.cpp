@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/outputs.hpp"
+#include "hyperex/scene/output/outputs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/plausible.hpp"
+#include "hyperex/scene/stages/plausible.hpp"
 
 #include <gmock/gmock.h>
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "hyperex/scene/keys.hpp"
-#include "hyperex/scene/pipeline.hpp"
+#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/stages/simulation_options.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "unit/scene/other_values.hpp"

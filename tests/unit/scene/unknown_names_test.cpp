@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/unknown_names.hpp"
+#include "hyperex/scene/stages/unknown_names.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/grammar/keys.hpp"
+
+#include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/scene/grammar/fields.hpp"
+#include "hyperex/tissue/field/presets.hpp"
+
+namespace hyperex::scene {
+namespace {
+
+// The field `member` of whatever options struct is handed in, const or not.
+#define AT(member)             \
+  [](auto& options) -> auto& { \
+    return options.member;     \
+  }
+
+using io::LengthUnit;
+using MaybeUnit = std::optional<LengthUnit>;
+const Unit none{""}, millimetres{"mm", 1, 1000}, seconds{"s"}, stiffness{"kPa/mm", 1000000, 1};
+
+// The rooms' own options: their ranges are stated there.
+using Mesh = tissue::TissueMeshOptions;
+using Region = reenact::RegionOptions;
+using Support = reenact::SupportOptions;
+using Drive = reenact::DriveOptions;
+using Solver = reenact::SolverOptions;
+using Time = reenact::TimeOptions;
+using reenact::AlignmentMethod;
+using reenact::DriveBy;
+using reenact::Hold;
+using reenact::Mandible;
+using reenact::Measured;
+using reenact::SolverMethod;
+
+/// The bounds of an option in the unit of its key.
+Range in(const Bounds& bounds, const Unit& unit) {
+  return {unit.from_si(bounds.least), unit.from_si(bounds.most)};
+}
+Range or_zero(Range range) {
+  range.or_zero = true;
+  return range;
+}
+
+std::vector<std::pair<std::string, MaybeUnit>> units_or(const std::string& otherwise) {
+  return {{"mm", LengthUnit::millimetre},
+          {"cm", LengthUnit::centimetre},
+          {"m", LengthUnit::metre},
+          {otherwise, std::nullopt}};
+}
+
+std::vector<Key> input_keys() {
+  return {
+      text<Scene>("title", AT(title), 0, "Heads the report."),
+      source<Scene>("scan.file", AT(scan.source), true,
+                    "The scan: PLY, OBJ, STL, glTF or GLB; or the canonical face that the program "
+                    "carries inside."),
+      choice<Scene, MaybeUnit>("scan.unit", AT(scan.unit), units_or("guess"),
+                               "The scan's unit of length. A guess takes the one that makes the "
+                               "face 10 to 30 cm wide, and says so."),
+      path<Scene>(
+          "scan.landmarks", AT(scan.landmarks),
+          "Named points on the scan: JSON as in docs/landmarks.md, or 3D Slicer's .mrk.json. "
+          "Where none is given they are found by the landmark network."),
+      choice<Scene, MaybeUnit>("scan.landmarks_unit", AT(scan.landmarks_unit), units_or("file"),
+                               "The landmarks' unit of length, where it is not the one that their "
+                               "file states."),
+      source<Scene>("motion.file", AT(motion.source), false,
+                    "The recording of named points: CSV or TRC; or the mouth opening of 2.7 s that "
+                    "the program carries inside. This, motion.recording, motion.openface or "
+                    "motion.arkit is required; one given by --set takes the place of another in "
+                    "the file."),
+      path<Scene>(
+          "motion.recording", AT(motion.recording),
+          "The recording of a camera, colour and depth: a folder in TUM's layout, a video or .oni "
+          "file. The face in it is tracked, as by hyperex track.",
+          true),
+      flag<Scene>("motion.mirrored", AT(motion.mirrored),
+                  "The pictures of motion.recording show the world as a mirror does (many selfie "
+                  "videos do) and are turned back; a video does not tell, and left and right "
+                  "depend on it."),
+      path<Scene>("motion.openface", AT(motion.openface),
+                  "Intensities of action units over time, a CSV of OpenFace 2: they move the face "
+                  "model, and its points are the recording."),
+      path<Scene>("motion.arkit", AT(motion.arkit),
+                  "Weights of ARKit's blend shapes over time, a CSV with a column time_s or as "
+                  "Live Link Face writes it: they move the face model likewise."),
+      path<Scene>("motion.candide", AT(motion.candide),
+                  "CANDIDE-3's .wfm file, to be the face model for motion.recording, "
+                  "motion.openface and motion.arkit. Empty: the canonical face."),
+      choice<Scene, MaybeUnit>("motion.unit", AT(motion.unit), units_or("file"),
+                               "The recording's unit of length, where it is not the one that the "
+                               "file states."),
+      names<Scene>("motion.rigid_points", AT(motion.rigid_points), 3,
+                   "Points that move with the skull: the head's pose is found from them and taken "
+                   "out. Empty: all landmarks of the face, each weighed by how much it moves in "
+                   "life; at least three eye corners, bridge of the nose or temples are needed."),
+      time_or_stretch<Scene>(
+          "motion.rest_s", seconds, AT(motion.rest_s), {0, 3600},
+          "When the face is at rest, from the recording's start: a time, or [from, to], over which "
+          "the mean is taken. All displacements are from there. Where the recording starts in an "
+          "expression the run begins half a second earlier, at rest, and is led into it. Empty: "
+          "the recording's first sample is at rest."),
+      number<Scene>("motion.max_gap_s", seconds, AT(motion.max_gap_s), {0, 10},
+                    "The longest gap in a point's track that is interpolated; a longer one is "
+                    "refused."),
+      number<Scene>("motion.gain", none, AT(drive.gain), {0, 5},
+                    "Multiplies all displacements; 1 as recorded."),
+      rows<Scene, motion::PointGain>(
+          "motion.point_gain", AT(motion.point_gains),
+          {text<motion::PointGain>("point", AT(point), 1, "A point of the recording."),
+           number<motion::PointGain>("gain", none, AT(gain), {0, 5},
+                                     "Multiplies its displacement.")},
+          "A gain on one point, besides motion.gain. Other points keep their motion; the skin "
+          "between takes its share as it does of every driven point's, and so does the jaw."),
+      number<Scene>("motion.time_scale", none, AT(motion.time_scale), {0.05, 20},
+                    "Stretches the recording in time: 2 plays it twice as slowly. Gaps and "
+                    "jitter are judged as recorded; times of time and output are not stretched."),
+      choice<Scene, AlignmentMethod>(
+          "alignment.method", AT(alignment.method),
+          {{"nonrigid", AlignmentMethod::nonrigid},
+           {"similarity", AlignmentMethod::similarity},
+           {"normalised", AlignmentMethod::normalised}},
+          "How the recording is laid on the scan: by a similarity of the landmarks and a smooth "
+          "correction, by the similarity alone, or by the widths and heights of face parts about "
+          "the nose apex."),
+      choice<Scene, Measured>(
+          "region.measured", AT(region.measured),
+          {{"none", Measured::none}, {"all", Measured::all}, {"points", Measured::points}},
+          "Which part of the face follows the recording directly, the rest being physical: none, "
+          "all of it, or the surroundings of region.measured_points."),
+      names<Scene>("region.measured_points", AT(region.measured_points), 0,
+                   "Points whose surroundings are measured. At least one where region.measured is "
+                   "\"points\"."),
+      number<Scene>("region.measured_radius_mm", millimetres, AT(region.measured_radius_m),
+                    in(Region::measured_radius_m_in, millimetres),
+                    "How far the surroundings of a measured point reach."),
+      number<Scene>("region.blend_mm", millimetres, AT(region.blend_m),
+                    in(Region::blend_m_in, millimetres),
+                    "Width of the transition from measured to physical."),
+  };
+}
+
+const Unit kilopascals{"kPa", 1000, 1}, pascal_seconds{"Pa s"}, density_unit{"kg/m^3"};
+/// What the material may have, in the unit of the key.
+Range range_of(tissue::Parameter parameter) {
+  const tissue::ParameterInfo& info = tissue::parameter_info(parameter);
+  return {info.least / info.si, info.most / info.si};
+}
+
+/// A parameter of the whole tissue. Where it is not given the preset's holds, or the default, and
+/// is what the echo shows.
+Key uniform_parameter(std::string name, Unit unit, tissue::Parameter parameter,
+                      std::string description) {
+  Key key = number<Scene>(
+      std::move(name),
+      unit, [parameter](auto& scene) -> auto& { return scene.tissue.uniform[parameter]; },
+      range_of(parameter), std::move(description));
+  key.get = [unit, parameter](const Scene& scene) -> nlohmann::json {
+    const std::optional<double>& given = scene.tissue.uniform[parameter];
+    return unit.from_si(given ? *given : tissue::uniform_parameters(scene.tissue)[parameter]);
+  };
+  return key;
+}
+
+/// Parameters of a point or a region, each given or not.
+template <class Row>
+std::vector<Field<Row>> given_parameters() {
+  using namespace tissue;
+  return {maybe_number<Row>("young_kpa", kilopascals, AT(value[young]), range_of(young),
+                            "Young's modulus there."),
+          maybe_number<Row>("viscosity_pa_s", pascal_seconds, AT(value[viscosity]),
+                            range_of(viscosity), "Viscosity there."),
+          maybe_number<Row>("poisson", none, AT(value[poisson]), range_of(poisson),
+                            "Poisson's ratio there."),
+          maybe_number<Row>("density_kg_m3", density_unit, AT(value[density]), range_of(density),
+                            "Density there.")};
+}
+
+std::vector<Field<tissue::TissuePoint>> point_columns() {
+  using Row = tissue::TissuePoint;
+  std::vector<Field<Row>> columns = {
+      text<Row>("landmark", AT(landmark), 1,
+                "A landmark of the scan, with its side (cheek_R) or without (cheek: both)."),
+      optional(choice<Row, std::string>("side", AT(side), {{"L", "L"}, {"R", "R"}, {"", ""}},
+                                        "The subject's own side, where the landmark's name "
+                                        "has none."))};
+  for (auto& column : given_parameters<Row>()) columns.push_back(std::move(column));
+  return columns;
+}
+
+std::vector<Field<tissue::TissueRegion>> region_columns() {
+  using Row = tissue::TissueRegion;
+  using namespace tissue;
+  constexpr Range factor_range{0, 1000, true};
+  std::vector<Field<Row>> columns = {
+      optional(text<Row>("name", AT(name), 1,
+                         "A part of the face, as cheek_R or lips (hyperex presets lists them).")),
+      optional(names<Row>("scar", AT(scar), 2,
+                          "In its place: landmarks along a scar, laid straight on the skin between "
+                          "them.")),
+      optional(places<Row>("scar_points_mm", millimetres, AT(scar_points_m),
+                           "In their place: places along a scar, in the scan's axes.")),
+      optional(
+          path<Row>("painted", AT(painted),
+                    "In their place: the scan painted red where it applies (PLY, OBJ, GLB with "
+                    "vertex colours), or a CSV or PLY with a weight from 0 to 1 a vertex.")),
+      optional(number<Row>("width_mm", millimetres, AT(width_m), {0.5, 100},
+                           "Width of a scar; 4 where not given.")),
+      optional(number<Row>("blend_mm", millimetres, AT(blend_m), {0, 100},
+                           "Width over which the change sets in, half of it outside; 4 where not "
+                           "given."))};
+  for (auto& column : given_parameters<Row>()) columns.push_back(std::move(column));
+  columns.push_back(maybe_number<Row>("young_factor", none, AT(factor[young]), factor_range,
+                                      "Multiplies Young's modulus there."));
+  columns.push_back(maybe_number<Row>("viscosity_factor", none, AT(factor[viscosity]), {0, 1000},
+                                      "Multiplies the viscosity there."));
+  columns.push_back(maybe_number<Row>("poisson_factor", none, AT(factor[poisson]), {-1000, 1000},
+                                      "Multiplies Poisson's ratio there."));
+  columns.push_back(maybe_number<Row>("density_factor", none, AT(factor[density]), factor_range,
+                                      "Multiplies the density there."));
+  return columns;
+}
+
+std::vector<Key> model_keys() {
+  return {
+      number<Scene>("mesh.element_size_mm", millimetres, AT(mesh.element_size_m),
+                    in(Mesh::element_size_m_in, millimetres),
+                    "Edge length of the tetrahedra along the skin."),
+      integer<Scene>("mesh.layers", AT(mesh.layers), in(Mesh::layers_in, none),
+                     "Layers of elements between the skin and the inner surface."),
+      number<Scene>("mesh.thickness_mm", millimetres, AT(mesh.thickness_m),
+                    or_zero(in(Mesh::thickness_m_in, millimetres)),
+                    "Thickness of the soft tissue, the same everywhere. 0: from published depths "
+                    "at landmarks, interpolated."),
+      choice<Scene, tissue::LipCut>(
+          "mesh.cut_lips", AT(mesh.cut_lips),
+          {{"auto", tissue::LipCut::automatic},
+           {"always", tissue::LipCut::always},
+           {"never", tissue::LipCut::never}},
+          "Whether the scan is cut between the lips: \"auto\" cuts where they are joined."),
+      number<Scene>("mesh.trim_border_mm", millimetres, AT(mesh.trim_border_m),
+                    in(Mesh::trim_border_m_in, millimetres),
+                    "Takes off a strip of this width along the scan's outer border."),
+      rows<Scene, tissue::DepthAt>(
+          "mesh.thickness_point", AT(mesh.depths),
+          {text<tissue::DepthAt>("landmark", AT(landmark), 1, "A landmark of the scan."),
+           number<tissue::DepthAt>("thickness_mm", millimetres, AT(depth_m),
+                                   in(Mesh::thickness_m_in, millimetres),
+                                   "Thickness of the soft tissue there.")},
+          "Thickness at a landmark, in the place of the published depth there; interpolated in "
+          "between. Only where mesh.thickness_mm is 0."),
+      uniform_parameter("tissue.young_kpa", kilopascals, tissue::young, "Young's modulus E."),
+      uniform_parameter(
+          "tissue.poisson", none, tissue::poisson,
+          "Poisson's ratio. With tissue.element = \"tet4\" the tissue moves too little near 0.5."),
+      uniform_parameter("tissue.viscosity_pa_s", pascal_seconds, tissue::viscosity,
+                        "Viscosity eta, of changes of shape."),
+      uniform_parameter("tissue.density_kg_m3", density_unit, tissue::density, "Density."),
+      choice<Scene, fem::ViscousForm>(
+          "tissue.viscous_form", AT(model.viscous_form),
+          {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
+          "The viscous tensor: Stokes' law, or the tensor printed in the source, which is not "
+          "isotropic."),
+      choice<Scene, fem::ElementKind>(
+          "tissue.element", AT(model.element),
+          {{"tet4", fem::ElementKind::tet4}, {"tet4-star", fem::ElementKind::tet4_star}},
+          "The finite element: linear tetrahedra, plain, or with the change of volume averaged "
+          "over patches, which does not lock near poisson = 0.5 (docs/elements.md)."),
+      text<Scene>("tissue.preset", AT(tissue.preset), 0,
+                  "Published parameters by name (hyperex presets lists them with their sources); "
+                  "keys that are given here take the place of its values. Empty: none."),
+      choice<Scene, tissue::Interpolation>(
+          "tissue.interpolation", AT(tissue.interpolation),
+          {{"harmonic", tissue::Interpolation::harmonic},
+           {"linear", tissue::Interpolation::linear}},
+          "How parameters at points are spread over the face: as a smooth harmonic field on the "
+          "skin, or linearly over triangles of points seen from in front (docs/tissue.md)."),
+      flag<Scene>("tissue.mirror", AT(tissue.mirror),
+                  "What [[tissue.point]] and [[tissue.region]] say of one side holds for the other "
+                  "too."),
+      path<Scene>("tissue.per_vertex", AT(tissue.per_vertex),
+                  "Parameters a vertex of the scan: a CSV with columns young_kpa, viscosity_pa_s, "
+                  "poisson or density_kg_m3 and a row a vertex, or a PLY with such vertex "
+                  "properties. Empty cells (nan) are left as they are otherwise."),
+      rows<Scene, tissue::TissuePoint>(
+          "tissue.point", AT(tissue.points), point_columns(),
+          "Parameters at a landmark, interpolated over the face in the place of the uniform ones. "
+          "At least one of them is given."),
+      rows<Scene, tissue::TissueRegion>(
+          "tissue.region", AT(tissue.regions), region_columns(),
+          "A change within a part of the face, applied after points, in the order of the file: "
+          "values or factors in a region by name or along a scar."),
+      choice<Scene, bool>("support.border", AT(support.border_held),
+                          {{"held", true}, {"free", false}},
+                          "The tissue's outer border, from the skin to the inner surface."),
+      choice<Scene, Hold>(
+          "support.skull", AT(support.skull),
+          {{"sliding", Hold::sliding}, {"held", Hold::held}, {"free", Hold::free}},
+          "The inner surface over the skull: slides on it on a loose layer, is held, or is free."),
+      number<Scene>(
+          "support.skull_across_kpa_per_mm", stiffness, AT(support.skull_layer.across_pa_per_m),
+          in(Support::stiffness_pa_per_m_in, stiffness),
+          "Stiffness of the loose layer over the skull across it: pressure that parts the "
+          "tissue from the bone by a millimetre."),
+      number<Scene>("support.skull_along_kpa_per_mm", stiffness,
+                    AT(support.skull_layer.along_pa_per_m),
+                    in(Support::stiffness_pa_per_m_in, stiffness),
+                    "The same along it: shear that lets the tissue slide by a millimetre."),
+      choice<Scene, Mandible>(
+          "support.mandible", AT(support.mandible),
+          {{"follow", Mandible::follow}, {"held", Mandible::held}, {"free", Mandible::free}},
+          "The inner surface over the mandible: follows the jaw as a rigid "
+          "bone, is held, or is free."),
+      number<Scene>("support.mandible_across_kpa_per_mm", stiffness,
+                    AT(support.mandible_layer.across_pa_per_m),
+                    in(Support::stiffness_pa_per_m_in, stiffness),
+                    "As support.skull_across_kpa_per_mm, over the mandible that is followed."),
+      number<Scene>("support.mandible_along_kpa_per_mm", stiffness,
+                    AT(support.mandible_layer.along_pa_per_m),
+                    in(Support::stiffness_pa_per_m_in, stiffness),
+                    "As support.skull_along_kpa_per_mm, over the mandible that is followed."),
+      number<Scene>(
+          "support.muscle_kpa_per_mm", stiffness, AT(support.muscle_pa_per_m),
+          in(Support::stiffness_pa_per_m_in, stiffness),
+          "How firmly the deep side of the tissue, save over the mandible, follows the "
+          "motion interpolated between the driven points, as the muscles there do; 0: not."),
+      names<Scene>("support.jaw_points", AT(support.jaw_points), 0,
+                   "Points whose motion turns the jaw. Empty: those of the chin that the recording "
+                   "has."),
+  };
+}
+
+std::vector<Key> run_keys() {
+  return {
+      names_or_all<Scene>(
+          "drive.points", AT(drive.points), AT(drive.all_points),
+          "Points of the recording that drive the skin. With motion.candide and no points named: "
+          "those of the default that the model has."),
+      choice<Scene, DriveBy>(
+          "drive.by", AT(drive.by),
+          {{"displacement", DriveBy::displacement},
+           {"muscles", DriveBy::muscles},
+           {"reactions", DriveBy::reactions}},
+          "What the points are: places that the skin is carried to, whatever the tissue; or what "
+          "muscles, the jaw and forces at the points are found from (docs/muscles.md), or forces "
+          "alone. Forces are found once, in the scene's tissue, and variants answer the same "
+          "forces."),
+      number<Scene>(
+          "drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m),
+          in(Drive::patch_radius_m_in, millimetres),
+          "Radius of the patch of skin that a driven point moves where the lips part; half "
+          "as much again where they stay closed. 0 takes the nearest node alone."),
+      names<Scene>("drive.still_points", AT(drive.still_points), 0,
+                   "Points that are held still on the skin."),
+      factors<Scene, reenact::MuscleGain>(
+          "muscles.gain", AT(muscles.gains), &reenact::MuscleGain::muscle,
+          &reenact::MuscleGain::gain, muscles::gain_names(),
+          in(reenact::MuscleOptions::gain_in, none),
+          "Factors on activations as they were found: of one muscle, of those that a branch of the "
+          "facial nerve moves on one side, or of a side; 0 is a palsy. Several multiply."),
+      flag<Scene>("muscles.mirrored", AT(muscles.mirrored),
+                  "Each muscle takes the activation of its counterpart on the other side."),
+      choice<Scene, SolverMethod>(
+          "solver.method", AT(solver.method),
+          {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},
+          "Projected onto the motions that the input makes, to solver.tolerance; or all unknowns "
+          "at "
+          "every step."),
+      choice<Scene, fem::LinearSolver>(
+          "solver.linear", AT(solver.linear),
+          {{"auto", fem::LinearSolver::automatic},
+           {"cholesky", fem::LinearSolver::cholesky},
+           {"iterative", fem::LinearSolver::iterative}},
+          "How linear systems are solved: by a Cholesky factor; by conjugate gradients on "
+          "overlapping subdomains, which takes less memory and more time; or the first where it "
+          "fits the memory, else the second."),
+      number<Scene>("solver.tolerance", none, AT(solver.tolerance), in(Solver::tolerance_in, none),
+                    "Error allowed to the reduced model by its own estimate, over the largest "
+                    "displacement."),
+      number<Scene>("solver.newmark_beta", none, AT(solver.newmark_beta),
+                    in(Solver::newmark_beta_in, none), "beta of Newmark's method."),
+      number<Scene>("solver.newmark_gamma", none, AT(solver.newmark_gamma),
+                    in(Solver::newmark_gamma_in, none),
+                    "gamma (delta) of Newmark's method; above 0.5 it damps. At most twice "
+                    "solver.newmark_beta."),
+      flag<Scene>("solver.verify", AT(solver.verify),
+                  "Run the full model beside the reduced one and tell its true error."),
+      number<Scene>("time.step_s", seconds, AT(time.step_s), in(Time::step_s_in, seconds),
+                    "The time step."),
+      number<Scene>("time.end_s", seconds, AT(time.end_s), in(Time::end_s_in, seconds),
+                    "Where the simulation ends; the last sample of the recording is held. 0: at "
+                    "the end of the recording."),
+      number<Scene>("time.frame_rate_hz", {"Hz"}, AT(time.frame_rate_hz),
+                    in(Time::frame_rate_hz_in, none),
+                    "Frames written a second; frames need not fall on steps."),
+      number<Scene>("output.peak_time_s", seconds, AT(time.peak_time_s),
+                    in(Time::peak_time_s_in, seconds),
+                    "Time of skin_peak.ply. Below 0: where the driven points have moved most in "
+                    "the mean."),
+      flag<Scene>(
+          "output.vtu", AT(output.vtu),
+          "Write frames.pvd and frames/: the tissue over time, for ParaView. The points are "
+          "at rest in every frame; the filter Warp By Vector moves them."),
+      integer<Scene>("output.vtu_every", AT(output.vtu_every), {1, 10000},
+                     "Write only every so many frames there: 3 takes a third of the space."),
+      flag<Scene>("output.vtu_strain", AT(output.vtu_strain), "Write the strain tensor there."),
+      flag<Scene>("output.variants_vtu", AT(output.variants_vtu),
+                  "Write the same for each variant, into its folder."),
+      flag<Scene>("output.glb", AT(output.glb),
+                  "Write performance.glb, of each variant too: the moving skin for Blender and "
+                  "other programs that read glTF."),
+      number<Scene>("output.glb_tolerance_mm", millimetres, AT(output.glb_tolerance_m), {0.01, 10},
+                    "How far any vertex of performance.glb may be from its computed place in any "
+                    "frame. A larger tolerance takes fewer shape keys and a smaller file."),
+      number<Scene>("output.glb_max_mb", {"MB"}, AT(output.glb_max_mb), {0.1, 10000},
+                    "The largest performance.glb. Where output.glb_tolerance_mm needs more, keys "
+                    "are left out, and a warning tells the error that remains."),
+      flag<Scene>("output.report", AT(output.report), "Write report.html."),
+      flag<Scene>("output.full_paths", AT(output.full_paths),
+                  "Write whole paths of the input files into summary.json and report.html. Names "
+                  "of folders may tell a patient's name, so that only file names are written "
+                  "otherwise."),
+      number<Scene>("output.symmetry_floor", none, AT(output.symmetry_floor), {0, 1, true},
+                    "The least difference of xi that S(t) tells apart; perfect symmetry would be "
+                    "minus infinity."),
+      number<Scene>("output.jitter_mm", millimetres, AT(output.jitter_m), {-1, 20},
+                    "Jitter of the recorded points, a standard deviation a coordinate, which "
+                    "sets the noise floor of S(t) (docs/symmetry.md). Below 0: what "
+                    "the points' fourth differences in time tell."),
+      number<Scene>("output.lowpass_hz", none, AT(output.lowpass_hz), {0, 100},
+                    "Cut-off (Hz) of the zero-phase low-pass that speeds and paths of points with "
+                    "jitter are smoothed by (docs/symmetry.md). 0: not smoothed."),
+      numbers<Scene>("output.contact_times_s", seconds, AT(time.still_times_s),
+                     in(Time::still_times_s_in, seconds), 0, 12,
+                     "Times of the pictures in contact_sheet.png. None: five spread over the run, "
+                     "the peak among them."),
+  };
+}
+#undef AT
+
+}  // namespace
+
+const std::vector<Section>& sections() {
+  static const std::vector<Section> all = {
+      {"", "At the top of the file, before any section."},
+      {"scan", "The face at rest."},
+      {"motion", "The recorded expression."},
+      {"alignment", "How the recording is carried to the scan."},
+      {"region", "What is measured and what is physical."},
+      {"mesh", "The volume of soft tissue."},
+      {"tissue", "The material."},
+      {"support", "What holds the tissue from within and at its border."},
+      {"drive", "What moves it."},
+      {"muscles", "Muscles, where they are what moves it (`drive.by`)."},
+      {"solver", "How the equations of motion are solved."},
+      {"time", "Steps and frames."},
+      {"output", "What is written."},
+  };
+  return all;
+}
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all = [] {
+    std::vector<Key> table = input_keys();
+    for (auto& part : {model_keys(), run_keys()})
+      table.insert(table.end(), part.begin(), part.end());
+    return table;
+  }();
+  return all;
+}
+
+const Key* find_key(const std::string& name) {
+  for (const Key& key : keys())
+    if (key.name == name) return &key;
+  return nullptr;
+}
+
+}  // namespace hyperex::scene

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "hyperex/fem/form/system.hpp"
+#include "hyperex/io/vtu.hpp"
+#include "hyperex/scene/output/outputs.hpp"
+
+namespace hyperex::scene {
+
+/// What ParaView shows of each tetrahedron of a performance:
+///   "strain (1)"              xx, yy, zz, xy, yz, xz of the tensor; only `with_strain`
+///   "von Mises stress (kPa)"
+///   "inverted"                1 where the element is turned inside out, else 0: strain and stress
+///                             mean nothing there
+class FrameCells {
+ public:
+  /// Refers to `performance`.
+  FrameCells(const reenact::Performance& performance, bool with_strain);
+  /// At the displacement `d` (|nodes| x 3, metres).
+  std::vector<io::VtuArray> at(const Points& d) const;
+
+ private:
+  const reenact::Performance& performance_;
+  bool with_strain_;
+  fem::ElementStrain strain_;
+  fem::Material material_;
+};
+
+/// Writes frames.pvd and frames/frame_NNNN.vtu: the tissue in every `every`-th frame (> 0), at
+/// rest, its displacement an array ("Warp By Vector" moves it), with `more` arrays of its
+/// tetrahedra in each. Nothing where no tissue was simulated.
+void write_frames(const reenact::Performance& performance, const std::filesystem::path& directory,
+                  int every, bool with_strain, const std::vector<io::VtuArray>& more = {});
+/// As the scene's output.vtu_every and vtu_strain ask for, with the parameters of its tissue that
+/// differ from place to place.
+void write_frames(const Results& results, const std::filesystem::path& directory);
+
+/// The spread of von Mises stress (kPa) and of the greatest principal strain over the elements at
+/// the peak: median, p95, p99, max, and max_not_inverted, the greatest in elements that are not
+/// turned inside out. Null where no tissue was simulated.
+nlohmann::ordered_json stress_summary(const reenact::Performance& performance);
+
+}  // namespace hyperex::scene
