@@ -45,7 +45,7 @@ char separator_of(std::string_view header) {
 }
 
 std::string in_quotes_where_needed(const std::string& name) {
-  if (name.find_first_of(",;\"") == std::string::npos) return name;
+  if (name.find_first_of(",;\"\r\n") == std::string::npos) return name;
   std::string quoted = "\"";
   for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return quoted + '"';

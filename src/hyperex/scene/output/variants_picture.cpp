@@ -37,7 +37,7 @@ double draw_legend(render::Canvas& canvas, double left, double right, double y,
 
 }  // namespace
 
-void draw_variants(const Results& base, const std::vector<VariantComparison>& compared,
+void draw_variants(const Results& base, const std::vector<metrics::VariantComparison>& compared,
                    const std::vector<VariantRun>& runs, const std::filesystem::path& file) {
   const face::FaceFrame frame = face::face_frame(base.inputs.landmarks);
   const reenact::Performance& p = base.simulation.performance;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "hyperex/metrics/variant_comparison.hpp"
 #include "hyperex/scene/output/variant_run.hpp"
 
 namespace hyperex::scene {
@@ -10,7 +11,7 @@ namespace hyperex::scene {
 /// The face of the scene and of each variant at the scene's peak, from the front and three-quarter,
 /// coloured by the greatest distance over time from base, to a scale on which none of
 /// the others is lost beside one that moves much more. One comparison a run.
-void draw_variants(const Results& base, const std::vector<VariantComparison>& compared,
+void draw_variants(const Results& base, const std::vector<metrics::VariantComparison>& compared,
                    const std::vector<VariantRun>& runs, const std::filesystem::path& file);
 
 /// S(t) of all with the noise floor, and what each adds to xi_L - xi_R. Nothing where the scene has

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/variant_comparison.hpp"
+
+#include <algorithm>
+
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/metrics/curve_spread.hpp"
+#include "hyperex/motion/resample.hpp"
+
+namespace hyperex::metrics {
+namespace {
+
+constexpr double kNearMouth_m = 0.025;
+
+/// Positions of a landmark over time; empty where there is none of that name.
+Points track_of(const motion::Motion& m, const std::string& name) {
+  const int row = m.index_of(name);
+  if (row < 0) return {};
+  Points track(Eigen::Index(m.positions.size()), 3);
+  for (std::size_t k = 0; k < m.positions.size(); ++k)
+    track.row(Eigen::Index(k)) = m.positions[k].row(row);
+  return track;
+}
+
+double farthest(const Points& track) {
+  return track.rows() ? (track.rowwise() - track.row(0)).rowwise().norm().maxCoeff() : 0;
+}
+
+double integral(const std::vector<double>& time_s, const std::vector<double>& a,
+                const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t k = 1; k < time_s.size(); ++k) {
+    const double area =
+        0.5 * (time_s[k] - time_s[k - 1]) * (std::abs(a[k] - b[k]) + std::abs(a[k - 1] - b[k - 1]));
+    if (std::isfinite(area)) sum += area;
+  }
+  return sum;
+}
+
+/// The recorded motion of a driven point at the times of the run's frames.
+Points driven_track(const reenact::Performance& base, const motion::Motion& recorded,
+                    const std::string& name) {
+  const int row = recorded.index_of(name);
+  if (row < 0) return {};
+  const motion::MotionCurve curve(recorded);
+  const auto& time_s = base.frame_time_s;
+  const double start_s = recorded.time_s.front();
+  Points track(Eigen::Index(time_s.size()), 3);
+  for (std::size_t k = 0; k < time_s.size(); ++k)
+    track.row(Eigen::Index(k)) = curve.at(start_s + time_s[k]).row(row);
+  return track;
+}
+
+double mean(const Eigen::VectorXd& values, const Eigen::VectorXd& weight) {
+  return values.dot(weight) / weight.sum();
+}
+
+/// At the peak: how far either side of the face moves, in the mean over its area.
+void measure_sides(const Asymmetry& map, const TriMesh& rest, const PointsF& displacement,
+                   const Eigen::VectorXd& area, VariantComparison& c) {
+  double sum_mm[2] = {0, 0}, all[2] = {0, 0};
+  for (const int v : map.face) {
+    const Vec3 at = rest.points.row(v);
+    const int right = map.plane.normal.dot(at) < map.plane.offset_m;
+    sum_mm[right] += 1e3 * area[v] * double(displacement.row(v).norm());
+    all[right] += area[v];
+  }
+  c.mean_displacement_left_mm = sum_mm[0] / all[0];
+  c.mean_displacement_right_mm = sum_mm[1] / all[1];
+}
+
+/// The border of the lips, corners included, as ibug68_48 to 59 go round it.
+Points lip_outline(const io::Landmarks& landmarks) {
+  Points outline(12, 3);
+  for (int k = 0; k < 12; ++k) outline.row(k) = landmarks.at(face::ibug(48 + k)).transpose();
+  return outline;
+}
+
+/// The value of the greatest size; 0 where there is none.
+double at_greatest(const std::vector<double>& values) {
+  const int at = greatest_sample(values);
+  return at < 0 ? 0 : values[std::size_t(at)];
+}
+
+bool comes_back(const std::vector<double>& input) {
+  double most = 0;
+  for (const double value : input) most = std::max(most, std::abs(value));
+  return std::abs(input.back()) < 0.5 * most;
+}
+
+}  // namespace
+
+ResponsePair response_pair(const reenact::Performance& base, const motion::Motion& recorded,
+                           double clear_m) {
+  ResponsePair pair;
+  double most = 0;
+  for (const std::string& name : base.driven_names)
+    if (const double moved = farthest(driven_track(base, recorded, name)); moved > most) {
+      most = moved;
+      pair.driven = name;
+    }
+  most = 0;
+  for (const std::string& name : base.landmarks.names) {
+    const Points track = track_of(base.landmarks, name);
+    bool off = true;
+    for (const auto at : base.driven_points_rest.rowwise())
+      off = off && (at - track.row(0)).norm() > clear_m;
+    if (const double moved = farthest(track); off && moved > most) {
+      most = moved;
+      pair.response = name;
+    }
+  }
+  return pair;
+}
+
+VariantComparison compare_variant(const std::string& name, const ComparedRun& base,
+                                  const ComparedRun& run, const ComparedInputs& inputs,
+                                  const ResponsePair& pair) {
+  const reenact::Performance &own = base.performance, &p = run.performance;
+  VariantComparison c;
+  c.name = name;
+  c.greatest_displacement_mm = 1e3 * greatest_displacement_m(p.skin_displacement_m);
+  c.difference = variant_difference(own.skin_displacement_m, p.skin_displacement_m, own.peak_frame);
+  const io::Landmarks& landmarks = inputs.landmarks;
+  const auto peak = std::size_t(own.peak_frame);
+  const Eigen::VectorXd area = vertex_areas(own.skin_rest);
+  c.rms_distance_mm = 1e3 * std::sqrt(mean(c.difference.at_peak_m.cwiseAbs2(), area));
+  c.mean_change_mm = 1e3 * mean(c.difference.change_at_peak_m, area);
+  Eigen::Index there = 0;
+  c.greatest_distance_mm = 1e3 * c.difference.greatest_m.maxCoeff(&there);
+  c.displacement_there_mm = c.base_displacement_there_mm = std::nan("");
+  if (c.greatest_distance_mm > 0) {
+    c.displacement_there_mm = 1e3 * double(p.skin_displacement_m[peak].row(there).norm());
+    c.base_displacement_there_mm = 1e3 * double(own.skin_displacement_m[peak].row(there).norm());
+    double nearest_m = INFINITY;
+    for (const auto& [landmark, at] : landmarks)
+      if (const double d = (at.transpose() - own.skin_rest.points.row(there)).norm();
+          d < nearest_m) {
+        nearest_m = d;
+        c.farthest_near = landmark;
+      }
+  }
+  c.commissure_left = c.commissure_right = {std::nan(""), std::nan(""), std::nan("")};
+  const Excursions& before = base.symmetry.excursions;
+  const Excursions& excursions = run.symmetry.excursions;
+  for (std::size_t i = 0; i < excursions.pairs.size(); ++i)
+    if (const int left = excursions.pairs[i].left;
+        left >= 0 && left == excursions.commissure.left) {
+      const auto change = [&](Side side) {
+        return change_of(before.pairs.at(i), excursions.pairs[i], side, before.jitter_m);
+      };
+      c.commissure_left = change(Side::left);
+      c.commissure_right = change(Side::right);
+    }
+  const Asymmetry& map = *run.symmetry.map;
+  measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);
+  c.asymmetry_mm = map.frames[peak].face_rms_mm;
+  const SymmetryCurve& s = run.symmetry.curve;
+  c.added_xi_difference = at_greatest(added_difference(s, base.symmetry.curve));
+  c.added_xi_floor = added_mesh_floor(s, base.symmetry.curve);
+  c.share_near_mouth = share_within(c.difference.greatest_m, own.skin_rest.points,
+                                    lip_outline(landmarks), kNearMouth_m, area);
+  c.lag.lag_s = c.lag.correlation = c.hysteresis = std::nan("");
+  if (!pair.driven.empty() && !pair.response.empty()) {
+    const auto input = along_farthest(driven_track(own, inputs.recorded, pair.driven));
+    const auto response = along_farthest(track_of(p.landmarks, pair.response));
+    if (comes_back(input)) {
+      c.lag = lag_of(p.frame_time_s, input, response);
+      c.hysteresis = hysteresis_of(input, response);
+    }
+  }
+  c.symmetry_integral_s = integral(s.time_s, s.xi_left, s.xi_right);
+  return c;
+}
+
+}  // namespace hyperex::metrics

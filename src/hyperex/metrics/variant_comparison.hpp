@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/metrics/lag.hpp"
+#include "hyperex/metrics/mesh_floor.hpp"
+#include "hyperex/metrics/symmetry_tables.hpp"
+#include "hyperex/metrics/variant_difference.hpp"
+#include "hyperex/motion/motion.hpp"
+#include "hyperex/reenact/performance.hpp"
+
+namespace hyperex::metrics {
+
+/// A run of a face as it is compared: all runs have the skin, the frame times and the names of
+/// landmarks in common.
+struct ComparedRun {
+  const reenact::Performance& performance;
+  const SymmetryMeasures& symmetry;  ///< with its map
+};
+
+/// What the run that others are compared with, base, was made from.
+struct ComparedInputs {
+  const io::Landmarks& landmarks;  ///< at rest, with ibug68_48 to 59
+  const motion::Motion& recorded;  ///< in the scan's frame; its first time is the run's time 0
+};
+
+/// What lag and hysteresis are told of: the driven point that moves farthest in base, and the
+/// landmark that moves farthest of those more than `clear_m` from every driven point at rest.
+struct ResponsePair {
+  std::string driven, response;  ///< empty where there is none
+};
+ResponsePair response_pair(const reenact::Performance& base, const motion::Motion& recorded,
+                           double clear_m);
+
+/// A run against the scene's own. "Peak" is the scene's own.
+struct VariantComparison {
+  std::string name;
+  double greatest_displacement_mm = 0;
+  VariantDifference difference;     ///< to base; of the skin's vertices
+  double greatest_distance_mm = 0;  ///< of any vertex, over time
+  std::string farthest_near;        ///< the landmark nearest to that vertex; empty: no distance
+  /// At the peak, of that vertex: in this run and in base; NaN where there is none.
+  double displacement_there_mm = 0, base_displacement_there_mm = 0;
+  double rms_distance_mm = 0, mean_change_mm = 0;  ///< at the peak, over the skin's area
+  /// At the peak, mean over the face's area on the subject's left and right; NaN without a plane.
+  double mean_displacement_left_mm = 0, mean_displacement_right_mm = 0;
+  /// How far the corners of the mouth travel; NaN where they are not known.
+  ExcursionChange commissure_left, commissure_right;
+  double asymmetry_mm = 0;  ///< at the peak, root mean square over the face
+  /// What the variant adds to xi_L - xi_R, where it adds most.
+  double added_xi_difference = 0;
+  double added_xi_floor = 0;  ///< what the mesh makes of that (added_mesh_floor); NaN: unknown
+  /// 1 where it is above the floor, else 0; NaN where no floor is known.
+  double added_xi_decided() const {
+    if (std::isnan(added_xi_floor)) return added_xi_floor;
+    return std::abs(added_xi_difference) > added_xi_floor ? 1 : 0;
+  }
+  /// Share of the summed squared distances (greatest over time, weighted with area) within 25 mm of
+  /// the outline of the lips; NaN where all are 0.
+  double share_near_mouth = 0;
+  /// Of the response point behind the driven point; NaN where the motion does not come back: a
+  /// shape that is still on its way tells no lag from a bent path.
+  Lag lag;
+  double hysteresis = 0;           ///< of the same pair; NaN as the lag
+  double symmetry_integral_s = 0;  ///< of |xi_L - xi_R| over time
+};
+
+/// `run` may be the base itself: all differences are 0 then. Throws std::invalid_argument where
+/// skins or frames differ in number (variant_difference).
+VariantComparison compare_variant(const std::string& name, const ComparedRun& base,
+                                  const ComparedRun& run, const ComparedInputs& inputs,
+                                  const ResponsePair& pair);
+
+}  // namespace hyperex::metrics
