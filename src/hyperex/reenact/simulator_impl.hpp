@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// What a Simulator holds and does: its stages in the order of simulator.hpp's table. Parted into
+// files by what they are for: simulator_changes, _stages, _run, _stream.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/fem/form/assembler.hpp"
+#include "hyperex/fem/reduced/reduced_model.hpp"
+#include "hyperex/reenact/boundary.hpp"
+#include "hyperex/reenact/held_load.hpp"
+#include "hyperex/reenact/input_shapes.hpp"
+#include "hyperex/reenact/readout.hpp"
+#include "hyperex/reenact/simulator.hpp"
+#include "hyperex/reenact/solve.hpp"
+#include "hyperex/reenact/stream.hpp"
+
+namespace hyperex::reenact {
+
+/// A time at which a shape is wanted, and where it goes.
+struct Shot {
+  double time_s;
+  int frame;  ///< or -1 - index of a still
+};
+
+struct Simulator::Impl {
+  // Given.
+  std::shared_ptr<const tissue::TissueMesh> mesh;
+  std::shared_ptr<const io::Landmarks> landmarks;
+  std::shared_ptr<const AlignedMotion> motion;
+  SimulationOptions options;
+
+  // Stages in the order of the header's table; null where they are still to be computed. What
+  // copies may share is const.
+  std::shared_ptr<const Readout> readout;  // of the face alone
+  std::shared_ptr<const MeasuredRegion> region;
+  std::shared_ptr<const DrivenPoints> driven_points;
+  std::shared_ptr<const DrivenSkin> driven;
+  std::shared_ptr<const Boundary> boundary;
+  std::shared_ptr<const fem::Assembler> assembler;
+  struct Order {
+    std::vector<int> prescribed;
+    std::shared_ptr<const fem::NodeOrder> nodes;
+  };
+  std::shared_ptr<const Order> order;
+  std::shared_ptr<const HeldLoad> load;
+  bool load_held = false;
+  std::shared_ptr<const InputShapes> input;
+  // Of this simulator alone.
+  std::optional<fem::ReducedModel> reduced;
+  std::optional<fem::Newmark> full;
+  bool reduced_current = false, full_current = false;  // with the tissue that is set
+  std::optional<fem::Response> response;
+
+  std::optional<Stream> stream;
+  bool stream_current = false, stream_fits = false;  // with the values; with the pattern and order
+
+  SimulationReport report;
+  RunCallbacks callbacks;
+
+  // ----- what is left when something is set
+
+  void drop_values();
+  void drop_factors();
+  void drop_input();
+  /// Of what it was found in: tissue and support; held, it stays.
+  void drop_load();
+  void drop_boundary();
+  void drop_driven();
+  void drop_region();
+  void set(SimulationOptions next);
+  template <class Part>
+  void set_part(Part SimulationOptions::*part, Part value) {
+    SimulationOptions next = options;
+    next.*part = std::move(value);
+    set(std::move(next));
+  }
+  void set(AlignedMotion next);
+
+  // ----- stages
+
+  void ask() const;
+  double end_s() const;
+  int steps() const;
+  void need_region();
+  bool by_forces() const;
+  void need_boundary();
+  void keep_or_drop_order();
+  fem::Material material() const;
+  void need_assembler();
+  /// The matrices with the tissue and the support that are set, over patterns that are there.
+  void fill(fem::System& system);
+  /// Makes a factor or refills it: `Model` is fem::ReducedModel or fem::Newmark.
+  template <class Model, class Make>
+  void need_factor(std::optional<Model>& model, bool& current, Make make);
+  fem::NewmarkOptions newmark() const;
+  std::shared_ptr<const fem::NodeOrder> known_order() const;
+  void keep_order(const std::shared_ptr<const fem::NodeOrder>& nodes);
+  void need_reduced();
+  void need_full();
+  /// The forces that make the motion in the tissue that is set.
+  void need_load(const PointCurve& points);
+  void need_input(const PointCurve& points);
+  void prepare();
+
+  // ----- a run
+
+  Solution solved(const std::vector<double>& times);
+  void integrate(const std::vector<Shot>& shots, const PointCurve& points,
+                 SimulationResult& result);
+  void store(const Shot& shot, const Points& nodes, const PointCurve& points,
+             SimulationResult& result) const;
+  void describe_tissue(Performance& p);
+  /// Everything but the frames themselves.
+  void describe(const PointCurve& points, Performance& p);
+  void note_driven_off(const std::vector<double>& off_m, const std::vector<std::string>& points);
+  SimulationResult run();
+
+  // ----- a stream
+
+  void start_stream(double interval_s);
+  /// With what is set now: the motion goes on where the pattern and the driven nodes are the same.
+  void renew_stream(double interval_s);
+  PointsF step(const Points& displacement_m);
+};
+
+}  // namespace hyperex::reenact

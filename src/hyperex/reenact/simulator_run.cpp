@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run: from the stages to the frames.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/core/stopwatch.hpp"
+#include "hyperex/fem/form/inverted.hpp"
+#include "hyperex/reenact/muscle_load.hpp"
+#include "hyperex/reenact/simulator_impl.hpp"
+
+namespace hyperex::reenact {
+
+namespace {
+
+std::vector<Shot> shots_of(const TimeOptions& time, double end_s,
+                           std::vector<double>& frame_time_s) {
+  std::vector<Shot> shots;
+  const int frames = std::max(1, static_cast<int>(std::ceil(end_s * time.frame_rate_hz - 1e-6)));
+  for (int f = 0; f < frames; ++f) {
+    frame_time_s.push_back(f / time.frame_rate_hz);
+    shots.push_back({frame_time_s.back(), f});
+  }
+  for (std::size_t i = 0; i < time.still_times_s.size(); ++i)
+    shots.push_back({std::min(time.still_times_s[i], end_s), -1 - static_cast<int>(i)});
+  std::stable_sort(shots.begin(), shots.end(),
+                   [](const Shot& a, const Shot& b) { return a.time_s < b.time_s; });
+  return shots;
+}
+
+std::vector<float> floats(const std::vector<double>& values) {
+  return {values.begin(), values.end()};
+}
+
+}  // namespace
+
+Solution Simulator::Impl::solved(const std::vector<double>& times) {
+  const auto progress = [this](double share) {
+    ask();
+    if (callbacks.progress) callbacks.progress(share);
+  };
+  if (options.solver.method == SolverMethod::direct) {
+    need_full();
+    return run_full(*full, input->drive, times, progress);
+  }
+  need_reduced();
+  ask();
+  Stopwatch watch;
+  if (!response) response = reduced->run(input->drive, {newmark(), options.solver.tolerance});
+  report.basis_s = watch.lap();
+  Solution out = run_reduced(*reduced, *response, times);
+  if (!options.solver.verify) return out;
+  need_full();
+  out.verified_error = greatest_difference(
+      out.displacement, run_full(*full, input->drive, times, progress).displacement);
+  return out;
+}
+
+void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve& points,
+                                SimulationResult& result) {
+  Stopwatch watch;
+  need_boundary();
+  need_assembler();
+  report.boundary_s = watch.lap();
+  ask();
+  report.steps = steps();
+  need_input(points);
+  std::vector<double> times;
+  for (const Shot& shot : shots)
+    times.push_back(
+        std::clamp(shot.time_s / options.time.step_s, 0.0, static_cast<double>(report.steps)));
+  const Solution solution = solved(times);
+  report.simulate_s =
+      watch.lap() - report.basis_s - (report.assemble_s + report.analyse_s + report.factor_s);
+  result.performance.node_displacement_m.resize(result.performance.frame_time_s.size());
+  tbb::parallel_for(std::size_t(0), shots.size(), [&](std::size_t i) {
+    store(
+        shots[i],
+        Eigen::Map<const Points>(solution.displacement.col(i).data(), mesh->volume.nodes.rows(), 3),
+        points, result);
+  });
+  report.greatest_opening_deg = input->greatest_opening_deg;
+  report.input_shapes = static_cast<int>(input->drive.shapes());
+  report.free_dofs = solution.free_dofs;
+  report.basis_size = solution.basis_size;
+  report.linear_solver = solution.linear_solver;
+  report.estimated_error = solution.estimated_error;
+  report.verified_error = solution.verified_error;
+  report.driven_nodes = static_cast<int>(boundary->driven_nodes().size());
+  report.skull_nodes = boundary->skull_count();
+  report.mandible_nodes = boundary->mandible_count();
+  if (!solution.converged)
+    report.notes.push_back(
+        fmt::format("The reduced model stopped growing at {} vectors with an estimated error of "
+                    "{:.1e}, above the wanted {:g}: solving for all unknowns at every step (the "
+                    "direct method) has no such error.",
+                    solution.basis_size, solution.estimated_error, options.solver.tolerance));
+  describe_tissue(result.performance);
+}
+
+void Simulator::Impl::store(const Shot& shot, const Points& nodes, const PointCurve& points,
+                            SimulationResult& result) const {
+  const PointsF skin = readout->skin(*region, nodes, points.at(shot.time_s));
+  Performance& p = result.performance;
+  if (shot.frame < 0) {
+    result.still_displacement_m[-1 - shot.frame] = skin;
+  } else {
+    p.skin_displacement_m[shot.frame] = skin;
+    if (!p.node_displacement_m.empty())
+      p.node_displacement_m[shot.frame] = in_single_precision(nodes);
+  }
+}
+
+void Simulator::Impl::describe_tissue(Performance& p) {
+  p.nodes = mesh->volume.nodes;
+  p.tets = mesh->volume.tets;
+  const fem::Material values = material();
+  p.tet_young_pa = floats(values.young_pa);
+  p.tet_poisson = floats(values.poisson);
+  p.tet_viscosity_pa_s = floats(values.viscosity_pa_s);
+  const std::vector<int> held = boundary->held_nodes();
+  p.held_points_rest.resize(held.size(), 3);
+  for (std::size_t i = 0; i < held.size(); ++i)
+    p.held_points_rest.row(i) = mesh->volume.nodes.row(held[i]);
+  if (callbacks.skin_alone) return;
+  std::vector<int> inverted(p.node_displacement_m.size());
+  tbb::parallel_for(std::size_t(0), inverted.size(), [&](std::size_t f) {
+    const auto marks = fem::inverted_tets(p.nodes, p.tets, p.node_displacement_m[f].cast<double>());
+    inverted[f] = static_cast<int>(std::count(marks.begin(), marks.end(), 1));
+  });
+  report.inverted_tets = *std::max_element(inverted.begin(), inverted.end());
+}
+
+void Simulator::Impl::describe(const PointCurve& points, Performance& p) {
+  p.skin_rest = mesh->skin;
+  p.scan_vertices = mesh->scan_vertices;
+  p.appended = mesh->appended;
+  p.source_triangle = mesh->source_triangle;
+  p.lip_cut_rest = mesh->lip_cut;
+  p.landmarks = readout->landmark_tracks(p.frame_time_s, p.skin_displacement_m);
+  if (!driven_points)
+    driven_points = std::make_shared<const DrivenPoints>(*mesh, *motion,
+                                                         options.drive.names_in(motion->motion));
+  p.driven_names = driven_points->names;
+  p.driven_points_rest = driven_points->rest;
+  if (load) p.muscles = changed_muscles(load->muscles, options.muscles);
+  p.peak_frame = peak_frame(p.frame_time_s, options.time.peak_time_s, driven_points->rows, points);
+  if (callbacks.skin_alone) return;
+  const Readout::Lips lips = readout->lips(p.landmarks, p.skin_displacement_m);
+  report.lip_overlap_mm = lips.overlap_mm;
+  report.lip_gap_mm = lips.gap_mm;
+  note_driven_off(driven_points->off_m(p, points), p.driven_names);
+}
+
+void Simulator::Impl::note_driven_off(const std::vector<double>& off_m,
+                                      const std::vector<std::string>& points) {
+  std::string names;
+  for (std::size_t i = 0; i < off_m.size(); ++i) {
+    report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * off_m[i]);
+    if (off_m[i] > kDrivenWithin_m) names += (names.empty() ? "" : ", ") + points[i];
+  }
+  if (!names.empty())
+    report.notes.push_back(
+        fmt::format("driven points end up to {:.2f} mm from where they are driven: {}; points "
+                    "that lie closer together than the elements and move differently are met in "
+                    "the mean",
+                    report.driven_off_mm, names));
+}
+
+SimulationResult Simulator::Impl::run() {
+  report = {};
+  ask();
+  need_region();
+  const PointCurve points(*motion, options.drive.gain);
+  SimulationResult result;
+  const std::vector<Shot> shots = shots_of(options.time, end_s(), result.performance.frame_time_s);
+  result.performance.skin_displacement_m.resize(result.performance.frame_time_s.size());
+  result.still_displacement_m.resize(options.time.still_times_s.size());
+  if (options.region.measured == Measured::all) {
+    const Points none = Points::Zero(mesh->volume.nodes.rows(), 3);
+    for (const Shot& shot : shots) store(shot, none, points, result);
+  } else {
+    integrate(shots, points, result);
+  }
+  Stopwatch watch;
+  describe(points, result.performance);
+  report.skin_s = watch.lap();
+  result.report = report;
+  return result;
+}
+
+}  // namespace hyperex::reenact
