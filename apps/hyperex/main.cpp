@@ -24,6 +24,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/remarks.hpp"
 #include "hyperex/core/standard_streams.hpp"
+#include "hyperex/motion/option_error.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
 
 namespace {
@@ -129,6 +130,9 @@ int status_of(CLI::App& program, int argc, char** argv) {
     return program.exit(done);
   } catch (const CLI::ParseError& error) {
     print_error(error.what());
+    return 2;
+  } catch (const hyperex::motion::OptionError& error) {
+    print_error(error.sentence("motion." + error.option() + " of a scene"));
     return 2;
   } catch (const hyperex::InputError& error) {
     print_error(error.what());

@@ -20,6 +20,7 @@
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
+#include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/scene/output/asymmetry_picture.hpp"
@@ -149,6 +150,10 @@ motion::Motion without_head(const motion::Motion& motion, bool keep_head) {
   if (keep_head) return motion;
   try {
     return motion::stabilise(motion).motion;
+  } catch (const motion::OptionError& error) {
+    std::cerr << "head pose is not taken out, and excursions contain it: "
+              << error.sentence("motion." + error.option() + " of a scene") << '\n';
+    return motion;
   } catch (const InputError& error) {
     std::cerr << "head pose is not taken out, and excursions contain it: " << error.what() << '\n';
     return motion;

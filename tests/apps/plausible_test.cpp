@@ -246,7 +246,7 @@ TEST_F(Plausible, PointsThatMayMoveWithTheSkullAreAskedForByName) {
   const Outcome checked = call("check scene.toml");
   EXPECT_EQ(checked.status, 2);
   EXPECT_THAT(checked.err,
-              AllOf(HasSubstr("the motion has 0 of them. motion.rigid_points of a scene names"),
+              AllOf(HasSubstr("the motion has 0 of them. motion.rigid_points names others"),
                     HasSubstr("the motion's other points are marker_"), HasSubstr(" more")));
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/motion/option_error.hpp"
 
 namespace hyperex::motion {
 
@@ -81,10 +82,12 @@ FilledMotion fill_gaps(const Motion& motion, const GapOptions& options) {
       const double from_s = motion.time_s[std::size_t(std::max(k - 1, 0))];
       const double length_s = motion.time_s[std::size_t(std::min(last + 1, count - 1))] - from_s;
       if (length_s > options.max_gap_s * (1 + 1e-9))
-        refuse(motion,
-               fmt::format("point {} is missing from {:.4g} s on for {:.4g} s: at most "
-                           "{:.4g} s are interpolated (motion.max_gap_s)",
-                           name, motion.time_s[std::size_t(k)], length_s, options.max_gap_s));
+        throw OptionError(
+            named(motion),
+            fmt::format("point {} is missing from {:.4g} s on for {:.4g} s: at most {:.4g} s are "
+                        "interpolated (",
+                        name, motion.time_s[std::size_t(k)], length_s, options.max_gap_s),
+            "max_gap_s", ")");
       fill(motion, result.motion, p, k, last, options.fill);
       result.gaps.push_back(
           {name, motion.time_s[std::size_t(k)], motion.time_s[std::size_t(last)], last - k + 1});

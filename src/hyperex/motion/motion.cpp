@@ -22,8 +22,12 @@ Points Motion::at(double t) const {
   return (1 - share) * positions[next - 1] + share * positions[next];
 }
 
+std::string named(const Motion& motion) {
+  return motion.source.empty() ? "motion" : motion.source;
+}
+
 void refuse(const Motion& motion, const std::string& message) {
-  throw InputError(motion.source.empty() ? "motion" : motion.source, message);
+  throw InputError(named(motion), message);
 }
 
 }  // namespace hyperex::motion

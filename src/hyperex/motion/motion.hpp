@@ -26,6 +26,8 @@ struct Motion {
   Points at(double t) const;
 };
 
+/// What errors name: `source`, else "motion".
+std::string named(const Motion& motion);
 /// Throws InputError in one line, "SOURCE: message".
 [[noreturn]] void refuse(const Motion& motion, const std::string& message);
 

@@ -17,6 +17,7 @@
 #include "hyperex/io/csv.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/trc.hpp"
+#include "hyperex/motion/option_error.hpp"
 
 namespace hyperex::motion {
 
@@ -100,12 +101,12 @@ void refuse_other_tables(const io::CsvTable& table) {
                        [&](const std::string& name) { return lower(name) == wanted; });
   };
   if (has("au12_r"))
-    throw InputError(table.file,
-                     "a table of action units by OpenFace, not of points: expected it as "
-                     "motion.openface");
+    throw OptionError(table.file,
+                      "a table of action units by OpenFace, not of points: expected it as ",
+                      "openface", "");
   if (has("jawopen"))
-    throw InputError(table.file,
-                     "a table of ARKit's blend shapes, not of points: expected it as motion.arkit");
+    throw OptionError(table.file, "a table of ARKit's blend shapes, not of points: expected it as ",
+                      "arkit", "");
 }
 
 Columns find_columns(const io::CsvTable& table) {
@@ -213,9 +214,10 @@ void scale_to_metres(const fs::path& file, const Columns& columns, std::optional
 /// Its times are no numbers, so that reading the table would speak of the first of them.
 void refuse_live_link(const fs::path& file) {
   if (lower(read_file(file).substr(0, 27)).starts_with("timecode,blendshapecount"))
-    throw InputError(file,
-                     "a recording of ARKit's blend shapes by Live Link Face, not of points: "
-                     "expected it as motion.arkit");
+    throw OptionError(file,
+                      "a recording of ARKit's blend shapes by Live Link Face, not of points: "
+                      "expected it as ",
+                      "arkit", "");
 }
 
 Motion from_csv(const fs::path& file, std::optional<LengthUnit> stated) {

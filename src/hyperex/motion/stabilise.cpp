@@ -10,6 +10,7 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/expressive_pose.hpp"
+#include "hyperex/motion/option_error.hpp"
 
 namespace hyperex::motion {
 
@@ -62,10 +63,11 @@ std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::stri
     for (const auto& name : kNoseTip)
       if (const int index = motion.index_of(name); index >= 0) indices.push_back(index);
   if (indices.size() < 3)
-    refuse(motion, fmt::format("head pose needs three points that move with the skull (eye "
-                               "corners, nose); the motion has {} of them. motion.rigid_points "
-                               "of a scene names others; {}",
-                               indices.size(), other_names(motion, indices)));
+    throw OptionError(named(motion),
+                      fmt::format("head pose needs three points that move with the skull (eye "
+                                  "corners, nose); the motion has {} of them. ",
+                                  indices.size()),
+                      "rigid_points", " names others; " + other_names(motion, indices));
   return indices;
 }
 

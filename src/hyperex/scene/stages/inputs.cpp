@@ -15,6 +15,7 @@
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
+#include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/stabilise.hpp"
@@ -41,8 +42,10 @@ class Problems {
   void attempt(Step step) {
     try {
       step();
+    } catch (const motion::OptionError& e) {
+      add(e.sentence("motion." + e.option()));
     } catch (const InputError& e) {
-      text_ += (text_.empty() ? "" : "\n") + std::string(e.what());
+      add(e.what());
     }
   }
   void add(const Problems& more) {
@@ -53,6 +56,8 @@ class Problems {
   }
 
  private:
+  void add(const std::string& sentences) { text_ += (text_.empty() ? "" : "\n") + sentences; }
+
   std::string text_;
 };
 
