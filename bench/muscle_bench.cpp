@@ -21,8 +21,8 @@
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 #include "hyperex/reenact/simulator.hpp"
-#include "hyperex/scene/run/pipeline.hpp"
 #include "hyperex/scene/stages/inputs.hpp"
+#include "hyperex/scene/stages/simulation_options.hpp"
 
 namespace hyperex {
 namespace {

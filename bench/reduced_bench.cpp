@@ -2,8 +2,10 @@
 // The reduced model: its basis, its error as estimated and against the full model at every step,
 // and what an edit of the tissue costs a program, up to all frames of the skin.
 #include <cmath>
+#include <numeric>
 
 #include "hyperex/fem/reduced/reduced_model.hpp"
+#include "hyperex/reenact/solve.hpp"
 #include "support/face_case.hpp"
 #include "support/machine.hpp"
 #include "support/timing.hpp"
@@ -19,18 +21,9 @@ constexpr double kExact = 1e-7;
 /// All unknowns at all steps of the full model.
 Eigen::MatrixXd full_run(const FaceCase& face, const fem::System& system, const fem::Drive& drive) {
   fem::Newmark newmark(system, face.prescribed(), {face.dt_s()});
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(system.stiffness.cols()), v = d;
-  const fem::Kinematics first = drive.prescribed_at(0);
-  d(face.prescribed()) = first.d;
-  v(face.prescribed()) = first.v;
-  newmark.start(d, v, first.a, drive.force_at(0));
-  Eigen::MatrixXd out(d.size(), drive.steps() + 1);
-  out.col(0) = d;
-  for (int step = 1; step <= drive.steps(); ++step) {
-    newmark.step(drive.prescribed_at(step), drive.force_at(step));
-    out.col(step) = newmark.displacement();
-  }
-  return out;
+  std::vector<double> steps(std::size_t(drive.steps()) + 1);
+  std::iota(steps.begin(), steps.end(), 0.0);
+  return reenact::run_full(newmark, drive, steps).displacement;
 }
 
 struct TrueError {

@@ -7,6 +7,7 @@
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/scene/stages/simulation_options.hpp"
 #include "hyperex/scene/stages/thinned_scan.hpp"
 #include "hyperex/scene/stages/tissue_fields.hpp"
 #include "meshes.hpp"

@@ -10,7 +10,7 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/midsagittal.hpp"
-#include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/scene/stages/simulation_options.hpp"
 
 namespace hyperex::bench {
 

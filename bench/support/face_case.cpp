@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "hyperex/scene/run/pipeline.hpp"
-#include "hyperex/scene/stages/inputs.hpp"
+#include "hyperex/motion/resample.hpp"
+#include "hyperex/scene/stages/simulation_options.hpp"
 #include "support/timing.hpp"
 
 namespace hyperex::bench {
@@ -41,7 +41,7 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
   boundary_ = std::make_unique<reenact::Boundary>(mesh(), landmarks_, motion_, region,
                                                   options_.drive, options_.support);
 
-  curve_ = std::make_unique<motion::MotionCurve>(motion_.motion);
+  points_ = std::make_unique<reenact::PointCurve>(motion_, options_.drive.gain);
   start_s_ = motion_.motion.time_s.front();
   const double end_s =
       options_.time.end_s > 0 ? options_.time.end_s : motion_.motion.time_s.back() - start_s_;
@@ -49,7 +49,7 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
   steps_ = static_cast<int>(std::ceil(end_s / dt_s_ - 1e-9));
   double most = -1;
   for (double t = 0; t <= end_s; t += 1 / options_.time.frame_rate_hz)
-    if (const double moved = points_at(t).norm(); moved > most) {
+    if (const double moved = points_->at(t).norm(); moved > most) {
       most = moved;
       peak_s_ = t;
     }
@@ -59,19 +59,11 @@ reenact::Simulator FaceCase::simulator() const {
   return {mesh_, landmarks_, motion_, options_};
 }
 
-Points FaceCase::points_at(double t_s) const {
-  return options_.drive.gain * (curve_->at(start_s_ + t_s) - curve_->at(start_s_));
-}
-
 fem::Material FaceCase::material(double viscosity_factor) const {
-  const auto tets = static_cast<std::size_t>(mesh().volume.tets.rows());
-  fem::Material m;
-  m.young_pa.assign(tets, options_.tissue.uniform[tissue::young]);
-  m.poisson.assign(tets, options_.tissue.uniform[tissue::poisson]);
-  m.viscosity_pa_s.assign(tets, viscosity_factor * options_.tissue.uniform[tissue::viscosity]);
-  m.density_kg_m3.assign(tets, options_.tissue.uniform[tissue::density]);
-  m.viscous_form = options_.model.viscous_form;
-  return m;
+  reenact::TissueValues values = options_.tissue;
+  values.uniform[tissue::viscosity] *= viscosity_factor;
+  return values.material(static_cast<std::size_t>(mesh().volume.tets.rows()),
+                         options_.model.viscous_form);
 }
 
 void FaceCase::assemble(const fem::Assembler& assembler, const fem::Material& material,
@@ -95,12 +87,12 @@ fem::Drive FaceCase::shapes(const std::function<Points(double)>& points, double 
 }
 
 fem::Drive FaceCase::drive(double solver_tolerance, int steps) const {
-  return shapes([this](double t) { return points_at(t); }, solver_tolerance,
+  return shapes([this](double t) { return points_->at(t); }, solver_tolerance,
                 steps > 0 ? steps : steps_);
 }
 
 fem::Drive FaceCase::sine(double period_s, double solver_tolerance) const {
-  const Points peak = points_at(peak_s_);
+  const Points peak = points_->at(peak_s_);
   // As a recording of it would come in: sampled at the camera's instants, then the same spline.
   motion::Motion recorded = motion_.motion;
   for (std::size_t k = 0; k < recorded.time_s.size(); ++k)

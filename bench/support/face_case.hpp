@@ -5,9 +5,9 @@
 #include <string>
 
 #include "hyperex/fem/form/assembler.hpp"
-#include "hyperex/motion/resample.hpp"
 #include "hyperex/reenact/boundary.hpp"
 #include "hyperex/reenact/input_shapes.hpp"
+#include "hyperex/reenact/point_curve.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
@@ -52,7 +52,6 @@ class FaceCase {
   fem::Drive sine(double period_s, double solver_tolerance) const;
 
  private:
-  Points points_at(double t_s) const;
   fem::Drive shapes(const std::function<Points(double)>& points, double tolerance, int steps) const;
 
   std::string name_;
@@ -61,7 +60,7 @@ class FaceCase {
   reenact::SimulationOptions options_;
   std::shared_ptr<const tissue::TissueMesh> mesh_;
   std::unique_ptr<reenact::Boundary> boundary_;
-  std::unique_ptr<motion::MotionCurve> curve_;
+  std::unique_ptr<reenact::PointCurve> points_;
   double dt_s_ = 0, start_s_ = 0, peak_s_ = 0, mesh_s_ = 0;
   int steps_ = 0;
 };
