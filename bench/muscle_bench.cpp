@@ -70,6 +70,8 @@ reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::In
   take("tone", m.tone_sigma);
   take("slide", m.slide_sigma_m, mm);
   take("patch_all", m.many_patch_m, mm);
+  take("tissue_share", m.few_tissue_share);
+  take("tissue_share_all", m.many_tissue_share);
   return o;
 }
 

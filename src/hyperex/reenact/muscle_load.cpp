@@ -83,11 +83,35 @@ MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const
       JawKinematics(landmarks), priors, sigma, std::move(tone), std::move(ring));
 }
 
-/// Forces that hold the patches of the driven points at unit left-overs (columns, 3 P of the driven
-/// points), the rest of the face being in equilibrium without.
-Eigen::MatrixXd left_over_forces(const MuscleModel& model, const DrivenSkin& patches,
-                                 const Driven& driven, const Eigen::MatrixXd& left_over,
-                                 Eigen::Index points) {
+/// Displacements of the patches' nodes (3 |patch nodes| x n) as the field between the driven points
+/// has them where these are displaced by the columns of `of_points` (3 P).
+Eigen::MatrixXd field_in_patches(const DrivenSkin& patches, const Driven& driven,
+                                 const Eigen::MatrixXd& of_points, Eigen::Index points) {
+  Eigen::MatrixXd out(3 * Eigen::Index(patches.nodes.size()), of_points.cols());
+  for (Eigen::Index c = 0; c < of_points.cols(); ++c) {
+    Points all = Points::Zero(points, 3);
+    for (std::size_t i = 0; i < driven.rows.size(); ++i)
+      all.row(driven.rows[i]) = of_points.col(c).segment<3>(3 * Eigen::Index(i)).transpose();
+    const Points patch = patches.weights * all;
+    out.col(c) = Eigen::Map<const Eigen::VectorXd>(patch.data(), patch.size());
+  }
+  return out;
+}
+
+/// What the field between the driven points makes of the patches beyond what nodal displacements
+/// (3 |nodes| x n) make of them, the points being where these have them.
+Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& driven,
+                                  const Eigen::MatrixXd& nodal, Eigen::Index points) {
+  Eigen::MatrixXd out = field_in_patches(patches, driven, at_points(driven.carrier, nodal), points);
+  for (std::size_t j = 0; j < patches.nodes.size(); ++j)
+    out.middleRows<3>(3 * Eigen::Index(j)) -= nodal.middleRows<3>(3 * patches.nodes[j]);
+  return out;
+}
+
+/// Forces that hold the patches' nodes so displaced (columns), the rest of the face being in
+/// equilibrium without.
+Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patches,
+                               const Eigen::MatrixXd& displaced) {
   std::set<int> unknowns(model.boundary().prescribed().begin(),
                          model.boundary().prescribed().end());
   for (const int node : patches.nodes)
@@ -95,19 +119,33 @@ Eigen::MatrixXd left_over_forces(const MuscleModel& model, const DrivenSkin& pat
   const std::vector<int> prescribed(unknowns.begin(), unknowns.end());
   fem::PartitionedFactor factor(model.stiffness(), prescribed, "patches of the driven points");
   const fem::SparseMatrix coupling = fem::coupling(model.stiffness(), factor.partition());
-  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(model.stiffness().rows(), left_over.cols());
-  for (Eigen::Index c = 0; c < left_over.cols(); ++c) {
-    Points all = Points::Zero(points, 3);
-    for (std::size_t i = 0; i < driven.rows.size(); ++i)
-      all.row(driven.rows[i]) = left_over.col(c).segment<3>(3 * Eigen::Index(i)).transpose();
-    const Points patch = patches.weights * all;
-    for (std::size_t j = 0; j < patches.nodes.size(); ++j)
-      moved.col(c).segment<3>(3 * patches.nodes[j]) = patch.row(Eigen::Index(j)).transpose();
-  }
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(model.stiffness().rows(), displaced.cols());
+  for (std::size_t j = 0; j < patches.nodes.size(); ++j)
+    moved.middleRows<3>(3 * patches.nodes[j]) = displaced.middleRows<3>(3 * Eigen::Index(j));
   Eigen::MatrixXd free = -(coupling * moved(factor.prescribed(), Eigen::all));
   factor.solve(free);
   moved(factor.free(), Eigen::all) = free;
   return model.stiffness() * moved;
+}
+
+/// The forces of muscles and jaw, then of the left-over's directions: columns of a HeldLoad. In the
+/// patches the tissue under the muscles' forces and the field between the points are two guesses of
+/// how the skin moves: `tissue_share` of the one and the rest of the other.
+Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
+                          const Eigen::MatrixXd& left_over, double tissue_share,
+                          Eigen::Index points) {
+  Eigen::MatrixXd own(model.force().rows(), 0), moved = own;
+  own.resize(Eigen::NoChange,
+             model.force().cols() + model.wide_force().cols() + model.jaw_force().cols());
+  own << model.force(), model.wide_force(), model.jaw_force();
+  moved.resize(Eigen::NoChange, own.cols());
+  moved << model.response(), model.wide_response(), model.jaw_response();
+  Eigen::MatrixXd displaced(3 * Eigen::Index(patches.nodes.size()), own.cols() + left_over.cols());
+  displaced << (1 - tissue_share) * field_less_tissue(patches, driven, moved, points),
+      field_in_patches(patches, driven, left_over, points);
+  Eigen::MatrixXd out = holding_forces(model, patches, displaced);
+  out.leftCols(own.cols()) += own;
+  return out;
 }
 
 /// Names the groups of each side, in the template's order; 1 where a muscle (column) is in a group.
@@ -217,9 +255,10 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Eigen::MatrixXd directions = directions_of(left_over);
   load.course.resize(course.rows() + directions.cols(), samples);
   load.course << course, directions.transpose() * left_over;
-  load.force.resize(model.force().rows(), load.course.rows());
-  load.force << model.force(), model.wide_force(), model.jaw_force(),
-      left_over_forces(model, patches, driven, directions, motion.rest.rows());
+  load.force =
+      forces_of(model, patches, driven, directions,
+                driven.few() ? options.muscles.few_tissue_share : options.muscles.many_tissue_share,
+                motion.rest.rows());
   return load;
 }
 

@@ -114,6 +114,9 @@ struct MuscleOptions {
   /// Radius of the patches of skin at many points, over which what muscles leave over is spread; at
   /// few it is DriveOptions::patch_radius_m.
   double many_patch_m = 0.015;
+  /// In the patches around driven points, few and many: this share of the shape that muscles and
+  /// jaw give the skin there, the rest of the field between the points. 1: all of it.
+  double few_tissue_share = 0.65, many_tissue_share = 0.5;
   bool operator==(const MuscleOptions&) const = default;
 };
 

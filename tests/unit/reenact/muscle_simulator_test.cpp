@@ -3,6 +3,8 @@
 // other tissue and weaker muscles make of them.
 #include <gmock/gmock.h>
 
+#include <map>
+
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/reenact/simulator.hpp"
@@ -83,6 +85,44 @@ TEST_F(DrivenByForces, MusclesMeetTheDrivenPoints) {
   EXPECT_EQ(muscles.time_s.size(), 16u);
   EXPECT_EQ(muscles.jaw_opening_deg.size(), 16);
   EXPECT_EQ(muscles.activation.col(0).cwiseAbs().maxCoeff(), 0) << "at rest";
+}
+
+/// In the patches the answer lies between what the tissue makes of the muscles and the field
+/// between the points, to which `tissue_share` 0 leaves the skin: prescribed displacements'
+/// patches.
+TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
+  const SimulationOptions plain = options_;
+  options_.drive.by = DriveBy::displacement;
+  const SimulationResult field = made(options_).run();
+  std::map<double, SimulationResult> by_share;
+  for (const double share : {0.0, 0.25, 1.0}) {
+    options_ = plain;
+    options_.muscles.few_tissue_share = share;
+    options_.muscles.many_tissue_share = 7;  // not of these five points
+    by_share.emplace(share, made(options_).run());
+    EXPECT_LT(by_share.at(share).report.driven_off_mm, 0.1) << share;
+  }
+  const auto peak = [](const SimulationResult& r) {
+    return r.performance.skin_displacement_m.back().cast<double>().eval();
+  };
+  const Points none = peak(by_share.at(0)), some = peak(by_share.at(0.25)),
+               all = peak(by_share.at(1));
+  EXPECT_LT((some - (0.75 * none + 0.25 * all)).rowwise().norm().maxCoeff(), 2e-5);
+  // Within the patch of the left corner; the field's own and not the muscles' shape there.
+  const Points& rest = field.performance.skin_rest.points;
+  const Vec3 corner = face_.landmarks.at("ibug68_54");
+  double off_none = 0, off_all = 0;
+  for (Eigen::Index v = 0; v < rest.rows(); ++v) {
+    if ((rest.row(v).transpose() - corner).norm() > options_.drive.patch_radius_m) continue;
+    if (mesh_->upper_margin[std::size_t(v)] < 0) continue;  // of one lip
+    off_none = std::max(off_none, (none - peak(field)).row(v).norm());
+    off_all = std::max(off_all, (all - peak(field)).row(v).norm());
+  }
+  EXPECT_LT(off_none, 1e-4);
+  EXPECT_GT(off_all, 5 * off_none);
+  EXPECT_EQ(by_share.at(0).performance.muscles.activation,
+            by_share.at(1).performance.muscles.activation)
+      << "the points are where they were";
 }
 
 TEST_F(DrivenByForces, ReactionsMoveTheFaceAsTheDisplacementsDid) {
