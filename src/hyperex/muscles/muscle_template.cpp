@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <optional>
@@ -163,14 +164,14 @@ class MuscleReader {
 
 }  // namespace
 
-std::vector<TemplateMuscle> read_muscles(std::string_view toml, const std::string& source) {
+MuscleTable read_muscles(std::string_view toml, const std::string& source) {
   toml::table file;
   try {
     file = toml::parse(toml);
   } catch (const toml::parse_error& e) {
     throw InputError(source, std::string(e.description()));
   }
-  std::vector<TemplateMuscle> muscles;
+  MuscleTable muscles;
   if (!file.contains("muscle")) return muscles;
   const toml::array* tables = file["muscle"].as_array();
   if (!tables || !tables->is_array_of_tables())
@@ -180,22 +181,39 @@ std::vector<TemplateMuscle> read_muscles(std::string_view toml, const std::strin
   return muscles;
 }
 
-const std::vector<TemplateMuscle>& muscle_template() {
-  static const std::vector<TemplateMuscle> muscles =
+const MuscleTable& muscle_template() {
+  static const MuscleTable muscles =
       read_muscles({hyperex_muscles_begin, hyperex_muscles_end}, "the muscles inside this program");
   return muscles;
 }
 
-const TemplateMuscle* find_muscle(const std::string& name) {
-  for (const TemplateMuscle& muscle : muscle_template())
+const TemplateMuscle* find_muscle(const std::string& name, const MuscleTable& among) {
+  for (const TemplateMuscle& muscle : among)
     if (muscle.name == name) return &muscle;
   return nullptr;
 }
 
-std::set<std::string> names_for(const std::string& muscle) {
+MuscleTable changed_table(MuscleTable table, const MuscleTable& own,
+                          const std::vector<std::string>& without) {
+  for (const TemplateMuscle& muscle : own) {
+    const auto same = std::find_if(table.begin(), table.end(), [&](const TemplateMuscle& other) {
+      return other.name == muscle.name;
+    });
+    if (same == table.end())
+      table.push_back(muscle);
+    else
+      *same = muscle;
+  }
+  std::erase_if(table, [&](const TemplateMuscle& muscle) {
+    return std::find(without.begin(), without.end(), muscle.name) != without.end();
+  });
+  return table;
+}
+
+std::set<std::string> names_for(const std::string& muscle, const MuscleTable& among) {
   const std::string side = muscle.substr(muscle.size() - 2);  // "_L"
   std::set<std::string> names = {muscle, "side" + side};
-  const TemplateMuscle* row = find_muscle(muscle.substr(0, muscle.size() - 2));
+  const TemplateMuscle* row = find_muscle(muscle.substr(0, muscle.size() - 2), among);
   if (row && !row->branch.empty()) names.insert(row->branch + side);
   return names;
 }
@@ -205,10 +223,10 @@ std::string other_side(std::string name) {
   return name;
 }
 
-std::vector<std::string> gain_names() {
+std::vector<std::string> gain_names(const MuscleTable& among) {
   std::set<std::string> all;
-  for (const TemplateMuscle& muscle : muscle_template())
-    for (const char* side : {"_L", "_R"}) all.merge(names_for(muscle.name + side));
+  for (const TemplateMuscle& muscle : among)
+    for (const char* side : {"_L", "_R"}) all.merge(names_for(muscle.name + side, among));
   return {all.begin(), all.end()};
 }
 

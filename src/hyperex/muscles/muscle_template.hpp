@@ -14,6 +14,7 @@ struct TemplatePlace {
       ibug;                      ///< iBUG-68 numbers of the left side, weights summing to 1
   double out_mm = 0, up_mm = 0;  ///< on a face whose outer eye corners are kTemplateEyes_mm apart
   double depth = -1;             ///< 0 on the skin to 1 on the bone; below 0: interpolated
+  bool operator==(const TemplatePlace&) const = default;
 };
 inline constexpr double kTemplateEyes_mm = 87.4;
 
@@ -33,23 +34,31 @@ struct TemplateMuscle {
   MuscleLip lip = MuscleLip::both;
   bool jaw = false;   ///< its origin rides on the mandible
   bool tone = false;  ///< may relax below rest
+  bool operator==(const TemplateMuscle&) const = default;
 };
+using MuscleTable = std::vector<TemplateMuscle>;
 
 /// Reads [[muscle]] tables (data/muscles.toml says how). Throws InputError naming `source`, the
 /// muscle and what was expected.
-std::vector<TemplateMuscle> read_muscles(std::string_view toml, const std::string& source);
+MuscleTable read_muscles(std::string_view toml, const std::string& source);
 
 /// The template that the program carries.
-const std::vector<TemplateMuscle>& muscle_template();
+const MuscleTable& muscle_template();
 /// By its name without side; null where there is none.
-const TemplateMuscle* find_muscle(const std::string& name);
+const TemplateMuscle* find_muscle(const std::string& name,
+                                  const MuscleTable& among = muscle_template());
+/// `own` muscles in the place of those of the same name, the others of `own` behind the rest, and
+/// none of those named in `without`.
+MuscleTable changed_table(MuscleTable table, const MuscleTable& own,
+                          const std::vector<std::string>& without);
 
 /// What may name a muscle of one side ("zyg_major_R"), alone or with others: itself, its branch on
 /// its side ("zygomatic_R"), its side ("side_R").
-std::set<std::string> names_for(const std::string& muscle);
+std::set<std::string> names_for(const std::string& muscle,
+                                const MuscleTable& among = muscle_template());
 /// The same muscle, branch or side of the other side: "side_L" -> "side_R".
 std::string other_side(std::string name);
-/// All of these, of the template's muscles, sorted.
-std::vector<std::string> gain_names();
+/// All of these, of a table's muscles, sorted.
+std::vector<std::string> gain_names(const MuscleTable& among = muscle_template());
 
 }  // namespace hyperex::muscles

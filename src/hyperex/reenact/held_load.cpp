@@ -43,18 +43,19 @@ Eigen::MatrixXd at_steps(const std::vector<double>& time_s, const Eigen::MatrixX
 }  // namespace
 
 Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
-                             const std::vector<MuscleGain>& gains) {
+                             const std::vector<MuscleGain>& gains,
+                             const muscles::MuscleTable& table) {
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(muscles.size()));
   for (const MuscleGain& gain : gains) {
     bool found = false;
     for (std::size_t m = 0; m < muscles.size(); ++m) {
-      if (!muscles::names_for(muscles[m]).contains(gain.muscle)) continue;
+      if (!muscles::names_for(muscles[m], table).contains(gain.muscle)) continue;
       factor[static_cast<Eigen::Index>(m)] *= gain.gain;
       found = true;
     }
     if (!found)
       throw InputError("muscles.gain", fmt::format("{} is no muscle; there are {}", gain.muscle,
-                                                   fmt::join(muscles::gain_names(), ", ")));
+                                                   fmt::join(muscles::gain_names(table), ", ")));
   }
   return factor;
 }
@@ -71,7 +72,7 @@ MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& o
   out.groups.clear();
   out.group_activation.resize(0, 0);
   out.group_sigma.resize(0, 0);
-  const Eigen::VectorXd factor = muscle_gains(muscles.names, options.gains);
+  const Eigen::VectorXd factor = muscle_gains(muscles.names, options.gains, options.table());
   out.activation = factor.asDiagonal() * out.activation;
   out.sigma = factor.asDiagonal() * out.sigma;
   return out;
@@ -82,7 +83,7 @@ fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double d
   Eigen::MatrixXd course = load.course;
   const auto& names = load.muscles.names;
   if (!names.empty()) {
-    const Eigen::VectorXd factor = muscle_gains(names, options.gains);
+    const Eigen::VectorXd factor = muscle_gains(names, options.gains, options.table());
     const auto count = static_cast<Eigen::Index>(names.size());
     for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * count; ++m) {
       const Eigen::Index own = m % count;

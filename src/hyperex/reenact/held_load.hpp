@@ -25,7 +25,8 @@ struct HeldLoad {
 /// Per muscle: the product of the gains that name it, its branch on its side, or its side. Throws
 /// InputError for a name that is none of these, listing those that are.
 Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
-                             const std::vector<MuscleGain>& gains);
+                             const std::vector<MuscleGain>& gains,
+                             const muscles::MuscleTable& table = muscles::muscle_template());
 
 /// The activations after mirroring and gains.
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);

@@ -73,7 +73,7 @@ MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const
   priors.slide_m = options.slide_sigma_m;
   std::vector<char> tone, ring;
   for (const muscles::MuscleLine& line : model.lines()) {
-    const muscles::TemplateMuscle& muscle = muscles::muscle_template()[std::size_t(line.row)];
+    const muscles::TemplateMuscle& muscle = options.table()[std::size_t(line.row)];
     tone.push_back(muscle.tone);
     ring.push_back(muscle.kind == muscles::MuscleKind::ring);
   }
@@ -150,11 +150,10 @@ Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, c
 
 /// Names the groups of each side, in the template's order; 1 where a muscle (column) is in a group.
 Eigen::MatrixXd name_groups(const std::vector<muscles::MuscleLine>& lines,
-                            std::vector<std::string>& groups) {
+                            const muscles::MuscleTable& table, std::vector<std::string>& groups) {
   Eigen::MatrixXd members = Eigen::MatrixXd::Zero(0, static_cast<Eigen::Index>(lines.size()));
   for (std::size_t m = 0; m < lines.size(); ++m) {
-    const std::string name =
-        muscles::muscle_template()[std::size_t(lines[m].row)].group + (lines[m].left ? "_L" : "_R");
+    const std::string name = table[std::size_t(lines[m].row)].group + (lines[m].left ? "_L" : "_R");
     const auto at = std::find(groups.begin(), groups.end(), name) - groups.begin();
     if (at == static_cast<std::ptrdiff_t>(groups.size())) {
       groups.push_back(name);
@@ -208,7 +207,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
   const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
-  MuscleModel model(mesh, landmarks, stiffness, muscles::muscle_template(), model_options(options),
+  MuscleModel model(mesh, landmarks, stiffness, options.muscles.table(), model_options(options),
                     order);
   order = model.order();
   MuscleFit fit = fit_of(landmarks, model, driven, options.muscles);
@@ -221,7 +220,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Eigen::Index of_jaw = (load.wide_bands ? 2 : 1) * count;
   MuscleCourse& muscle = load.muscles;
   for (const muscles::MuscleLine& line : model.lines()) muscle.names.push_back(line.name);
-  const Eigen::MatrixXd members = name_groups(model.lines(), muscle.groups);
+  const Eigen::MatrixXd members =
+      name_groups(model.lines(), options.muscles.table(), muscle.groups);
   muscle.group_activation.resize(members.rows(), samples);
   muscle.group_sigma.resize(members.rows(), samples);
   muscle.activation.resize(count, samples);

@@ -12,6 +12,7 @@
 #include "hyperex/fem/solve/linear_solver.hpp"
 #include "hyperex/motion/motion.hpp"
 #include "hyperex/muscles/force_shape.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/tissue/field/options.hpp"
 
 namespace hyperex::reenact {
@@ -90,6 +91,10 @@ struct MuscleGain {
 /// Muscles and what they pull against, where DriveOptions::by is `muscles`. The constants were
 /// chosen together on one rig and two real faces (docs/muscles.md).
 struct MuscleOptions {
+  muscles::MuscleTable own;  ///< empty: muscles::muscle_template()
+  const muscles::MuscleTable& table() const {
+    return own.empty() ? muscles::muscle_template() : own;
+  }
   std::vector<MuscleGain> gains;
   bool mirrored = false;  ///< each muscle takes the activation of its counterpart
   static constexpr Bounds gain_in{0, 5};

@@ -12,6 +12,7 @@
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/expression/face_model.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::expression {
 namespace {
@@ -26,7 +27,7 @@ const char* const kSmall =
     "# ANIMATION PARAMETERS:\n0.5\n\n# SHAPE PARAMETERS:\n0\n\n# END OF FILE\n";
 
 fs::path written(const std::string& text) {
-  const fs::path file = fs::path(testing::TempDir()) / "small.wfm";
+  const fs::path file = test_file("small.wfm");
   std::ofstream(file) << text;
   return file;
 }
@@ -58,7 +59,7 @@ TEST(Candide, SmallFileIsReadAndComesBack) {
   EXPECT_EQ(file.animation_units[0].name, "Jaw drop");
   EXPECT_EQ(file.animation_units[0].vertices, (std::vector<int>{2, 2}));
   EXPECT_EQ(file.animation_parameters[0], 0.5);
-  const fs::path again = fs::path(testing::TempDir()) / "again.wfm";
+  const fs::path again = test_file("again.wfm");
   write_candide(again, file);
   expect_equal(file, read_candide(again));
 }
@@ -91,7 +92,7 @@ TEST(Candide, TheRealFileHasItsCountsAndComesBack) {
   EXPECT_EQ(candide.mesh.triangles.rows(), 184);
   EXPECT_EQ(candide.animation_units.size(), 14u);
   EXPECT_EQ(candide.shape_units.size(), 38u);
-  const fs::path again = fs::path(testing::TempDir()) / "candide_again.wfm";
+  const fs::path again = test_file("candide_again.wfm");
   write_candide(again, candide);
   expect_equal(candide, read_candide(again));
 

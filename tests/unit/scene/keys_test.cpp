@@ -77,7 +77,8 @@ TEST(Keys, EachReachesItsFieldFromSet) {
     EXPECT_EQ(scene.origins.at(key.name).file, "--set");
     const bool bare = key.kind == Kind::choice || key.kind == Kind::path;
     if (bare) {
-      EXPECT_EQ(key.get(read_scene(file, {key.name + "=" + value.get<std::string>()})), value);
+      overrides.front() = key.name + "=" + value.get<std::string>();
+      EXPECT_EQ(key.get(read_scene(file, overrides)), value);
     }
   }
 }

@@ -2,6 +2,7 @@
 // The keys of muscles: drive.by, [muscles], and what they do not go with.
 #include <gmock/gmock.h>
 
+#include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
 #include "unit/scene/scene_files.hpp"
@@ -65,6 +66,53 @@ TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
             "--set: muscles.gain.side_l = 0.3: expected another name; did you mean side_L?");
   EXPECT_THAT(only_problem(by_muscles + "[muscles]\ngain = { weather = 1 }\n"),
               HasSubstr("muscles.gain.weather = 1: expected one of buccal_L, buccal_R, "));
+}
+
+const std::string own_muscles =
+    "[[muscle]]\nname = \"zyg_major\"\nbranch = \"zygomatic\"\n"
+    "path = [\"45 (9, -30) d1\", \"54 (1, 1) d0.4\"]\nwidth_mm = 9\n"
+    "[[muscle]]\nname = \"graft\"\npath = [\"45 d1\", \"54 d0.4\"]\n";
+
+TEST(MuscleKeys, OwnMusclesReplaceAddAndLeaveOut) {
+  const std::size_t count = muscles::muscle_template().size();
+  EXPECT_THAT(scene_of(by_muscles).muscles.own, IsEmpty()) << "the program's";
+  const SceneFolder folder;
+  folder.write("own.toml", own_muscles);
+  const Scene scene = read_scene(folder.write(
+      "scene.toml", by_muscles + "[muscles]\nfile = \"own.toml\"\nwithout = [\"risorius\"]\n"
+                                 "gain = { graft_R = 0.5, zygomatic_L = 0.5 }\n"
+                                 "[[variant]]\nname = \"cut\"\nmuscles.gain = { graft_R = 0 }\n"));
+  const muscles::MuscleTable& own = scene.muscles.table();
+  ASSERT_EQ(own.size(), count) << "one more and one less";
+  EXPECT_EQ(muscles::find_muscle("zyg_major", own)->width_mm, 9);
+  EXPECT_NE(muscles::find_muscle("graft", own), nullptr);
+  EXPECT_EQ(muscles::find_muscle("risorius", own), nullptr);
+  EXPECT_EQ(scene.variants[0].scene.muscles.own, own);
+}
+
+TEST(MuscleKeys, MistakesInOwnMusclesAreTold) {
+  const SceneFolder folder;
+  folder.write("own.toml", own_muscles);
+  folder.write("torn.toml", "[[muscle]]\nname = \"graft\"\npath = [\"45 d1\"]\n");
+  const auto problem = [&](const std::string& section) {
+    const auto problems =
+        problems_of(folder.write("scene.toml", by_muscles + "[muscles]\n" + section));
+    return problems.size() == 1 ? problems[0].sentence() : sentences(problems);
+  };
+  EXPECT_THAT(problem("file = \"torn.toml\"\n"),
+              AllOf(HasSubstr("scene.toml:8: muscles.file"), HasSubstr("muscle graft: path: ")));
+  EXPECT_THAT(problem("without = [\"risorios\"]\n"),
+              AllOf(HasSubstr("risorios is none"), HasSubstr("did you mean risorius?")));
+  EXPECT_THAT(problem("file = \"own.toml\"\ngain = { graff_R = 0.5 }\n"),
+              HasSubstr("scene.toml:9: muscles.gain.graff_R = 0.5: expected another name; did you "
+                        "mean graft_R?"));
+  EXPECT_THAT(problem("without = [\"risorius\"]\ngain = { risorius_R = 0.5 }\n"),
+              HasSubstr("muscles.gain.risorius_R"))
+      << "left out";
+  EXPECT_THAT(only_problem(std::string(smallest) + "[muscles]\nwithout = [\"risorius\"]\n"),
+              HasSubstr("expected drive.by = \"muscles\" in the scene"));
+  EXPECT_THAT(problem("[[variant]]\nname = \"other\"\nmuscles.without = [\"risorius\"]\n"),
+              HasSubstr("variant[0].muscles.without"));
 }
 
 TEST(MuscleKeys, AFactorIsANumberFrom0To5) {

@@ -39,6 +39,7 @@ inline nlohmann::json other_value(const Key& key) {
     case Kind::path:
       return "face.ply";
     case Kind::names:
+      if (key.name == "muscles.without") return {"risorius", "platysma"};
       return {"one", "two", "three"};
     case Kind::places:
       return {{1.5, 2, 3}};

@@ -170,17 +170,22 @@ std::vector<Complaint> check_places(const KeyInfo& info, const json& value) {
   return complaints;
 }
 
+std::string one_of_names(const std::string& name, const std::vector<std::string>& names) {
+  const std::string near = nearest(name, names);
+  return near.empty() ? fmt::format("one of {}", fmt::join(names, ", "))
+                      : "another name; did you mean " + near + "?";
+}
+
 std::vector<Complaint> check_factors(const KeyInfo& info, const json& value) {
   // A date comes as a table of this one name.
   if (!value.is_object() || value.contains("date or time")) return {{"", value, info.expected()}};
   std::vector<Complaint> complaints;
   for (const auto& [name, factor] : value.items()) {
-    if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end()) {
-      const std::string near = nearest(name, info.choices);
-      complaints.push_back({"." + name, factor,
-                            near.empty()
-                                ? "one of " + fmt::format("{}", fmt::join(info.choices, ", "))
-                                : "another name; did you mean " + near + "?"});
+    // What has a side may be a muscle of the user's own, which is looked at with its table.
+    const bool of_a_side = name.ends_with("_L") || name.ends_with("_R");
+    if (!of_a_side &&
+        std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end()) {
+      complaints.push_back({"." + name, factor, one_of_names(name, info.choices)});
     } else if (!factor.is_number() || !info.range.holds(factor.get<double>())) {
       complaints.push_back({"." + name, factor, number_text(info, "a number")});
     }

@@ -28,6 +28,8 @@ std::vector<Complaint> check_text(const KeyInfo& info, const nlohmann::json& val
 std::vector<Complaint> check_file(const KeyInfo& info, const nlohmann::json& value,
                                   const std::filesystem::path& folder, bool folder_too = false);
 std::vector<Complaint> check_places(const KeyInfo& info, const nlohmann::json& value);
+/// What is expected in the place of an unknown name.
+std::string one_of_names(const std::string& name, const std::vector<std::string>& names);
 std::vector<Complaint> check_factors(const KeyInfo& info, const nlohmann::json& value);
 std::vector<Complaint> check_rows(const KeyInfo& info, const nlohmann::json& value);
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);

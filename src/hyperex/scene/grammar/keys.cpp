@@ -352,6 +352,14 @@ std::vector<Key> run_keys() {
           "as much again where they stay closed. 0 takes the nearest node alone."),
       names<Scene>("drive.still_points", AT(drive.still_points), 0,
                    "Points that are held still on the skin."),
+      path<Scene>(
+          "muscles.file", AT(muscles_file),
+          "Muscles of your own, as tables [[muscle]] (docs/muscles.md): one with the name of "
+          "one of the program's takes its place, others are added. The same for all "
+          "variants."),
+      names<Scene>("muscles.without", AT(muscles_without), 0,
+                   "Muscles that are left out, by their names without side. The same for all "
+                   "variants."),
       factors<Scene, reenact::MuscleGain>(
           "muscles.gain", AT(muscles.gains), &reenact::MuscleGain::muscle,
           &reenact::MuscleGain::gain, muscles::gain_names(),

@@ -5,6 +5,8 @@
 #include <cctype>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/scene/grammar/fields.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
 #include "hyperex/scene/grammar/override.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
@@ -51,6 +53,11 @@ class Reader {
   void complain(const Origin& origin, const std::string& key, const json& value,
                 const std::string& expected);
   void complain_given(const std::string& key, const std::string& expected);
+  /// Of a part of a given key, ".zyg_major_L" of muscles.gain.
+  void complain_part(const std::string& key, const std::string& below, const json& value,
+                     const std::string& expected);
+  void settle_muscles();
+  muscles::MuscleTable muscles_of_scene();
   Origin in_file(const std::string& name) const;
 
   std::map<std::string, int> lines_;
@@ -222,21 +229,26 @@ void Reader::fill() {
     }
     const auto& [value, origin, is_override, folder] = found->second;
     const bool from_file = !is_override;
-    for (const Complaint& complaint : key.set(scene, value, folder)) {
-      const std::string part = key.name + complaint.below;
-      Origin at = origin;
-      if (from_file && lines_.count(part)) at.line = lines_.at(part);
-      // A missing column has no line of its own: its table has.
-      else if (from_file && lines_.count(part.substr(0, part.rfind('.'))))
-        at.line = lines_.at(part.substr(0, part.rfind('.')));
-      complain(at, part, complaint.value, complaint.expected);
-    }
+    for (const Complaint& complaint : key.set(scene, value, folder))
+      complain_part(key.name, complaint.below, complaint.value, complaint.expected);
     scene.origins[key.name] = origin;
     if (!from_file) continue;
     for (auto part = lines_.lower_bound(key.name + "[");
          part != lines_.end() && part->first.rfind(key.name + "[", 0) == 0; ++part)
       scene.origins[part->first] = {scene.file, part->second};
   }
+}
+
+void Reader::complain_part(const std::string& key, const std::string& below, const json& value,
+                           const std::string& expected) {
+  const Given& given = given_.at(key);
+  const std::string part = key + below;
+  Origin at = given.origin;
+  if (!given.is_override && lines_.count(part)) at.line = lines_.at(part);
+  // A missing column has no line of its own: its table has.
+  else if (!given.is_override && lines_.count(part.substr(0, part.rfind('.'))))
+    at.line = lines_.at(part.substr(0, part.rfind('.')));
+  complain(at, part, value, expected);
 }
 
 void Reader::complain_given(const std::string& key, const std::string& expected) {
@@ -247,7 +259,40 @@ void Reader::complain_given(const std::string& key, const std::string& expected)
     complain(found->second.origin, key, found->second.value, expected);
 }
 
+/// Empty: the program's own.
+muscles::MuscleTable Reader::muscles_of_scene() {
+  if (scene.muscles_file.empty() && scene.muscles_without.empty()) return {};
+  muscles::MuscleTable own;
+  try {
+    if (const fs::path& file = scene.muscles_file; !file.empty())
+      own = muscles::read_muscles(read_file(file), file.string());
+  } catch (const InputError& error) {
+    complain_given("muscles.file", fmt::format("sound tables of muscles ({})", error.what()));
+    return {};
+  }
+  const muscles::MuscleTable all = muscles::changed_table(muscles::muscle_template(), own, {});
+  std::vector<std::string> names;
+  for (const muscles::TemplateMuscle& muscle : all) names.push_back(muscle.name);
+  for (const std::string& name : scene.muscles_without)
+    if (!muscles::find_muscle(name, all))
+      complain_given("muscles.without", fmt::format("names of muscles without side; {} is none: {}",
+                                                    name, one_of_names(name, names)));
+  muscles::MuscleTable left = muscles::changed_table(all, {}, scene.muscles_without);
+  if (left.empty()) complain_given("muscles.without", "one muscle or more left");
+  return left;
+}
+
+/// The table of muscles, and whether gains name any of it.
+void Reader::settle_muscles() {
+  scene.muscles.own = muscles_of_scene();
+  const std::vector<std::string> names = muscles::gain_names(scene.muscles.table());
+  for (const reenact::MuscleGain& gain : scene.muscles.gains)
+    if (std::find(names.begin(), names.end(), gain.muscle) == names.end())
+      complain_part("muscles.gain", "." + gain.muscle, gain.gain, one_of_names(gain.muscle, names));
+}
+
 void Reader::check_together() {
+  settle_muscles();
   if (scene.region.measured == reenact::Measured::points && scene.region.measured_points.empty())
     complain_given("region.measured_points", "one or more names, as region.measured is \"points\"");
   if (scene.mesh.thickness_m != 0 && !scene.mesh.depths.empty())
@@ -256,12 +301,12 @@ void Reader::check_together() {
       scene.drive.points.empty())
     complain_given("drive.points", "one or more names, or \"all\", as region.measured is \"none\"");
   const bool by_muscles = scene.drive.by == reenact::DriveBy::muscles;
-  if (!by_muscles && !scene.muscles.gains.empty())
-    complain_given("muscles.gain",
-                   "drive.by = \"muscles\" in the scene: muscles move nothing otherwise");
-  if (!by_muscles && scene.muscles.mirrored)
-    complain_given("muscles.mirrored",
-                   "drive.by = \"muscles\" in the scene: muscles move nothing otherwise");
+  for (const auto& [key, given] : {std::pair{"muscles.gain", !scene.muscles.gains.empty()},
+                                   {"muscles.mirrored", scene.muscles.mirrored},
+                                   {"muscles.file", !scene.muscles_file.empty()},
+                                   {"muscles.without", !scene.muscles_without.empty()}})
+    if (!by_muscles && given)
+      complain_given(key, "drive.by = \"muscles\" in the scene: muscles move nothing otherwise");
   if (scene.drive.by != reenact::DriveBy::displacement &&
       scene.region.measured != reenact::Measured::none)
     complain_given("region.measured", "\"none\", as drive.by is not \"displacement\"");
@@ -279,6 +324,8 @@ void Reader::check_together() {
 
 bool may_vary(const std::string& key) {
   const auto& sections = variant_sections();
+  // Variants answer the forces that the scene's muscles were found to make.
+  if (key == "muscles.file" || key == "muscles.without") return false;
   return key == "motion.gain" ||
          std::find(sections.begin(), sections.end(), section_of(key)) != sections.end();
 }

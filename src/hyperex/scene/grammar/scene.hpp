@@ -85,7 +85,9 @@ struct Scene {
   reenact::ModelOptions model;
   reenact::RegionOptions region;
   reenact::SupportOptions support;
-  reenact::MuscleOptions muscles;
+  reenact::MuscleOptions muscles;  ///< `own`: the program's as the two below change it
+  std::filesystem::path muscles_file;
+  std::vector<std::string> muscles_without;
   reenact::DriveOptions drive;  ///< gain: of the key motion.gain
   reenact::SolverOptions solver;
   /// peak_time_s, still_times_s (up to 12; none: spread_frames()): of the section output.

@@ -55,7 +55,7 @@ struct View {
 
 render::Image view_of(const View& view, const TriMesh& skin, const Points& framed,
                       const std::vector<muscles::MuscleLine>& lines, const face::FaceFrame& frame,
-                      const AtPeak& peak) {
+                      const AtPeak& peak, const muscles::MuscleTable& table) {
   render::RenderOptions options{.width_px = 440, .height_px = 560};
   options.overlay_bias_m = 0.025;  // as deep as a muscle lies
   const render::Camera camera =
@@ -64,22 +64,19 @@ render::Image view_of(const View& view, const TriMesh& skin, const Points& frame
   for (const muscles::MuscleLine& line : lines) {
     if (!(line.left ? view.left : view.right)) continue;
     const double activation = peak.activation(line.name);
-    drawn.push_back({frame.local_points(line.line),
-                     colour_of(muscles::muscle_template()[std::size_t(line.row)].branch),
+    drawn.push_back({frame.local_points(line.line), colour_of(table[std::size_t(line.row)].branch),
                      1.5 + (activation > 0 ? 6 * std::min(activation, 1.0) : 0)});
   }
   render::Canvas canvas(render::render({{.mesh = skin}}, camera, options, {}, drawn));
   for (const muscles::MuscleLine& line : lines) {
     if (!(line.left ? view.left : view.right)) continue;
     // Rings begin at one place, the corner of the mouth or of the eye.
-    const bool ring =
-        muscles::muscle_template()[std::size_t(line.row)].kind == muscles::MuscleKind::ring;
+    const bool ring = table[std::size_t(line.row)].kind == muscles::MuscleKind::ring;
     const Vec3 shown_at = line.line.row(ring ? line.line.rows() / 2 : 0);
     const auto at =
         render::project(camera, options.width_px, options.height_px, frame.local(shown_at));
     canvas.disc(at.x, at.y, 7, {1, 1, 1});
-    canvas.disc(at.x, at.y, 6.2,
-                colour_of(muscles::muscle_template()[std::size_t(line.row)].branch));
+    canvas.disc(at.x, at.y, 6.2, colour_of(table[std::size_t(line.row)].branch));
     canvas.text(
         at.x, at.y + 3, std::to_string(line.row + 1),
         {.size_px = 8.5, .colour = {1, 1, 1}, .align = render::Align::centre, .bold = true});
@@ -91,8 +88,7 @@ std::string shown(double activation) {
   return std::isnan(activation) ? "-" : fmt::format("{:.2f}", activation);
 }
 
-render::Image legend(const AtPeak& peak, int height_px) {
-  const auto& all = muscles::muscle_template();
+render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int height_px) {
   constexpr int left = 14, wide = 400;
   const double step = (height_px - 60.0) / double(all.size());
   render::Canvas canvas(wide, height_px);
@@ -123,12 +119,11 @@ render::Image legend(const AtPeak& peak, int height_px) {
 }  // namespace
 
 render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                           const reenact::MuscleCourse& course) {
+                           const reenact::MuscleCourse& course, const muscles::MuscleTable& table) {
   const face::FaceFrame frame = face::face_frame(landmarks);
   const TriMesh skin{frame.local_points(mesh.skin.points), mesh.skin.triangles};
   const Points framed = points_within(face_box(landmarks, frame), skin.points);
-  const std::vector<muscles::MuscleLine> lines =
-      muscles::muscle_lines(muscles::muscle_template(), mesh, landmarks);
+  const std::vector<muscles::MuscleLine> lines = muscles::muscle_lines(table, mesh, landmarks);
   const AtPeak peak(course);
   const Vec3 left = render::three_quarter_view(), right(-left.x(), left.y(), left.z());
   const std::array<View, 3> views{{{right, "right side", false, true},
@@ -144,10 +139,11 @@ render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& 
   sheet.columns = 4;
   sheet.pictures.resize(views.size());
   tbb::parallel_for(std::size_t(0), views.size(), [&](std::size_t i) {
-    sheet.pictures[i] = {view_of(views[i], skin, framed, lines, frame, peak), views[i].caption};
+    sheet.pictures[i] = {view_of(views[i], skin, framed, lines, frame, peak, table),
+                         views[i].caption};
   });
   const int height_px = sheet.pictures.front().image.height;
-  sheet.pictures.push_back({legend(peak, height_px), ""});
+  sheet.pictures.push_back({legend(table, peak, height_px), ""});
   return render::contact_sheet(sheet);
 }
 

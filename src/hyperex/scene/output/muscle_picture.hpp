@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/render/image.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
@@ -12,6 +13,7 @@ namespace hyperex::scene {
 /// from both sides, coloured by branch of the facial nerve and as broad as they are active where
 /// all together are most so; beside it their names with that activation on either side.
 render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                           const reenact::MuscleCourse& course);
+                           const reenact::MuscleCourse& course,
+                           const muscles::MuscleTable& table = muscles::muscle_template());
 
 }  // namespace hyperex::scene

@@ -34,6 +34,12 @@ Points moved(const Performance& p, const PointsF& displacement) {
   return p.skin_rest.points + displacement.cast<double>();
 }
 
+/// In double precision: the square of a very small displacement is a denormal number in single
+/// precision, which some libraries' threads take for 0 and others do not.
+Eigen::VectorXf lengths_mm(const PointsF& d) {
+  return (1e3 * d.cast<double>().rowwise().norm()).cast<float>();
+}
+
 /// The skin at the peak in the scan's unit; its own vertices first, in their order.
 void write_peak(const Results& r, const std::filesystem::path& directory) {
   const Performance& p = r.simulation.performance;
@@ -46,11 +52,11 @@ void write_peak(const Results& r, const std::filesystem::path& directory) {
     io::write_ply(directory / "skin_peak.ply",
                   {full->skin.points + all.cast<double>(), full->skin.triangles},
                   r.inputs.scan.unit,
-                  {{"displacement_mm", 1e3F * all.rowwise().norm()},
+                  {{"displacement_mm", lengths_mm(all)},
                    {"asymmetry_mm", Eigen::VectorXf(on_full_skin(*full, map_mm))}});
   } else {
     io::write_ply(directory / "skin_peak.ply", skin, r.inputs.scan.unit,
-                  {{"displacement_mm", 1e3F * d.rowwise().norm()}, {"asymmetry_mm", map_mm}});
+                  {{"displacement_mm", lengths_mm(d)}, {"asymmetry_mm", map_mm}});
   }
   const metrics::AsymmetrySummary& frame = asymmetry.frames[static_cast<std::size_t>(p.peak_frame)];
   std::string note = fmt::format(
@@ -302,8 +308,9 @@ std::optional<report::GlbReport> write_outputs(const Results& r,
          metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
          if (!p.muscles.names.empty()) {
            write_activations_csv(directory / "activations.csv", p.muscles);
-           render::write_png(directory / "muscles.png",
-                             draw_muscles(r.mesh, r.inputs.landmarks, p.muscles));
+           render::write_png(
+               directory / "muscles.png",
+               draw_muscles(r.mesh, r.inputs.landmarks, p.muscles, r.scene.muscles.table()));
          }
          metrics::write_excursions_csv(directory / "excursions.csv", r.symmetry.excursions);
        }});
