@@ -32,8 +32,9 @@ struct TemplateMuscle {
   double band = 0;  ///< reach of its force beside the line over the width; 0: as for all muscles
   MuscleKind kind = MuscleKind::pull;
   MuscleLip lip = MuscleLip::both;
-  bool jaw = false;   ///< its origin rides on the mandible
-  bool tone = false;  ///< may relax below rest
+  bool jaw = false;      ///< its origin rides on the mandible
+  bool tone = false;     ///< may relax below rest
+  double readiness = 1;  ///< how far it is expected to act, over what is expected of others
   bool operator==(const TemplateMuscle&) const = default;
 };
 using MuscleTable = std::vector<TemplateMuscle>;

@@ -67,7 +67,8 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
       const double sigma = tone_[m] && last_.activation[m] < 0 ? priors_.tone
                            : ring_[m]                          ? priors_.ring
                                                                : priors_.activation;
-      h(m, m) += 1 / (sigma * sigma);
+      const double own = priors_.readiness.size() > 0 ? priors_.readiness[m] * sigma : sigma;
+      h(m, m) += 1 / (own * own);
     }
     for (int k = 0; k < 6; ++k) h(muscles + k, muscles + k) += 1 / (prior[k] * prior[k]);
     Eigen::VectorXd g(all), x(all);

@@ -29,6 +29,7 @@ struct FitPriors {
   double ring = 0.2;  ///< of muscles that act as rings
   double tone = 0.1;  ///< of muscles that may relax below rest, on that side
   double opening_rad = 0.35, turn_rad = 0.03, tilt_rad = 0.02, slide_m = 0.002;
+  Eigen::VectorXd readiness = {};  ///< per muscle: a factor on the three of it; empty: all 1
 };
 
 /// Points as functions of activations and the jaw's motion: 3 P x M and 3 P x 12, m. With wide

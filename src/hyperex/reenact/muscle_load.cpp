@@ -72,8 +72,10 @@ MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const
   priors.tone = options.tone_sigma;
   priors.slide_m = options.slide_sigma_m;
   std::vector<char> tone, ring;
+  priors.readiness.resize(Eigen::Index(model.lines().size()));
   for (const muscles::MuscleLine& line : model.lines()) {
     const muscles::TemplateMuscle& muscle = options.table()[std::size_t(line.row)];
+    priors.readiness[Eigen::Index(tone.size())] = muscle.readiness;
     tone.push_back(muscle.tone);
     ring.push_back(muscle.kind == muscles::MuscleKind::ring);
   }

@@ -54,10 +54,13 @@ TEST(MuscleTemplate, ReadsTheOtherKeysAndHasDefaults) {
   EXPECT_EQ(plain.lip, MuscleLip::both);
   EXPECT_FALSE(plain.jaw);
   EXPECT_FALSE(plain.tone);
+  EXPECT_EQ(plain.readiness, 1);
   const TemplateMuscle full =
       muscle(two,
              "latin = \"l\"\ngroup = \"g\"\nbranch = \"b\"\nwidth_mm = 7\nband = 2.5\n"
-             "kind = \"ring\"\nlip = \"lower\"\njaw = true\ntone = true\n");
+             "kind = \"ring\"\nlip = \"lower\"\njaw = true\ntone = true\n"
+             "readiness = 1.5\n");
+  EXPECT_EQ(full.readiness, 1.5);
   EXPECT_EQ(full.latin + full.group + full.branch, "lgb");
   EXPECT_EQ(full.width_mm, 7);
   EXPECT_EQ(full.band, 2.5);
@@ -105,6 +108,7 @@ TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
       {"width_mm", "width_mm = 101"},
       {"width_mm", "width_mm = nan"},
       {"width_mm", "width_mm = \"wide\""},
+      {"readiness", "readiness = 0"},
       {"band", "band = 0"},
       {"band", "band = inf"},
       {"band", "band = [2]"},

@@ -162,6 +162,19 @@ TEST_F(FitOfPoints, APriorWeighsByItsSigma) {
               1 / std::sqrt(way.squaredNorm() / (sigma_m * sigma_m) + 1 / (0.3 * 0.3)), 1e-12);
 }
 
+/// Two muscles that points cannot tell apart share in the ratio of their priors' variances.
+TEST_F(FitOfPoints, AReadierMuscleActsMore) {
+  const Eigen::Vector3d way(0.004, -0.003, 0.012);
+  Eigen::MatrixXd both(3, 2);
+  both << way, way;
+  FitPriors priors;
+  priors.readiness = Eigen::Vector2d(1, 2);
+  MuscleFit fit({both, Eigen::MatrixXd::Zero(3, 12), {}}, jaw_, priors, 0.001, {0, 0}, {0, 0});
+  const Eigen::VectorXd a = fit.fit(0.4 * way).activation;
+  EXPECT_GT(a[0], 0.05);
+  EXPECT_NEAR(a[1], 4 * a[0], 1e-12);
+}
+
 /// Of activations drawn from the prior and points with noise, sigma is what the fit is wrong by.
 TEST_F(FitOfPoints, SigmaIsWhatTheFitIsWrongBy) {
   constexpr int kMuscles = 5, kDraws = 3000;
