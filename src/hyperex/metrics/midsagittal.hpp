@@ -35,9 +35,9 @@ MidsagittalPlane landmark_plane(const io::Landmarks& landmarks);
 /// points over the region "face" (regions.hpp), point to plane, solved for the plane's three
 /// parameters directly, so that the result is a reflection at every step; Tukey's weights at
 /// 4.685 times the scale 1.4826 median |r|. Feet on the outer border, more than 10 mm off, or
-/// with normals more than 60 degrees apart do not count. It ends where steps are below 1e-8 (radian,
-/// or 0.1 m), after four rounds in a row without a smaller one, or after 60. A refinement that turns by more than
-/// 15 degrees or shifts by more than 15 mm is given up, and `note` says so.
+/// with normals more than 60 degrees apart do not count. It ends where steps are below 1e-8
+/// (radian, or 0.1 m), after four rounds in a row without a smaller one, or after 60. A refinement
+/// that turns by more than 15 degrees or shifts by more than 15 mm is given up, and `note` says so.
 /// docs/symmetry.md names the sources.
 MidsagittalPlane midsagittal_plane(const TriMesh& rest, const io::Landmarks& landmarks);
 
