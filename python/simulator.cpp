@@ -178,7 +178,9 @@ void bind_simulator(py::module_& m) {
            "where `cancelled()` is true, Cancelled is raised. Ctrl-C raises KeyboardInterrupt. The "
            "simulator can be used again after each of them. Other threads of Python go on.")
       .def("set_tissue", &S::set_tissue, "tissue"_a,
-           "Neither matches points nor orders the matrix again.")
+           "Neither matches points nor orders the matrix again. Where forces drive (muscles or "
+           "reactions), the next run finds others that meet the recording again, unless "
+           "hold_load() was called before.")
       .def(
           "set_support",
           [](S& self, const reenact::SupportOptions& support) {
@@ -193,8 +195,8 @@ void bind_simulator(py::module_& m) {
           "drive"_a)
       .def(
           "hold_load", [](S& self) { self.change([](auto& s) { s.hold_load(); }); },
-          "From now on the forces found by muscles or reactions are kept whatever tissue and "
-          "support are set.")
+          "The forces found by the last run (else the next one), by muscles or reactions, are kept "
+          "whatever tissue and support are set from now on.")
       .def(
           "set_motion",
           [](S& self, const AlignedMotion& motion) {
