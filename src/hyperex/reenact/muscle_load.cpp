@@ -136,11 +136,11 @@ Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patch
 Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
                           const Eigen::MatrixXd& left_over, double tissue_share,
                           Eigen::Index points) {
-  Eigen::MatrixXd own(model.force().rows(), 0), moved = own;
-  own.resize(Eigen::NoChange,
-             model.force().cols() + model.wide_force().cols() + model.jaw_force().cols());
+  const Eigen::Index rows = model.force().rows();
+  const Eigen::Index columns =
+      model.force().cols() + model.wide_force().cols() + model.jaw_force().cols();
+  Eigen::MatrixXd own(rows, columns), moved(rows, columns);
   own << model.force(), model.wide_force(), model.jaw_force();
-  moved.resize(Eigen::NoChange, own.cols());
   moved << model.response(), model.wide_response(), model.jaw_response();
   Eigen::MatrixXd displaced(3 * Eigen::Index(patches.nodes.size()), own.cols() + left_over.cols());
   displaced << (1 - tissue_share) * field_less_tissue(patches, driven, moved, points),

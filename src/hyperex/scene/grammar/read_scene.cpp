@@ -39,6 +39,8 @@ class Reader {
   void take_override(const Override& given);
   void settle_motion();
   void fill();
+  /// Variants have the same table.
+  void settle_muscles() { scene.muscles.own = muscles_of_scene(); }
   void check_together();
   /// Reads the scene once more for each variant, its changes in the place of what was given.
   void settle_variants();
@@ -56,7 +58,8 @@ class Reader {
   /// Of a part of a given key, ".zyg_major_L" of muscles.gain.
   void complain_part(const std::string& key, const std::string& below, const json& value,
                      const std::string& expected);
-  void settle_muscles();
+  /// Whether gains name muscles of the scene's table.
+  void check_gains();
   muscles::MuscleTable muscles_of_scene();
   Origin in_file(const std::string& name) const;
 
@@ -282,9 +285,7 @@ muscles::MuscleTable Reader::muscles_of_scene() {
   return left;
 }
 
-/// The table of muscles, and whether gains name any of it.
-void Reader::settle_muscles() {
-  scene.muscles.own = muscles_of_scene();
+void Reader::check_gains() {
   const std::vector<std::string> names = muscles::gain_names(scene.muscles.table());
   for (const reenact::MuscleGain& gain : scene.muscles.gains)
     if (std::find(names.begin(), names.end(), gain.muscle) == names.end())
@@ -292,7 +293,7 @@ void Reader::settle_muscles() {
 }
 
 void Reader::check_together() {
-  settle_muscles();
+  check_gains();
   if (scene.region.measured == reenact::Measured::points && scene.region.measured_points.empty())
     complain_given("region.measured_points", "one or more names, as region.measured is \"points\"");
   if (scene.mesh.thickness_m != 0 && !scene.mesh.depths.empty())
@@ -404,6 +405,7 @@ Reader read(const fs::path& file, const std::vector<Override>& overrides) {
     for (const Override& given : overrides) reader.take_override(given);
     reader.settle_motion();
     reader.fill();
+    reader.settle_muscles();
     reader.check_together();
     reader.settle_variants();
   }

@@ -6,6 +6,12 @@
 
 namespace hyperex::scene {
 
+Eigen::Index most_active_sample(const reenact::MuscleCourse& muscles) {
+  Eigen::Index at = 0;
+  muscles.activation.cwiseAbs().colwise().sum().maxCoeff(&at);
+  return at;
+}
+
 void write_activations_csv(const std::filesystem::path& file,
                            const reenact::MuscleCourse& muscles) {
   std::vector<std::string> columns = {"time_s", "jaw_opening_deg"};
@@ -28,8 +34,7 @@ nlohmann::ordered_json activations_json(const reenact::MuscleCourse& muscles,
                                         std::size_t driven_points) {
   nlohmann::ordered_json json;
   if (muscles.groups.empty()) return json;
-  Eigen::Index at = 0;
-  muscles.activation.cwiseAbs().colwise().sum().maxCoeff(&at);
+  const Eigen::Index at = most_active_sample(muscles);
   json["time_s"] = muscles.time_s[std::size_t(at)];
   json["jaw_opening_deg"] = muscles.jaw_opening_deg[at];
   for (std::size_t g = 0; g < muscles.groups.size(); ++g) {

@@ -7,6 +7,9 @@
 
 namespace hyperex::scene {
 
+/// The sample in which all muscles together are most active.
+Eigen::Index most_active_sample(const reenact::MuscleCourse& muscles);
+
 /// activations.csv: a row a sample of the motion; time_s, jaw_opening_deg, then of each muscle its
 /// activation (1 moves the skin by 10 mm where most) and its standard deviation. `muscles` has
 /// names.

@@ -17,6 +17,7 @@
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/render/time_plot.hpp"
+#include "hyperex/scene/output/activations.hpp"
 #include "hyperex/scene/output/face_box.hpp"
 
 namespace hyperex::scene {
@@ -32,9 +33,8 @@ render::Colour colour_of(const std::string& branch) {
 /// Of the muscles of one sample.
 class AtPeak {
  public:
-  explicit AtPeak(const reenact::MuscleCourse& course) : course_(course) {
-    course.activation.cwiseAbs().colwise().sum().maxCoeff(&sample_);
-  }
+  explicit AtPeak(const reenact::MuscleCourse& course)
+      : course_(course), sample_(most_active_sample(course)) {}
   double time_s() const { return course_.time_s[std::size_t(sample_)]; }
   double activation(const std::string& name) const {
     const auto at = std::find(course_.names.begin(), course_.names.end(), name);
@@ -44,8 +44,16 @@ class AtPeak {
 
  private:
   const reenact::MuscleCourse& course_;
-  Eigen::Index sample_ = 0;
+  Eigen::Index sample_;
 };
+
+/// The mark of a muscle: its row of the table, from 1.
+void draw_mark(render::Canvas& canvas, double x, double y, std::size_t row,
+               const muscles::MuscleTable& table) {
+  canvas.disc(x, y, 6.2, colour_of(table[row].branch));
+  canvas.text(x, y + 3, std::to_string(row + 1),
+              {.size_px = 8.5, .colour = {1, 1, 1}, .align = render::Align::centre, .bold = true});
+}
 
 struct View {
   Vec3 to_viewer;
@@ -76,10 +84,7 @@ render::Image view_of(const View& view, const TriMesh& skin, const Points& frame
     const auto at =
         render::project(camera, options.width_px, options.height_px, frame.local(shown_at));
     canvas.disc(at.x, at.y, 7, {1, 1, 1});
-    canvas.disc(at.x, at.y, 6.2, colour_of(table[std::size_t(line.row)].branch));
-    canvas.text(
-        at.x, at.y + 3, std::to_string(line.row + 1),
-        {.size_px = 8.5, .colour = {1, 1, 1}, .align = render::Align::centre, .bold = true});
+    draw_mark(canvas, at.x, at.y, std::size_t(line.row), table);
   }
   return canvas.image();
 }
@@ -92,18 +97,14 @@ render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int he
   constexpr int left = 14, wide = 400;
   const double step = (height_px - 60.0) / double(all.size());
   render::Canvas canvas(wide, height_px);
-  const render::TextStyle head{.size_px = 11, .colour = render::palette::faint_ink},
+  const render::TextStyle head{
+      .size_px = 11, .colour = render::palette::faint_ink, .align = render::Align::right},
       right{.size_px = 12, .align = render::Align::right};
-  render::TextStyle head_right = head;
-  head_right.align = render::Align::right;
-  canvas.text(wide - 60, 14, "right", head_right);
-  canvas.text(wide - 10, 14, "left", head_right);
+  canvas.text(wide - 60, 14, "right", head);
+  canvas.text(wide - 10, 14, "left", head);
   for (std::size_t m = 0; m < all.size(); ++m) {
     const double y = 30 + step * double(m);
-    canvas.disc(left, y - 4, 6.2, colour_of(all[m].branch));
-    canvas.text(
-        left, y - 1, std::to_string(m + 1),
-        {.size_px = 8.5, .colour = {1, 1, 1}, .align = render::Align::centre, .bold = true});
+    draw_mark(canvas, left, y - 4, m, all);
     canvas.text(left + 14, y, all[m].latin, {.size_px = 12});
     canvas.text(wide - 60, y, shown(peak.activation(all[m].name + "_R")), right);
     canvas.text(wide - 10, y, shown(peak.activation(all[m].name + "_L")), right);
@@ -133,8 +134,7 @@ render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& 
   sheet.title = "Muscles";
   sheet.note = fmt::format(
       "from origin (disc; of a ring its middle) to insertion; colour: branch of the facial nerve; "
-      "numbers and breadth: "
-      "activation at {:.2f} s; right and left are the subject's own",
+      "numbers and breadth: activation at {:.2f} s; right and left are the subject's own",
       peak.time_s());
   sheet.columns = 4;
   sheet.pictures.resize(views.size());

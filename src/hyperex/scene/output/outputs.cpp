@@ -103,27 +103,26 @@ std::vector<Still> stills_of(const Results& r) {
   return stills;
 }
 
-/// What stands behind the holes of the skin, in the face's frame.
+/// What stands behind the holes of a skin in one shape, in the face's frame.
 class BackingSurfaces {
  public:
-  BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame) {
+  /// `skin`: the vertices in that shape; pockets hang on them.
+  BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame,
+                  const Points& skin) {
     for (const report::Eyeball& eye : backing.eyeballs) {
       int part = 0;
       for (const TriMesh& mesh : report::eyeball_parts(eye))
         parts_.push_back({{frame.local_points(mesh.points), mesh.triangles}, kEye[part++]});
     }
-    still_ = parts_.size();
-  }
-
-  /// The skin's surface with all that stands behind it; valid until the next call.
-  std::vector<render::Surface> with(const render::Surface& skin,
-                                    const report::FaceBacking& backing) {
-    parts_.erase(parts_.begin() + std::ptrdiff_t(still_), parts_.end());
     for (const report::Opening& opening : backing.openings) {
-      TriMesh mesh = report::pocket(opening, skin.mesh.points);
+      TriMesh mesh = report::pocket(opening, skin);
       mesh.triangles.col(1).swap(mesh.triangles.col(2));  // seen from behind: darker, no sheen
       parts_.push_back({std::move(mesh), kPocket});
     }
+  }
+
+  /// The skin's surface with all that stands behind it; refers to this.
+  std::vector<render::Surface> with(const render::Surface& skin) const {
     std::vector<render::Surface> all{skin};
     for (const Part& part : parts_)
       all.push_back({.mesh = part.mesh, .plain = part.colour, .smooth = false});
@@ -139,7 +138,6 @@ class BackingSurfaces {
       {{0.93, 0.92, 0.9}, {0.43, 0.36, 0.28}, {0.08, 0.07, 0.06}}};
   static constexpr render::Colour kPocket{0.13, 0.05, 0.04};
   std::vector<Part> parts_;
-  std::size_t still_ = 0;
 };
 
 /// The skin in the face's box, in all its shapes.
@@ -227,10 +225,10 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   options.height_px = 350;
   const double aspect = double(options.width_px) / options.height_px;
   const Points framed = framed_points(r, stills, frame);
-  const std::array views{render::front_view(), render::three_quarter_view()};
-  double height_m = 0;  // the face as large in either view
-  for (const Vec3& view : views)
-    height_m = std::max(height_m, render::framing(framed, view, aspect).height_m);
+  std::array cameras{render::framing(framed, render::front_view(), aspect),
+                     render::framing(framed, render::three_quarter_view(), aspect)};
+  // The face as large in either view.
+  cameras[0].height_m = cameras[1].height_m = std::max(cameras[0].height_m, cameras[1].height_m);
 
   report::FaceBacking backing = report::face_backing(p.skin_rest, r.inputs.landmarks);
   // Pockets hang on the skin in the face's frame.
@@ -246,26 +244,23 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   std::vector<render::Polyline> lines;
   if (p.lip_cut_rest.rows() > 0) lines.push_back({frame.local_points(p.lip_cut_rest)});
   const auto draw = [&](const render::Camera& camera, const Still* still) -> render::SheetPicture {
-    BackingSurfaces behind(backing, frame);
-    if (!still) {
-      const TriMesh rest{frame.local_points(p.skin_rest.points), p.skin_rest.triangles};
-      return {render::render(behind.with({.mesh = rest}, backing), camera, options,
-                             markers(p, frame), lines),
-              "rest"};
-    }
-    const TriMesh mesh{frame.local_points(moved(p, *still->displacement)), p.skin_rest.triangles};
+    const Points shape = still ? moved(p, *still->displacement) : p.skin_rest.points;
+    const TriMesh mesh{frame.local_points(shape), p.skin_rest.triangles};
+    const BackingSurfaces behind(backing, frame, mesh.points);
+    if (!still)
+      return {
+          render::render(behind.with({.mesh = mesh}), camera, options, markers(p, frame), lines),
+          "rest"};
     const render::Surface surface{
         .mesh = mesh, .scalar = 1e3F * still->displacement->rowwise().norm(), .range = {0, top}};
-    return {render::render(behind.with(surface, backing), camera, options),
+    return {render::render(behind.with(surface), camera, options),
             fmt::format("{:.2f} s", still->time_s)};
   };
   const std::size_t columns = stills.size() + 1;
-  sheet.pictures.resize(views.size() * columns);
+  sheet.pictures.resize(cameras.size() * columns);
   tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t i) {
-    render::Camera camera = render::framing(framed, views[i / columns], aspect);
-    camera.height_m = height_m;
     const std::size_t column = i % columns;
-    sheet.pictures[i] = draw(camera, column > 0 ? &stills[column - 1] : nullptr);
+    sheet.pictures[i] = draw(cameras[i / columns], column > 0 ? &stills[column - 1] : nullptr);
   });
   render::write_png(file, render::contact_sheet(sheet));
 }
