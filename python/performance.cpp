@@ -61,6 +61,9 @@ void bind_report(py::module_& m) {
       .def_readonly("basis_s", &SimulationReport::basis_s)
       .def_readonly("simulate_s", &SimulationReport::simulate_s)
       .def_readonly("skin_s", &SimulationReport::skin_s)
+      .def_readonly("forces_found_anew", &SimulationReport::forces_found_anew,
+                    "Where forces drive: tissue or support was changed after a run without "
+                    "hold_load(), so this run met the recording by other forces.")
       .def_readonly("inverted_tets", &SimulationReport::inverted_tets,
                     "Greatest number of tetrahedra turned inside out in any frame.")
       .def_readonly("greatest_opening_deg", &SimulationReport::greatest_opening_deg, "Of the jaw.")

@@ -93,6 +93,13 @@ class Callbacks {
   std::chrono::steady_clock::time_point ask_again_{};
 };
 
+/// As a UserWarning at the line that called run(), once a line unless Python's filters say other.
+void warn_of_forces_found_anew(const reenact::SimulationReport& report) {
+  if (report.forces_found_anew &&
+      PyErr_WarnEx(PyExc_UserWarning, reenact::kForcesFoundAnew, 1) != 0)
+    throw py::error_already_set();  // the user's filters turn warnings into errors
+}
+
 class PythonSimulator {
  public:
   PythonSimulator(SharedTissueMesh mesh, io::Landmarks landmarks, AlignedMotion motion,
@@ -136,6 +143,7 @@ class PythonSimulator {
       throw;
     }
     callbacks.rethrow_if_any();
+    warn_of_forces_found_anew(run->result.report);
     return run;
   }
 

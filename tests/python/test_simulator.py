@@ -5,6 +5,7 @@ import tempfile
 import threading
 import time
 import unittest
+import warnings
 
 import numpy as np
 
@@ -153,6 +154,27 @@ class Forces(unittest.TestCase):
         peak = base.peak_frame
         change = simulator.run().skin_displacement_m[peak] - base.skin_displacement_m[peak]
         self.assertGreater(np.abs(change).max(), 1e-4)
+
+    def test_forces_found_anew_are_warned_of(self):
+        simulator = small_simulator()
+        simulator.set_drive(simulator.options.drive.replace(by="muscles"))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            simulator.run()
+        simulator.set_tissue(hyperex.Tissue(young_pa=50e3))
+        with self.assertWarnsRegex(UserWarning, r"call hold_load\(\) before") as warned:
+            report = simulator.run().report
+        self.assertEqual(warned.filename, __file__)
+        self.assertTrue(report.forces_found_anew)
+        self.assertTrue(any("hold_load()" in note for note in report.notes))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            simulator.set_tissue(hyperex.Tissue(young_pa=60e3))
+            with self.assertRaisesRegex(UserWarning, "hold_load"):
+                simulator.run()
+            simulator.hold_load()
+            simulator.set_tissue(hyperex.Tissue(young_pa=70e3))
+            self.assertFalse(simulator.run().report.forces_found_anew)
 
     def test_refused(self):
         simulator = small_simulator()

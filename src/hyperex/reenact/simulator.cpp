@@ -32,6 +32,7 @@ Simulator::Simulator(const Simulator& other) : impl_(std::make_unique<Impl>()) {
   impl_->order = from.order;
   impl_->load = from.load;
   impl_->load_held = from.load_held;
+  impl_->load_lost = from.load_lost;
   impl_->input = from.input;
 }
 Simulator::Simulator(Simulator&&) noexcept = default;

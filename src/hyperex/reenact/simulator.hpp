@@ -16,6 +16,11 @@ namespace hyperex::reenact {
 /// Driven points that end farther than this from where they are driven are named in a note.
 inline constexpr double kDrivenWithin_m = 1e-4;
 
+inline constexpr const char* kForcesFoundAnew =
+    "tissue or support was changed and no forces were held: this run found forces of its own, "
+    "which meet the recording again; to see what the same forces do in other tissue, call "
+    "hold_load() before the change";
+
 /// gamma of Newmark's method for a stream; beta is (gamma + 1/2)^2 / 4, which damps the most of
 /// what the steps do not resolve.
 inline constexpr double kStreamGamma = 0.9;
@@ -29,6 +34,9 @@ struct SimulationReport {
   double verified_error = -1;   ///< measured against the full model; below 0: not measured
   double boundary_s = 0, assemble_s = 0, analyse_s = 0, factor_s = 0, basis_s = 0, simulate_s = 0,
          skin_s = 0;
+  /// Where forces drive: tissue or support was changed after a run, no load was held, and so this
+  /// run met the recording by other forces. kForcesFoundAnew is then among the notes.
+  bool forces_found_anew = false;
   int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
   double greatest_opening_deg = 0;  ///< of the jaw
   double driven_off_mm = 0;  ///< greatest distance of any driven point from where it is driven

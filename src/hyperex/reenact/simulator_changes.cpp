@@ -40,6 +40,7 @@ void Simulator::Impl::drop_input() {
 
 void Simulator::Impl::drop_load() {
   if (load_held || !by_forces()) return;
+  load_lost = load_lost || load;
   load.reset();
   drop_input();
 }
@@ -55,6 +56,7 @@ void Simulator::Impl::drop_driven() {
   driven.reset();
   driven_points.reset();
   load.reset();
+  load_lost = false;  // another question: other forces are no surprise
   drop_boundary();
 }
 
@@ -71,6 +73,7 @@ void Simulator::Impl::set(SimulationOptions next) {
   if (!same_but_gain(before.drive, options.drive)) drop_driven();
   if (options.drive.gain != before.drive.gain) {
     load.reset();
+    load_lost = false;
     drop_input();
   }
   if (!same_but_gains(before.muscles, options.muscles)) drop_driven();

@@ -47,6 +47,7 @@ struct Simulator::Impl {
   std::shared_ptr<const Order> order;
   std::shared_ptr<const HeldLoad> load;
   bool load_held = false;
+  bool load_lost = false;  // there was one, for the tissue or support before
   std::shared_ptr<const InputShapes> input;
   // Of this simulator alone.
   std::optional<fem::ReducedModel> reduced;
@@ -102,6 +103,7 @@ struct Simulator::Impl {
   void need_full();
   /// The forces that make the motion in the tissue that is set.
   void need_load(const PointCurve& points);
+  void note_found_anew();
   void need_input(const PointCurve& points);
   void prepare();
 

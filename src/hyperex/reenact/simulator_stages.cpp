@@ -147,6 +147,7 @@ void Simulator::Impl::need_load(const PointCurve& points) {
     load = std::make_shared<const HeldLoad>(
         muscle_load(*mesh, *landmarks, *motion, *region, options, system.stiffness, nodes));
     keep_order(nodes);
+    note_found_anew();
     return;
   }
   Boundary whole(*mesh, *landmarks, *motion, driven, options.support);
@@ -158,6 +159,14 @@ void Simulator::Impl::need_load(const PointCurve& points) {
       reactions_of(shapes.drive, system.stiffness, whole.prescribed(), options.time.step_s);
   found.greatest_opening_deg = shapes.greatest_opening_deg;
   load = std::make_shared<const HeldLoad>(std::move(found));
+  note_found_anew();
+}
+
+void Simulator::Impl::note_found_anew() {
+  if (!load_lost) return;
+  load_lost = false;
+  report.forces_found_anew = true;
+  report.notes.push_back(kForcesFoundAnew);
 }
 
 void Simulator::Impl::need_input(const PointCurve& points) {

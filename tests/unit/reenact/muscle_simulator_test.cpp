@@ -161,6 +161,45 @@ TEST_F(DrivenByForces, HeldForcesMoveStifferTissueLess) {
   }
 }
 
+/// Else a sweep over stiffness gives equal answers, and nothing says why.
+TEST_F(DrivenByForces, ForcesFoundAnewInOtherTissueAreNoted) {
+  const auto noted = [](const SimulationResult& result) {
+    const auto& notes = result.report.notes;
+    const bool there = std::count(notes.begin(), notes.end(), kForcesFoundAnew) == 1;
+    EXPECT_EQ(there, result.report.forces_found_anew);
+    return there;
+  };
+  TissueValues soft = options_.tissue;
+  soft.uniform[tissue::young] *= 0.5;
+  for (const DriveBy by : {DriveBy::muscles, DriveBy::reactions}) {
+    options_.drive.by = by;
+    Simulator simulator = made(options_);
+    simulator.set_tissue(soft);
+    EXPECT_FALSE(noted(simulator.run())) << "the first run";
+    EXPECT_FALSE(noted(simulator.run())) << "nothing was changed";
+    simulator.set_tissue(options_.tissue);
+    Simulator copy = simulator;
+    EXPECT_TRUE(noted(simulator.run()));
+    EXPECT_TRUE(noted(copy.run()));
+    SupportOptions looser = options_.support;
+    looser.skull_layer.across_pa_per_m *= 0.5;
+    simulator.set_support(looser);
+    EXPECT_TRUE(noted(simulator.run()));
+    EXPECT_FALSE(noted(simulator.run())) << "as the run before";
+    simulator.set_tissue(soft);
+    simulator.set_motion(smile(face_.landmarks, 0.5));
+    EXPECT_FALSE(noted(simulator.run())) << "another motion asks for other forces";
+    simulator.hold_load();
+    simulator.set_tissue(options_.tissue);
+    EXPECT_FALSE(noted(simulator.run())) << "held";
+  }
+  options_.drive.by = DriveBy::displacement;
+  Simulator simulator = made(options_);
+  simulator.run();
+  simulator.set_tissue(soft);
+  EXPECT_FALSE(noted(simulator.run())) << "no forces";
+}
+
 TEST_F(DrivenByForces, AStiffLeftCheekChangesTheLeftCorner) {
   Simulator simulator = made(options_, 0);
   const SimulationResult before = simulator.run();
