@@ -96,8 +96,8 @@ lint: ## formatting and clang-tidy over everything (some 30 minutes of CPU)
 	cmake --build --preset release --parallel $(JOBS)
 	scripts/lint.sh
 
-fresh: ## all this on an empty Debian 12, as root and as a user with sudo (needs root; COLD=1: no caches)
-	scripts/fresh.sh $(if $(COLD),--cold)
+fresh: ## all this on an empty Debian 12, as root and as a user with sudo (needs root; COLD=1: no caches; PACKAGES=1: make deb, used there)
+	scripts/fresh.sh $(if $(COLD),--cold) $(if $(PACKAGES),--packages)
 
 fuzz: ## fuzz every reader of files with libFuzzer, 10 minutes each (SECONDS_EACH=5: a look)
 	scripts/setup.sh --fuzz

@@ -34,6 +34,8 @@ if(TARGET hyperex_python)
   math(EXPR next_minor "${HYPEREX_PYTHON_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= 3.${HYPEREX_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+  # What Python itself wrote into the package's folder when root imported it.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/python3-hyperex/prerm)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Hyperex as a Python module")
 endif()
 include(CPack)

@@ -8,6 +8,7 @@
 #   scripts/fresh.sh --cold      as on a stranger's machine: no caches
 #   scripts/fresh.sh --demo      without `make test`
 #   scripts/fresh.sh --run CMD   CMD in place of each of them, to try this script
+#   scripts/fresh.sh --packages  instead: `make deb`, then the packages used in another empty Debian 12
 # The root stands in a folder of its own in $TMPDIR (or build/fresh), is deleted at the end, and has
 # this machine's Debian sources, npm configuration and certificates. ../shared is seen read-only.
 set -euo pipefail
@@ -16,15 +17,18 @@ repository=$PWD
 die() { printf 'fresh: %s\n' "$*" >&2; exit 2; }
 
 cold=0
+packages=0
+shared_data=1
 demo="make demo"
 test="make test"
 for ((i = 1; i <= $#; ++i)); do
   case "${!i}" in
     --cold) cold=1 ;;
     --demo) test=true ;;
+    --packages) packages=1 ;;
     --run) i=$((i + 1)); demo=${!i:?--run needs a command}; test=$demo ;;
-    -h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    *) die "unknown option ${!i} (there are --cold, --demo and --run)" ;;
+    -h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) die "unknown option ${!i} (there are --cold, --demo, --run and --packages)" ;;
   esac
 done
 [[ "$(id -u)" == 0 ]] || die "mounting and chroot need root: sudo scripts/fresh.sh"
@@ -110,7 +114,7 @@ mount_in() {
     bind "$kept/packages" /var/cache/apt/archives
     bind "$objects" /var/cache/objects
   fi
-  if [[ -d "$repository/../shared" ]]; then
+  if [[ "$shared_data" == 1 && -d "$repository/../shared" ]]; then
     local shared
     shared=$(realpath "$repository/..")/shared
     bind "$shared" "$shared"
@@ -143,10 +147,24 @@ demo_is_there() {
     die "make demo left no report"
 }
 
+finish() {
+  echo
+  echo "== An empty Debian 12: all passed ($([[ $cold == 1 ]] && echo 'no caches' || echo "with this machine's caches"))"
+  printf '  %s\n' "${table[@]}"
+  grep -E '^(packages: |setup: (now|will install the npm))' "$log" | sed 's/^setup: /  setup.sh: /; s/^packages/  packages/' || true
+  echo "  the whole root: $(disk_mb) MB"
+}
+
 step "an empty Debian 12" make_root
 carry_in
 mount_in
 clone
+if [[ "$packages" == 1 ]]; then
+  source "$repository/scripts/fresh_packages.sh"
+  try_packages
+  finish
+  exit
+fi
 step "make demo as root" as_root "$demo"
 demo_is_there
 [[ "$test" == true ]] || step "make test as root" as_root "$test"
@@ -165,8 +183,4 @@ step "make demo as user with sudo" as_user "$demo"
 demo_is_there
 [[ "$test" == true ]] || step "make test as user with sudo" as_user "$test"
 
-echo
-echo "== An empty Debian 12: all passed ($([[ $cold == 1 ]] && echo 'no caches' || echo "with this machine's caches"))"
-printf '  %s\n' "${table[@]}"
-grep -E '^setup: (now|will install the npm)' "$log" | sed 's/^setup: /  setup.sh: /' || true
-echo "  the whole root: $(disk_mb) MB"
+finish

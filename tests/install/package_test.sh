@@ -10,12 +10,21 @@ for component in program library dev; do
   cmake --install "$build" --prefix "$prefix" --component "$component" > "$build/install_$component.log" ||
     { cat "$build/install_$component.log"; said "component $component cannot be installed"; }
   case $component in
-    program) "$prefix/bin/hyperex" --version > /dev/null; [[ ! -e "$prefix/include" ]] || said "headers with the program" ;;
+    program)
+      "$prefix/bin/hyperex" --version > /dev/null
+      [[ ! -e "$prefix/include" ]] || said "headers with the program"
+      for scene in "$prefix"/share/doc/hyperex/examples/*.toml; do
+        "$prefix/bin/hyperex" check "$scene" > "$build/install_check.log" 2>&1 ||
+          { cat "$build/install_check.log"; said "$scene names what is not installed"; }
+      done ;;
     library) [[ -z "$(find "$prefix" -name '*.hpp' -o -name 'libhyperex*.so')" ]] || said "parts of dev with the library" ;;
   esac
 done
 library=$(dirname "$(find "$prefix" -name libhyperex.so)")
 [[ -e "$library/libhyperex_fem.so" && -e "$library/cmake/hyperex/hyperexConfig.cmake" ]] || said "dev is not whole"
+
+[[ -s "$prefix/share/doc/hyperex/examples/cpp/first_run.cpp" && -s "$prefix/share/doc/hyperex/copyright" ]] ||
+  said "examples or licence are missing"
 
 # One copy of everything: an error thrown in one library is caught as the same type in the other.
 exported() { nm -D --defined-only "$library/$1" | awk '$2 ~ /[TBD]/ { print $3 }' | sort; }

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Examples and the licence, where Debian's packages have them. Left out are scenes that name data beside
+# the source tree, and the study, which writes beside itself.
+set(examples ${PROJECT_SOURCE_DIR}/examples)
+set(examples_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex/examples)
+if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
+  install(FILES ${examples}/demo.toml ${examples}/stiff_cheek.toml ${examples}/variants.toml
+                ${examples}/what_if.toml ${examples}/smile_arkit.csv
+                ${examples}/one_sided_smile.toml ${examples}/one_sided_smile.csv
+          DESTINATION ${examples_folder} COMPONENT program)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex
+          RENAME copyright COMPONENT program)
+endif()
+install(DIRECTORY ${examples}/cpp DESTINATION ${examples_folder} COMPONENT dev
+        FILES_MATCHING PATTERN *.cpp PATTERN CMakeLists.txt)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/libhyperex-dev
+        RENAME copyright COMPONENT dev)
+if(TARGET hyperex_python)
+  install(DIRECTORY ${examples}/python DESTINATION ${examples_folder}
+          COMPONENT python EXCLUDE_FROM_ALL FILES_MATCHING PATTERN *.py)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-hyperex
+          RENAME copyright COMPONENT python EXCLUDE_FROM_ALL)
+endif()
