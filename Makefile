@@ -45,7 +45,7 @@ python: ## the Python module into PREFIX, where Debian's python3 finds it (docs/
 
 # Packages of Debian's own put modules of Python elsewhere than /usr/local does.
 deb: ## Debian packages of program, C++ library and Python module: build/deb/*.deb
-	scripts/setup.sh --python
+	scripts/setup.sh --deb
 	cmake --preset release -B build/deb -DHYPEREX_TESTS=OFF -DHYPEREX_PYTHON=ON \
 	  -DHYPEREX_PYTHON_FOLDER=lib/python3/dist-packages $(CMAKE_OPTIONS)
 	cmake --build build/deb --parallel $(JOBS) --target hyperex libhyperex hyperex_python

@@ -4,6 +4,7 @@
 #   scripts/setup.sh           to build and run
 #   scripts/setup.sh --video   also to read video files and webcams and to write --preview videos
 #   scripts/setup.sh --python  also to build and use the Python module
+#   scripts/setup.sh --deb     also to make Debian packages (with --python)
 #   scripts/setup.sh --tests   also what the tests take (--video, --python, a browser, CalculiX)
 #   scripts/setup.sh --fuzz    also clang and libFuzzer
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
@@ -31,6 +32,7 @@ packages=(
 )
 video=(libopencv-videoio-dev)  # FFmpeg, GStreamer and GDAL: 150 packages
 python=(pybind11-dev python3-dev python3-numpy)
+deb=(file dpkg-dev)  # what cpack asks which libraries the packages need
 tests=(python3-matplotlib libgtest-dev libgmock-dev libopencv-imgcodecs-dev calculix-ccx)
 
 say() { printf 'setup: %s\n' "$*"; }
@@ -40,6 +42,7 @@ case "${1:-}" in
   '') ;;
   --video) packages+=("${video[@]}") ;;
   --python) packages+=("${python[@]}") ;;
+  --deb) packages+=("${python[@]}" "${deb[@]}") ;;
   --tests | --lint)
     packages+=("${video[@]}" "${python[@]}" "${tests[@]}")
     [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
@@ -48,8 +51,8 @@ case "${1:-}" in
   --fuzz) packages+=(clang libclang-rt-14-dev) ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
   --interop) packages+=(paraview python3-paraview blender python3-numpy snakemake slurm-wlm) ;;
-  -h | --help) sed -n '3,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) die "unknown option $1 (there are --video, --python, --tests, --fuzz, --bench, --interop and --lint)" ;;
+  -h | --help) sed -n '3,14s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) die "unknown option $1 (there are --video, --python, --deb, --tests, --fuzz, --bench, --interop and --lint)" ;;
 esac
 
 node_is_enough() {

@@ -100,6 +100,12 @@ case "$2" in
     expect_all_packages pybind11-dev python3-dev python3-numpy
     expect_not libgtest-dev
     ;;
+  deb)
+    run_setup --deb
+    [[ $status == 0 ]] || fail "status $status"
+    expect_all_packages pybind11-dev file dpkg-dev
+    expect_not libgtest-dev
+    ;;
   sudo)
     as_ordinary_user
     run_setup
