@@ -182,7 +182,7 @@ void bind_simulator(py::module_& m) {
            py::arg_v("options", SimulationOptions{}, "SimulationOptions()"),
            "From a TissueMesh, completed landmarks (name -> metres) and an AlignedMotion.")
       .def("run", &S::run, "progress"_a = py::none(), "cancelled"_a = py::none(),
-           "A Performance. `progress(share)` is called with 0 to 1 in runs of the direct method; "
+           "A Performance. `progress(share)` is called with shares that rise from 0 to 1; "
            "where `cancelled()` is true, Cancelled is raised. Ctrl-C raises KeyboardInterrupt. The "
            "simulator can be used again after each of them. Other threads of Python go on.")
       .def("set_tissue", &S::set_tissue, "tissue"_a,

@@ -26,10 +26,8 @@ Progress::Progress(std::string label, long total)
     : label_(std::move(label)), total_(total), start_(Clock::now()), last_draw_(start_) {
   if (silenced) return;
   // On a terminal the label stands at once: some work is one long call that cannot report.
-  if (::isatty(2))
-    draw(false);
-  else
-    teller_ = std::thread([this] { tell_now_and_then(); });
+  if (::isatty(2)) draw(false);
+  teller_ = std::thread([this] { tell_now_and_then(); });
 }
 
 Progress::~Progress() {
@@ -50,6 +48,11 @@ void Progress::tell_now_and_then() {
   using std::chrono::seconds;
   constexpr seconds most{60}, lately{1};
   std::unique_lock lock(mutex_);
+  if (::isatty(2)) {
+    while (!ended_.wait_for(lock, lately, [this] { return over_; }))
+      if (Clock::now() - last_draw_ >= lately) draw(false);
+    return;
+  }
   seconds wait{2};
   for (Clock::time_point next = start_ + wait;
        !ended_.wait_until(lock, next, [this] { return over_; }); next += wait) {

@@ -8,10 +8,11 @@
 
 namespace hyperex {
 
-/// A progress bar on standard error. On a terminal it redraws one line; elsewhere it prints a line
-/// when it starts lasting (1 s), others after 2, 4, 8 ... seconds, at least one a minute, also
-/// where the work cannot report, and one at the end. Nothing at all for short work. One bar at a
-/// time: work within or beside other work that has its bar standing shows none until that is done.
+/// A progress bar on standard error. On a terminal it redraws one line, whose seconds go on where
+/// the work cannot report; elsewhere it prints a line when it starts lasting (1 s), others after 2,
+/// 4, 8 ... seconds, at least one a minute, also where the work cannot report, and one at the end.
+/// Nothing at all for short work. One bar at a time: work within or beside other work that has its
+/// bar standing shows none until that is done.
 class Progress {
  public:
   /// `total` steps of work; 0 where the length is not known beforehand.
@@ -27,7 +28,7 @@ class Progress {
 
  private:
   void draw(bool last);
-  /// Elsewhere than on a terminal, in a thread of its own until the end.
+  /// In a thread of its own until the end.
   void tell_now_and_then();
   std::string label_;
   long total_;

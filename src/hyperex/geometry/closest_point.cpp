@@ -150,7 +150,7 @@ SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) 
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(impl_->scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(impl_->scene);
+  commit_whole(impl_->scene);
   if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
     throw std::runtime_error("closest point: Embree cannot build its tree");
 }

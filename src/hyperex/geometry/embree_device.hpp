@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <embree3/rtcore.h>
+#include <tbb/parallel_for.h>
 
 #include <stdexcept>
 
@@ -12,6 +13,15 @@ inline RTCDevice embree_device() {
   static const RTCDevice device = rtcNewDevice(nullptr);
   if (!device) throw std::runtime_error("Embree does not start");
   return device;
+}
+
+/// Builds a scene's tree. Embree shares this work through TBB, and in a group of tasks that an
+/// exception has cancelled would leave the tree half built, for queries to crash in: it is given a
+/// group of its own.
+inline void commit_whole(RTCScene scene) {
+  tbb::task_group_context alone(tbb::task_group_context::isolated);
+  tbb::parallel_for(
+      0, 1, [scene](int) { rtcCommitScene(scene); }, alone);
 }
 
 }  // namespace hyperex

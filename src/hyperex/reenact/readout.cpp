@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/reenact/readout.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -71,13 +69,12 @@ motion::Motion Readout::landmark_tracks(const std::vector<double>& time_s,
   return tracks;
 }
 
-Readout::Lips Readout::lips(const motion::Motion& tracks,
-                            const std::vector<PointsF>& frames) const {
+Readout::Lips Readout::lips(const motion::Motion& tracks, const std::vector<PointsF>& frames,
+                            const EachFrame& each) const {
   const int upper = tracks.index_of(face::ibug(62)), lower = tracks.index_of(face::ibug(66));
   const auto gap = [&](const Points& at) { return 1e3 * (at.row(upper) - at.row(lower)).norm(); };
   std::vector<double> depth_mm(frames.size());
-  tbb::parallel_for(std::size_t(0), frames.size(),
-                    [&](std::size_t f) { depth_mm[f] = 1e3 * contact_.depth(frames[f]); });
+  each(frames.size(), [&](std::size_t f) { depth_mm[f] = 1e3 * contact_.depth(frames[f]); });
   Lips most;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     most.overlap_mm = std::max(most.overlap_mm, depth_mm[f]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,10 @@ class Readout {
   struct Lips {
     double overlap_mm = 0, gap_mm = 0;
   };
-  Lips lips(const motion::Motion& tracks, const std::vector<PointsF>& frames) const;
+  /// `each` calls a function with every frame from 0 to a count, side by side or not.
+  using EachFrame = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
+  Lips lips(const motion::Motion& tracks, const std::vector<PointsF>& frames,
+            const EachFrame& each) const;
 
  private:
   const tissue::TissueMesh& mesh_;

@@ -55,8 +55,8 @@ struct SimulationResult {
 /// What a long run tells, and how it is ended early; both may be empty. Called on run()'s thread.
 /// And how much it measures.
 struct RunCallbacks {
-  std::function<void(double share)> progress;  ///< 0 to 1 of the steps of the direct method
-  std::function<bool()> cancelled;             ///< asked at each step and between the stages
+  std::function<void(double share)> progress;  ///< rises from 0 to 1, by steps and by frames
+  std::function<bool()> cancelled;             ///< asked at each step, frame and stage
   /// Only what is needed of the skin's frames and the landmarks' tracks: of the report neither
   /// inverted_tets nor lip_overlap_mm, lip_gap_mm and driven_off_mm.
   bool skin_alone = false;

@@ -2,6 +2,7 @@
 #pragma once
 // What a Simulator holds and does: its stages in the order of simulator.hpp's table. Parted into
 // files by what they are for: simulator_changes, _stages, _run, _stream.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@
 #include "hyperex/reenact/stream.hpp"
 
 namespace hyperex::reenact {
+
+/// Share of a run's progress at which the motion of the tissue is known.
+constexpr double kReducedDone = 0.2, kDirectDone = 0.9;
 
 /// A time at which a shape is wanted, and where it goes.
 struct Shot {
@@ -60,6 +64,7 @@ struct Simulator::Impl {
 
   SimulationReport report;
   RunCallbacks callbacks;
+  double told = 0;  // of the progress
 
   // ----- what is left when something is set
 
@@ -83,6 +88,10 @@ struct Simulator::Impl {
   // ----- stages
 
   void ask() const;
+  /// The share of the run that is done; asks too.
+  void tell(double share);
+  /// Frames side by side: half of what the progress still has to go.
+  void for_frames(std::size_t count, const std::function<void(std::size_t)>& body);
   double end_s() const;
   int steps() const;
   void need_region();

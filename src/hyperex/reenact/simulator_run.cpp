@@ -4,7 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/form/inverted.hpp"
@@ -36,11 +38,26 @@ std::vector<float> floats(const std::vector<double>& values) {
 
 }  // namespace
 
+void Simulator::Impl::tell(double share) {
+  ask();
+  told = share;
+  if (callbacks.progress) callbacks.progress(share);
+}
+
+void Simulator::Impl::for_frames(std::size_t count, const std::function<void(std::size_t)>& body) {
+  const auto caller = std::this_thread::get_id();  // on which callbacks are called
+  const double from = told, step = 0.5 * (1 - from) / static_cast<double>(count);
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+    body(i);
+    const std::size_t now = ++done;
+    if (std::this_thread::get_id() == caller) tell(from + step * static_cast<double>(now));
+  });
+  tell(from + step * static_cast<double>(count));
+}
+
 Solution Simulator::Impl::solved(const std::vector<double>& times) {
-  const auto progress = [this](double share) {
-    ask();
-    if (callbacks.progress) callbacks.progress(share);
-  };
+  const auto progress = [this](double share) { tell(kDirectDone * share); };
   if (options.solver.method == SolverMethod::direct) {
     need_full();
     return run_full(*full, input->drive, times, progress);
@@ -48,7 +65,9 @@ Solution Simulator::Impl::solved(const std::vector<double>& times) {
   need_reduced();
   ask();
   Stopwatch watch;
-  if (!response) response = reduced->run(input->drive, {newmark(), options.solver.tolerance});
+  fem::ReducedOptions how{newmark(), options.solver.tolerance};
+  how.between_growths = [this] { ask(); };
+  if (!response) response = reduced->run(input->drive, how);
   report.basis_s = watch.lap();
   Solution out = run_reduced(*reduced, *response, times);
   if (!options.solver.verify) return out;
@@ -75,11 +94,11 @@ void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve
   report.simulate_s =
       watch.lap() - report.basis_s - (report.assemble_s + report.analyse_s + report.factor_s);
   result.performance.node_displacement_m.resize(result.performance.frame_time_s.size());
-  tbb::parallel_for(std::size_t(0), shots.size(), [&](std::size_t i) {
-    store(
-        shots[i],
-        Eigen::Map<const Points>(solution.displacement.col(i).data(), mesh->volume.nodes.rows(), 3),
-        points, result);
+  tell(std::max(told, kReducedDone));
+  for_frames(shots.size(), [&](std::size_t i) {
+    const Eigen::Map<const Points> nodes(solution.displacement.col(i).data(),
+                                         mesh->volume.nodes.rows(), 3);
+    store(shots[i], nodes, points, result);
   });
   report.greatest_opening_deg = input->greatest_opening_deg;
   report.input_shapes = static_cast<int>(input->drive.shapes());
@@ -126,7 +145,7 @@ void Simulator::Impl::describe_tissue(Performance& p) {
     p.held_points_rest.row(i) = mesh->volume.nodes.row(held[i]);
   if (callbacks.skin_alone) return;
   std::vector<int> inverted(p.node_displacement_m.size());
-  tbb::parallel_for(std::size_t(0), inverted.size(), [&](std::size_t f) {
+  for_frames(inverted.size(), [&](std::size_t f) {
     const auto marks = fem::inverted_tets(p.nodes, p.tets, p.node_displacement_m[f].cast<double>());
     inverted[f] = static_cast<int>(std::count(marks.begin(), marks.end(), 1));
   });
@@ -148,7 +167,9 @@ void Simulator::Impl::describe(const PointCurve& points, Performance& p) {
   if (load) p.muscles = changed_muscles(load->muscles, options.muscles);
   p.peak_frame = peak_frame(p.frame_time_s, options.time.peak_time_s, driven_points->rows, points);
   if (callbacks.skin_alone) return;
-  const Readout::Lips lips = readout->lips(p.landmarks, p.skin_displacement_m);
+  const Readout::Lips lips =
+      readout->lips(p.landmarks, p.skin_displacement_m,
+                    [this](std::size_t count, const auto& frame) { for_frames(count, frame); });
   report.lip_overlap_mm = lips.overlap_mm;
   report.lip_gap_mm = lips.gap_mm;
   note_driven_off(driven_points->off_m(p, points), p.driven_names);
@@ -171,7 +192,7 @@ void Simulator::Impl::note_driven_off(const std::vector<double>& off_m,
 
 SimulationResult Simulator::Impl::run() {
   report = {};
-  ask();
+  tell(0);
   need_region();
   const PointCurve points(*motion, options.drive.gain);
   SimulationResult result;
@@ -180,13 +201,14 @@ SimulationResult Simulator::Impl::run() {
   result.still_displacement_m.resize(options.time.still_times_s.size());
   if (options.region.measured == Measured::all) {
     const Points none = Points::Zero(mesh->volume.nodes.rows(), 3);
-    for (const Shot& shot : shots) store(shot, none, points, result);
+    for_frames(shots.size(), [&](std::size_t i) { store(shots[i], none, points, result); });
   } else {
     integrate(shots, points, result);
   }
   Stopwatch watch;
   describe(points, result.performance);
   report.skin_s = watch.lap();
+  tell(1);
   result.report = report;
   return result;
 }

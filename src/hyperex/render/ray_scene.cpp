@@ -48,7 +48,7 @@ RayScene::RayScene(const std::vector<Surface>& surfaces, const Camera& camera) {
     rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(&surface - surfaces.data()));
     rtcReleaseGeometry(geometry);
   }
-  rtcCommitScene(scene_);
+  commit_whole(scene_);
   above_ *= 1.01f;
 }
 

@@ -18,9 +18,11 @@ struct DisplacementModes {
 };
 
 /// Truncated singular value decomposition of the 3|V| x N matrix of `frames` through its smaller
-/// Gram matrix, with the least K for which max_error_m <= tolerance_m (K <= N; where N modes are
-/// not enough, tolerance_m lies below the rounding of single precision and max_error_m says by how
-/// much). No frames or frames without motion give K = 0. Requires: frames of equal size, finite.
+/// Gram matrix (of more than 512 frames and coordinates within a fiftieth of the tolerance, through
+/// the shapes that span them), with the least K for which max_error_m <= tolerance_m (K <= N; where
+/// N modes are not enough, tolerance_m lies below the rounding of single precision and max_error_m
+/// says by how much). No frames or frames without motion give K = 0. Requires: frames of equal
+/// size, finite.
 DisplacementModes displacement_modes(const std::vector<PointsF>& frames, double tolerance_m = 2e-5);
 
 }  // namespace hyperex::report

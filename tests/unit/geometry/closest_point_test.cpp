@@ -2,6 +2,8 @@
 #include "hyperex/geometry/closest_point.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task.h>
 
 #include <algorithm>
 #include <limits>
@@ -180,6 +182,19 @@ TEST(ClosestPoint, RefusesWhatIsNoMesh) {
   mesh.triangles(0, 1) = 1;
   mesh.points(0, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(SurfaceTree{mesh}, std::invalid_argument);
+}
+
+/// Another task of the group has thrown: this one goes on to its end, with a whole tree.
+TEST(SurfaceTree, IsBuiltWholeInACancelledGroupOfTasks) {
+  const TriMesh mesh = triangles_of(Shape::random, 20000, 5);
+  const Vec3 p(0.1, 0.2, 0.3);
+  const ClosestPoint wanted = SurfaceTree(mesh).query(p);
+  int found = -1;
+  tbb::parallel_for(0, 1, [&](int) {
+    tbb::task::current_context()->cancel_group_execution();
+    found = SurfaceTree(mesh).query(p).triangle;
+  });
+  EXPECT_EQ(found, wanted.triangle);
 }
 
 }  // namespace

@@ -255,6 +255,31 @@ TEST_F(SimulatorOfAFace, TellsItsProgressAndCanBeCancelled) {
   expect_equal(simulator.run(), whole);
 }
 
+/// By the reduced model too, whose frames take longer than its steps in a long recording.
+TEST_F(SimulatorOfAFace, TellsOfItsFramesAndCanBeCancelledAmongThem) {
+  Simulator simulator = made(options_);
+  std::vector<double> shares;
+  RunCallbacks callbacks;
+  const auto caller = std::this_thread::get_id();
+  callbacks.progress = [&](double share) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    shares.push_back(share);
+  };
+  const SimulationResult whole = simulator.run(callbacks);
+  ASSERT_GT(whole.report.basis_size, 0);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_EQ(shares.back(), 1);
+  EXPECT_GT(shares.size(), 6u);
+  for (const double share : {0.3, 0.7, 0.85}) {  // where frames are stored and looked at
+    callbacks.cancelled = [&] { return shares.back() > share; };
+    shares = {0};
+    EXPECT_THROW(simulator.run(callbacks), Cancelled);
+    EXPECT_LT(shares.back(), share + 0.2);
+  }
+  expect_equal(simulator.run(), whole);
+}
+
 TEST_F(SimulatorOfAFace, AMatrixThatCannotBeFactoredLeavesItUsable) {
   Simulator simulator = made(options_);
   const SimulationResult before = simulator.run();

@@ -80,6 +80,15 @@ TEST(DisplacementModes, AgreeWithItWhereThereAreMoreFramesThanCoordinates) {
   expect_as_the_full_svd(random_motion(8, 60, 8, 1e-5f));
 }
 
+/// Where neither Gram matrix is small: through shapes that span the frames, found part by part.
+TEST(DisplacementModes, AgreeWithItForManyFramesOfManyVertices) {
+  auto frames = random_motion(230, 600, 8, 3e-7f);
+  // A shape that only late frames have.
+  for (std::size_t f = 550; f < frames.size(); ++f)
+    frames[f].topRows(40).array() += 0.002f * float(f % 7);
+  expect_as_the_full_svd(frames);
+}
+
 TEST(DisplacementModes, HoldTheToleranceAcrossBlocksOfVertices) {
   // More vertices than are taken at a time, the last ones moving in their own way.
   auto frames = random_motion(5000, 12, 3, 0);

@@ -255,6 +255,7 @@ Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {
   int passes = 0;
   bool converged = false;
   while (!converged && growth.size() < options.most_vectors) {
+    if (options.between_growths) options.between_growths();
     error = growth.grow();
     ++passes;
     converged = error <= options.tolerance * growth.greatest();

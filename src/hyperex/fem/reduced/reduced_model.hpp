@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "hyperex/fem/solve/partitioned_factor.hpp"
@@ -13,6 +14,7 @@ struct ReducedOptions {
   /// allows 1e-6.
   double tolerance = 1e-3;
   int most_vectors = 400;  ///< where the tolerance is not reached by then, `converged` is false
+  std::function<void()> between_growths = {};  ///< may throw, which ends the run
 };
 
 /// The response of a reduced model: d(step) = shapes * course.col(step), all unknowns.

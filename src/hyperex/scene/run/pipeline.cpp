@@ -241,6 +241,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   metrics::SymmetryMeasures symmetry;
   report::DisplacementModes modes;
   SkinOff off;
+  auto measuring = std::make_unique<Progress>("measuring", 0);
   run_together({[&] {
                   symmetry =
                       symmetry_measures(scene, inputs, at_rest, simulation.performance, twin);
@@ -250,6 +251,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
                   if (scene.output.glb || scene.output.report)
                     modes = report::displacement_modes(simulation.performance.skin_displacement_m);
                 }});
+  measuring.reset();
   Results results{scene,
                   inputs,
                   mesh,
