@@ -109,7 +109,7 @@ bench: ## measure everything, beside CalculiX, and write docs/performance.md (QU
 	scripts/setup.sh --bench
 	cmake --preset release
 	cmake --build --preset release --parallel $(JOBS) --target \
-	  assembly_bench solver_bench reduced_bench growth_bench tracking_bench
+	  assembly_bench solver_bench reduced_bench memory_bench growth_bench tracking_bench
 	bench/run.sh build/release $(if $(QUICK),--quick)
 
 experiments: build ## the source's three experiments, as reports and docs/experiments.md (subject A too where ../shared is)

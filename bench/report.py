@@ -337,6 +337,20 @@ processor time, **{ratio:.1f} times** one run (wanted: {wanted:g} times; {verdic
 """
 
 
+def memory_section(results):
+    if not (results / "memory.json").exists():
+        return ""
+    r = json.loads((results / "memory.json").read_text())
+    rows = [[f"driven by {by}", m["nodes"], size(m["early_bytes"]), size(m["late_bytes"]), f"**{m['ratio']:.3f}**",
+             m["most"], verdict(m["ratio"], m["most"])] for by, m in r.items()]
+    early, late = (r["displacement"][k] for k in ("early_cycles", "late_cycles"))
+    return f"""
+## Memory
+Resident memory of `memory_bench` after {early} and {late} cycles of `set_tissue()` and `run()`.
+
+""" + table(["small face", "nodes", f"after {early}", f"after {late}", "ratio", "wanted", ""], rows)
+
+
 def growth_rows(results):
     return [json.loads(f.read_text()) for f in sorted(results.glob("growth_*.json"))]
 
@@ -457,7 +471,8 @@ def main():
     assembly, growth = assembly_times(results), growth_rows(results)
     page = sentence_on_machine(results, solver, "--quick" in sys.argv) + summary(solver, reduced, assembly)
     page += assembly_section(assembly) + factor_section(solver) + step_section(solver)
-    page += whole_run_section(results) + reduced_section(reduced) + tracking_section(results) + growth_section(growth)
+    page += whole_run_section(results) + reduced_section(reduced) + tracking_section(results)
+    page += memory_section(results) + growth_section(growth)
     (docs / "performance.md").write_text(page)
     plot_step(solver, images / "performance_step.png")
     plot_reduced(reduced, images / "performance_reduced.png")

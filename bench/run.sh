@@ -55,6 +55,8 @@ say "the reduced model"
 
 measure_runs $quick
 measure_tracking
+say "memory over 1,000 runs"
+"$build/bin/memory_bench" "$results/memory.json" || say "... it has grown"
 
 # Size of elements at the mouth and layers for about 6, 25, 100 and 250 thousand nodes.
 sizes=("0.0029 2" "0.00171 3" "0.00102 5" "0.00079 8")
