@@ -6,6 +6,9 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "hyperex/scene/grammar/override.hpp"
+#include "hyperex/scene/grammar/toml_values.hpp"
+#include "hyperex/scene/grammar/variant_presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 
 namespace hyperex::cli {
@@ -33,6 +36,13 @@ void print() {
     for (const tissue::TissuePoint& point : preset.points)
       std::cout << fmt::format("  {}: {}\n", point.landmark, values_of(point.value, ""));
   }
+  std::cout << "\nPresets, for preset in [[variant]]\n";
+  for (const scene::VariantPreset& preset : scene::variant_presets()) {
+    std::cout << fmt::format("\n{}: {}\n  source: {}\n  assumed: {}\n", preset.name, preset.summary,
+                             preset.source, preset.assumed);
+    for (const auto& [key, value] : scene::changes_of(preset.changes))
+      std::cout << fmt::format("  {} = {}\n", key, scene::toml_text(value));
+  }
   std::cout << "\nRegions, for name in [[tissue.region]]; with _L or _R the subject's own left or "
                "right half\n\n";
   for (const tissue::FacialRegion& region : tissue::facial_regions())
@@ -43,9 +53,10 @@ void print() {
 
 void add_presets(CLI::App& program) {
   program
-      .add_subcommand("presets",
-                      "List published tissue parameters with their sources, and the "
-                      "named regions of the face")
+      .add_subcommand(
+          "presets",
+          "List published tissue parameters and presets of variants (palsies, scar, age) "
+          "with their sources, and the named regions of the face")
       ->footer("Example: hyperex presets")
       ->callback(print);
 }

@@ -80,7 +80,8 @@ TEST_F(Tissue, PresetsAreListedWithTheirSources) {
   const Outcome listed = call("presets");
   EXPECT_EQ(listed.status, 0);
   for (const char* text :
-       {"source_model_2", "young_kpa = 205.6", "aged_skin", "source: ", "cheek", "philtrum"})
+       {"source_model_2", "young_kpa = 205.6", "aged_skin", "source: ", "cheek", "philtrum",
+        "palsy_zygomatic_L", "muscles.gain = {\"zygomatic_L\" = 0}", "assumed: "})
     EXPECT_THAT(listed.out, HasSubstr(text));
 }
 

@@ -5,6 +5,7 @@
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/grammar/variant_presets.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::scene {
@@ -168,6 +169,59 @@ TEST(MuscleKeys, ARegionThatIsMeasuredIsRefused) {
     EXPECT_THAT(only_problem(smallest, {drive, "region.measured=all"}),
                 HasSubstr("region.measured = \"all\": expected \"none\""));
   }
+}
+
+Scene variant_of(const std::string& preset, const std::string& more = "") {
+  const Scene scene =
+      scene_of(by_muscles + "[[variant]]\nname = \"v\"\npreset = \"" + preset + "\"\n" + more);
+  return scene.variants.at(0).scene;
+}
+
+TEST(VariantPresets, StandForKeysOfASide) {
+  EXPECT_THAT(variant_of("palsy_complete_R").muscles.gains, ElementsAre(MuscleGain{"side_R", 0}));
+  EXPECT_THAT(variant_of("palsy_complete_L").muscles.gains, ElementsAre(MuscleGain{"side_L", 0}));
+  EXPECT_THAT(variant_of("palsy_partial_L").muscles.gains, ElementsAre(MuscleGain{"side_L", 0.4}));
+  EXPECT_THAT(variant_of("palsy_zygomatic_L").muscles.gains,
+              ElementsAre(MuscleGain{"zygomatic_L", 0}));
+  const auto regions = variant_of("scar_cheek_L").tissue.regions;
+  ASSERT_EQ(regions.size(), 1u);
+  EXPECT_THAT(regions[0].scar, ElementsAre("cheek_L", "cheilion_L"));
+  EXPECT_EQ(regions[0].factor[tissue::young], 5);
+  EXPECT_EQ(variant_of("aged").tissue.preset, "aged_skin");
+}
+
+TEST(VariantPresets, KeysOfTheVariantReplaceThoseOfItsPreset) {
+  const Scene own = variant_of("palsy_complete_R", "muscles.gain = { zyg_major_R = 0.5 }\n");
+  EXPECT_THAT(own.muscles.gains, ElementsAre(MuscleGain{"zyg_major_R", 0.5}));
+  const Scene both = variant_of("palsy_complete_R", "tissue = { young_kpa = 50 }\n");
+  EXPECT_THAT(both.muscles.gains, ElementsAre(MuscleGain{"side_R", 0}));
+  EXPECT_EQ(both.tissue.uniform[tissue::young], 50e3);
+}
+
+TEST(VariantPresets, AreEchoedAsWhatTheyChange) {
+  const Scene scene =
+      scene_of(by_muscles + "[[variant]]\nname = \"v\"\npreset = \"palsy_partial_R\"\n");
+  EXPECT_EQ(scene.variants.at(0).changes.dump(), R"({"muscles.gain":{"side_R":0.4}})");
+}
+
+TEST(VariantPresets, AreSoundAndSayWhereTheyComeFrom) {
+  ASSERT_EQ(variant_presets().size(), 15u);
+  for (const VariantPreset& preset : variant_presets()) {
+    EXPECT_NO_THROW(variant_of(preset.name)) << preset.name;
+    EXPECT_GT(preset.source.size(), 20u) << preset.name;
+    EXPECT_GT(preset.assumed.size(), 20u) << preset.name;
+  }
+}
+
+TEST(VariantPresets, UnknownOnesAndThoseThatMoveNothingAreRefused) {
+  const std::string variant = "[[variant]]\nname = \"v\"\npreset = ";
+  EXPECT_THAT(only_problem(by_muscles + variant + "\"palsy_complet_R\"\n"),
+              HasSubstr("scene.toml:9: variant[0].preset = \"palsy_complet_R\": expected "));
+  EXPECT_THAT(only_problem(by_muscles + variant + "\"palsy_complet_R\"\n"),
+              HasSubstr("palsy_complete_R"));
+  EXPECT_THAT(only_problem(by_muscles + variant + "7\n"), HasSubstr("variant[0].preset = 7"));
+  EXPECT_THAT(only_problem(smallest + variant + "\"palsy_complete_R\"\n"),
+              HasSubstr("drive.by = \"muscles\" in the scene"));
 }
 
 }  // namespace

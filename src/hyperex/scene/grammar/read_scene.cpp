@@ -11,6 +11,7 @@
 #include "hyperex/scene/grammar/override.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
 #include "hyperex/scene/grammar/variant_names.hpp"
+#include "hyperex/scene/grammar/variant_presets.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -51,6 +52,8 @@ class Reader {
  private:
   void take_section(const std::string& name, const json& value);
   void settle_variant(const json& block, const std::string& at);
+  /// The variant's keys, over those of the preset that it names; nothing where there is no such.
+  std::map<std::string, json> changes_with_preset(const json& block, const std::string& at);
   void take(const std::string& key, const Given& given);
   void complain(const Origin& origin, const std::string& key, const json& value,
                 const std::string& expected);
@@ -337,6 +340,25 @@ std::string what_may_vary() {
   return list + "or motion.gain";
 }
 
+std::map<std::string, json> Reader::changes_with_preset(const json& block, const std::string& at) {
+  const json given = block.value("preset", json());
+  json own = block;
+  own.erase("preset");
+  std::map<std::string, json> changes = changes_of(own);
+  if (given.is_null()) return changes;
+  const VariantPreset* preset =
+      given.is_string() ? find_variant_preset(given.get<std::string>()) : nullptr;
+  if (!preset) {
+    std::vector<std::string> names;
+    for (const VariantPreset& one : variant_presets()) names.push_back(one.name);
+    complain(in_file(at + ".preset"), at + ".preset", given,
+             one_of_names(given.is_string() ? given.get<std::string>() : "", names));
+    return {};
+  }
+  changes.merge(changes_of(preset->changes));  // the variant's own hold
+  return changes;
+}
+
 void Reader::settle_variant(const json& block, const std::string& at) {
   if (!block.is_object()) {
     complain(in_file(at), at, block, "a table, [[variant]]");
@@ -364,8 +386,12 @@ void Reader::settle_variant(const json& block, const std::string& at) {
   variant.name = name;
   variant.folder = variant_folder(variant.name, scene.variants);
   variant.changes = json::object();
-  for (const auto& [key, value] : changes_of(block)) {
-    const std::string place = at + "." + key;
+  const std::size_t wrong = problems.size();
+  const std::map<std::string, json> changes = changes_with_preset(block, at);
+  if (problems.size() > wrong) return;
+  for (const auto& [key, value] : changes) {
+    const bool of_preset = !lines_.count(at + "." + key) && block.contains("preset");
+    const std::string place = at + "." + (of_preset ? "preset" : key);
     if (find_key(key) != nullptr && !may_vary(key)) {
       complain(in_file(place), place, value, "a key of what may vary: " + what_may_vary());
       continue;
@@ -374,9 +400,9 @@ void Reader::settle_variant(const json& block, const std::string& at) {
     varied.lines_[key] = in_file(place).line;
     variant.changes[key] = value;
   }
-  if (changes_of(block).empty())
+  if (changes.empty())
     complain(in_file(at), at, nullptr,
-             "at least one key that it changes, as in tissue.young_kpa = 400");
+             "at least one key that it changes, as in tissue.young_kpa = 400, or a preset");
   varied.fill();
   varied.check_together();
   for (InputProblem& problem : varied.problems) {

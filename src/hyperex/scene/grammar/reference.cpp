@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/grammar/variant_presets.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -100,11 +101,18 @@ std::string default_of(const Key& key) {
 std::string variants_text() {
   std::string may;
   for (const std::string& section : variant_sections()) may += "`[" + section + "]`, ";
+  std::string presets;
+  for (const VariantPreset& preset : variant_presets())
+    presets += (presets.empty() ? "" : ", ") + code(preset.name);
   return fmt::format(
       "\n## [[variant]]\n"
       "The same face and motion once more with something changed, as often as wanted:\n"
       "```toml\n[[variant]]\nname = \"stiffer\"               # also its folder under variants/\n"
-      "tissue = {{ young_kpa = 400 }}    # any key of {}or motion.gain\n```\n"
+      "tissue = {{ young_kpa = 400 }}    # any key of {}or motion.gain\n"
+      "preset = \"palsy_partial_R\"     # in the place of keys, or beside them\n```\n"
+      "A `preset` stands for keys of its own, which those of the variant replace (`hyperex "
+      "presets` "
+      "has them with their sources): {}.\n\n"
       "A run simulates the scene without a variant, called base, and all variants on one mesh, at "
       "once, and compares each with base: `report.html` shows them side by side, "
       "`variants_symmetry.png` S(t) "
@@ -123,7 +131,7 @@ std::string variants_text() {
       "a "
       "driven one (docs/symmetry.md), left out where the motion does not come back; and the "
       "integral of |xi_L - xi_R| over time.\n",
-      may);
+      may, presets);
 }
 
 }  // namespace
