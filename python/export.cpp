@@ -2,7 +2,6 @@
 // Files for other programs: glTF, PLY, frames for ParaView.
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
-#include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
 #include "hyperex/scene/output/frames.hpp"
 #include "hyperex/scene/stages/thinned_scan.hpp"
@@ -22,15 +21,14 @@ using Path = std::filesystem::path;
 report::GlbReport glb(const Path& file, const RunResult& run, const io::Scan& scan,
                       double tolerance_m, double max_mb) {
   if (!(tolerance_m > 0)) refuse("tolerance_m", fmt::format("{:g}", tolerance_m), "above 0 (m)");
-  const auto modes = report::displacement_modes(run.performance().skin_displacement_m);
   const report::GlbOptions options{tolerance_m, 1e6 * max_mb};
   if (const auto& full = run.mesh->full; full && scan.mesh.points.rows() == full->scan_vertices)
     return report::write_glb(file, run.performance(),
-                             scene::thinned_scan(scan, *full, run.mesh->skin), modes, options);
+                             scene::thinned_scan(scan, *full, run.mesh->skin), options);
   if (scan.mesh.points.rows() != run.performance().scan_vertices)
     refuse("scan", fmt::format("{} points", scan.mesh.points.rows()),
            fmt::format("the scan that was simulated, of {}", run.performance().scan_vertices));
-  return report::write_glb(file, run.performance(), scan, modes, options);
+  return report::write_glb(file, run.performance(), scan, options);
 }
 
 void ply(const Path& file, const TriMesh& mesh, const std::string& unit,

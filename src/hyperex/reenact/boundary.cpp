@@ -213,6 +213,13 @@ void Boundary::add_springs(fem::SparseMatrix& stiffness) const {
         stiffness.coeffRef(3 * s.node + a, 3 * s.node + b) += s.stiffness(a, b);
 }
 
+bool Boundary::same_springs(const Boundary& other) const {
+  return std::equal(springs_.begin(), springs_.end(), other.springs_.begin(), other.springs_.end(),
+                    [](const Spring& a, const Spring& b) {
+                      return a.node == b.node && a.stiffness == b.stiffness;
+                    });
+}
+
 Boundary::JawMotion Boundary::follow(const Points& point_displacement) {
   if (jaw_rows_.empty()) return {};
   Points at(jaw_rows_.size(), 3), by(jaw_rows_.size(), 3);

@@ -49,6 +49,8 @@ class Boundary {
 
   /// Adds the springs' stiffness (their blocks lie within the pattern of K).
   void add_springs(fem::SparseMatrix& stiffness) const;
+  /// Whether add_springs() adds the same to any matrix.
+  bool same_springs(const Boundary& other) const;
   /// Sorted unknowns 3 n + axis.
   const std::vector<int>& prescribed() const { return prescribed_; }
   /// The jaw's displacement x -> turn x + slide (turn is a rotation less the identity) that follows

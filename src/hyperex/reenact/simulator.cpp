@@ -70,6 +70,9 @@ void Simulator::set_drive(DriveOptions drive) {
 void Simulator::set_motion(AlignedMotion motion) {
   impl_->set(std::move(motion));
 }
+void Simulator::reuse_factor(Simulator&& spent) {
+  impl_->take_factor(*spent.impl_);
+}
 void Simulator::hold_load() {
   impl_->load_held = true;
 }

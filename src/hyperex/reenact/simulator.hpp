@@ -118,6 +118,11 @@ class Simulator {
   /// a variant answers base's forces. A new motion, drive or muscle (not a gain) finds new ones.
   void hold_load();
 
+  /// Takes the factor of a simulator that is not needed any more, to be filled with this one's
+  /// values: its memory and analysis are used again. Nothing where orders of elimination differ,
+  /// so make it before options are set, on two copies of one simulator. Numbers stay the same.
+  void reuse_factor(Simulator&& spent);
+
   /// The stages up to the pattern of the matrices, which run() would begin with: so that copies
   /// made before the first run share them. Throws as run().
   void prepare();

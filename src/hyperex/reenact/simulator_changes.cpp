@@ -28,6 +28,7 @@ void Simulator::Impl::drop_values() {
 
 void Simulator::Impl::drop_factors() {
   reduced.reset();
+  reduced_values.reset();
   full.reset();
   stream_fits = false;
   drop_values();

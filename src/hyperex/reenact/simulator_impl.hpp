@@ -57,6 +57,16 @@ struct Simulator::Impl {
   std::optional<fem::ReducedModel> reduced;
   std::optional<fem::Newmark> full;
   bool reduced_current = false, full_current = false;  // with the tissue that is set
+  /// All that the values of the matrices rest on, once their patterns are there.
+  struct Values {
+    TissueValues tissue;
+    ModelOptions model;
+    DriveBy by;
+    MuscleOptions muscles;
+    std::shared_ptr<const Boundary> boundary;
+    bool operator==(const Values& other) const;
+  };
+  std::optional<Values> reduced_values;  // that the factor was made of
   std::optional<fem::Response> response;
 
   std::optional<Stream> stream;
@@ -98,8 +108,10 @@ struct Simulator::Impl {
   bool by_forces() const;
   void need_boundary();
   void keep_or_drop_order();
+  void take_factor(Impl& spent);
   fem::Material material() const;
   void need_assembler();
+  Values values() const;
   /// The matrices with the tissue and the support that are set, over patterns that are there.
   void fill(fem::System& system);
   /// Makes a factor or refills it: `Model` is fem::ReducedModel or fem::Newmark.

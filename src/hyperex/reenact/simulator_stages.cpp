@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/run_together.hpp"
@@ -68,6 +69,17 @@ void Simulator::Impl::keep_or_drop_order() {
   }
 }
 
+void Simulator::Impl::take_factor(Impl& spent) {
+  const bool same_order = order && spent.order && order->prescribed == spent.order->prescribed &&
+                          order->nodes->unknowns == spent.order->nodes->unknowns;
+  if (!same_order || assembler != spent.assembler ||
+      options.solver.linear != spent.options.solver.linear)
+    return;
+  reduced = std::exchange(spent.reduced, std::nullopt);
+  reduced_values = std::exchange(spent.reduced_values, std::nullopt);
+  reduced_current = false;
+}
+
 fem::Material Simulator::Impl::material() const {
   fem::Material out = options.tissue.material(static_cast<std::size_t>(mesh->volume.tets.rows()),
                                               options.model.viscous_form);
@@ -120,11 +132,29 @@ void Simulator::Impl::keep_order(const std::shared_ptr<const fem::NodeOrder>& no
   if (!order) order = std::make_shared<const Order>(Order{boundary->prescribed(), nodes});
 }
 
+bool Simulator::Impl::Values::operator==(const Values& other) const {
+  return tissue == other.tissue && model == other.model && by == other.by &&
+         muscles == other.muscles && boundary->same_springs(*other.boundary);
+}
+
+Simulator::Impl::Values Simulator::Impl::values() const {
+  Values now{options.tissue, options.model, options.drive.by, options.muscles, boundary};
+  now.muscles.gains.clear();  // of forces alone
+  now.muscles.mirrored = false;
+  return now;
+}
+
 void Simulator::Impl::need_reduced() {
+  // A mirrored twin often has the very matrices of the run whose factor it takes.
+  if (reduced && !reduced_current && reduced_values && *reduced_values == values())
+    reduced_current = true;
+  if (reduced && reduced_current) return;
+  reduced_values.reset();
   need_factor(reduced, reduced_current, [&](fem::System system) {
     return fem::ReducedModel(std::move(system), boundary->prescribed(), options.solver.linear,
                              known_order());
   });
+  reduced_values = values();
 }
 
 void Simulator::Impl::need_full() {

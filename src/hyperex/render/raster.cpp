@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/vector_clones.hpp"
 
 namespace hyperex::render {
@@ -16,6 +17,13 @@ namespace {
 double on_grid(double samples) {
   constexpr double per_sample = 1 << 14;
   return std::nearbyint(samples * per_sample) / per_sample;
+}
+
+/// Of a number that is not much larger than a picture; 0 for one below.
+int rounded_up(double samples) {
+  if (samples <= 0) return 0;
+  const auto below = int(samples);
+  return below + (samples > below ? 1 : 0);
 }
 
 /// What is linear over the samples: its value at the first, and how it grows to the right and down.
@@ -30,19 +38,25 @@ struct Cover {
   int columns, rows;
 };
 
+/// Samples that are looked at together.
+constexpr int kTogether = 4;
+
 /// Into samples whose rows are `stride` apart: where the triangle is nearer than what was seen.
+/// Looks at up to kTogether - 1 samples beyond the box in each row: they do not lie in the
+/// triangle, or beyond the picture.
 HX_CLONES void keep_nearer(const Cover& cover, int id, int stride, float* nearest, int* seen) {
   const Plane a = cover.inside[0], b = cover.inside[1], c = cover.inside[2];
   for (int y = 0; y < cover.rows; ++y, nearest += stride, seen += stride) {
     const double a0 = a.first + y * a.down, b0 = b.first + y * b.down, c0 = c.first + y * c.down;
     const double z0 = cover.z.first + y * cover.z.down;
-    for (int x = 0; x < cover.columns; ++x) {
-      const auto z = static_cast<float>(z0 + x * cover.z.right);
-      const bool covered = (a0 + x * a.right >= 0) & (b0 + x * b.right >= 0) &
-                           (c0 + x * c.right >= 0) & (z > nearest[x]);
-      nearest[x] = covered ? z : nearest[x];
-      seen[x] = covered ? id : seen[x];
-    }
+    for (int x0 = 0; x0 < cover.columns; x0 += kTogether)
+      for (int x = x0; x < x0 + kTogether; ++x) {
+        const auto z = static_cast<float>(z0 + x * cover.z.right);
+        const bool covered = (a0 + x * a.right >= 0) & (b0 + x * b.right >= 0) &
+                             (c0 + x * c.right >= 0) & (z > nearest[x]);
+        nearest[x] = covered ? z : nearest[x];
+        seen[x] = covered ? id : seen[x];
+      }
   }
 }
 
@@ -58,39 +72,47 @@ Plane edge(const Corner& p, const Corner& q, double x, double y, double scale) {
 Raster::Raster(const std::vector<Surface>& surfaces, const Camera& camera, int width, int height,
                double m_per_sample, int band_rows)
     : width_(width), height_(height), band_rows_(band_rows), m_per_sample_(m_per_sample) {
+  HX_ASSERT(width <= most_samples && height <= most_samples);
   for (std::size_t s = 0; s < surfaces.size(); ++s) add(surfaces[s], int(s), camera, m_per_sample);
   sort_into_bands();
 }
 
 void Raster::add(const Surface& surface, int index, const Camera& camera, double m_per_sample) {
   const Eigen::Matrix3d camera_from_world = camera.axes();
-  std::vector<Corner> corners(std::size_t(surface.mesh.points.rows()));
-  for (std::size_t v = 0; v < corners.size(); ++v) {
-    const Vec3 world = surface.mesh.points.row(Eigen::Index(v)).transpose();
+  const auto first = int(corners_.size());
+  for (Eigen::Index v = 0; v < surface.mesh.points.rows(); ++v) {
+    const Vec3 world = surface.mesh.points.row(v).transpose();
     const Vec3 local = camera_from_world * (world - camera.target);
-    corners[v] = {on_grid(local[0] / m_per_sample + width_ / 2.0 - 0.5),
-                  on_grid(height_ / 2.0 - 0.5 - local[1] / m_per_sample), local[2]};
+    corners_.push_back({on_grid(local[0] / m_per_sample + width_ / 2.0 - 0.5),
+                        on_grid(height_ / 2.0 - 0.5 - local[1] / m_per_sample), local[2]});
   }
   for (Eigen::Index f = 0; f < surface.mesh.triangles.rows(); ++f) {
-    const auto corner = [&](int k) { return corners[std::size_t(surface.mesh.triangles(f, k))]; };
-    Triangle t{corner(0), corner(1), corner(2), index, int(f), 0, 0, 0, 0};
-    const auto [left, right] = std::minmax({t.a.x, t.b.x, t.c.x});
-    const auto [top, bottom] = std::minmax({t.a.y, t.b.y, t.c.y});
-    // Before any rounding; false, too, where a coordinate is not finite.
-    if (!(right >= 0 && left <= width_ - 1 && bottom >= 0 && top <= height_ - 1)) continue;
-    if (!std::isfinite(left + right + top + bottom + t.a.z + t.b.z + t.c.z)) continue;
-    t.left = int(std::max(0.0, std::ceil(left)));
-    t.right = int(std::min(width_ - 1.0, right));
-    t.top = int(std::max(0.0, std::ceil(top)));
-    t.bottom = int(std::min(height_ - 1.0, bottom));
-    if (t.left <= t.right && t.top <= t.bottom && t.area() != 0) triangles_.push_back(t);
+    const auto at = [&](int k) { return first + surface.mesh.triangles(f, k); };
+    Triangle t{{at(0), at(1), at(2)}, index, int(f), {}};
+    if (may_be_seen(t)) triangles_.push_back(t);
   }
+}
+
+bool Raster::may_be_seen(Triangle& t) const {
+  const Corner &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+  const auto [left, right] = std::minmax({a.x, b.x, c.x});
+  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+  // Before any rounding; false, too, where a coordinate is not finite.
+  if (!(right >= 0 && left <= width_ - 1 && bottom >= 0 && top <= height_ - 1)) return false;
+  if (!std::isfinite(left + right + top + bottom + a.z + b.z + c.z)) return false;
+  const int first_x = rounded_up(left), first_y = rounded_up(top);
+  const auto last_x = int(std::min(width_ - 1.0, right));
+  const auto last_y = int(std::min(height_ - 1.0, bottom));
+  if (first_x > last_x || first_y > last_y || area(t) == 0) return false;
+  t.box = {std::uint16_t(first_x), std::uint16_t(last_x), std::uint16_t(first_y),
+           std::uint16_t(last_y)};
+  return true;
 }
 
 void Raster::sort_into_bands() {
   const int count = (height_ + band_rows_ - 1) / band_rows_;
   const auto bands_of = [&](const Triangle& t) {
-    return std::pair{t.top / band_rows_, t.bottom / band_rows_};
+    return std::pair{t.box.top / band_rows_, t.box.bottom / band_rows_};
   };
   first_.assign(std::size_t(count) + 1, 0);
   for (const Triangle& t : triangles_)
@@ -105,7 +127,8 @@ void Raster::sort_into_bands() {
 
 void Raster::look(int band, Seen& seen) const {
   const int begin = band * band_rows_, end = std::min(height_, begin + band_rows_);
-  const auto samples = std::size_t(end - begin) * std::size_t(width_);
+  seen.stride = width_ + kTogether;
+  const auto samples = std::size_t(end - begin) * std::size_t(seen.stride);
   seen.first_row = begin;
   seen.rows = end - begin;
   seen.nearest.assign(samples, -std::numeric_limits<float>::infinity());
@@ -116,29 +139,28 @@ void Raster::look(int band, Seen& seen) const {
 
 void Raster::draw(int id, Seen& seen) const {
   const Triangle& t = triangles_[std::size_t(id)];
-  const double area = t.area();
-  const int x0 = t.left, x1 = t.right;
-  const int y0 = std::max(seen.first_row, t.top);
-  const int y1 = std::min(seen.first_row + seen.rows - 1, t.bottom);
-  const double sign = area > 0 ? 1 : -1, per_area = sign / area;
-  Cover cover{
-      {edge(t.b, t.c, x0, y0, sign), edge(t.c, t.a, x0, y0, sign), edge(t.a, t.b, x0, y0, sign)},
-      {},
-      x1 - x0 + 1,
-      y1 - y0 + 1};
+  const Corner &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+  const int x0 = t.box.left, y0 = std::max(seen.first_row, int(t.box.top));
+  const int y1 = std::min(seen.first_row + seen.rows - 1, int(t.box.bottom));
+  const double twice = area(t), sign = twice > 0 ? 1 : -1, per_area = sign / twice;
+  Cover cover{{edge(b, c, x0, y0, sign), edge(c, a, x0, y0, sign), edge(a, b, x0, y0, sign)},
+              {},
+              t.box.right - x0 + 1,
+              y1 - y0 + 1};
   const auto mixed = [&](double Plane::*part) {
-    return per_area * (cover.inside[0].*part * t.a.z + cover.inside[1].*part * t.b.z +
-                       cover.inside[2].*part * t.c.z);
+    return per_area * (cover.inside[0].*part * a.z + cover.inside[1].*part * b.z +
+                       cover.inside[2].*part * c.z);
   };
   cover.z = {mixed(&Plane::first), mixed(&Plane::right), mixed(&Plane::down)};
-  const auto at = std::size_t(y0 - seen.first_row) * std::size_t(width_) + std::size_t(x0);
-  keep_nearer(cover, id, width_, seen.nearest.data() + at, seen.triangle.data() + at);
+  const auto at = std::size_t(y0 - seen.first_row) * std::size_t(seen.stride) + std::size_t(x0);
+  keep_nearer(cover, id, seen.stride, seen.nearest.data() + at, seen.triangle.data() + at);
 }
 
 Raster::Weights Raster::weights(int id, int x, int y) const {
   const Triangle& t = triangles_[std::size_t(id)];
-  const double per_area = 1 / t.area();
-  const Plane a = edge(t.b, t.c, x, y, per_area), b = edge(t.c, t.a, x, y, per_area);
+  const double per_area = 1 / area(t);
+  const Plane a = edge(corner(t, 1), corner(t, 2), x, y, per_area);
+  const Plane b = edge(corner(t, 2), corner(t, 0), x, y, per_area);
   return {a.first, b.first, a.right, b.right};
 }
 
@@ -147,7 +169,10 @@ Eigen::Vector3f Raster::normal(int id) const {
   const auto side = [&](const Corner& p, const Corner& q) {
     return Vec3((q.x - p.x) * m_per_sample_, (p.y - q.y) * m_per_sample_, q.z - p.z);
   };
-  return side(t.a, t.b).cross(side(t.a, t.c)).normalized().cast<float>();
+  return side(corner(t, 0), corner(t, 1))
+      .cross(side(corner(t, 0), corner(t, 2)))
+      .normalized()
+      .cast<float>();
 }
 
 }  // namespace hyperex::render

@@ -187,7 +187,7 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
     for (int y = 0; y < seen.rows / n; ++y) {
       std::vector<Sum> row(static_cast<std::size_t>(options.width_px));
       for (int s = n * y; s < n * (y + 1); ++s) {
-        const int* ids = seen.triangle.data() + std::ptrdiff_t(s) * along;
+        const int* ids = seen.triangle.data() + std::ptrdiff_t(s) * seen.stride;
         std::optional<Corners> corners;
         bool back = false;
         Raster::Weights weights{};
@@ -255,6 +255,8 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
              const std::vector<Polyline>& lines) {
   if (options.width_px < 1 || options.height_px < 1 || options.samples < 1)
     throw std::invalid_argument("render: a picture needs at least one pixel and one sample");
+  if (std::max(options.width_px, options.height_px) > Raster::most_samples / options.samples)
+    throw std::invalid_argument("render: a picture of too many pixels");
   std::vector<Prepared> prepared;
   for (const Surface& surface : surfaces) prepared.emplace_back(surface, camera.axes());
   Image image(options.width_px, options.height_px, options.background);

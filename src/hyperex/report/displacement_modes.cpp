@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/report/frame_products.hpp"
 
 namespace hyperex::report {
 namespace {
@@ -12,50 +13,8 @@ namespace {
 using Eigen::Index;
 using Block = Eigen::MatrixXd;  // rows: coordinates of some vertices; columns: frames
 
-// Vertices taken at a time: the whole matrix in double precision would need twice the memory of
-// the frames themselves.
-constexpr Index block_vertices = 2048;
-
-// Of more frames the Gram matrix itself costs: its eigenvectors grow with the third power (five
-// minutes for 5,000 frames, which move in some thirty shapes).
-constexpr Index kFramesAtOnce = 512;
-constexpr Index kFramesOfAPart = 128;
-// What is left out of the shapes that span the frames, as a share of the tolerance.
+// What is left out of the shapes that span many frames, as a share of the tolerance.
 constexpr double kSpanShare = 0.02;
-
-void gather(const std::vector<PointsF>& frames, Index first, Index count, Block& block) {
-  block.resize(3 * count, static_cast<Index>(frames.size()));
-  for (Index f = 0; f < block.cols(); ++f)
-    block.col(f) =
-        Eigen::Map<const Eigen::VectorXf>(frames[f].data() + 3 * first, 3 * count).cast<double>();
-}
-
-template <typename Visit>
-void for_blocks(const std::vector<PointsF>& frames, Visit visit) {
-  const Index vertices = frames.front().rows();
-  Block block;
-  for (Index first = 0; first < vertices; first += block_vertices) {
-    const Index count = std::min(block_vertices, vertices - first);
-    gather(frames, first, count, block);
-    visit(first, count, block);
-  }
-}
-
-/// Eigenvectors of a Gram matrix (its lower half), most important first; directions below its
-/// rounding carry nothing and are left out.
-Eigen::MatrixXd leading_eigenvectors(const Eigen::MatrixXd& gram, Eigen::VectorXd& values) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  values = eigen.eigenvalues().reverse();
-  const Index rank = (values.array() > 1e-15 * values[0]).count() * (values[0] > 0);
-  values.conservativeResize(rank);
-  return eigen.eigenvectors().rowwise().reverse().leftCols(rank);
-}
-
-double largest_row_error(const Block& residual) {
-  const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> vertices(residual.data(), 3,
-                                                                            residual.size() / 3);
-  return vertices.size() == 0 ? 0. : std::sqrt(vertices.colwise().squaredNorm().maxCoeff());
-}
 
 /// Of a wide matrix, N x rank, through X X^T.
 Eigen::MatrixXd right_vectors_of_wide(const Eigen::MatrixXd& wide) {
@@ -66,66 +25,15 @@ Eigen::MatrixXd right_vectors_of_wide(const Eigen::MatrixXd& wide) {
   return (wide.transpose() * left) * values.cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// Adds to the orthonormal `shapes` what they lack for these frames, whose `rest` they leave.
-void add_lacking(Block rest, double allowed, Eigen::MatrixXd& shapes) {
-  if (largest_row_error(rest) <= allowed) return;
-  Eigen::VectorXd values;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(rest.cols(), rest.cols());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(rest.transpose());
-  const Eigen::MatrixXd mix = leading_eigenvectors(gram, values);
-  Eigen::MatrixXd added(rest.rows(), mix.cols());
-  Index count = 0;
-  while (count < mix.cols() && largest_row_error(rest) > allowed) {
-    const Eigen::VectorXd along = rest * mix.col(count);
-    rest.noalias() -= along * mix.col(count).transpose();
-    added.col(count) = along / std::sqrt(values[count]);
-    ++count;
-  }
-  Eigen::MatrixXd more(shapes.rows(), shapes.cols() + count);
-  more << shapes, added.leftCols(count);
-  shapes = std::move(more);
-}
-
-/// Orthonormal shapes that hold every frame within `allowed` (m), from one part of the frames after
-/// the other.
-Eigen::MatrixXd spanning_shapes(const std::vector<PointsF>& frames, double allowed) {
-  const auto n = static_cast<Index>(frames.size());
-  Eigen::MatrixXd shapes(3 * frames.front().rows(), 0);
-  Block part;
-  for (Index first = 0; first < n; first += kFramesOfAPart) {
-    const auto last = std::min(n, first + kFramesOfAPart);
-    gather({frames.begin() + first, frames.begin() + last}, 0, frames.front().rows(), part);
-    for (int again = 0; again < 2; ++again)  // what rounding leaves along them is taken out too
-      part.noalias() -= shapes * (shapes.transpose() * part).eval();
-    add_lacking(std::move(part), allowed, shapes);
-  }
-  return shapes;
-}
-
-/// Of many frames: through their courses along few shapes.
-Eigen::MatrixXd right_vectors_of_many(const std::vector<PointsF>& frames, double tolerance) {
-  const Eigen::MatrixXd shapes = spanning_shapes(frames, kSpanShare * tolerance);
-  Eigen::MatrixXd course = Eigen::MatrixXd::Zero(shapes.cols(), static_cast<Index>(frames.size()));
-  for_blocks(frames, [&](Index first, Index count, const Block& block) {
-    course.noalias() += shapes.middleRows(3 * first, 3 * count).transpose() * block;
-  });
-  return right_vectors_of_wide(course);
-}
-
 /// Of the 3|V| x N matrix X of the frames, orthonormal, N x rank, through the smaller one of X^T X
 /// and X X^T, or where both are large through shapes that leave nothing near the tolerance.
 Eigen::MatrixXd right_singular_vectors(const std::vector<PointsF>& frames, double tolerance) {
   const auto n = static_cast<Index>(frames.size());
   const Index coordinates = 3 * frames.front().rows();
-  if (std::min(n, coordinates) > kFramesAtOnce) return right_vectors_of_many(frames, tolerance);
-  if (n <= coordinates) {
-    Eigen::VectorXd values;
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
-    for_blocks(frames, [&](Index, Index, const Block& block) {
-      gram.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
-    });
-    return leading_eigenvectors(gram, values);
-  }
+  if (std::min(n, coordinates) > kFramesAtOnce)
+    return right_vectors_of_wide(courses_along_few_shapes(frames, kSpanShare * tolerance));
+  Eigen::VectorXd values;
+  if (n <= coordinates) return leading_eigenvectors(frame_products(frames), values);
   Block all;
   gather(frames, 0, frames.front().rows(), all);
   return right_vectors_of_wide(all);

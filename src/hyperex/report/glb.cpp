@@ -3,6 +3,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -51,16 +52,15 @@ int add_texture(tinygltf::Model& model, GltfArrays& arrays, const io::Image& pic
   return 0;
 }
 
-void check(const reenact::Performance& performance, const DisplacementModes& modes) {
-  const auto frames = static_cast<Index>(performance.frame_time_s.size());
-  if (!modes.modes.empty() && (modes.weights.rows() != frames ||
-                               modes.modes[0].rows() != performance.skin_rest.points.rows()))
-    throw std::invalid_argument("write_glb: the modes are not the performance's");
+void check(const reenact::Performance& performance) {
+  bool whole = performance.skin_displacement_m.size() == performance.frame_time_s.size();
+  for (const PointsF& frame : performance.skin_displacement_m)
+    whole = whole && frame.rows() == performance.skin_rest.points.rows();
+  if (!whole) throw std::invalid_argument("write_glb: frames that are not the performance's");
 }
 
 tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan& scan,
-                         const DisplacementModes& modes, const GlbOptions& options,
-                         GlbReport& report) {
+                         const GlbOptions& options, GlbReport& report) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "hyperex";
@@ -90,10 +90,13 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
   tinygltf::Mesh mesh;
   mesh.name = "skin";
   mesh.primitives.push_back(skin);
-  if (!modes.modes.empty()) {
+  const bool moves =
+      std::any_of(performance.skin_displacement_m.begin(), performance.skin_displacement_m.end(),
+                  [](const PointsF& frame) { return !frame.isZero(0); });
+  if (moves) {
     const double copies = double(view.skin_vertex.size()) / double(rest.rows());
     const PoseTargets targets = pose_targets(performance.skin_rest, performance.skin_displacement_m,
-                                             performance.frame_time_s, modes, options.tolerance_m,
+                                             performance.frame_time_s, options.tolerance_m,
                                              options.max_bytes - double(arrays.bytes()), copies);
     report.keys = targets.names.size();
     report.max_error_m = targets.keys.max_error_m;
@@ -120,11 +123,10 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
 }  // namespace
 
 GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
-                    const io::Scan& scan, const DisplacementModes& modes,
-                    const GlbOptions& options) {
-  check(performance, modes);
+                    const io::Scan& scan, const GlbOptions& options) {
+  check(performance);
   GlbReport report;
-  const tinygltf::Model model = model_of(performance, scan, modes, options, report);
+  const tinygltf::Model model = model_of(performance, scan, options, report);
   write_file_atomically(file, [&](std::ostream& stream) {
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
     report.bytes = static_cast<double>(stream.tellp());

@@ -4,7 +4,6 @@
 
 #include "hyperex/io/scan.hpp"
 #include "hyperex/reenact/performance.hpp"
-#include "hyperex/report/displacement_modes.hpp"
 
 namespace hyperex::report {
 
@@ -24,14 +23,12 @@ struct GlbReport {
 /// the performance (pose_keys.hpp), named by their times ("pose_0.933s"), with weights from 0 to 1,
 /// animated linearly at the frame times counted from the first frame. As few poses as
 /// options.tolerance_m allows; where they would take more than options.max_bytes fewer, and the
-/// report tells the error that remains, but always one. `modes` are those of
-/// performance.skin_displacement_m. Normals move too. With the scan's texture (vertices split at
-/// seams, the skin's order kept by extras.skin_vertices otherwise) or its vertex colours, else a
-/// plain skin tone. A performance without motion is written as a still mesh. Throws InputError
-/// where the file cannot be written, std::invalid_argument where performance, scan and modes do not
-/// belong together.
+/// report tells the error that remains, but always one. Normals move too. With the scan's texture
+/// (vertices split at seams, the skin's order kept by extras.skin_vertices otherwise) or its vertex
+/// colours, else a plain skin tone. A performance without motion is written as a still mesh. Throws
+/// InputError where the file cannot be written, std::invalid_argument where the performance and the
+/// scan do not belong together.
 GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
-                    const io::Scan& scan, const DisplacementModes& modes,
-                    const GlbOptions& options = {});
+                    const io::Scan& scan, const GlbOptions& options = {});
 
 }  // namespace hyperex::report

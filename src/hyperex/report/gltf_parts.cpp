@@ -152,8 +152,8 @@ PointsF spread(const PointsF& skin, const std::vector<int>& vertices) {
 }
 
 PoseTargets pose_targets(const TriMesh& rest, const std::vector<PointsF>& displacements,
-                         const std::vector<double>& time_s, const DisplacementModes& modes,
-                         double tolerance_m, double max_bytes, double copies) {
+                         const std::vector<double>& time_s, double tolerance_m, double max_bytes,
+                         double copies) {
   constexpr double kJson = 700;  // accessors, views and name of a key
   const PointsF at_rest = rest.points.cast<float>();
   const PointsF rest_normals = vertex_normals(at_rest, rest.triangles);
@@ -173,7 +173,7 @@ PoseTargets pose_targets(const TriMesh& rest, const std::vector<PointsF>& displa
     normals[frame] = std::move(change);
     return true;
   };
-  targets.keys = pose_keys(displacements, modes, tolerance_m, take);
+  targets.keys = pose_keys(displacements, tolerance_m, take);
   for (const int frame : targets.keys.frames) {
     targets.positions.push_back(pose_of(displacements[std::size_t(frame)], targets.least_move_m));
     targets.normals.push_back(std::move(normals.at(frame)));

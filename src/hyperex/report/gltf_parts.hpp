@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
-#include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/pose_keys.hpp"
 
 namespace hyperex::report {
@@ -50,8 +49,8 @@ struct PoseTargets {
 /// where all would take more than `max_bytes`; `copies` of each vertex are written (1.2: a fifth of
 /// them twice).
 PoseTargets pose_targets(const TriMesh& rest, const std::vector<PointsF>& displacements,
-                         const std::vector<double>& time_s, const DisplacementModes& modes,
-                         double tolerance_m, double max_bytes, double copies = 1);
+                         const std::vector<double>& time_s, double tolerance_m, double max_bytes,
+                         double copies = 1);
 
 /// Morph targets of the mesh's first primitive, a vertex of it for each of `vertices`, and the
 /// weights of a player that plays nothing.

@@ -9,29 +9,14 @@
 #include <numeric>
 #include <set>
 
+#include "hyperex/report/frame_products.hpp"
+
 namespace hyperex::report {
 namespace {
 using Eigen::Index;
 
 constexpr int kSweeps = 200;
 constexpr double kSettled = 1e-6;  // of a weight, between sweeps
-
-/// Rows of coordinates in which lengths are root sums of squares over all vertices, as they are of
-/// the displacements: W L, where the modes' Gram matrix is L L^T.
-Eigen::MatrixXd coordinates_of(const DisplacementModes& modes) {
-  const auto k = static_cast<Index>(modes.modes.size());
-  Eigen::MatrixXd gram(k, k);
-  tbb::parallel_for(Index{0}, k, [&](Index i) {
-    for (Index j = 0; j <= i; ++j)
-      gram(i, j) = gram(j, i) = modes.modes[std::size_t(i)]
-                                    .cast<double>()
-                                    .cwiseProduct(modes.modes[std::size_t(j)].cast<double>())
-                                    .sum();
-  });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  return modes.weights.cast<double>() * eigen.eigenvectors() *
-         eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-}
 
 /// Minimises |target - keys^T w| over 0 <= w <= 1, from where w stands: `gram` of the keys, `along`
 /// their products with the target.
@@ -53,10 +38,10 @@ void settle(const Eigen::MatrixXd& gram, const Eigen::VectorXd& along, Eigen::Ve
 
 class Chooser {
  public:
-  Chooser(const std::vector<PointsF>& displacements, const DisplacementModes& modes, float least_m)
+  Chooser(const std::vector<PointsF>& displacements, double tolerance_m)
       : displacements_(displacements),
-        least_m_(least_m),
-        coordinates_(coordinates_of(modes)),
+        least_m_(least_move_m(tolerance_m)),
+        coordinates_(frame_coordinates(displacements, 0.01 * tolerance_m)),
         weights_(coordinates_.rows(), 0) {}
 
   void add(int frame) {
@@ -79,6 +64,9 @@ class Chooser {
     });
     keys_ = std::move(keys);
   }
+
+  /// Nothing moves in any frame.
+  bool still() const { return coordinates_.isZero(0); }
 
   /// Largest distance of any vertex in a frame.
   double error_m(int frame) const {
@@ -142,12 +130,13 @@ PointsF pose_of(const PointsF& displacement, float least_m) {
          displacement;
 }
 
-PoseKeys pose_keys(const std::vector<PointsF>& displacements, const DisplacementModes& modes,
-                   double tolerance_m, const std::function<bool(int)>& take) {
+PoseKeys pose_keys(const std::vector<PointsF>& displacements, double tolerance_m,
+                   const std::function<bool(int)>& take) {
   PoseKeys none;
   none.weights.resize(static_cast<Index>(displacements.size()), 0);
-  if (modes.modes.empty()) return none;
-  Chooser chooser(displacements, modes, least_move_m(tolerance_m));
+  if (displacements.empty()) return none;
+  Chooser chooser(displacements, tolerance_m);
+  if (chooser.still()) return none;
   for (;;) {
     auto [frame, error_m] = chooser.worst(false);
     if (error_m <= tolerance_m) std::tie(frame, error_m) = chooser.worst(true);

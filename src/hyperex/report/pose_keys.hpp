@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
-#include "hyperex/report/displacement_modes.hpp"
 
 namespace hyperex::report {
 
@@ -28,10 +27,10 @@ PointsF pose_of(const PointsF& displacement, float least_m);
 /// Keys are chosen one by one: the frame that the keys so far show worst becomes the next, until no
 /// vertex is farther than `tolerance_m` from its place in any frame, or `take(frame)` refuses it.
 /// The weights of a frame are the least-squares ones within 0 to 1, by coordinate descent in the
-/// coordinates of `modes` (those of `displacements`). No motion gives no keys.
+/// coordinates of frame_coordinates(). No motion gives no keys.
 /// The same input gives the same keys, however many threads there are.
-PoseKeys pose_keys(const std::vector<PointsF>& displacements, const DisplacementModes& modes,
-                   double tolerance_m, const std::function<bool(int)>& take);
+PoseKeys pose_keys(const std::vector<PointsF>& displacements, double tolerance_m,
+                   const std::function<bool(int)>& take);
 
 /// "pose_0.933s", one a key; `time_s` of all frames, counted from the first. Frames so close that
 /// their names would be one get more digits.

@@ -152,8 +152,8 @@ void write_tracked_glb(const std::filesystem::path& file, const expression::Face
   const std::vector<PointsF> motion = displacements(shown, rest);
   std::vector<double> time_s;
   for (const TrackedFrame* frame : shown) time_s.push_back(frame->time_s);
-  const PoseTargets targets = pose_targets({rest, model.mesh.triangles}, motion, time_s,
-                                           displacement_modes(motion), tolerance_m, kMaxBytes);
+  const PoseTargets targets =
+      pose_targets({rest, model.mesh.triangles}, motion, time_s, tolerance_m, kMaxBytes);
   tinygltf::Model gltf;
   gltf.asset.version = "2.0";
   gltf.asset.generator = "hyperex";

@@ -156,6 +156,51 @@ TEST_F(SimulatorOfAFace, CopiesRunOnTheirOwnInOtherThreads) {
   expect_equal(of_copy, made(next).run());
 }
 
+TEST_F(SimulatorOfAFace, AFactorNotNeededAnyMoreIsFilledAgain) {
+  Simulator base = made(options_);
+  base.run();
+  SimulationOptions first = options_, second = options_;
+  first.tissue.uniform[tissue::young] *= 3;
+  second.tissue.uniform[tissue::young] *= 0.5;
+  Simulator spent = base;
+  spent.set_options(first);
+  EXPECT_GT(spent.run().report.analyse_s, 0);
+  Simulator next = base;
+  next.reuse_factor(std::move(spent));
+  next.set_options(second);
+  const SimulationResult result = next.run();
+  EXPECT_EQ(result.report.analyse_s, 0);
+  EXPECT_GT(result.report.factor_s, 0) << "of other tissue";
+  expect_equal(result, made(second).run());
+}
+
+TEST_F(SimulatorOfAFace, AFactorOfTheSameMatricesIsTakenAsItIs) {
+  Simulator one = made(options_);
+  one.run();
+  Simulator other = one;
+  AlignedMotion motion = motion_;  // the same points drive the same nodes, in another course
+  std::swap(motion.motion.positions[3], motion.motion.positions[5]);
+  other.set_motion(motion);
+  other.reuse_factor(std::move(one));
+  const SimulationResult result = other.run();
+  EXPECT_EQ(result.report.factor_s, 0);
+  expect_equal(result, Simulator(mesh_, landmarks_, motion, options_).run());
+}
+
+TEST_F(SimulatorOfAFace, AFactorOfAnotherOrderIsLeft) {
+  Simulator one = made(options_);
+  one.run();
+  SimulationOptions next = options_;
+  next.drive.patch_radius_m *= 2;  // other nodes are prescribed
+  Simulator other = made(next);
+  other.run();
+  Simulator copy = other;
+  copy.reuse_factor(std::move(one));
+  const SimulationResult result = copy.run();
+  EXPECT_GT(result.report.analyse_s, 0);
+  expect_equal(result, made(next).run());
+}
+
 TEST_F(SimulatorOfAFace, AStreamFollowsAsARunDoes) {
   Simulator simulator = made(options_);
   const SimulationResult run = simulator.run();

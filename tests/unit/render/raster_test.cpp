@@ -57,11 +57,12 @@ std::vector<Hit> all_hits(const Raster& raster) {
   Raster::Seen seen;
   for (int b = 0; b < raster.bands(); ++b) {
     raster.look(b, seen);
-    for (std::size_t i = 0; i < seen.triangle.size(); ++i) {
+    for (int i = 0; i < seen.rows * kSize; ++i) {
       Hit& hit = all.emplace_back();
-      if (seen.triangle[i] < 0) continue;
-      const int id = seen.triangle[i];
-      const auto w = raster.weights(id, int(i) % kSize, seen.first_row + int(i) / kSize).at(0);
+      const int x = i % kSize, y = i / kSize;
+      const int id = seen.triangle[std::size_t(y * seen.stride + x)];
+      if (id < 0) continue;
+      const auto w = raster.weights(id, x, seen.first_row + y).at(0);
       hit = {raster.surface(id), raster.triangle(id), {w[0], w[1], w[2]}, raster.normal(id)};
       EXPECT_EQ(raster.faces_viewer(id), hit.normal.z() > 0);
     }

@@ -44,8 +44,7 @@ double error_of(const std::vector<PointsF>& frames, const PoseKeys& keys) {
 
 PoseKeys keys_of(const std::vector<PointsF>& frames, double tolerance_m, std::size_t most = 100) {
   std::size_t count = 0;
-  return pose_keys(frames, displacement_modes(frames, 1e-6), tolerance_m,
-                   [&](int) { return count++ < most; });
+  return pose_keys(frames, tolerance_m, [&](int) { return count++ < most; });
 }
 
 TEST(PoseKeys, AreThePeaksOfExpressionsAndMixThem) {

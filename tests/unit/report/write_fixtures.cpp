@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
                                       {"textured", Surface::textured}}) {
     const auto face = testing::made_up_face(surface);
     const auto modes = displacement_modes(face.performance.skin_displacement_m);
-    write_glb(folder / (std::string(name) + ".glb"), face.performance, face.scan, modes);
+    write_glb(folder / (std::string(name) + ".glb"), face.performance, face.scan);
     const nlohmann::json summary = {
         {"title", "made-up face"},
         {"dt_s", 0.002},

@@ -248,7 +248,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
                   off = skin_off_scan(mesh, inputs.landmarks);
                 },
                 [&] {
-                  if (scene.output.glb || scene.output.report)
+                  if (scene.output.report)
                     modes = report::displacement_modes(simulation.performance.skin_displacement_m);
                 }});
   measuring.reset();

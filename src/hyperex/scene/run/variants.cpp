@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <memory>
 #include <mutex>
 
 #include "hyperex/core/error.hpp"
@@ -18,6 +19,27 @@ namespace hyperex::scene {
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+/// Simulators that are not needed any more: as many as ran at a time. Their factors are.
+class SpentSimulators {
+ public:
+  void give(std::shared_ptr<reenact::Simulator> spent) {
+    if (!spent) return;
+    const std::lock_guard lock(mutex_);
+    spent_.push_back(std::move(spent));
+  }
+  std::shared_ptr<reenact::Simulator> take() {
+    const std::lock_guard lock(mutex_);
+    if (spent_.empty()) return nullptr;
+    std::shared_ptr<reenact::Simulator> one = std::move(spent_.back());
+    spent_.pop_back();
+    return one;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<reenact::Simulator>> spent_;
+};
 
 }  // namespace
 
@@ -42,6 +64,7 @@ void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& 
                        const MirroredTwin& base_twin, const metrics::RestAsymmetry& at_rest) {
   Progress progress("simulating variants", static_cast<long>(runs.size()));
   std::mutex telling;
+  SpentSimulators spent;
   long done = 0;
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
     VariantRun& run = runs[i];
@@ -50,11 +73,13 @@ void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& 
       if (run.field) options.tissue.element = run.field->element;
       reenact::Simulator simulator = base;
       simulator.hold_load();
+      if (const auto other = spent.take()) simulator.reuse_factor(std::move(*other));
       simulator.set_options(std::move(options));
       run.simulation = simulator.run();
-      const MirroredTwin twin =
-          simulate_twin(run.scene, run.inputs, run.field ? &*run.field : nullptr, at_rest.plane,
-                        simulator, &base_twin);
+      MirroredTwin twin =
+          simulate_variants_twin(run.scene, run.inputs, run.field ? &*run.field : nullptr,
+                                 at_rest.plane, simulator, base_twin);
+      spent.give(std::move(twin.simulator));
       run.symmetry =
           symmetry_measures(run.scene, run.inputs, at_rest, run.simulation.performance, twin);
     } catch (const NumericalError& error) {
@@ -76,10 +101,8 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
   Progress progress("writing variants", 0);
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
     const VariantRun& run = runs[i];
-    Results results{run.scene,    run.inputs, mesh, run.simulation,
-                    run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
-    if (run.scene.output.glb)
-      results.modes = report::displacement_modes(run.simulation.performance.skin_displacement_m);
+    const Results results{run.scene,    run.inputs, mesh, run.simulation,
+                          run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
     compared[i] =
         metrics::compare_variant(run.scene.title, own_run,
                                  {run.simulation.performance, run.symmetry}, compared_inputs, pair);

@@ -90,36 +90,58 @@ std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
   return element;
 }
 
-MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
-                           const tissue::TissueField* field, const metrics::MidsagittalPlane& plane,
-                           const reenact::Simulator& run, const MirroredTwin* of_base) {
-  MirroredTwin twin;
-  if (scene.region.measured != reenact::Measured::none) {
-    twin.why_not = "a region of the skin follows the recording itself";
-    return twin;
-  }
-  auto motion = mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), twin.why_not);
-  if (!motion) return twin;
+namespace {
+
+/// Runs `simulator`, which follows the mirrored motion, with the scene's options mirrored.
+MirroredTwin twin_of(const Scene& scene, const Inputs& inputs, const tissue::TissueField* field,
+                     const metrics::MidsagittalPlane& plane,
+                     std::shared_ptr<reenact::Simulator> simulator) {
   reenact::SimulationOptions options = simulation_options(scene, inputs);
   options.solver.method = reenact::SolverMethod::reduced;
   options.solver.verify = false;
   options.time.still_times_s.clear();
   for (reenact::MuscleGain& gain : options.muscles.gains)
     gain.muscle = muscles::other_side(gain.muscle);
-  if (field) options.tissue.element = mirrored_elements(*field, run.mesh(), plane);
-  if (of_base && of_base->simulator) {
-    twin.simulator = std::make_shared<reenact::Simulator>(*of_base->simulator);
-    twin.simulator->hold_load();
-  } else {
-    twin.simulator = std::make_shared<reenact::Simulator>(run);
-    twin.simulator->set_motion(std::move(*motion));
-  }
-  twin.simulator->set_options(std::move(options));
+  if (field) options.tissue.element = mirrored_elements(*field, simulator->mesh(), plane);
+  simulator->set_options(std::move(options));
   reenact::SimulationResult result =
-      twin.simulator->run({.progress = {}, .cancelled = {}, .skin_alone = true});
-  twin.landmarks = std::move(result.performance.landmarks);
-  twin.skin_displacement_m = std::move(result.performance.skin_displacement_m);
-  return twin;
+      simulator->run({.progress = {}, .cancelled = {}, .skin_alone = true});
+  return {.why_not = {},
+          .landmarks = std::move(result.performance.landmarks),
+          .skin_displacement_m = std::move(result.performance.skin_displacement_m),
+          .simulator = std::move(simulator)};
+}
+
+}  // namespace
+
+MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
+                           const tissue::TissueField* field, const metrics::MidsagittalPlane& plane,
+                           const reenact::Simulator& run) {
+  MirroredTwin none;
+  if (scene.region.measured != reenact::Measured::none) {
+    none.why_not = "a region of the skin follows the recording itself";
+    return none;
+  }
+  auto motion = mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), none.why_not);
+  if (!motion) return none;
+  auto simulator = std::make_shared<reenact::Simulator>(run);
+  simulator->set_motion(std::move(*motion));
+  return twin_of(scene, inputs, field, plane, std::move(simulator));
+}
+
+MirroredTwin simulate_variants_twin(const Scene& scene, const Inputs& inputs,
+                                    const tissue::TissueField* field,
+                                    const metrics::MidsagittalPlane& plane, reenact::Simulator& run,
+                                    const MirroredTwin& of_base) {
+  // A variant may do what has no twin.
+  MirroredTwin none;
+  if (!of_base.simulator || scene.region.measured != reenact::Measured::none ||
+      !mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), none.why_not))
+    return simulate_twin(scene, inputs, field, plane, run);
+  auto simulator = std::make_shared<reenact::Simulator>(*of_base.simulator);
+  simulator->hold_load();
+  simulator->reuse_factor(std::move(run));
+  return twin_of(scene, inputs, field, plane, std::move(simulator));
 }
 
 }  // namespace hyperex::scene

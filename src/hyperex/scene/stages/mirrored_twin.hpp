@@ -37,10 +37,16 @@ std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
 
 /// `field`: where the run's tissue differs from place to place, else null. By the reduced model,
 /// whichever the run takes. `run`: a simulator of the run's mesh and motion, whose stages it begins
-/// with; `of_base`: where `run` is a variant's, base's twin, whose stages it takes instead. Throws
-/// NumericalError as Simulator::run().
+/// with. Throws NumericalError as Simulator::run().
 MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
                            const tissue::TissueField* field, const metrics::MidsagittalPlane& plane,
-                           const reenact::Simulator& run, const MirroredTwin* of_base = nullptr);
+                           const reenact::Simulator& run);
+
+/// Of a variant: with the stages and the load of base's twin where there is one. `run`: the
+/// variant's simulator, not needed any more; its factor is used again.
+MirroredTwin simulate_variants_twin(const Scene& scene, const Inputs& inputs,
+                                    const tissue::TissueField* field,
+                                    const metrics::MidsagittalPlane& plane, reenact::Simulator& run,
+                                    const MirroredTwin& of_base);
 
 }  // namespace hyperex::scene
