@@ -8,6 +8,7 @@
 #include "hyperex/metrics/surface_distance.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/scene/output/outputs.hpp"
+#include "hyperex/scene/stages/prepared_face.hpp"
 #include "options_class.hpp"
 #include "performance.hpp"
 

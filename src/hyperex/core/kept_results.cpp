@@ -38,9 +38,11 @@ std::optional<std::string> KeptResults::find(const std::string& key) const {
   const fs::path file = folder_ / (key + kExtension);
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return std::nullopt;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error || size < kDigits || size > most_bytes_) return std::nullopt;
+  std::string all(std::size_t(size), '\0');
   std::ifstream stream(file, std::ios::binary);
-  const std::string all((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (!stream || all.size() < kDigits) return std::nullopt;
+  if (!stream.read(all.data(), std::streamsize(all.size()))) return std::nullopt;
   std::string bytes = all.substr(kDigits);
   if (checksum(bytes) != all.substr(0, kDigits)) return std::nullopt;
   fs::last_write_time(file, fs::file_time_type::clock::now(), error);  // in use: not the oldest

@@ -123,8 +123,8 @@ class Simulator {
   /// so make it before options are set, on two copies of one simulator. Numbers stay the same.
   void reuse_factor(Simulator&& spent);
 
-  /// The stages up to the pattern of the matrices, which run() would begin with: so that copies
-  /// made before the first run share them. Throws as run().
+  /// The stages up to the factor, which run() would begin with: so that copies made before the
+  /// first run share what they can. Throws as run().
   void prepare();
 
   /// Throws InputError for points that do not exist, NumericalError where the model cannot be

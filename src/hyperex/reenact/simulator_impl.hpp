@@ -73,6 +73,7 @@ struct Simulator::Impl {
   bool stream_current = false, stream_fits = false;  // with the values; with the pattern and order
 
   SimulationReport report;
+  SimulationReport prepared;  // what prepare() took, for the next run's report
   RunCallbacks callbacks;
   double told = 0;  // of the progress
 

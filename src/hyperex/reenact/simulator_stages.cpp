@@ -219,9 +219,12 @@ void Simulator::Impl::need_input(const PointCurve& points) {
 }
 
 void Simulator::Impl::prepare() {
+  report = std::exchange(prepared, {});
   need_region();
   if (options.region.measured == Measured::all) return;  // nothing is simulated
   run_together({[&] { need_boundary(); }, [&] { need_assembler(); }});
+  options.solver.method == SolverMethod::direct ? need_full() : need_reduced();
+  prepared = report;
 }
 
 }  // namespace hyperex::reenact

@@ -190,14 +190,6 @@ std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak) {
   return frames;
 }
 
-metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inputs& inputs) {
-  constexpr double lip_margin_m = 0.002;  // nearer to both lips, a vertex is of neither
-  std::vector<int> side;
-  for (const double m : mesh.skin_upper_margin)
-    side.push_back(m > lip_margin_m ? 1 : m < -lip_margin_m ? -1 : 0);
-  return metrics::rest_asymmetry(mesh.skin, inputs.landmarks, side);
-}
-
 metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,
                                             const metrics::RestAsymmetry& at_rest,
                                             const reenact::Performance& p,

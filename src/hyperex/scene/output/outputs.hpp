@@ -50,9 +50,6 @@ std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double en
 /// comes nearest to the peak moved onto it.
 std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak);
 
-/// The asymmetry of the skin at rest, the same for all tissues; neither lip is taken for the other.
-metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inputs& inputs);
-
 /// S(t), excursions and the asymmetry map of a simulated face, judged by the jitter of its input
 /// and by its mirrored twin, if it has one.
 metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& inputs,

@@ -24,8 +24,8 @@
 #include "hyperex/scene/run/variants.hpp"
 #include "hyperex/scene/stages/landmark_search.hpp"
 #include "hyperex/scene/stages/plausible.hpp"
+#include "hyperex/scene/stages/prepared_face.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
-#include "hyperex/scene/stages/thinned_scan.hpp"
 #include "hyperex/scene/stages/tissue_fields.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
@@ -196,19 +196,14 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   for (const auto& warning : inputs.warnings) spdlog::warn("{}", warning);
 
   std::optional<LandmarkSearch> search;  // beside all else
-  std::shared_ptr<const tissue::TissueMesh> made;
-  metrics::RestAsymmetry at_rest;
-  {
+  const PreparedFace face = [&] {
     Progress progress("meshing the soft tissue", 0);
-    tissue::TissueMeshBuilder builder(inputs.scan.mesh, inputs.landmarks, scene.mesh,
-                                      inputs.scan.file.string(), on_seams(inputs.scan));
-    const tissue::TissueMesh& skin = builder.with_skin();
-    if (skin.full) inputs.scan = thinned_scan(inputs.scan, *skin.full, skin.skin);
-    if (!scene.scan.landmarks.empty()) search.emplace(inputs, scene.kept);
-    run_together(
-        {[&] { made = builder.build(); }, [&] { at_rest = rest_asymmetry(skin, inputs); }});
-  }
-  const tissue::TissueMesh& mesh = *made;
+    return prepare_face(scene, inputs, [&] {
+      if (!scene.scan.landmarks.empty()) search.emplace(inputs, scene.kept);
+    });
+  }();
+  const tissue::TissueMesh& mesh = *face.mesh;
+  const metrics::RestAsymmetry& at_rest = face.at_rest;
   seconds["mesh"] = stage.lap();
   for (const auto& note : mesh.notes) spdlog::info("{}", note);
   spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
@@ -221,8 +216,11 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
-  reenact::Simulator simulator(made, inputs.landmarks, inputs.motion, std::move(options));
-  simulator.prepare();
+  reenact::Simulator simulator(face.mesh, inputs.landmarks, inputs.motion, std::move(options));
+  {
+    Progress progress("assembling and factoring", 0);
+    simulator.prepare();
+  }
   const reenact::Simulator before_run = simulator;
   reenact::SimulationResult simulation;
   MirroredTwin twin;

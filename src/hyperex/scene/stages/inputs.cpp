@@ -77,7 +77,7 @@ void complete(const Scene& scene, const io::Landmarks& given, const io::Scan& sc
   const std::string source = scene.scan.source.embedded     ? "embedded face"
                              : scene.scan.landmarks.empty() ? scan.file.string()
                                                             : scene.scan.landmarks.string();
-  auto completed = tissue::complete_landmarks(given, scan.mesh, source);
+  auto completed = completed_landmarks(given, scan, source, scene.kept);
   in.landmarks = std::move(completed.landmarks);
   in.placed = std::move(completed.placed);
   if (!in.placed.empty())

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "hyperex/core/packed.hpp"
 #include "hyperex/core/sha256.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
@@ -108,6 +109,12 @@ auto unpacked(const std::string& bytes, Read read)
 
 }  // namespace
 
+std::string kept_key(const std::string& what, const std::string& bytes) {
+  Sha256 hash = hash_for(what.c_str());
+  hash.add_text(bytes);
+  return what + "-" + hash.hex();
+}
+
 std::string bytes_of(const FoundLandmarks& found) {
   json points = json::object();
   for (const auto& [name, at] : found.landmarks) points[name] = {at.x(), at.y(), at.z()};
@@ -122,6 +129,22 @@ std::optional<FoundLandmarks> landmarks_from(const std::string& bytes) {
     found.views = from.at("views");
     found.spread_m = from.at("spread_m");
     return found;
+  });
+}
+
+std::string bytes_of(const tissue::CompletedLandmarks& completed) {
+  json points = json::object();
+  for (const auto& [name, at] : completed.landmarks) points[name] = {at.x(), at.y(), at.z()};
+  return packed({{"points", points}, {"placed", completed.placed}});
+}
+
+std::optional<tissue::CompletedLandmarks> completed_from(const std::string& bytes) {
+  return unpacked(bytes, [](const json& from) {
+    tissue::CompletedLandmarks completed;
+    for (const auto& [name, at] : from.at("points").items())
+      completed.landmarks[name] = Vec3(at.at(0), at.at(1), at.at(2));
+    from.at("placed").get_to(completed.placed);
+    return completed;
   });
 }
 
@@ -181,6 +204,20 @@ FoundLandmarks landmarks_on(const io::Scan& scan,
   FoundLandmarks found{std::move(searched.landmarks), searched.views, searched.spread_m};
   kept.keep(key, bytes_of(found));
   return found;
+}
+
+tissue::CompletedLandmarks completed_landmarks(const io::Landmarks& given, const io::Scan& scan,
+                                               const std::string& source, const KeptResults& kept) {
+  if (!kept.in_use()) return tissue::complete_landmarks(given, scan.mesh, source);
+  Packer of;
+  of(scan.mesh.points, scan.mesh.triangles);
+  for (const auto& [name, at] : given) of(name, at);
+  const std::string key = kept_key("completed", of.bytes());
+  if (const auto bytes = kept.find(key))
+    if (auto completed = completed_from(*bytes)) return *std::move(completed);
+  auto completed = tissue::complete_landmarks(given, scan.mesh, source);
+  kept.keep(key, bytes_of(completed));
+  return completed;
 }
 
 RecordedFace recorded_face(const Scene& scene, const std::function<RecordedFace()>& track) {

@@ -11,6 +11,7 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/motion.hpp"
 #include "hyperex/scene/grammar/scene.hpp"
+#include "hyperex/tissue/landmarks.hpp"
 
 namespace hyperex::scene {
 
@@ -29,6 +30,10 @@ FoundLandmarks landmarks_on(const io::Scan& scan,
                             const std::optional<Similarity>& scan_from_canonical,
                             const KeptResults& kept);
 
+/// tissue::complete_landmarks() of a scan.
+tissue::CompletedLandmarks completed_landmarks(const io::Landmarks& given, const io::Scan& scan,
+                                               const std::string& source, const KeptResults& kept);
+
 /// A camera's recording, tracked, and what there is to say about it.
 struct RecordedFace {
   motion::Motion motion;  ///< `source` and `unit_note` empty
@@ -38,10 +43,15 @@ struct RecordedFace {
 /// What `track` makes of the scene's motion.recording.
 RecordedFace recorded_face(const Scene& scene, const std::function<RecordedFace()>& track);
 
+/// The key of what rests on `bytes` (all of the inputs and options that matter) and the program.
+std::string kept_key(const std::string& what, const std::string& bytes);
+
 /// As bytes and back; nothing where the bytes are not of this.
 std::string bytes_of(const FoundLandmarks& found);
+std::string bytes_of(const tissue::CompletedLandmarks& completed);
 std::string bytes_of(const RecordedFace& recorded);
 std::optional<FoundLandmarks> landmarks_from(const std::string& bytes);
+std::optional<tissue::CompletedLandmarks> completed_from(const std::string& bytes);
 std::optional<RecordedFace> recorded_from(const std::string& bytes);
 
 }  // namespace hyperex::scene
