@@ -168,10 +168,11 @@ void add_run(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_flag("--verify", options->verify,
                     "Run the full model too and tell the reduced one's true error");
-  command->add_flag("--no-cache", options->no_cache,
-                    "Find landmarks and track recordings anew; without it what was found before in "
-                    "the same files by the same program is taken from $XDG_CACHE_HOME/hyperex (or "
-                    "~/.cache/hyperex, at most 256 MB)");
+  command->add_flag(
+      "--no-cache", options->no_cache,
+      "Find landmarks, track recordings and make meshes anew; without it what was found before in "
+      "the same files by the same program is taken from $XDG_CACHE_HOME/hyperex (or "
+      "~/.cache/hyperex, at most 256 MB)");
   command->footer(
       "Example: hyperex run examples/demo.toml --out out/demo --set tissue.young_kpa=300");
   command->callback([options] { run(*options); });

@@ -62,6 +62,16 @@ TEST(Kept, LandmarksComeBackBitForBit) {
   EXPECT_EQ(back->spread_m, 1.0 / 7);
 }
 
+TEST(Kept, CompletedLandmarksComeBackBitForBit) {
+  const tissue::CompletedLandmarks completed{
+      {{"pogonion", {0.1, 1.0 / 3, -1e-9}}, {"ibug68_8", {1, 2, 3}}}, {"ibug68_8"}};
+  const auto back = completed_from(bytes_of(completed));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->landmarks, completed.landmarks);
+  EXPECT_EQ(back->placed, completed.placed);
+  EXPECT_FALSE(completed_from(bytes_of(FoundLandmarks{})));
+}
+
 TEST(Kept, BytesOfSomethingElseAreNothing) {
   const std::string recording = bytes_of(some_recording());
   EXPECT_FALSE(landmarks_from(recording));

@@ -196,9 +196,14 @@ metrics::SymmetryMeasures symmetry_measures(const Scene& scene, const Inputs& in
                                             const MirroredTwin& twin) {
   const double jitter_m = inputs.jitter_m * scene.drive.gain;
   metrics::SymmetryMeasures all;
-  all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
-  all.excursions = metrics::excursions_of(p.landmarks, jitter_m, scene.output.lowpass_hz);
-  all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m, twin.skin_displacement_m);
+  run_together(
+      {[&] {
+         all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m, twin.skin_displacement_m);
+       },
+       [&] {
+         all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
+         all.excursions = metrics::excursions_of(p.landmarks, jitter_m, scene.output.lowpass_hz);
+       }});
   all.no_mesh_floor = twin.why_not;
   if (twin.why_not.empty())
     metrics::add_mesh_floor(all.curve, all.excursions, p.landmarks, twin.landmarks);

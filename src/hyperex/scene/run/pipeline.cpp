@@ -237,26 +237,22 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   seconds["simulate"] = simulation.report.simulate_s;
 
   metrics::SymmetryMeasures symmetry;
-  report::DisplacementModes modes;
   SkinOff off;
-  auto measuring = std::make_unique<Progress>("measuring", 0);
-  run_together({[&] {
-                  symmetry =
-                      symmetry_measures(scene, inputs, at_rest, simulation.performance, twin);
-                  off = skin_off_scan(mesh, inputs.landmarks);
-                },
-                [&] {
-                  if (scene.output.report)
-                    modes = report::displacement_modes(simulation.performance.skin_displacement_m);
-                }});
-  measuring.reset();
+  {
+    Progress measuring("measuring", 0);
+    run_together({[&] {
+                    symmetry =
+                        symmetry_measures(scene, inputs, at_rest, simulation.performance, twin);
+                  },
+                  [&] { off = skin_off_scan(mesh, inputs.landmarks); }});
+  }
   Results results{scene,
                   inputs,
                   mesh,
                   simulation,
                   std::move(symmetry),
                   inputs.notes,
-                  std::move(modes),
+                  {},
                   field ? &*field : nullptr};
   results.notes.insert(results.notes.end(), mesh.notes.begin(), mesh.notes.end());
   results.notes.insert(results.notes.end(), inputs.warnings.begin(), inputs.warnings.end());
@@ -277,6 +273,11 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   // The scene's own files are written on one core while its variants are simulated.
   std::optional<report::GlbReport> glb;
   run_together({[&] { glb = write_outputs(results, directory); },
+                [&] {
+                  if (scene.output.report)
+                    results.modes =
+                        report::displacement_modes(simulation.performance.skin_displacement_m);
+                },
                 [&] {
                   if (variants.empty()) return;
                   Stopwatch own;

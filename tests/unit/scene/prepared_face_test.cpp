@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/stages/prepared_face.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace hyperex::scene {
+namespace {
+namespace fs = std::filesystem;
+
+class PreparedFaces : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("prepared_face_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    scene_.scan.source.embedded = true;
+    scene_.motion.source.embedded = true;
+    scene_.mesh.element_size_m = 0.009;
+    scene_.kept = KeptResults(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  PreparedFace prepared() {
+    Inputs inputs = read_inputs(scene_);
+    int times = 0;
+    PreparedFace face = prepare_face(scene_, inputs, [&] { ++times; });
+    EXPECT_EQ(times, 1);
+    return face;
+  }
+  std::vector<fs::path> kept() const {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder_))
+      if (entry.path().filename().string().starts_with("face-")) files.push_back(entry.path());
+    return files;
+  }
+
+  fs::path folder_;
+  Scene scene_;
+};
+
+TEST_F(PreparedFaces, AreTakenFromAnEarlierRunBitForBit) {
+  const std::string made = bytes_of(prepared());
+  ASSERT_EQ(kept().size(), 1u);
+  const auto time = fs::last_write_time(kept().front());
+  testing::internal::CaptureStdout();
+  const std::string taken = bytes_of(prepared());
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(made, taken);
+  EXPECT_NE(said.find("an earlier run"), std::string::npos) << said;
+  EXPECT_GE(fs::last_write_time(kept().front()), time);
+  scene_.kept = {};
+  EXPECT_EQ(bytes_of(prepared()), made) << "made anew";
+}
+
+TEST_F(PreparedFaces, OfOtherOptionsAreMadeAnew) {
+  prepared();
+  scene_.mesh.element_size_m = 0.0095;
+  const PreparedFace other = prepared();
+  EXPECT_EQ(kept().size(), 2u);
+  scene_.mesh.depths = {{"pogonion", 0.02}};
+  EXPECT_NE(bytes_of(prepared()), bytes_of(other));
+  EXPECT_EQ(kept().size(), 3u);
+}
+
+TEST_F(PreparedFaces, ATornOneIsMadeAnew) {
+  const std::string made = bytes_of(prepared());
+  fs::resize_file(kept().front(), 1000);
+  EXPECT_EQ(bytes_of(prepared()), made);
+}
+
+TEST_F(PreparedFaces, BytesThatEndTooSoonOrTooLateAreNone) {
+  const std::string bytes = bytes_of(prepared());
+  ASSERT_TRUE(prepared_face_from(bytes));
+  EXPECT_FALSE(prepared_face_from(""));
+  EXPECT_FALSE(prepared_face_from(bytes + "x"));
+  for (std::size_t size = 1; size < bytes.size(); size += bytes.size() / 50)
+    EXPECT_FALSE(prepared_face_from(bytes.substr(0, size))) << size;
+}
+
+TEST_F(PreparedFaces, TheThinnedSkinOfALargeScanToo) {
+  PreparedFace face = prepared();
+  tissue::TissueMesh mesh = *face.mesh;
+  auto full = std::make_shared<tissue::FullSkin>();
+  full->skin = mesh.skin;
+  full->scan_vertices = 7;
+  full->appended = {{1, 2, 0.25}};
+  full->source_triangle = {3, 1};
+  full->kept = {4};
+  full->kept_triangle = {5, 6};
+  full->places = {{{1, 2, 3}, Vec3(0.5, 0.25, 0.25)}};
+  mesh.full = full;
+  face.mesh = std::make_shared<const tissue::TissueMesh>(mesh);
+  const auto back = prepared_face_from(bytes_of(face));
+  ASSERT_TRUE(back);
+  ASSERT_TRUE(back->mesh->full);
+  EXPECT_EQ(back->mesh->full->scan_vertices, 7);
+  EXPECT_EQ(back->mesh->full->places[0].weight, full->places[0].weight);
+  EXPECT_EQ(bytes_of(*back), bytes_of(face));
+}
+
+}  // namespace
+}  // namespace hyperex::scene
