@@ -8,6 +8,7 @@
 
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
+#include "hyperex/reenact/muscle_load.hpp"
 #include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
@@ -206,6 +207,49 @@ json point_words_of(const ReportInput& input) {
   return words;
 }
 
+/// A row of `course` in four digits: a page of a long recording stays small.
+std::vector<double> row_of(const Eigen::MatrixXd& course, Index row) {
+  std::vector<double> values;
+  for (Index k = 0; k < course.cols(); ++k)
+    values.push_back(std::round(1e4 * course(row, k)) / 1e4);
+  return values;
+}
+
+/// "groups", both sides of each, of names that end in _L and _R.
+json muscle_groups(const reenact::MuscleCourse& muscles) {
+  json groups = json::array();
+  for (std::size_t l = 0; l < muscles.groups.size(); ++l) {
+    const std::string& name = muscles.groups[l];
+    if (!name.ends_with("_L")) continue;
+    const std::string other = name.substr(0, name.size() - 1) + "R";
+    const auto found = std::find(muscles.groups.begin(), muscles.groups.end(), other);
+    if (found == muscles.groups.end()) continue;
+    json group = {{"name", name.substr(0, name.size() - 2)}};
+    const auto add = [&](const char* side, Index row) {
+      Index most = 0;
+      if (muscles.group_activation.cols() > 0)
+        muscles.group_activation.row(row).cwiseAbs().maxCoeff(&most);
+      group[side] = row_of(muscles.group_activation, row);
+      group[std::string("sigma_") + side] = muscles.group_sigma(row, most);
+    };
+    add("left", Index(l));
+    add("right", found - muscles.groups.begin());
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+json muscle_section(const ReportInput& input) {
+  const reenact::MuscleCourse& muscles = input.performance.muscles;
+  json lines = json::array();
+  for (const ReportMuscle& muscle : input.muscles)
+    lines.push_back({{"name", muscle.name}, {"points", points_json(muscle.line)}});
+  return {{"time_s", muscles.time_s},
+          {"few_points", input.performance.driven_names.size() <= std::size_t(reenact::kFewPoints)},
+          {"groups", muscle_groups(muscles)},
+          {"lines", lines}};
+}
+
 json manifest_of(const ReportInput& input, BinaryBlock& block) {
   const auto& performance = input.performance;
   json manifest = {{"version", 1},
@@ -226,6 +270,7 @@ json manifest_of(const ReportInput& input, BinaryBlock& block) {
                    {"tissue", tissue_section(input.tissue, block)},
                    {"variants", variants_section(input, block)}};
   add_backing(performance, block, manifest);
+  if (!performance.muscles.names.empty()) manifest["muscles"] = muscle_section(input);
   if (input.mirror) manifest["mirror"] = mirror_section(*input.mirror, block);
   return manifest;
 }

@@ -33,6 +33,12 @@ struct ReportVariant {
   std::vector<TissueMap> tissue;  ///< keys as the scene's own
 };
 
+/// A muscle on this face, for the view.
+struct ReportMuscle {
+  std::string name;  ///< "zyg_major_L"
+  Points line;       ///< n x 3, from origin to insertion, at rest
+};
+
 /// What the page shows. References must outlive the call.
 struct ReportInput {
   const reenact::Performance& performance;
@@ -49,6 +55,7 @@ struct ReportInput {
   std::vector<ReportVariant> variants = {};
   /// Where each vertex has its counterpart on the other side; no asymmetry is shown where null.
   const metrics::RestAsymmetry* mirror = nullptr;
+  std::vector<ReportMuscle> muscles = {};  ///< where performance.muscles drive
 };
 
 /// Writes one HTML file that replays the performance in a browser without any network: the page

@@ -139,6 +139,44 @@ TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
   EXPECT_THROW(write_html_report(file, input), std::invalid_argument);
 }
 
+TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
+  auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  const auto file = test_file("report_muscles_test.html");
+  const auto manifest = [&] {
+    write_html_report(file, input);
+    return json::parse(element(read_file(file), "hyperex-manifest"));
+  };
+  EXPECT_FALSE(manifest().contains("muscles"));
+  reenact::MuscleCourse& muscles = face.performance.muscles;
+  muscles.names = {"zyg_major_L", "zyg_major_R"};
+  muscles.time_s = {0, 0.1, 0.2};
+  muscles.groups = {"eye closers_R", "elevators_L", "elevators_R"};
+  muscles.group_activation.resize(3, 3);
+  muscles.group_activation << 0, 9, 9, 0, 0.5, 0.25, 0, -0.12345, -0.5;
+  muscles.group_sigma.resize(3, 3);
+  muscles.group_sigma << 7, 8, 9, 1, 2, 3, 4, 5, 6;
+  Points line(2, 3);
+  line << 1, 2, 3, 4, 5, 6;
+  input.muscles = {{"zyg_major_L", line}};
+  const json shown = manifest().at("muscles");
+  EXPECT_EQ(shown.at("time_s").dump(), "[0.0,0.1,0.2]");
+  EXPECT_EQ(shown.at("few_points"), true);
+  ASSERT_EQ(shown.at("groups").size(), 1u) << "of both sides alone";
+  const json& group = shown["groups"][0];
+  EXPECT_EQ(group.at("name"), "elevators");
+  EXPECT_EQ(group.at("left").dump(), "[0.0,0.5,0.25]");
+  EXPECT_EQ(group.at("right").dump(), "[0.0,-0.1235,-0.5]");
+  EXPECT_EQ(group.at("sigma_left"), 2) << "where it acts most";
+  EXPECT_EQ(group.at("sigma_right"), 6);
+  EXPECT_EQ(shown.at("lines")[0].at("name"), "zyg_major_L");
+  EXPECT_EQ(shown.at("lines")[0].at("points").dump(), "[[1.0,2.0,3.0],[4.0,5.0,6.0]]");
+  face.performance.driven_names.assign(21, "p");
+  face.performance.driven_points_rest = Points::Zero(21, 3);
+  EXPECT_EQ(manifest().at("muscles").at("few_points"), false);
+}
+
 TEST(HtmlReport, CarriesPictureAndColours) {
   const auto textured = made_up_face(Surface::textured);
   auto modes = displacement_modes(textured.performance.skin_displacement_m);

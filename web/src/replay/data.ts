@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The replay's data as the other parts use them.
-import type { Manifest, ModeData, SymmetryCurve, TissueMapData } from './manifest';
+import type { Manifest, ModeData, MuscleData, SymmetryCurve, TissueMapData } from './manifest';
 import { usePointWords } from '../page/format';
 import { readPageData, type Block, type Stretch } from '../page/page_data';
 
@@ -37,6 +37,23 @@ export interface Face {
   tissue: TissueMap[];
 }
 
+export interface MuscleGroup {
+  name: string;
+  left: number[];
+  right: number[];
+  /** Of the activation where the group acts most. */
+  sigmaLeft: number;
+  sigmaRight: number;
+}
+
+/** Where muscles drive. */
+export interface Muscles {
+  timeS: number[];
+  fewPoints: boolean;
+  groups: MuscleGroup[];
+  lines: Vec3[][];
+}
+
 export interface Replay {
   title: string;
   notes: string[];
@@ -63,6 +80,7 @@ export interface Replay {
   /** Holes of the skin: vertices around each, and the way into the head. */
   openings: { loop: Int32Array; inward: Vec3; depthM: number }[];
   eyeballs: { centre: Vec3; gaze: Vec3; radiusM: number }[];
+  muscles: Muscles | null;
   /** Base first, then its variants in their order. */
   faces: Face[];
 }
@@ -76,6 +94,13 @@ const modesOf = (modes: ModeData[], block: Block): Mode[] =>
 
 const tissueOf = (maps: TissueMapData[] | undefined, block: Block): TissueMap[] =>
   (maps ?? []).map(({ values, ...map }) => ({ ...map, bytes: block.uint8(values) }));
+
+const musclesOf = ({ time_s, few_points, groups, lines }: MuscleData): Muscles => ({
+  timeS: time_s,
+  fewPoints: few_points,
+  groups: groups.map(({ sigma_left, sigma_right, ...group }) => ({ ...group, sigmaLeft: sigma_left, sigmaRight: sigma_right })),
+  lines: lines.map(({ points }) => points),
+});
 
 function facesOf(manifest: Manifest, block: Block): Face[] {
   const itself: Face = {
@@ -150,6 +175,7 @@ export function readReplay(): Replay {
       : null,
     openings: manifest.openings.map(({ loop, inward, depth_m }) => ({ loop: int32(loop), inward, depthM: depth_m })),
     eyeballs: manifest.eyeballs.map(({ centre, gaze, radius_m }) => ({ centre, gaze, radiusM: radius_m })),
+    muscles: manifest.muscles ? musclesOf(manifest.muscles) : null,
     faces: facesOf(manifest, block),
   };
 }

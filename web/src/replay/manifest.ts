@@ -38,6 +38,17 @@ export interface SymmetryCurve {
   jitter_mm?: number;
 }
 
+/** What muscles that drive the scene's own run did, and where they lie. */
+export interface MuscleData {
+  time_s: number[];
+  /** So few points drive that most of an activation is the prior's choice. */
+  few_points: boolean;
+  /** Sums over muscles that points can hardly tell apart; sigma: where the group acts most. */
+  groups: { name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number }[];
+  /** From origin to insertion, at rest. */
+  lines: { name: string; points: [number, number, number][] }[];
+}
+
 /** Other tissue on the same mesh, moved by the same motion at the same times. */
 export interface VariantData {
   name: string;
@@ -94,6 +105,7 @@ export interface Manifest {
   openings: { loop: Stretch; inward: [number, number, number]; depth_m: number }[];
   eyeballs: { centre: [number, number, number]; gaze: [number, number, number]; radius_m: number }[];
   variants?: VariantData[];
+  muscles?: MuscleData;
   /** What differs from place to place in the scene or a variant: the same keys for all of them. */
   tissue?: TissueMapData[];
 }

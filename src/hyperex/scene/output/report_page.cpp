@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "hyperex/core/printable.hpp"
+#include "hyperex/muscles/muscle_lines.hpp"
 #include "hyperex/report/html_report.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
 
@@ -79,6 +80,15 @@ report::DisplacementModes difference_of(const reenact::Performance& run,
   return report::displacement_modes(difference);
 }
 
+std::vector<report::ReportMuscle> muscles_of(const Results& r) {
+  std::vector<report::ReportMuscle> muscles;
+  if (r.simulation.performance.muscles.names.empty()) return muscles;
+  for (muscles::MuscleLine& one :
+       muscles::muscle_lines(r.scene.muscles.table(), r.mesh, r.inputs.landmarks))
+    muscles.push_back({std::move(one.name), std::move(one.line)});
+  return muscles;
+}
+
 /// The scene's own, or what was moved by what.
 std::string title_of(const Results& r) {
   if (!r.scene.title.empty()) return r.scene.title;
@@ -110,7 +120,8 @@ void write_report(const Results& r, const std::vector<VariantRun>& variants,
                             .title = title_of(r),
                             .tissue = std::move(tissue.front()),
                             .variants = {},
-                            .mirror = &*r.symmetry.map};
+                            .mirror = &*r.symmetry.map,
+                            .muscles = muscles_of(r)};
   std::vector<report::DisplacementModes> differences(variants.size());
   tbb::parallel_for(std::size_t(0), variants.size(), [&](std::size_t i) {
     differences[i] = difference_of(variants[i].simulation.performance, p);

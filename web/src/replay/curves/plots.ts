@@ -8,6 +8,7 @@ import { cornerCurves, dressCornerCard } from './corner_card';
 import { addedCurves, stretchCurves, symmetryCurves } from './symmetry_charts';
 import { dark } from '../../page/theme';
 import { TimeChart } from '../../charts/time_chart';
+import { MuscleCurves, muscleChooser } from './muscle_chart';
 import { TrackCurves, trackChooser } from './track_chart';
 
 export class Plots {
@@ -22,6 +23,7 @@ export class Plots {
     this.add('Stretch of either side, ξ(t)', () => stretchCurves(replay, shown));
     this.add('Symmetry of motion, S(t)', () => symmetryCurves(replay, shown));
     this.add('What each variant adds, Δ(ξL − ξR)', () => addedCurves(replay, shown));
+    this.addMuscles(replay);
     this.addTracks(replay);
     dark.addEventListener('change', () => this.plots.forEach((plot) => plot.draw()));
   }
@@ -40,6 +42,13 @@ export class Plots {
     this.plots.push(plot);
     this.shown.onChange(() => plot.change(made()[0]));
     return plot;
+  }
+
+  private addMuscles({ muscles, faces }: Replay): void {
+    if (!muscles || muscles.groups.length === 0 || muscles.timeS.length < 2) return;
+    const curves = new MuscleCurves(muscles, faces.length > 1);
+    const plot = this.add('Muscles', () => [curves.now])!;
+    plot.card.append(muscleChooser(curves, () => plot.change(curves.now)));
   }
 
   private addTracks(replay: Replay): void {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be shown over the skin: the cut along the lips, driven points and those on bone and border.
+// What can be shown over the skin: the cut along the lips, driven points, those on bone and border, muscles.
 import {
   Color, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Object3D, SphereGeometry,
 } from 'three';
 import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
+import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import type { Replay, Vec3 } from '../data';
 import { nearestVertex } from './deform';
 
-export type OverlayName = 'cut' | 'driven' | 'held';
+export type OverlayName = 'cut' | 'driven' | 'held' | 'muscles';
 
 export interface Overlay {
   name: OverlayName;
@@ -89,10 +91,34 @@ function cutOverlay(replay: Replay): Overlay {
   return { name: 'cut', label: 'Lip cut', colour, object: group, follow };
 }
 
+/** From origin to insertion; each point goes with the skin next to it, as deep muscles do less: where they run, not
+ *  how they lengthen. */
+function muscleOverlay(replay: Replay, lines: Vec3[][]): Overlay {
+  const colour = '#b5179e';
+  const ends = lines.flatMap((line) => line.slice(1).flatMap((p, i) => [line[i], p]));
+  const flat = new Float32Array(ends.flat());
+  let vertex: number[] | null = null; // found when first shown
+  const geometry = new LineSegmentsGeometry();
+  geometry.setPositions(flat);
+  const object = new LineSegments2(
+    geometry, new LineMaterial({ color: new Color(colour).getHex(), linewidth: 2.5, opacity: 0.85, ...drawnLast }));
+  object.frustumCulled = false;
+  object.renderOrder = 2;
+  const follow = (d: Float32Array) => {
+    vertex ??= ends.map((p) => nearestVertex(replay.points, p).vertex);
+    ends.forEach((p, i) => {
+      for (let k = 0; k < 3; ++k) flat[3 * i + k] = p[k] + d[3 * vertex![i] + k];
+    });
+    geometry.setPositions(flat);
+  };
+  return { name: 'muscles', label: 'Muscles', colour, object, follow };
+}
+
 export function overlaysOf(replay: Replay): Overlay[] {
   const overlays: Overlay[] = [];
   if (replay.lipCut.length > 1) overlays.push(cutOverlay(replay));
   if (replay.driven.points.length > 0) overlays.push(drivenOverlay(replay));
   if (replay.held.length > 0) overlays.push(heldOverlay(replay));
+  if (replay.muscles?.lines.length) overlays.push(muscleOverlay(replay, replay.muscles.lines));
   return overlays;
 }

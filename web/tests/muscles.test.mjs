@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What muscles do in a report: curves a side, by group, and their lines over the face.
+//   REPORT=out/what_if/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/muscles.test.mjs
+// Without REPORT it takes the variants of a made-up face that write_report_fixtures wrote, and gives it muscles.
+import assert from 'node:assert/strict';
+import { mkdir, mkdtemp, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { launch, openPage, tooWide } from './browser.mjs';
+import { fixture } from './fixtures.mjs';
+import { readPage, withData } from './page_data.mjs';
+import { changedShare, look } from './pixels.mjs';
+
+const given = process.env.REPORT && resolve(process.env.REPORT);
+const pictures = process.env.SCREENSHOTS;
+
+/** The strongest group stands second in the file. */
+async function madeUp() {
+  const { html, data, floats } = await readPage(fixture('variants.html'));
+  const time_s = data.motion.time_s;
+  const course = (most) => time_s.map((_, f) => most * Math.sin((Math.PI * f) / (time_s.length - 1)));
+  const group = (name, left, right) => ({ name, left: course(left), right: course(right), sigma_left: 0.05, sigma_right: 0.07 });
+  const points = floats(data.skin.points);
+  const line = (side) => Array.from({ length: 9 }, (_, i) => [side * (0.02 + 0.002 * i), 0.03 - 0.006 * i, Math.max(...points)]);
+  data.muscles = {
+    time_s, few_points: true,
+    groups: [group('brow raisers', 0.1, 0.2), group('lip corner elevators', -0.9, 0.3)],
+    lines: [{ name: 'zyg_major_L', points: line(1) }, { name: 'zyg_major_R', points: line(-1) }],
+  };
+  const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'muscles.html');
+  await writeFile(file, withData(html, data));
+  return file;
+}
+
+let browser, report;
+before(async () => {
+  if (pictures) await mkdir(pictures, { recursive: true });
+  browser = await launch();
+  report = given ?? (await madeUp());
+});
+after(() => browser?.close());
+
+const card = (page) => page.locator('.plot-card').filter({ has: page.getByRole('heading', { name: 'Muscles', exact: true }) });
+const most = (values) => Math.max(...values.map(Math.abs));
+const extreme = (values) => (values.find((v) => Math.abs(v) === most(values)) ?? 0).toFixed(2).replace('-', '\u2212');
+
+describe('a report of a face that muscles drive', () => {
+  for (const colorScheme of ['light', 'dark'])
+    test(`curves a side and lines over the face, ${colorScheme}`, async () => {
+      const { page, complaints, close } = await openPage(browser, report, { colorScheme });
+      const { groups, few_points: few } = (await readPage(report)).data.muscles;
+      const order = [...groups].sort((a, b) => most([...b.left, ...b.right]) - most([...a.left, ...a.right]));
+      const options = await card(page).locator('option').allTextContents();
+      assert.equal(options.length, groups.length);
+      order.forEach(({ name, left, right }, i) =>
+        assert.equal(options[i].toLowerCase(), `${name} (left ${extreme(left)}, right ${extreme(right)})`.toLowerCase()));
+      const shows = async ({ left, right }) => {
+        const { time_s: timeS } = (await readPage(report)).data.muscles;
+        const frame = Number(await page.locator('#frame').inputValue());
+        const at = (await readPage(report)).data.motion.time_s[frame];
+        const nearest = timeS.reduce((best, t, k) => (Math.abs(t - at) < Math.abs(timeS[best] - at) ? k : best), 0);
+        const texts = await card(page).locator('.u-series .u-value').allTextContents();
+        assert.deepEqual(
+          texts.slice(-2).map((t) => Number(t.replace('\u2212', '-'))),
+          [left, right].map((values) => Number(values[nearest].toFixed(2))));
+      };
+      await shows(order[0]);
+      assert.deepEqual(await card(page).locator('.u-series button').allTextContents(), ['left', 'right']);
+      assert.equal((await card(page).textContent()).includes('not a measurement'), few);
+      assert.ok((await card(page).textContent()).includes('Of base'));
+      await card(page).locator('select').selectOption('1');
+      await shows(order[1]);
+      const without = await look(page);
+      await page.locator('[data-overlay="muscles"]').check();
+      await page.waitForSelector('#face[data-at-rest="true"]');
+      const shown = await look(page);
+      assert.ok((await changedShare(without, shown)) > 0.0005, 'the lines show');
+      if (pictures) {
+        await page.screenshot({ path: join(pictures, `muscles_${colorScheme}.png`) });
+        await card(page).locator('select').selectOption('0');
+        await card(page).screenshot({ path: join(pictures, `muscle_card_${colorScheme}.png`) });
+      }
+      await page.locator('[data-overlay="muscles"]').uncheck();
+      assert.equal(await tooWide(page), 0);
+      assert.deepEqual(complaints, []);
+      await close();
+    });
+
+  test('a narrow window is not made wider', async () => {
+    const { page, close } = await openPage(browser, report, { viewport: { width: 360, height: 800 } });
+    assert.equal(await tooWide(page), 0);
+    await close();
+  });
+
+  test('without muscles there is neither card nor layer', { skip: Boolean(given) }, async () => {
+    const { page, close } = await openPage(browser, fixture('variants.html'));
+    assert.equal(await card(page).count(), 0);
+    assert.equal(await page.locator('[data-overlay="muscles"]').count(), 0);
+    await close();
+  });
+});
