@@ -22,8 +22,12 @@ void listen_to_remarks(RemarkListener listener) {
 }
 
 void remark(Remark kind, const std::string& sentence) {
-  const std::lock_guard lock(listening().mutex);
-  if (listening().listener) listening().listener(kind, sentence);
+  // Called without the mutex: a listener may wait for a lock that another remarking thread holds.
+  const RemarkListener listener = [] {
+    const std::lock_guard lock(listening().mutex);
+    return listening().listener;
+  }();
+  if (listener) listener(kind, sentence);
 }
 
 }  // namespace hyperex

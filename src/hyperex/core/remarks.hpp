@@ -12,7 +12,7 @@ enum class Remark { note, warning };
 using RemarkListener = std::function<void(Remark kind, const std::string& sentence)>;
 
 /// Takes the place of the listener before; an empty one: nobody listens, as at the start. Called
-/// on the thread that has something to say, by one thread at a time; must not throw.
+/// on the thread that has something to say, by several at a time; must not throw.
 void listen_to_remarks(RemarkListener listener);
 
 void remark(Remark kind, const std::string& sentence);

@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <future>
+#include <mutex>
+#include <string>
+#include <thread>
 #include <vector>
 
 namespace hyperex {
@@ -25,6 +30,31 @@ TEST(Remarks, AreHeardByTheListenerAlone) {
               testing::ElementsAre("warning: a texture is missing", "note: a folder was removed"));
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// As Python's listener waits for the interpreter's lock.
+TEST(Remarks, AListenerMayWaitForALockThatARemarkingThreadHolds) {
+  std::mutex interpreter;
+  std::atomic<int> heard = 0;
+  std::promise<void> listening;
+  listen_to_remarks([&](Remark, const std::string& sentence) {
+    if (sentence == "waits") {
+      listening.set_value();
+      const std::lock_guard lock(interpreter);
+    }
+    ++heard;
+  });
+  std::thread waits;
+  {
+    const std::lock_guard lock(interpreter);
+    waits = std::thread([] { remark(Remark::note, "waits"); });
+    listening.get_future().wait();
+    auto other = std::async(std::launch::async, [] { remark(Remark::note, "holds the lock"); });
+    EXPECT_EQ(other.wait_for(std::chrono::seconds(10)), std::future_status::ready);
+  }
+  waits.join();
+  listen_to_remarks({});
+  EXPECT_EQ(heard, 2);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Results {
   const reenact::SimulationResult& simulation;
   metrics::SymmetryMeasures symmetry;
   std::vector<std::string> notes;
-  report::DisplacementModes modes;  ///< of the skin; empty where no page is wanted
+  report::DisplacementModes modes;              ///< of the skin; empty where no page is wanted
   const tissue::TissueField* tissue = nullptr;  ///< where the tissue differs from place to place
   std::vector<std::string> warnings = {};       ///< those of `notes` that nobody should overlook
 };
