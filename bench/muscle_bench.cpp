@@ -70,8 +70,10 @@ reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::In
   take("tone", m.tone_sigma);
   take("slide", m.slide_sigma_m, mm);
   take("patch_all", m.many_patch_m, mm);
-  take("tissue_share", m.few_tissue_share);
-  take("tissue_share_all", m.many_tissue_share);
+  take("cheek_share", m.few_cheek_share);
+  take("lip_share", m.few_lip_share);
+  take("share_all", m.many_muscle_share);
+  take("jaw_share", m.jaw_share);
   return o;
 }
 

@@ -112,6 +112,7 @@ class MuscleReader {
     m.lip = static_cast<MuscleLip>(one_of("lip", {"both", "upper", "lower"}));
     m.jaw = value("jaw", false, "true or false");
     m.tone = value("tone", false, "true or false");
+    m.cheek = value("cheek", false, "true or false");
     m.readiness = positive("readiness", m.readiness);
     return m;
   }

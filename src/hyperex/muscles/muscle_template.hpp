@@ -34,6 +34,7 @@ struct TemplateMuscle {
   MuscleLip lip = MuscleLip::both;
   bool jaw = false;      ///< its origin rides on the mandible
   bool tone = false;     ///< may relax below rest
+  bool cheek = false;    ///< moves the cheek as far as the lips: an elevator or a retractor
   double readiness = 1;  ///< how far it is expected to act, over what is expected of others
   bool operator==(const TemplateMuscle&) const = default;
 };

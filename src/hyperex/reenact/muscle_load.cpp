@@ -132,9 +132,9 @@ Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patch
 
 /// The forces of muscles and jaw, then of the left-over's directions: columns of a HeldLoad. In the
 /// patches the tissue under the muscles' forces and the field between the points are two guesses of
-/// how the skin moves: `tissue_share` of the one and the rest of the other.
+/// how the skin moves: of each column its `tissue_share` of the one and the rest of the other.
 Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
-                          const Eigen::MatrixXd& left_over, double tissue_share,
+                          const Eigen::MatrixXd& left_over, const Eigen::VectorXd& tissue_share,
                           Eigen::Index points) {
   const Eigen::Index rows = model.force().rows();
   const Eigen::Index columns =
@@ -143,10 +143,27 @@ Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, c
   own << model.force(), model.wide_force(), model.jaw_force();
   moved << model.response(), model.wide_response(), model.jaw_response();
   Eigen::MatrixXd displaced(3 * Eigen::Index(patches.nodes.size()), own.cols() + left_over.cols());
-  displaced << (1 - tissue_share) * field_less_tissue(patches, driven, moved, points),
+  displaced << field_less_tissue(patches, driven, moved, points) *
+                   (1 - tissue_share.array()).matrix().asDiagonal(),
       field_in_patches(patches, driven, left_over, points);
   Eigen::MatrixXd out = holding_forces(model, patches, displaced);
   out.leftCols(own.cols()) += own;
+  return out;
+}
+
+/// Of each column of forces_of() but the left-over's: narrow bands, wide ones, the jaw's.
+Eigen::VectorXd tissue_shares(const MuscleModel& model, bool few, const MuscleOptions& options) {
+  const auto count = static_cast<Eigen::Index>(model.lines().size());
+  Eigen::VectorXd of_muscle(count);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const bool cheek = options.table()[std::size_t(model.lines()[std::size_t(m)].row)].cheek;
+    of_muscle[m] = !few    ? options.many_muscle_share
+                   : cheek ? options.few_cheek_share
+                           : options.few_lip_share;
+  }
+  Eigen::VectorXd out(count + model.wide_force().cols() + model.jaw_force().cols());
+  out << of_muscle, of_muscle.head(model.wide_force().cols()),
+      Eigen::VectorXd::Constant(model.jaw_force().cols(), options.jaw_share);
   return out;
 }
 
@@ -257,10 +274,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Eigen::MatrixXd directions = directions_of(left_over);
   load.course.resize(course.rows() + directions.cols(), samples);
   load.course << course, directions.transpose() * left_over;
-  load.force =
-      forces_of(model, patches, driven, directions,
-                driven.few() ? options.muscles.few_tissue_share : options.muscles.many_tissue_share,
-                motion.rest.rows());
+  load.force = forces_of(model, patches, driven, directions,
+                         tissue_shares(model, driven.few(), options.muscles), motion.rest.rows());
   return load;
 }
 

@@ -115,13 +115,15 @@ struct MuscleOptions {
   /// kFewPoints) and where many are; of an activation before a point is seen, on the side below
   /// rest of those that may relax; of rings; of the jaw's slide.
   double few_sigma_m = 0.0008, many_sigma_m = 0.0016;
-  double activation_sigma = 0.34, ring_sigma = 0.14, tone_sigma = 0.075, slide_sigma_m = 0.0028;
+  double activation_sigma = 0.34, ring_sigma = 0.1, tone_sigma = 0.075, slide_sigma_m = 0.0028;
   /// Radius of the patches of skin at many points, over which what muscles leave over is spread; at
   /// few it is DriveOptions::patch_radius_m.
   double many_patch_m = 0.015;
-  /// In the patches around driven points, few and many: this share of the shape that muscles and
-  /// jaw give the skin there, the rest of the field between the points. 1: all of it.
-  double few_tissue_share = 0.65, many_tissue_share = 0.5;
+  /// In the patches around driven points: this share of the shape that a muscle or the jaw gives
+  /// the skin there, the rest of the field between the points; 1: all of it. Of muscles of the
+  /// cheek (TemplateMuscle::cheek) and of all others at few points, of all muscles at many, of the
+  /// jaw.
+  double few_cheek_share = 0.65, few_lip_share = 0.3, many_muscle_share = 0.4, jaw_share = 0.6;
   bool operator==(const MuscleOptions&) const = default;
 };
 

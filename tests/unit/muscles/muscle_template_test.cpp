@@ -54,12 +54,13 @@ TEST(MuscleTemplate, ReadsTheOtherKeysAndHasDefaults) {
   EXPECT_EQ(plain.lip, MuscleLip::both);
   EXPECT_FALSE(plain.jaw);
   EXPECT_FALSE(plain.tone);
+  EXPECT_FALSE(plain.cheek);
   EXPECT_EQ(plain.readiness, 1);
   const TemplateMuscle full =
       muscle(two,
              "latin = \"l\"\ngroup = \"g\"\nbranch = \"b\"\nwidth_mm = 7\nband = 2.5\n"
              "kind = \"ring\"\nlip = \"lower\"\njaw = true\ntone = true\n"
-             "readiness = 1.5\n");
+             "cheek = true\nreadiness = 1.5\n");
   EXPECT_EQ(full.readiness, 1.5);
   EXPECT_EQ(full.latin + full.group + full.branch, "lgb");
   EXPECT_EQ(full.width_mm, 7);
@@ -68,6 +69,7 @@ TEST(MuscleTemplate, ReadsTheOtherKeysAndHasDefaults) {
   EXPECT_EQ(full.lip, MuscleLip::lower);
   EXPECT_TRUE(full.jaw);
   EXPECT_TRUE(full.tone);
+  EXPECT_TRUE(full.cheek);
   EXPECT_EQ(muscle(two, "lip = \"upper\"\n").lip, MuscleLip::upper);
 }
 
@@ -118,6 +120,7 @@ TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
       {"lip", "lip = true"},
       {"jaw", "jaw = \"yes\""},
       {"tone", "tone = 1"},
+      {"cheek", "cheek = 1"},
       {"branch", "branch = 7"},
       {"latin", "latin = 7"},
       {"group", "group = [1]"},

@@ -88,7 +88,7 @@ TEST_F(DrivenByForces, MusclesMeetTheDrivenPoints) {
 }
 
 /// In the patches the answer lies between what the tissue makes of the muscles and the field
-/// between the points, to which `tissue_share` 0 leaves the skin: prescribed displacements'
+/// between the points, to which shares of 0 leave the skin: prescribed displacements'
 /// patches.
 TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
   const SimulationOptions plain = options_;
@@ -97,8 +97,9 @@ TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
   std::map<double, SimulationResult> by_share;
   for (const double share : {0.0, 0.25, 1.0}) {
     options_ = plain;
-    options_.muscles.few_tissue_share = share;
-    options_.muscles.many_tissue_share = 7;  // not of these five points
+    options_.muscles.few_cheek_share = options_.muscles.few_lip_share = options_.muscles.jaw_share =
+        share;
+    options_.muscles.many_muscle_share = 7;  // not of these five points
     by_share.emplace(share, made(options_).run());
     EXPECT_LT(by_share.at(share).report.driven_off_mm, 0.1) << share;
   }
@@ -123,6 +124,21 @@ TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
   EXPECT_EQ(by_share.at(0).performance.muscles.activation,
             by_share.at(1).performance.muscles.activation)
       << "the points are where they were";
+}
+
+TEST_F(DrivenByForces, CheekLipsAndJawEachHaveTheirShareOfThePatches) {
+  const auto peak = [&](double cheek, double lip, double jaw) {
+    options_.muscles.few_cheek_share = cheek;
+    options_.muscles.few_lip_share = lip;
+    options_.muscles.jaw_share = jaw;
+    return made(options_).run().performance.skin_displacement_m.back().cast<double>().eval();
+  };
+  const auto most = [](const Points& p) { return p.rowwise().norm().maxCoeff(); };
+  const Points none = peak(0, 0, 0), all = peak(1, 1, 1);
+  const Points cheek = peak(1, 0, 0) - none, lip = peak(0, 1, 0) - none, jaw = peak(0, 0, 1) - none;
+  for (const Points& alone : {cheek, lip, jaw}) EXPECT_GT(most(alone), 1e-5);
+  EXPECT_LT(most(none + cheek + lip + jaw - all), 2e-5);
+  EXPECT_GT(most(cheek - lip), 1e-5);
 }
 
 TEST_F(DrivenByForces, ReactionsMoveTheFaceAsTheDisplacementsDid) {

@@ -344,7 +344,9 @@ std::vector<Key> run_keys() {
           "What the points are: places that the skin is carried to, whatever the tissue; or what "
           "muscles, the jaw and forces at the points are found from (docs/muscles.md), or forces "
           "alone. Forces are found once, in the scene's tissue, and variants answer the same "
-          "forces."),
+          "forces. Where it is not given, a scene with variants is driven by \"muscles\", save "
+          "where "
+          "it or a variant sets a key of [support] or [region]."),
       number<Scene>(
           "drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m),
           in(Drive::patch_radius_m_in, millimetres),

@@ -39,6 +39,9 @@ class Reader {
   bool take_file();
   void take_override(const Override& given);
   void settle_motion();
+  /// Where no key says what drives: muscles in a scene with variants, save where the keys given
+  /// have a meaning for displacement alone.
+  void settle_drive();
   void fill();
   /// Variants have the same table.
   void settle_muscles() { scene.muscles.own = muscles_of_scene(); }
@@ -223,6 +226,21 @@ void Reader::settle_motion() {
                  ", required; or motion.recording, motion.openface or motion.arkit in its place");
   for (std::size_t i = 1; i < given.size(); ++i)
     complain_given(given[i], fmt::format("one source of motion, and {} is given", given[0]));
+}
+
+void Reader::settle_drive() {
+  if (!variants_.is_array()) return;
+  const auto speaks_of_another = [](const std::string& key) {
+    return key == "drive.by" || key.starts_with("support.") || key.starts_with("region.");
+  };
+  for (const auto& [key, given] : given_)
+    if (speaks_of_another(key)) return;
+  for (const json& block : variants_) {
+    if (!block.is_object()) continue;
+    for (const auto& [key, value] : changes_of(block))
+      if (speaks_of_another(key)) return;
+  }
+  scene.drive.by = reenact::DriveBy::muscles;
 }
 
 void Reader::fill() {
@@ -430,6 +448,7 @@ Reader read(const fs::path& file, const std::vector<Override>& overrides) {
   if (reader.take_file()) {
     for (const Override& given : overrides) reader.take_override(given);
     reader.settle_motion();
+    reader.settle_drive();
     reader.fill();
     reader.settle_muscles();
     reader.check_together();
