@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/reenact/simulator_impl.hpp"
 
 namespace hyperex::reenact {
@@ -69,6 +70,16 @@ void Simulator::set_drive(DriveOptions drive) {
 }
 void Simulator::set_motion(AlignedMotion motion) {
   impl_->set(std::move(motion));
+}
+std::shared_ptr<const EliminationOrder> Simulator::elimination_order() const {
+  return impl_->order;
+}
+void Simulator::use_order(std::shared_ptr<const EliminationOrder> order) {
+  const auto all = static_cast<std::size_t>(3 * impl_->mesh->volume.nodes.rows());
+  if (!order || !order->nodes || order->prescribed.size() + order->nodes->unknowns.size() != all)
+    return;
+  impl_->order = std::move(order);
+  impl_->drop_factors();
 }
 void Simulator::reuse_factor(Simulator&& spent) {
   impl_->take_factor(*spent.impl_);

@@ -11,6 +11,10 @@
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
 
+namespace hyperex::fem {
+struct NodeOrder;
+}
+
 namespace hyperex::reenact {
 
 /// Driven points that end farther than this from where they are driven are named in a note.
@@ -65,6 +69,13 @@ struct RunCallbacks {
 class Cancelled : public std::runtime_error {
  public:
   Cancelled() : std::runtime_error("cancelled") {}
+};
+
+/// How the free unknowns are eliminated. It depends on the mesh, on model.element and on which
+/// unknowns are prescribed, not on tissue: worth keeping where a face is simulated again.
+struct EliminationOrder {
+  std::vector<int> prescribed;  ///< unknowns 3 n + axis, rising
+  std::shared_ptr<const fem::NodeOrder> nodes;
 };
 
 /// A face that is simulated again and again (section 5 of the method): a measured region follows
@@ -126,6 +137,12 @@ class Simulator {
   /// The stages up to the factor, which run() would begin with: so that copies made before the
   /// first run share what they can. Throws as run().
   void prepare();
+
+  /// That of the last run or of prepare(); null before.
+  std::shared_ptr<const EliminationOrder> elimination_order() const;
+  /// Of a simulator of the same mesh and element: found anew only where other unknowns are
+  /// prescribed.
+  void use_order(std::shared_ptr<const EliminationOrder> order);
 
   /// Throws InputError for points that do not exist, NumericalError where the model cannot be
   /// solved, Cancelled.

@@ -44,11 +44,7 @@ struct Simulator::Impl {
   std::shared_ptr<const DrivenSkin> driven;
   std::shared_ptr<const Boundary> boundary;
   std::shared_ptr<const fem::Assembler> assembler;
-  struct Order {
-    std::vector<int> prescribed;
-    std::shared_ptr<const fem::NodeOrder> nodes;
-  };
-  std::shared_ptr<const Order> order;
+  std::shared_ptr<const EliminationOrder> order;
   std::shared_ptr<const HeldLoad> load;
   bool load_held = false;
   bool load_lost = false;  // there was one, for the tissue or support before

@@ -129,7 +129,9 @@ std::shared_ptr<const fem::NodeOrder> Simulator::Impl::known_order() const {
 }
 
 void Simulator::Impl::keep_order(const std::shared_ptr<const fem::NodeOrder>& nodes) {
-  if (!order) order = std::make_shared<const Order>(Order{boundary->prescribed(), nodes});
+  if (!order)
+    order =
+        std::make_shared<const EliminationOrder>(EliminationOrder{boundary->prescribed(), nodes});
 }
 
 bool Simulator::Impl::Values::operator==(const Values& other) const {

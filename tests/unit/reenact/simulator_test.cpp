@@ -187,6 +187,29 @@ TEST_F(SimulatorOfAFace, AFactorOfTheSameMatricesIsTakenAsItIs) {
   expect_equal(result, Simulator(mesh_, landmarks_, motion, options_).run());
 }
 
+TEST_F(SimulatorOfAFace, AnOrderIsTakenWhereTheSameUnknownsArePrescribed) {
+  Simulator one = made(options_);
+  EXPECT_EQ(one.elimination_order(), nullptr);
+  const SimulationResult result = one.run();
+  const auto order = one.elimination_order();
+  ASSERT_TRUE(order);
+  Simulator other = made(options_);
+  other.use_order(order);
+  expect_equal(other.run(), result);
+  EXPECT_EQ(other.elimination_order(), order);
+  SimulationOptions next = options_;
+  next.drive.patch_radius_m *= 2;
+  Simulator of_others = made(next);
+  of_others.use_order(order);
+  expect_equal(of_others.run(), made(next).run());
+  EXPECT_NE(of_others.elimination_order(), order);
+  auto torn = std::make_shared<EliminationOrder>(*order);
+  torn->prescribed.pop_back();
+  Simulator last = made(options_);
+  last.use_order(torn);
+  expect_equal(last.run(), result);
+}
+
 TEST_F(SimulatorOfAFace, AFactorOfAnotherOrderIsLeft) {
   Simulator one = made(options_);
   one.run();

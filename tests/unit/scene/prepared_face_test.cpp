@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+
+#include "hyperex/scene/stages/kept_order.hpp"
+#include "hyperex/scene/stages/simulation_options.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -98,6 +102,31 @@ TEST_F(PreparedFaces, TheThinnedSkinOfALargeScanToo) {
   EXPECT_EQ(back->mesh->full->scan_vertices, 7);
   EXPECT_EQ(back->mesh->full->places[0].weight, full->places[0].weight);
   EXPECT_EQ(bytes_of(*back), bytes_of(face));
+}
+
+TEST_F(PreparedFaces, TheirOrderOfEliminationIsKeptToo) {
+  const auto order_and_bytes = [&] {
+    Inputs inputs = read_inputs(scene_);
+    const PreparedFace face = prepare_face(scene_, inputs, [] {});
+    reenact::Simulator simulator(face.mesh, inputs.landmarks, inputs.motion,
+                                 simulation_options(scene_, inputs));
+    prepare_with_kept_order(scene_, inputs, simulator);
+    return bytes_of(*simulator.elimination_order());
+  };
+  const std::string found = order_and_bytes();
+  const auto files = [&] {
+    return std::count_if(
+        fs::directory_iterator(folder_), fs::directory_iterator(),
+        [](const auto& entry) { return entry.path().filename().string().starts_with("order-"); });
+  };
+  EXPECT_EQ(files(), 1);
+  EXPECT_EQ(order_and_bytes(), found);
+  EXPECT_EQ(files(), 1);
+  scene_.drive.patch_radius_m *= 2;
+  EXPECT_NE(order_and_bytes(), found);
+  EXPECT_EQ(files(), 2);
+  EXPECT_FALSE(order_from(found.substr(1)));
+  EXPECT_FALSE(order_from(""));
 }
 
 }  // namespace

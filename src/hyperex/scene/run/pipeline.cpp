@@ -22,6 +22,7 @@
 #include "hyperex/scene/output/report_page.hpp"
 #include "hyperex/scene/run/earlier_run.hpp"
 #include "hyperex/scene/run/variants.hpp"
+#include "hyperex/scene/stages/kept_order.hpp"
 #include "hyperex/scene/stages/landmark_search.hpp"
 #include "hyperex/scene/stages/plausible.hpp"
 #include "hyperex/scene/stages/prepared_face.hpp"
@@ -219,7 +220,7 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
   reenact::Simulator simulator(face.mesh, inputs.landmarks, inputs.motion, std::move(options));
   {
     Progress progress("assembling and factoring", 0);
-    simulator.prepare();
+    prepare_with_kept_order(scene, inputs, simulator);
   }
   const reenact::Simulator before_run = simulator;
   reenact::SimulationResult simulation;
