@@ -17,10 +17,10 @@
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/report/displacement_modes.hpp"
-#include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/glb.hpp"
 #include "hyperex/scene/output/activations.hpp"
 #include "hyperex/scene/output/asymmetry_picture.hpp"
+#include "hyperex/scene/output/backing_surfaces.hpp"
 #include "hyperex/scene/output/face_box.hpp"
 #include "hyperex/scene/output/frames.hpp"
 #include "hyperex/scene/output/muscle_picture.hpp"
@@ -102,43 +102,6 @@ std::vector<Still> stills_of(const Results& r) {
     stills.push_back({shown[s], &r.simulation.still_displacement_m[s]});
   return stills;
 }
-
-/// What stands behind the holes of a skin in one shape, in the face's frame.
-class BackingSurfaces {
- public:
-  /// `skin`: the vertices in that shape; pockets hang on them.
-  BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame,
-                  const Points& skin) {
-    for (const report::Eyeball& eye : backing.eyeballs) {
-      int part = 0;
-      for (const TriMesh& mesh : report::eyeball_parts(eye))
-        parts_.push_back({{frame.local_points(mesh.points), mesh.triangles}, kEye[part++]});
-    }
-    for (const report::Opening& opening : backing.openings) {
-      TriMesh mesh = report::pocket(opening, skin);
-      mesh.triangles.col(1).swap(mesh.triangles.col(2));  // seen from behind: darker, no sheen
-      parts_.push_back({std::move(mesh), kPocket});
-    }
-  }
-
-  /// The skin's surface with all that stands behind it; refers to this.
-  std::vector<render::Surface> with(const render::Surface& skin) const {
-    std::vector<render::Surface> all{skin};
-    for (const Part& part : parts_)
-      all.push_back({.mesh = part.mesh, .plain = part.colour, .smooth = false});
-    return all;
-  }
-
- private:
-  struct Part {
-    TriMesh mesh;
-    render::Colour colour;
-  };
-  static constexpr std::array<render::Colour, 3> kEye = {
-      {{0.93, 0.92, 0.9}, {0.43, 0.36, 0.28}, {0.08, 0.07, 0.06}}};
-  static constexpr render::Colour kPocket{0.13, 0.05, 0.04};
-  std::vector<Part> parts_;
-};
 
 /// The skin in the face's box, in all its shapes.
 Points framed_points(const Results& r, const std::vector<Still>& stills,
@@ -227,10 +190,7 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   // The face as large in either view.
   cameras[0].height_m = cameras[1].height_m = std::max(cameras[0].height_m, cameras[1].height_m);
 
-  report::FaceBacking backing = report::face_backing(p.skin_rest, r.inputs.landmarks);
-  // Pockets hang on the skin in the face's frame.
-  for (report::Opening& opening : backing.openings)
-    opening.inward = frame.local(frame.origin + opening.inward);
+  const report::FaceBacking backing = backing_in_frame(p.skin_rest, r.inputs.landmarks, frame);
 
   render::ContactSheet sheet;
   sheet.title = r.scene.title.empty() ? r.inputs.scan.file.filename().string() : r.scene.title;

@@ -12,6 +12,7 @@
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/render/time_plot.hpp"
+#include "hyperex/scene/output/backing_surfaces.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -74,17 +75,22 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   for (const auto& one : compared)
     lean += one.difference.greatest_m.cwiseAbs2().cast<double>().dot(own.points.col(0));
   if (lean < 0) oblique.x() *= -1;  // most of the difference is on the right
+  const report::FaceBacking backing = backing_in_frame(p.skin_rest, base.inputs.landmarks, frame);
+  const auto drawn = [&](const render::Surface& skin, const render::Camera& camera) {
+    return render::render(BackingSurfaces(backing, frame, skin.mesh.points).with(skin), camera,
+                          size);
+  };
   for (const Vec3& view : {render::front_view(), oblique}) {
     render::Camera camera = render::framing(framed, view, aspect);
     camera.height_m *= 1.15;
-    sheet.pictures.push_back({render::render({{.mesh = own}}, camera, size), "base"});
+    sheet.pictures.push_back({drawn({.mesh = own}, camera), "base"});
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const TriMesh skin = skin_at_peak(runs[i].simulation.performance);
       const render::Surface surface{
           .mesh = skin,
           .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
           .range = {0, top}};
-      sheet.pictures.push_back({render::render({surface}, camera, size), compared[i].name});
+      sheet.pictures.push_back({drawn(surface, camera), compared[i].name});
     }
   }
   render::write_png(file, render::contact_sheet(sheet));
