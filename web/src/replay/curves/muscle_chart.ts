@@ -8,15 +8,15 @@ import { signed, upper } from '../../page/format';
 
 /** Where it acts most, with its sign. */
 const strongest = (values: number[]): number => values.reduce((most, v) => (Math.abs(v) > Math.abs(most) ? v : most), 0);
-const reach = ({ left, right }: MuscleGroup): number => Math.max(Math.abs(strongest(left)), Math.abs(strongest(right)));
+const pull = ({ left, right }: MuscleGroup): number => Math.max(...left, ...right);
 
-/** The groups, those that act most first; one of them is chosen. */
+/** The groups, those that pull most first and those that only relax last; one of them is chosen. */
 export class MuscleCurves {
   readonly groups: MuscleGroup[];
   chosen = 0;
 
   constructor(private readonly muscles: Muscles, private readonly several: boolean) {
-    this.groups = [...muscles.groups].sort((a, b) => reach(b) - reach(a));
+    this.groups = [...muscles.groups].sort((a, b) => pull(b) - pull(a));
   }
 
   get now(): Omit<Chart, 'title'> {
