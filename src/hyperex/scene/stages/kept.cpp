@@ -91,6 +91,19 @@ Matrix matrix_from(const json& bytes, Eigen::Index rows) {
   return matrix;
 }
 
+json json_of(const io::Landmarks& landmarks) {
+  json points = json::object();
+  for (const auto& [name, at] : landmarks) points[name] = {at.x(), at.y(), at.z()};
+  return points;
+}
+
+io::Landmarks landmarks_in(const json& points) {
+  io::Landmarks landmarks;
+  for (const auto& [name, at] : points.items())
+    landmarks[name] = Vec3(at.at(0), at.at(1), at.at(2));
+  return landmarks;
+}
+
 std::string packed(const json& value) {
   const std::vector<std::uint8_t> bytes = json::to_cbor(value);
   return {bytes.begin(), bytes.end()};
@@ -116,16 +129,14 @@ std::string kept_key(const std::string& what, const std::string& bytes) {
 }
 
 std::string bytes_of(const FoundLandmarks& found) {
-  json points = json::object();
-  for (const auto& [name, at] : found.landmarks) points[name] = {at.x(), at.y(), at.z()};
-  return packed({{"points", points}, {"views", found.views}, {"spread_m", found.spread_m}});
+  return packed(
+      {{"points", json_of(found.landmarks)}, {"views", found.views}, {"spread_m", found.spread_m}});
 }
 
 std::optional<FoundLandmarks> landmarks_from(const std::string& bytes) {
   return unpacked(bytes, [](const json& from) {
     FoundLandmarks found;
-    for (const auto& [name, at] : from.at("points").items())
-      found.landmarks[name] = Vec3(at.at(0), at.at(1), at.at(2));
+    found.landmarks = landmarks_in(from.at("points"));
     found.views = from.at("views");
     found.spread_m = from.at("spread_m");
     return found;
@@ -133,16 +144,13 @@ std::optional<FoundLandmarks> landmarks_from(const std::string& bytes) {
 }
 
 std::string bytes_of(const tissue::CompletedLandmarks& completed) {
-  json points = json::object();
-  for (const auto& [name, at] : completed.landmarks) points[name] = {at.x(), at.y(), at.z()};
-  return packed({{"points", points}, {"placed", completed.placed}});
+  return packed({{"points", json_of(completed.landmarks)}, {"placed", completed.placed}});
 }
 
 std::optional<tissue::CompletedLandmarks> completed_from(const std::string& bytes) {
   return unpacked(bytes, [](const json& from) {
     tissue::CompletedLandmarks completed;
-    for (const auto& [name, at] : from.at("points").items())
-      completed.landmarks[name] = Vec3(at.at(0), at.at(1), at.at(2));
+    completed.landmarks = landmarks_in(from.at("points"));
     from.at("placed").get_to(completed.placed);
     return completed;
   });
