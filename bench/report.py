@@ -226,7 +226,7 @@ def calculix_section(solver):
     own = solver["elements"]["tet4"]["steps"][-1]["step_s"]
     return f"""
 ### CalculiX
-The same mesh, linear tetrahedra, the same nodes driven and held (no springs of bones and muscles),
+The same mesh, linear tetrahedra, the same nodes driven and held (no springs of bones and of the foundation),
 implicit dynamics with Rayleigh damping, two threads, in the same run: {ccx["few"]} steps in
 {time(ccx["few_s"])}, {ccx["many"]} steps in {time(ccx["many_s"])}; the difference is
 **{time(ccx["step_s"])} a step, {ccx["step_s"] / own:.0f} times ours** ({time(own)}). It also writes the displacements of all nodes at each step.

@@ -275,7 +275,7 @@ Json number_types(const FaceCase& face, const fem::System& system, const fem::Dr
 }
 
 /// The same mesh, driven nodes and step in CalculiX: held at the fixed nodes, without the springs
-/// of bones and muscles (which cost it nothing), Rayleigh damping.
+/// of bones and foundation (which cost it nothing), Rayleigh damping.
 Json calculix(const FaceCase& face, const fem::Drive& drive, const Effort& effort) {
   if (!test::find_calculix()) return nullptr;
   test::CalculixModel model;

@@ -27,7 +27,7 @@ void bind_support(py::module_& m) {
       .field("skull_layer", &SupportOptions::skull_layer, "Used where skull is sliding.")
       .field("mandible_layer", &SupportOptions::mandible_layer,
              "Used where the mandible is followed.")
-      .field("muscle_pa_per_m", &SupportOptions::muscle_pa_per_m,
+      .field("field_pa_per_m", &SupportOptions::field_pa_per_m,
              "Springs to the interpolated motion of the driven points, 0 to 1e12 Pa/m.")
       .list("jaw_points", &SupportOptions::jaw_points,
             "Names of points that carry the jaw; none: the chin points among the driven.");

@@ -41,7 +41,7 @@ class FaceCase {
 
   /// The scene's tissue with its viscosity multiplied.
   fem::Material material(double viscosity_factor = 1) const;
-  /// With the springs of the bones and muscles.
+  /// With the springs of the bones and the elastic foundation.
   void assemble(const fem::Assembler& assembler, const fem::Material& material,
                 fem::System& system) const;
   fem::System system(fem::ElementKind kind, double viscosity_factor = 1) const;

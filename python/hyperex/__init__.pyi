@@ -199,9 +199,9 @@ class SupportOptions:
     mandible: str
     skull_layer: BoneLayer
     mandible_layer: BoneLayer
-    muscle_pa_per_m: float
+    field_pa_per_m: float
     jaw_points: Sequence[str]
-    def __init__(self, *, border_held: bool = ..., skull: str = ..., mandible: str = ..., skull_layer: BoneLayer = ..., mandible_layer: BoneLayer = ..., muscle_pa_per_m: float = ..., jaw_points: Sequence[str] = ...) -> None: ...
+    def __init__(self, *, border_held: bool = ..., skull: str = ..., mandible: str = ..., skull_layer: BoneLayer = ..., mandible_layer: BoneLayer = ..., field_pa_per_m: float = ..., jaw_points: Sequence[str] = ...) -> None: ...
     def replace(self, **fields: Any) -> SupportOptions: ...
 
 class DriveOptions:

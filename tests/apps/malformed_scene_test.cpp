@@ -132,7 +132,7 @@ TEST_F(GoodInputs, NotesWhatMayBeAMistake) {
                              HasSubstr("the scan's unit is mm, guessed by its size")));
   const std::string free =
       " --set support.border=free --set support.skull=free --set support.mandible=free"
-      " --set support.muscle_kpa_per_mm=0";
+      " --set support.field_kpa_per_mm=0";
   EXPECT_THAT(call("check scene.toml" + free).out, HasSubstr("nothing holds the tissue"));
   const Outcome mesh = call("mesh face.ply --out out.vtu --element-size-mm 12 --layers 1");
   EXPECT_EQ(mesh.status, 0) << mesh.err;

@@ -96,7 +96,7 @@ class Setters(unittest.TestCase):
     def test_each_has_an_effect_and_is_kept(self):
         simulator = small_simulator()
         base = simulator.run().skin_displacement_m
-        support = hyperex.SupportOptions(skull="held", muscle_pa_per_m=0)
+        support = hyperex.SupportOptions(skull="held", field_pa_per_m=0)
         drive = hyperex.DriveOptions(gain=0.5)
         for name, value in (("support", support), ("drive", drive),
                             ("tissue", hyperex.Tissue(young_pa=30e3))):

@@ -166,9 +166,9 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
   };
   for (int v = 0; v < static_cast<int>(bones.size()); ++v) {
     const int node = mesh_.volume.inner_node(v);
-    if (support.muscle_pa_per_m > 0 &&
+    if (support.field_pa_per_m > 0 &&
         (follows_field ? bones[v] != Bone::mandible : bones[v] == Bone::none))
-      springs_.push_back({node, areas[v] * support.muscle_pa_per_m * Eigen::Matrix3d::Identity(),
+      springs_.push_back({node, areas[v] * support.field_pa_per_m * Eigen::Matrix3d::Identity(),
                           follows_field ? Spring::field : Spring::rest, v});
     if (bones[v] == Bone::none && support.teeth_layer.across_pa_per_m > 0 &&
         to_lips[v] < support.teeth_reach_m)

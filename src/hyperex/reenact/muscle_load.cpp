@@ -201,7 +201,7 @@ SupportOptions muscle_support(const SupportOptions& given, const MuscleOptions& 
   support.mandible_layer = options.mandible_layer;
   support.teeth_layer = options.teeth_layer;
   support.teeth_reach_m = options.teeth_reach_m;
-  support.muscle_pa_per_m = options.foundation_pa_per_m;
+  support.field_pa_per_m = options.foundation_pa_per_m;
   return support;
 }
 

@@ -47,7 +47,7 @@ void check(const SimulationOptions& o) {
   in("support.skull_layer.along_pa_per_m", skull.along_pa_per_m, stiffness);
   in("support.mandible_layer.across_pa_per_m", mandible.across_pa_per_m, stiffness);
   in("support.mandible_layer.along_pa_per_m", mandible.along_pa_per_m, stiffness);
-  in("support.muscle_pa_per_m", o.support.muscle_pa_per_m, stiffness);
+  in("support.field_pa_per_m", o.support.field_pa_per_m, stiffness);
   if (o.drive.by != DriveBy::muscles && (o.muscles.mirrored || !o.muscles.gains.empty()))
     problems.push_back({{}, 0, "muscles", "gains or mirrored", "drive.by = muscles"});
   for (const MuscleGain& g : o.muscles.gains) in("muscles.gain", g.gain, o.muscles.gain_in);

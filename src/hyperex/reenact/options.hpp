@@ -45,9 +45,9 @@ struct SupportOptions {
   Mandible mandible = Mandible::follow;
   BoneLayer skull_layer{1e7, 1e7};     ///< used where skull is sliding
   BoneLayer mandible_layer{3e7, 1e7};  ///< used where the mandible is followed
-  /// The muscles under the skin follow the interpolated motion of the driven points: springs per
-  /// area at the inner surface, everywhere but over the mandible. 0: none.
-  double muscle_pa_per_m = 5e6;
+  /// An elastic foundation that follows the field interpolated between the driven points: springs
+  /// per area at the inner surface, everywhere but over the mandible. 0: none.
+  double field_pa_per_m = 5e6;
   /// Lips on the teeth: springs per area at the inner surface within `teeth_reach_m` of the lips,
   /// where neither skull nor mandible is; those of the lower lip follow the jaw. 0: none.
   BoneLayer teeth_layer{0, 0};

@@ -115,7 +115,7 @@ TEST_F(BoundaryTest, SpringsAreSymmetricAndNeverPush) {
 
 TEST_F(BoundaryTest, SpringsOfTheJawPullToWhereItTurns) {
   options_.support.skull = Hold::free;
-  options_.support.muscle_pa_per_m = 0;
+  options_.support.field_pa_per_m = 0;
   Boundary b = boundary();
   Eigen::VectorXd values(b.prescribed().size()), force(unknowns());
   const Points d = displacement(4);
@@ -145,7 +145,7 @@ TEST_F(BoundaryTest, SupportOptionsReachTheirNodes) {
   options_.support.skull = Hold::free;
   options_.support.mandible = Mandible::free;
   options_.support.border_held = false;
-  options_.support.muscle_pa_per_m = 0;
+  options_.support.field_pa_per_m = 0;
   const Boundary loose = boundary();
   EXPECT_EQ(loose.skull_count(), 0);
   EXPECT_EQ(loose.mandible_count(), 0);
@@ -155,7 +155,7 @@ TEST_F(BoundaryTest, SupportOptionsReachTheirNodes) {
 }
 
 TEST_F(BoundaryTest, StifferLayersPullHarder) {
-  options_.support.muscle_pa_per_m = 0;
+  options_.support.field_pa_per_m = 0;
   const double once = springs(boundary()).norm();
   for (BoneLayer* layer : {&options_.support.skull_layer, &options_.support.mandible_layer}) {
     layer->across_pa_per_m *= 2;

@@ -76,9 +76,9 @@ TEST_F(InputShapesOf, GiveMeasuredRegionsAndEverySupport) {
   options_.region.measured_points = {"ibug68_8", "ibug68_48"};
   options_.region.measured_radius_m = 0.02;
   for (const Mandible mandible : {Mandible::follow, Mandible::held, Mandible::free})
-    for (const double muscle : {0.0, 5e6}) {
+    for (const double foundation : {0.0, 5e6}) {
       options_.support.mandible = mandible;
-      options_.support.muscle_pa_per_m = muscle;
+      options_.support.field_pa_per_m = foundation;
       const auto [values, forces] = lacks(motion_, 1e-5, nullptr);
       EXPECT_LT(values, kMixing * 1e-5);
       EXPECT_LT(forces, kMixing * 1e-5);

@@ -39,7 +39,7 @@ class Simulation : public testing::Test {
     options_.support.border_held = false;
     options_.support.skull = Hold::free;
     options_.support.mandible = Mandible::free;
-    options_.support.muscle_pa_per_m = 0;
+    options_.support.field_pa_per_m = 0;
   }
 
   const test::SmallFace face_ = test::small_face();

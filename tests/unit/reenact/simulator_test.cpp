@@ -88,7 +88,7 @@ TEST_F(SimulatorOfAFace, EachPartSetIsAsASimulatorMadeWithIt) {
   expect_as_anew(with([](auto& o) { o.tissue.uniform[tissue::viscosity] = 9000; }));
   expect_as_anew(with([](auto& o) { o.model.element = fem::ElementKind::tet4; }));
   expect_as_anew(with([](auto& o) { o.model.viscous_form = fem::ViscousForm::printed; }));
-  expect_as_anew(with([](auto& o) { o.support.muscle_pa_per_m = 0; }));
+  expect_as_anew(with([](auto& o) { o.support.field_pa_per_m = 0; }));
   expect_as_anew(with([](auto& o) { o.support.mandible = Mandible::free; }));
   expect_as_anew(with([](auto& o) { o.support.skull = Hold::held; }));  // others are prescribed
   expect_as_anew(with([](auto& o) { o.support.border_held = false; }));
@@ -289,7 +289,7 @@ TEST_F(SimulatorOfAFace, AStreamGoesOnWithAnotherElementAndOtherDrivenNodes) {
 TEST_F(SimulatorOfAFace, AValueOutOfRangeChangesNothing) {
   Simulator simulator = made(options_);
   SupportOptions support = options_.support;
-  support.muscle_pa_per_m = -1;
+  support.field_pa_per_m = -1;
   EXPECT_THROW(simulator.set_support(support), InputError);
   EXPECT_EQ(simulator.options(), options_);
   options_.time.step_s = 0;
@@ -359,7 +359,7 @@ TEST_F(SimulatorOfAFace, AMatrixThatCannotBeFactoredLeavesItUsable) {
                    .mandible = Mandible::free,
                    .skull_layer = {},
                    .mandible_layer = {},
-                   .muscle_pa_per_m = 0,
+                   .field_pa_per_m = 0,
                    .jaw_points = {}};
   simulator.set_options(loose);
   try {

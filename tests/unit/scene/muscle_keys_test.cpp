@@ -59,11 +59,11 @@ TEST(MuscleKeys, MusclesDriveASceneWithVariantsThatDoesNotSayWhatDrives) {
               named.drive.by);
   }
   // What has a meaning for displacement alone, in the scene or in a variant.
-  const std::vector<std::string> keys = {"support.muscle_kpa_per_mm = 2",
+  const std::vector<std::string> keys = {"support.field_kpa_per_mm = 2",
                                          "region.measured = \"all\"", "drive.by = \"reactions\""};
   for (const std::string& key : keys)
     EXPECT_EQ(scene_of(smallest + variant + key + "\n").drive.by, DriveBy::displacement) << key;
-  EXPECT_EQ(scene_of(smallest + stiffer, {"support.muscle_kpa_per_mm=2"}).drive.by,
+  EXPECT_EQ(scene_of(smallest + stiffer, {"support.field_kpa_per_mm=2"}).drive.by,
             DriveBy::displacement);
 }
 

@@ -115,6 +115,12 @@ TEST(ReadScene, UnknownKeysAndSections) {
               HasSubstr("[time] has step_s, end_s, frame_rate_hz"));
   EXPECT_EQ(only_problem(base, {"tissue.young_pa=5"}),
             "--set: tissue.young_pa = 5: expected a known key (did you mean tissue.young_kpa?)");
+  for (const auto& [text, set] : {std::pair(base + "[support]\nmuscle_kpa_per_mm = 2\n", ""),
+                                  std::pair(base, "support.muscle_kpa_per_mm=2")})
+    EXPECT_THAT(
+        only_problem(text, *set ? std::vector<std::string>{set} : std::vector<std::string>{}),
+        HasSubstr("support.muscle_kpa_per_mm = 2: expected support.field_kpa_per_mm, as this "
+                  "key is named now"));
   EXPECT_THAT(only_problem(base, {"tissue={young_kpa=3}"}), HasSubstr("tissue.KEY=VALUE"));
   EXPECT_THAT(only_problem(base + "\"a\\nb\" = 1\n"), HasSubstr("a\\nb"));
 }

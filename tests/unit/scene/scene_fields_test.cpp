@@ -95,7 +95,7 @@ skull_along_kpa_per_mm = 52
 mandible = "free"
 mandible_across_kpa_per_mm = 53
 mandible_along_kpa_per_mm = 54
-muscle_kpa_per_mm = 57
+field_kpa_per_mm = 57
 jaw_points = ["j1"]
 [drive]
 points = ["d1", "d2"]
@@ -194,7 +194,7 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.support.mandible, reenact::Mandible::free);
   EXPECT_EQ(s.support.mandible_layer.across_pa_per_m, 53e6);
   EXPECT_EQ(s.support.mandible_layer.along_pa_per_m, 54e6);
-  EXPECT_EQ(s.support.muscle_pa_per_m, 57e6);
+  EXPECT_EQ(s.support.field_pa_per_m, 57e6);
   EXPECT_THAT(s.support.jaw_points, ElementsAre("j1"));
   EXPECT_FALSE(s.drive.all_points);
   EXPECT_THAT(s.drive.points, ElementsAre("d1", "d2"));

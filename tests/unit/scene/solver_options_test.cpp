@@ -65,7 +65,7 @@ void add_simulation(const reenact::SimulationOptions& o, Options& all) {
   add("support.skull_layer.along", o.support.skull_layer.along_pa_per_m);
   add("support.mandible_layer.across", o.support.mandible_layer.across_pa_per_m);
   add("support.mandible_layer.along", o.support.mandible_layer.along_pa_per_m);
-  add("support.muscle", o.support.muscle_pa_per_m);
+  add("support.field", o.support.field_pa_per_m);
   add("support.jaw_points", o.support.jaw_points);
   add("drive.by", o.drive.by);
   std::string gains;
@@ -166,7 +166,7 @@ const std::map<std::string, Targets>& targets() {
       {"support.mandible", {"support.mandible"}},
       {"support.mandible_across_kpa_per_mm", {"support.mandible_layer.across"}},
       {"support.mandible_along_kpa_per_mm", {"support.mandible_layer.along"}},
-      {"support.muscle_kpa_per_mm", {"support.muscle"}},
+      {"support.field_kpa_per_mm", {"support.field"}},
       {"support.jaw_points", {"support.jaw_points"}},
       {"drive.by", {"drive.by"}},
       {"muscles.gain", {"muscles.gains"}},

@@ -76,7 +76,7 @@ const meanings: Record<string, [stands: (value: number) => boolean, words: strin
   'options.output.peak_time_s': [(v) => v < 0, 'automatic'],
   'options.time.end_s': [(v) => v === 0, 'end of the recording'],
   'options.mesh.thickness_mm': [(v) => v === 0, 'from published depths'],
-  'options.support.muscle_kpa_per_mm': [(v) => v === 0, 'off'],
+  'options.support.field_kpa_per_mm': [(v) => v === 0, 'off'],
 };
 
 const meaningOf = (key: string, value: unknown): string | null => {

@@ -320,10 +320,10 @@ std::vector<Key> model_keys() {
                     in(Support::stiffness_pa_per_m_in, stiffness),
                     "As support.skull_along_kpa_per_mm, over the mandible that is followed."),
       number<Scene>(
-          "support.muscle_kpa_per_mm", stiffness, AT(support.muscle_pa_per_m),
+          "support.field_kpa_per_mm", stiffness, AT(support.field_pa_per_m),
           in(Support::stiffness_pa_per_m_in, stiffness),
-          "How firmly the deep side of the tissue, save over the mandible, follows the "
-          "motion interpolated between the driven points, as the muscles there do; 0: not."),
+          "Stiffness of an elastic foundation under the tissue, save over the mandible: its "
+          "ground follows the motion interpolated between the driven points. 0: none."),
       names<Scene>("support.jaw_points", AT(support.jaw_points), 0,
                    "Points whose motion turns the jaw. Empty: those of the chin that the recording "
                    "has."),

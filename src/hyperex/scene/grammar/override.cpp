@@ -8,7 +8,15 @@
 namespace hyperex::scene {
 using nlohmann::json;
 
+namespace {
+/// Keys of earlier scene files, and what they are named now.
+const std::map<std::string, std::string> renamed_keys = {
+    {"support.muscle_kpa_per_mm", "support.field_kpa_per_mm"}};
+}  // namespace
+
 std::string unknown_key(const std::string& name) {
+  if (const auto renamed = renamed_keys.find(name); renamed != renamed_keys.end())
+    return renamed->second + ", as this key is named now";
   std::vector<std::string> all;
   std::string siblings;
   for (const Key& key : keys()) {

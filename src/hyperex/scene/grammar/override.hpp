@@ -26,7 +26,8 @@ Scene read_scene_with(const std::filesystem::path& file, const std::vector<Overr
 /// and what lies deeper as it is. "name" is the table's own and left out.
 std::map<std::string, nlohmann::json> changes_of(const nlohmann::json& block);
 
-/// What is expected where `name` is no key: "a known key (did you mean time.step_s?)".
+/// What is expected where `name` is no key: "a known key (did you mean time.step_s?)", or the new
+/// name of a key that was renamed.
 std::string unknown_key(const std::string& name);
 
 }  // namespace hyperex::scene

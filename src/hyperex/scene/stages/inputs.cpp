@@ -370,10 +370,11 @@ void note_unknown_landmarks(const Scene& scene, const io::Landmarks& given, Inpu
 void note_missing_support(const Scene& scene, Inputs& in) {
   const reenact::SupportOptions& s = scene.support;
   if (!s.border_held && s.skull == reenact::Hold::free && s.mandible == reenact::Mandible::free &&
-      s.muscle_pa_per_m == 0)
+      s.field_pa_per_m == 0)
     in.notes.push_back(
         "nothing holds the tissue: support.border, support.skull and support.mandible are free and "
-        "there are no muscles; it hangs on the driven points alone and may swing about them");
+        "support.field_kpa_per_mm is 0; it hangs on the driven points alone and may swing about "
+        "them");
 }
 
 /// Lips move apart only where several elements lie between the mouth's corners.
