@@ -112,8 +112,8 @@ bench: ## measure everything, beside CalculiX, and write docs/performance.md (QU
 	  assembly_bench solver_bench reduced_bench memory_bench growth_bench tracking_bench
 	bench/run.sh build/release $(if $(QUICK),--quick)
 
-experiments: build ## the source's three experiments, as reports and docs/experiments.md (subject A too where ../shared is)
-	cmake --build --preset release --parallel $(JOBS) --target experiments_study
+experiments: build ## the source's three experiments and twin experiments: reports, docs/experiments.md (subject A too where ../shared is), docs/twins.md
+	cmake --build --preset release --parallel $(JOBS) --target experiments_study twins_study
 	bench/experiments/run.sh build/release
 
 fidelity: build ## errors against true faces, into the table of docs/fidelity.md (needs the data in ../shared)

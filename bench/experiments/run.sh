@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The source's three experiments: bench/experiments/run.sh BUILD
+# The source's three experiments, and twin experiments with muscles: bench/experiments/run.sh BUILD
 # Runs the scenes, each into its folder of out/experiments, then measures what docs/experiments.md
 # says and writes that page. Without subject A's data the page goes to out/experiments instead, as it
 # would lose what was measured on it.
@@ -26,7 +26,7 @@ mkdir -p "$out"
 commit=$(git rev-parse --short HEAD 2> /dev/null || echo unknown)
 [[ -z "$(git status --porcelain -- src bench examples 2> /dev/null)" ]] ||
   commit+=" and changes not committed"
-processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)
+machine="On $(date +%F), $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) cores"
 
 for face in "${faces[@]}"; do
   for experiment in 1 2 3; do
@@ -41,9 +41,13 @@ done
 say "measuring what the page says"
 "$build/bin/experiments_study" --examples examples "${options[@]}" --pictures "$pictures" \
   --out "$page" --commit "$commit" \
-  --machine "On $(date +%F), ${processor:-a processor without name}, $(nproc) cores"
+  --machine "$machine"
+
+say "twin experiments with muscles"
+"$build/bin/twins_study" --out docs/twins.md --commit "$commit" --machine "$machine"
 
 say "done. Open"
+echo "  $PWD/docs/twins.md    the page: activations and changed tissue found again"
 echo "  $PWD/$page    the page: what the source says, what we measured"
 for face in "${faces[@]}"; do
   for experiment in 1 2 3; do
