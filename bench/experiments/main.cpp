@@ -24,6 +24,9 @@ void run(const Options& options) {
   std::filesystem::create_directories(options.setting.pictures);
   spdlog::set_level(spdlog::level::err);  // notes of the scenes stand in their own reports
   Experiments all;
+  fmt::print(stderr, "experiment 3 by muscles: the same forces in three tissues\n");
+  all.same_forces = hyper_expression_by_muscles(options.setting);
+  fmt::print(stderr, "{}", same_forces_section(all.same_forces));
   fmt::print(stderr, "experiment 1: measured deformation\n");
   all.measured = measured_deformation(options.setting);
   fmt::print(stderr, "experiment 2: mouth opening by physics\n");

@@ -145,49 +145,6 @@ double mean_within(const Eigen::VectorXd& values, const Points& rest, const Vec3
   return sum / all;
 }
 
-ModelPair pair_of(const Study& study, const std::string& name, const Performance& one,
-                  const Performance& other) {
-  const Points& rest = one.skin_rest.points;
-  const auto& landmarks = study.inputs().landmarks;
-  const Vec3 cphs = landmarks.at(kChanged);
-  const Vec3 mouth = (landmarks.at(face::ibug(48)) + landmarks.at(face::ibug(54))) / 2;
-  const Eigen::VectorXd area = metrics::vertex_areas(one.skin_rest);
-  const int last = int(one.frame_time_s.size()) - 1;
-  const auto d =
-      metrics::variant_difference(one.skin_displacement_m, other.skin_displacement_m, last);
-  ModelPair pair;
-  pair.name = name;
-  Eigen::Index at = 0;
-  pair.largest_mm = 1e3 * d.greatest_m.maxCoeff(&at);
-  const Vec3 place = rest.row(at);
-  pair.largest_from_cphs_mm = 1e3 * (place - cphs).norm();
-  double nearest = INFINITY;
-  for (const auto& [landmark, where] : landmarks)
-    if ((where - place).norm() < nearest) {
-      nearest = (where - place).norm();
-      pair.nearest_landmark = landmark;
-    }
-  pair.rms_at_end_mm =
-      1e3 * std::sqrt(area.dot(d.at_peak_m.array().square().matrix()) / area.sum());
-  pair.share_near_cphs = metrics::share_within(d.greatest_m, rest, cphs.transpose(), kNear_m, area);
-  pair.share_near_mouth =
-      metrics::share_within(d.greatest_m, rest, mouth.transpose(), kNear_m, area);
-  pair.half_radius_mm = 1e3 * half_radius_m(d.greatest_m, rest, cphs, area);
-  const Eigen::VectorXd change = 1e3 * d.change_at_peak_m;
-  const Eigen::VectorXd moved =
-      1e3 * one.skin_displacement_m[std::size_t(last)].cast<double>().rowwise().norm();
-  pair.change_mm = mean_within(change, rest, cphs, kClose_m, area);
-  pair.change_near_mm = mean_within(change, rest, cphs.transpose(), kNear_m, area);
-  pair.moved_mm = mean_within(moved, rest, cphs, kClose_m, area);
-  pair.most_less_mm = change.minCoeff();
-  pair.most_more_mm = change.maxCoeff();
-  const auto signal = [](const Performance& p) {
-    return metrics::along_farthest(track_of(p.landmarks, kChanged));
-  };
-  pair.lag_ms = 1e3 * metrics::lag_of(one.frame_time_s, signal(one), signal(other)).lag_s;
-  return pair;
-}
-
 /// Greatest difference of S between two runs, once it is settled and clear of the floor.
 double greatest_change(const metrics::SymmetryCurve& a, const metrics::SymmetryCurve& b) {
   const std::vector<double> spread = metrics::spread_of({a, b});
@@ -290,6 +247,49 @@ ModelsFace face_of(const Setting& setting, bool subject_a, std::vector<CurvePane
 }
 
 }  // namespace
+
+ModelPair pair_of(const Study& study, const std::string& name, const Performance& one,
+                  const Performance& other) {
+  const Points& rest = one.skin_rest.points;
+  const auto& landmarks = study.inputs().landmarks;
+  const Vec3 cphs = landmarks.at(kChanged);
+  const Vec3 mouth = (landmarks.at(face::ibug(48)) + landmarks.at(face::ibug(54))) / 2;
+  const Eigen::VectorXd area = metrics::vertex_areas(one.skin_rest);
+  const int last = int(one.frame_time_s.size()) - 1;
+  const auto d =
+      metrics::variant_difference(one.skin_displacement_m, other.skin_displacement_m, last);
+  ModelPair pair;
+  pair.name = name;
+  Eigen::Index at = 0;
+  pair.largest_mm = 1e3 * d.greatest_m.maxCoeff(&at);
+  const Vec3 place = rest.row(at);
+  pair.largest_from_cphs_mm = 1e3 * (place - cphs).norm();
+  double nearest = INFINITY;
+  for (const auto& [landmark, where] : landmarks)
+    if ((where - place).norm() < nearest) {
+      nearest = (where - place).norm();
+      pair.nearest_landmark = landmark;
+    }
+  pair.rms_at_end_mm =
+      1e3 * std::sqrt(area.dot(d.at_peak_m.array().square().matrix()) / area.sum());
+  pair.share_near_cphs = metrics::share_within(d.greatest_m, rest, cphs.transpose(), kNear_m, area);
+  pair.share_near_mouth =
+      metrics::share_within(d.greatest_m, rest, mouth.transpose(), kNear_m, area);
+  pair.half_radius_mm = 1e3 * half_radius_m(d.greatest_m, rest, cphs, area);
+  const Eigen::VectorXd change = 1e3 * d.change_at_peak_m;
+  const Eigen::VectorXd moved =
+      1e3 * one.skin_displacement_m[std::size_t(last)].cast<double>().rowwise().norm();
+  pair.change_mm = mean_within(change, rest, cphs, kClose_m, area);
+  pair.change_near_mm = mean_within(change, rest, cphs.transpose(), kNear_m, area);
+  pair.moved_mm = mean_within(moved, rest, cphs, kClose_m, area);
+  pair.most_less_mm = change.minCoeff();
+  pair.most_more_mm = change.maxCoeff();
+  const auto signal = [](const Performance& p) {
+    return metrics::along_farthest(track_of(p.landmarks, kChanged));
+  };
+  pair.lag_ms = 1e3 * metrics::lag_of(one.frame_time_s, signal(one), signal(other)).lag_s;
+  return pair;
+}
 
 std::vector<ModelsFace> hyper_expression(const Setting& setting) {
   std::vector<CurvePanel> panels;

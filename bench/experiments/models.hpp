@@ -5,6 +5,7 @@
 
 #include "experiments/meshes.hpp"
 #include "experiments/setting.hpp"
+#include "experiments/study.hpp"
 
 namespace hyperex::bench {
 
@@ -57,6 +58,10 @@ struct ModelsFace {
   double jitter_to_tell_mm = 0;   ///< jitter at which models 2 and 3 are told apart, at best
   double estimated_error_mm = 0;  ///< of the reduced models, at most
 };
+
+/// What the other model makes of the skin beside what the one makes of it.
+ModelPair pair_of(const Study& study, const std::string& name, const reenact::Performance& one,
+                  const reenact::Performance& other);
 
 /// Experiment 3. Writes experiment_3_symmetry.png and experiment_3_maps_*.jpg.
 std::vector<ModelsFace> hyper_expression(const Setting& setting);

@@ -215,6 +215,7 @@ std::string experiments_page(const Experiments& all, const PageHead& head) {
   page += measured_section(all.measured, head.pictures);
   page += physics_section(all.physics, head.pictures);
   page += models_section(all.models, head.pictures);
+  page += same_forces_section(all.same_forces);
   page +=
       "\n## What the source leaves open, and what stands here\n"
       "* **Driven and held**: not legible there. Seven points around mouth and chin, each a patch "

@@ -6,6 +6,7 @@
 #include "experiments/measured.hpp"
 #include "experiments/models.hpp"
 #include "experiments/physics.hpp"
+#include "experiments/same_forces.hpp"
 
 namespace hyperex::bench {
 
@@ -13,6 +14,7 @@ struct Experiments {
   std::vector<MeasuredFace> measured;
   std::vector<PhysicsFace> physics;
   std::vector<ModelsFace> models;
+  std::vector<SameForcesFace> same_forces;
 };
 
 struct PageHead {

@@ -47,8 +47,7 @@ reenact::SimulationResult Study::simulate(const Trial& trial,
   return simulate(trial, &motion);
 }
 
-reenact::SimulationResult Study::simulate(const Trial& trial,
-                                          const reenact::AlignedMotion* motion) const {
+reenact::SimulationOptions Study::options_of(const Trial& trial) const {
   // Differences of some hundredths of a millimetre are looked at: the reduced model must be nearer
   // to the full one than a run that is looked at by eye.
   constexpr double tolerance = 1e-4;
@@ -58,10 +57,27 @@ reenact::SimulationResult Study::simulate(const Trial& trial,
   if (!trial.reduced) options.solver.method = reenact::SolverMethod::direct;
   options.model.viscous_form = trial.form;
   options.tissue.element = trial.tissue;
+  return options;
+}
+
+reenact::SimulationResult Study::simulate(const Trial& trial,
+                                          const reenact::AlignedMotion* motion) const {
   reenact::Simulator simulator = base_;
-  simulator.set_options(std::move(options));
+  simulator.set_options(options_of(trial));
   if (motion) simulator.set_motion(*motion);
   return simulator.run();
+}
+
+std::vector<reenact::SimulationResult> Study::by_same_forces(
+    const std::vector<Trial>& trials) const {
+  reenact::Simulator simulator = base_;
+  std::vector<reenact::SimulationResult> results;
+  for (const Trial& trial : trials) {
+    simulator.set_options(options_of(trial));
+    results.push_back(simulator.run());
+    simulator.hold_load();
+  }
+  return results;
 }
 
 void Study::simulate_all(

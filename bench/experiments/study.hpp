@@ -55,6 +55,8 @@ class Study {
                     const std::function<void(std::size_t, reenact::SimulationResult)>& take) const;
   reenact::SimulationResult simulate(const Trial& trial,
                                      const reenact::AlignedMotion& motion) const;
+  /// Where the scene is driven by forces: those found in the first trial's tissue move all.
+  std::vector<reenact::SimulationResult> by_same_forces(const std::vector<Trial>& trials) const;
   metrics::SymmetryCurve symmetry_of(const motion::Motion& landmarks) const;
 
   /// The motion reflected in the face's midsagittal plane: each point moves as its counterpart on
@@ -64,6 +66,7 @@ class Study {
  private:
   reenact::SimulationResult simulate(const Trial& trial,
                                      const reenact::AlignedMotion* motion) const;
+  reenact::SimulationOptions options_of(const Trial& trial) const;
 
   scene::Scene scene_;
   scene::Inputs inputs_;
