@@ -112,10 +112,12 @@ std::string same_forces_section(const std::vector<SameForcesFace>& faces) {
     page +=
         row_of(f.name, "displacement", f.by_displacement) + row_of(f.name, "muscles", f.by_muscles);
   page +=
-      "\nA mouth is opened by the jaw, whose pose is part of what is held: it is the same in all "
-      "three models, and tissue at one point of the\nupper lip has little to hold back. Where "
-      "muscles move the corner of the mouth, the same forces make far larger differences\n"
-      "(muscles.md: about a third less for a stiff cheek).\n";
+      "\nDistances stay of that size either way: a mouth is opened by the jaw, whose pose is part "
+      "of "
+      "what is held and the same in all three models,\nand tissue at one point of the upper lip "
+      "has "
+      "little to hold back. Where muscles move the corner of the mouth, the same forces make far "
+      "larger\ndifferences ([muscles.md](muscles.md): about a third less beside a stiff cheek).\n";
   return page;
 }
 

@@ -138,6 +138,7 @@ zygomaticus major to do more.
 {}
 ## Expressions drawn at random
 Each muscle acts with probability 1/3, zyg_major_L always, by up to 0.7: no expression that a person makes, but every muscle has its turn.
+Errors are relative to the way after the change, which is small in some of these.
 
 {}
 ## Activations found again

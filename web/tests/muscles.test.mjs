@@ -29,6 +29,8 @@ async function madeUp() {
       group('orbicularis oris', -0.95, -0.95)],
     lines: [{ name: 'zyg_major_L', points: line(1) }, { name: 'zyg_major_R', points: line(-1) }],
   };
+  for (const variant of data.variants)
+    variant.muscles = data.muscles.groups.map(({ left, right }) => ({ left, right: right.map((v) => 0.3 * v) }));
   const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'muscles.html');
   await writeFile(file, withData(html, data));
   return file;
@@ -88,6 +90,46 @@ describe('a report of a face that muscles drive', () => {
       assert.deepEqual(complaints, []);
       await close();
     });
+
+  test('curves of a variant, and of two faces', async () => {
+    const { page, complaints, close } = await openPage(browser, report);
+    const { data } = await readPage(report);
+    const { groups } = data.muscles;
+    const pull = ({ left, right }) => Math.max(...left, ...right);
+    const first = groups.indexOf([...groups].sort((a, b) => pull(b) - pull(a))[0]);
+    await page.keyboard.press('p');
+    const shownValues = async () => (await card(page).locator('.u-series .u-value').allTextContents())
+      .slice(1).map((t) => Number(t.replace('\u2212', '-')));
+    const frame = Number(await page.locator('#frame').inputValue());
+    const at = data.motion.time_s[frame];
+    const k = data.muscles.time_s.reduce((best, t, i) => (Math.abs(t - at) < Math.abs(data.muscles.time_s[best] - at) ? i : best), 0);
+    const valuesOf = ({ left, right }) => [left[k], right[k]].map((v) => Number(v.toFixed(2)));
+    assert.deepEqual(await shownValues(), valuesOf(groups[first]));
+    await page.locator('.variant-lines .face-name').first().click();
+    assert.deepEqual(await shownValues(), valuesOf(data.variants[0].muscles[first]));
+    assert.ok((await card(page).textContent()).includes(data.variants[0].name));
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('one corner of the mouth in all variants', async () => {
+    const { page, complaints, close } = await openPage(browser, report);
+    const { data } = await readPage(report);
+    const corner = page.locator('.plot-card').filter({ has: page.getByRole('heading', { name: 'A corner of the mouth in all variants', exact: true }) });
+    assert.equal(await corner.locator('.u-series button').count(), 1 + data.variants.length);
+    const side = await corner.locator('select').inputValue();
+    const other = side === 'left' ? 'right' : 'left';
+    const values = () => corner.locator('.u-series .u-value').allTextContents();
+    await page.keyboard.press('p');
+    assert.ok((await corner.textContent()).includes(`the ${side} corner`));
+    const before = await values();
+    await corner.locator('select').selectOption(other);
+    assert.ok((await corner.textContent()).includes(`the ${other} corner`));
+    assert.notDeepEqual(await values(), before);
+    if (pictures) await corner.screenshot({ path: join(pictures, 'corner_card.png') });
+    assert.deepEqual(complaints, []);
+    await close();
+  });
 
   test('a narrow window is not made wider', async () => {
     const { page, close } = await openPage(browser, report, { viewport: { width: 360, height: 800 } });

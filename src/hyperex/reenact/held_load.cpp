@@ -78,6 +78,23 @@ MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& o
   return out;
 }
 
+Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,
+                           const muscles::MuscleTable& table) {
+  Eigen::MatrixXd sums =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(groups.size()), muscles.activation.cols());
+  for (std::size_t m = 0; m < muscles.names.size(); ++m) {
+    const std::string& name = muscles.names[m];
+    const std::string side = name.substr(name.size() - 2);
+    const muscles::TemplateMuscle* muscle =
+        muscles::find_muscle(name.substr(0, name.size() - 2), table);
+    if (!muscle) continue;
+    const auto group = std::find(groups.begin(), groups.end(), muscle->group + side);
+    if (group != groups.end())
+      sums.row(group - groups.begin()) += muscles.activation.row(static_cast<Eigen::Index>(m));
+  }
+  return sums;
+}
+
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
                     double tolerance, Eigen::Index prescribed) {
   Eigen::MatrixXd course = load.course;

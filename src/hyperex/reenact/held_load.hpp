@@ -31,6 +31,10 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
 /// The activations after mirroring and gains.
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);
 
+/// Sums of activations over groups as MuscleCourse::groups names them: |groups| x samples.
+Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,
+                           const muscles::MuscleTable& table);
+
 /// The load over a run as few shapes, in the form of compressed_drive(); between samples by the C2
 /// cubic spline, after the last it is held. Nothing prescribed moves.
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,

@@ -136,6 +136,55 @@ json mirror_section(const metrics::RestAsymmetry& at_rest, BinaryBlock& block) {
           {"weights", block.add(weights)}};
 }
 
+/// A row of `course` in four digits: a page of a long recording stays small.
+std::vector<double> row_of(const Eigen::MatrixXd& course, Index row) {
+  std::vector<double> values;
+  for (Index k = 0; k < course.cols(); ++k)
+    values.push_back(std::round(1e4 * course(row, k)) / 1e4);
+  return values;
+}
+
+/// Rows of the left and the right of each group that has both, of names that end in _L and _R.
+std::vector<std::pair<Index, Index>> pairs_of(const std::vector<std::string>& groups) {
+  std::vector<std::pair<Index, Index>> pairs;
+  for (std::size_t l = 0; l < groups.size(); ++l) {
+    const std::string& name = groups[l];
+    if (!name.ends_with("_L")) continue;
+    const auto found =
+        std::find(groups.begin(), groups.end(), name.substr(0, name.size() - 1) + "R");
+    if (found != groups.end()) pairs.emplace_back(Index(l), found - groups.begin());
+  }
+  return pairs;
+}
+
+json muscle_groups(const reenact::MuscleCourse& muscles) {
+  json groups = json::array();
+  for (const auto& [left, right] : pairs_of(muscles.groups)) {
+    const std::string& name = muscles.groups[std::size_t(left)];
+    json group = {{"name", name.substr(0, name.size() - 2)}};
+    const auto add = [&](const char* side, Index row) {
+      Index most = 0;
+      if (muscles.group_activation.cols() > 0)
+        muscles.group_activation.row(row).cwiseAbs().maxCoeff(&most);
+      group[side] = row_of(muscles.group_activation, row);
+      group[std::string("sigma_") + side] = muscles.group_sigma(row, most);
+    };
+    add("left", left);
+    add("right", right);
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+/// A variant's activations, of the groups of the scene's own muscle_groups() in their order.
+json variant_muscles(const std::vector<std::string>& groups, const Eigen::MatrixXd& activation) {
+  json out = json::array();
+  if (activation.rows() != Index(groups.size()) || activation.cols() == 0) return out;
+  for (const auto& [left, right] : pairs_of(groups))
+    out.push_back({{"left", row_of(activation, left)}, {"right", row_of(activation, right)}});
+  return out;
+}
+
 json variants_section(const ReportInput& input, BinaryBlock& block) {
   const auto& own = input.performance.skin_displacement_m;
   json section = json::array();
@@ -153,6 +202,7 @@ json variants_section(const ReportInput& input, BinaryBlock& block) {
          {"max_difference_mm", 1e3 * difference_m},
          {"symmetry", symmetry_section(variant.symmetry)},
          {"landmarks", positions_of(variant.performance.landmarks, block)},
+         {"muscles", variant_muscles(input.performance.muscles.groups, variant.group_activation)},
          {"tissue", tissue_section(variant.tissue, block)}});
   }
   return section;
@@ -205,38 +255,6 @@ json point_words_of(const ReportInput& input) {
   if (input.summary.contains(pairs))
     for (const json& pair : input.summary.at(pairs)) add(pair.value("point", std::string()));
   return words;
-}
-
-/// A row of `course` in four digits: a page of a long recording stays small.
-std::vector<double> row_of(const Eigen::MatrixXd& course, Index row) {
-  std::vector<double> values;
-  for (Index k = 0; k < course.cols(); ++k)
-    values.push_back(std::round(1e4 * course(row, k)) / 1e4);
-  return values;
-}
-
-/// "groups", both sides of each, of names that end in _L and _R.
-json muscle_groups(const reenact::MuscleCourse& muscles) {
-  json groups = json::array();
-  for (std::size_t l = 0; l < muscles.groups.size(); ++l) {
-    const std::string& name = muscles.groups[l];
-    if (!name.ends_with("_L")) continue;
-    const std::string other = name.substr(0, name.size() - 1) + "R";
-    const auto found = std::find(muscles.groups.begin(), muscles.groups.end(), other);
-    if (found == muscles.groups.end()) continue;
-    json group = {{"name", name.substr(0, name.size() - 2)}};
-    const auto add = [&](const char* side, Index row) {
-      Index most = 0;
-      if (muscles.group_activation.cols() > 0)
-        muscles.group_activation.row(row).cwiseAbs().maxCoeff(&most);
-      group[side] = row_of(muscles.group_activation, row);
-      group[std::string("sigma_") + side] = muscles.group_sigma(row, most);
-    };
-    add("left", Index(l));
-    add("right", found - muscles.groups.begin());
-    groups.push_back(std::move(group));
-  }
-  return groups;
 }
 
 json muscle_section(const ReportInput& input) {

@@ -31,6 +31,8 @@ struct ReportVariant {
   DisplacementModes difference;             ///< of its displacement less the scene's own
   const metrics::SymmetryCurve* symmetry = nullptr;
   std::vector<TissueMap> tissue;  ///< keys as the scene's own
+  /// Where muscles drive: its activations, a row each of the scene's MuscleCourse::groups.
+  Eigen::MatrixXd group_activation = {};
 };
 
 /// A muscle on this face, for the view.

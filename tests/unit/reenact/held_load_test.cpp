@@ -55,6 +55,24 @@ TEST(MuscleGains, EveryNameIsListed) {
   for (const std::string& name : names) EXPECT_NO_THROW(muscle_gains(all, {{name, 0.5}})) << name;
 }
 
+TEST(GroupSums, AddMusclesOfAGroupAndASide) {
+  MuscleCourse course;
+  course.names = kNames;
+  course.activation = Eigen::MatrixXd::Random(6, 3);
+  const auto group = [](const char* muscle) { return muscles::find_muscle(muscle)->group; };
+  ASSERT_NE(group("zyg_major"), group("mentalis"));
+  muscles::MuscleTable table = muscles::muscle_template();
+  for (muscles::TemplateMuscle& muscle : table)
+    if (muscle.name == "malaris") muscle.group = group("zyg_major");
+  const Eigen::MatrixXd sums =
+      group_sums(course, {group("mentalis") + "_R", group("zyg_major") + "_L", "none_L"}, table);
+  ASSERT_EQ(sums.rows(), 3);
+  EXPECT_EQ(sums.row(0), course.activation.row(5));
+  EXPECT_EQ(sums.row(1), course.activation.row(0) + course.activation.row(2));
+  EXPECT_EQ(sums.row(2).norm(), 0);
+  EXPECT_EQ(group_sums(MuscleCourse{}, {"none_L"}, table).cols(), 0);
+}
+
 TEST(ChangedMuscles, AreMirroredAndThenScaled) {
   MuscleCourse course;
   course.names = kNames;

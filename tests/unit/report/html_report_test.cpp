@@ -172,6 +172,18 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   EXPECT_EQ(group.at("sigma_right"), 6);
   EXPECT_EQ(shown.at("lines")[0].at("name"), "zyg_major_L");
   EXPECT_EQ(shown.at("lines")[0].at("points").dump(), "[[1.0,2.0,3.0],[4.0,5.0,6.0]]");
+  const std::vector<PointsF> none(face.performance.skin_displacement_m.size(),
+                                  PointsF::Zero(face.performance.skin_rest.points.rows(), 3));
+  input.variants.push_back({.name = "weak",
+                            .changes = {},
+                            .performance = face.performance,
+                            .difference = displacement_modes(none),
+                            .tissue = {}});
+  EXPECT_EQ(manifest().at("variants")[0].at("muscles").dump(), "[]") << "not known";
+  input.variants[0].group_activation = Eigen::MatrixXd::Constant(3, 3, 0.5);
+  input.variants[0].group_activation.row(1) << 0, 0.1, 0.2;
+  EXPECT_EQ(manifest().at("variants")[0].at("muscles").dump(),
+            "[{\"left\":[0.0,0.1,0.2],\"right\":[0.5,0.5,0.5]}]");
   face.performance.driven_names.assign(21, "p");
   face.performance.driven_points_rest = Points::Zero(21, 3);
   EXPECT_EQ(manifest().at("muscles").at("few_points"), false);

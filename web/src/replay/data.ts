@@ -35,6 +35,8 @@ export interface Face {
   /** Samples x names x 3, as in `Replay.landmarks`. */
   landmarkPositions: Float32Array;
   tissue: TissueMap[];
+  /** Activations over time, as in `Muscles.groups`; [] where not known. */
+  muscles: { left: number[]; right: number[] }[];
 }
 
 export interface MuscleGroup {
@@ -112,6 +114,7 @@ function facesOf(manifest: Manifest, block: Block): Face[] {
     symmetry: manifest.symmetry,
     landmarkPositions: block.float32(manifest.landmarks.positions),
     tissue: tissueOf(manifest.tissue, block),
+    muscles: manifest.muscles?.groups ?? [],
   };
   const variants = (manifest.variants ?? []).map((variant) => ({
     name: variant.name,
@@ -126,6 +129,7 @@ function facesOf(manifest: Manifest, block: Block): Face[] {
     symmetry: variant.symmetry,
     landmarkPositions: block.float32(variant.landmarks),
     tissue: tissueOf(variant.tissue, block),
+    muscles: variant.muscles ?? [],
   }));
   return [itself, ...variants];
 }

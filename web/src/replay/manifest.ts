@@ -63,6 +63,8 @@ export interface VariantData {
   /** Samples x names x 3, of the names and times of the scene's landmarks. */
   landmarks: Stretch;
   tissue: TissueMapData[];
+  /** Activations, a group each as in the scene's own muscles; [] where not known. */
+  muscles?: { left: number[]; right: number[] }[];
 }
 
 export interface Manifest {

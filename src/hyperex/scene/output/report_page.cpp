@@ -8,6 +8,7 @@
 
 #include "hyperex/core/printable.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
+#include "hyperex/reenact/held_load.hpp"
 #include "hyperex/report/html_report.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
 
@@ -133,7 +134,9 @@ void write_report(const Results& r, const std::vector<VariantRun>& variants,
          .performance = variants[i].simulation.performance,
          .difference = std::move(differences[i]),
          .symmetry = &variants[i].symmetry.curve,
-         .tissue = std::move(tissue[i + 1])});
+         .tissue = std::move(tissue[i + 1]),
+         .group_activation = reenact::group_sums(variants[i].simulation.performance.muscles,
+                                                 p.muscles.groups, r.scene.muscles.table())});
   report::write_html_report(directory / "report.html", input);
 }
 

@@ -100,7 +100,7 @@ Json summary_of(const Results& r, const SkinOff& off) {
 /// What the simulation has to say that a user should not overlook.
 std::vector<std::string> warnings_of(const reenact::SimulationReport& report, Eigen::Index tets) {
   std::vector<std::string> notes = report.notes;
-  if (report.lip_overlap_mm > 0.5)
+  if (report.lip_overlap_mm > kLipsPass_mm)
     notes.push_back(fmt::format(
         "the lips pass through each other by up to {:.1f} mm: there is no contact in the model",
         report.lip_overlap_mm));
@@ -291,7 +291,10 @@ Json run_into(const Scene& scene, const std::filesystem::path& directory) {
     summary["glb"] = glb_json(*glb);
     if (const auto note = glb_note(scene.output, *glb); !note.empty()) warn({note}, results);
   }
-  if (!variants.empty()) warn(idle_variants(summary["variants"]["table"]), results);
+  if (!variants.empty()) {
+    warn(idle_variants(summary["variants"]["table"]), results);
+    warn(lips_that_pass(variants, simulation.report.lip_overlap_mm), results);
+  }
   seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;

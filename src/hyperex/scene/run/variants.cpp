@@ -90,6 +90,19 @@ void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& 
   });
 }
 
+std::vector<std::string> lips_that_pass(const std::vector<VariantRun>& runs, double base_mm) {
+  constexpr double kAsBase_mm = 0.1;
+  std::vector<std::string> notes;
+  for (const VariantRun& run : runs)
+    if (const double mm = run.simulation.report.lip_overlap_mm;
+        mm > kLipsPass_mm && (base_mm <= kLipsPass_mm || mm > base_mm + kAsBase_mm))
+      notes.push_back(fmt::format(
+          "variant {}: the lips pass through each other by up to {:.1f} mm ({:.1f} mm in base): "
+          "there is no contact in the model",
+          run.scene.title, mm, base_mm));
+  return notes;
+}
+
 Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
                     const tissue::TissueMesh& mesh, const fs::path& directory) {
   const metrics::ResponsePair pair = metrics::response_pair(
@@ -128,6 +141,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
     Json one = metrics::json_of(compared[i]);
     one["folder"] = "variants/" + runs[i].folder;
     one["changes"] = echoed_changes(base.scene, base.scene.variants[i].changes);
+    one["lip_overlap_mm"] = runs[i].simulation.report.lip_overlap_mm;
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
     if (glb[i]) one["glb"] = glb_json(*glb[i]);
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");

@@ -20,6 +20,11 @@ std::vector<VariantRun> prepare_variants(const Scene& scene, const Inputs& input
 void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& base,
                        const MirroredTwin& base_twin, const metrics::RestAsymmetry& at_rest);
 
+/// A note for each variant whose lips pass through each other by so much, and farther than base's,
+/// of which the run tells by itself.
+inline constexpr double kLipsPass_mm = 0.5;
+std::vector<std::string> lips_that_pass(const std::vector<VariantRun>& runs, double base_mm);
+
 /// Writes variants.csv, the pictures of variants_picture.hpp and a folder a variant under
 /// variants/, and returns what summary.json says of them.
 nlohmann::ordered_json write_variants(const Results& base, const std::vector<VariantRun>& runs,

@@ -1,44 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the muscles of either side do over time, by groups that points on the skin can tell apart.
+// What the muscles of either side do over time, by groups that points on the skin can tell apart, in base and in variants.
 import type { Chart } from '../../charts/chart_options';
-import type { MuscleGroup, Muscles } from '../data';
+import type { Face, MuscleGroup, Muscles } from '../data';
 import { element } from '../../page/dom';
 import { leftHue, rightHue } from '../../page/face_colour';
-import { signed, upper } from '../../page/format';
+import { faceWords, signed, upper } from '../../page/format';
+import type { Shown } from '../shown';
 
 /** Where it acts most, with its sign. */
 const strongest = (values: number[]): number => values.reduce((most, v) => (Math.abs(v) > Math.abs(most) ? v : most), 0);
 const pull = ({ left, right }: MuscleGroup): number => Math.max(...left, ...right);
 
-/** The groups, those that pull most first and those that only relax last; one of them is chosen. */
+/** The groups, those that pull most in base first and those that only relax last; one of them is chosen. Of the faces
+ *  that are shown, of two the second dashed. */
 export class MuscleCurves {
   readonly groups: MuscleGroup[];
   chosen = 0;
+  private readonly order: number[];
 
-  constructor(private readonly muscles: Muscles, private readonly several: boolean) {
-    this.groups = [...muscles.groups].sort((a, b) => pull(b) - pull(a));
+  constructor(private readonly muscles: Muscles, private readonly faces: Face[], private readonly shown: Shown) {
+    this.order = muscles.groups.map((_, i) => i).sort((a, b) => pull(muscles.groups[b]) - pull(muscles.groups[a]));
+    this.groups = this.order.map((i) => muscles.groups[i]);
   }
 
   get now(): Omit<Chart, 'title'> {
-    const { name, left, right, sigmaLeft, sigmaRight } = this.groups[this.chosen];
+    const { name, sigmaLeft, sigmaRight } = this.groups[this.chosen];
+    const known = [...new Set(this.shown.visible)].filter((face) => this.faces[face].muscles.length > 0);
+    const visible = known.length > 0 ? known : [0];
+    const several = this.faces.length > 1;
     const caption =
       'Sum over muscles that points on the skin can hardly tell apart; a muscle at 1 moves the skin by 10 mm where most, below 0 it relaxes. ' +
-      (this.several ? 'Of base: variants answer the same, times what they change. ' : '') +
-      `Where it acts most, left ± ${sigmaLeft.toFixed(2)}, right ± ${sigmaRight.toFixed(2)} (one sigma, of the points and the prior alone). ` +
+      (several ? `Of ${visible.map((face) => faceWords(this.faces, face)).join('; dashed: ')}: variants answer what was found in base, times what they change. ` : '') +
+      `Where it acts most in base, left ± ${sigmaLeft.toFixed(2)}, right ± ${sigmaRight.toFixed(2)} (one sigma, of the points and the prior alone). ` +
       (this.muscles.fewPoints ? 'With so few points this is a means of moving the face, not a measurement of muscles.' : '');
     return {
       caption: caption.trim(), unit: '', digits: 2, timeS: this.muscles.timeS, yLabel: 'activation', heightPx: 200,
-      curves: [
-        { label: 'left', column: `${name}, left (1)`, values: left, hue: leftHue() },
-        { label: 'right', column: `${name}, right (1)`, values: right, hue: rightHue() },
-      ],
+      curves: visible.flatMap((face, k) => {
+        const { left, right } = this.faces[face].muscles[this.order[this.chosen]];
+        const of = visible.length > 1 ? ` of ${faceWords(this.faces, face)}` : '';
+        const file = several ? ` of ${this.faces[face].name} (1)` : ' (1)';
+        return [
+          { label: `left${of}`, column: `${name}, left${file}`, values: left, hue: leftHue(), broken: k > 0 },
+          { label: `right${of}`, column: `${name}, right${file}`, values: right, hue: rightHue(), broken: k > 0 },
+        ];
+      }),
     };
   }
 }
 
 /** Names every group with its greatest activation a side; `changed` is told after each choice. */
 export function muscleChooser(curves: MuscleCurves, changed: () => void): HTMLElement {
-  const label = element('label', '', 'muscle-chooser');
+  const label = element('label', '', 'one-of-chooser');
   const select = document.createElement('select');
   curves.groups.forEach(({ name, left, right }, i) => {
     const option = element('option', `${upper(name)} (left ${signed(strongest(left).toFixed(2))}, right ${signed(strongest(right).toFixed(2))})`);

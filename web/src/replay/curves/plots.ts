@@ -8,6 +8,7 @@ import { cornerCurves, dressCornerCard } from './corner_card';
 import { addedCurves, stretchCurves, symmetryCurves } from './symmetry_charts';
 import { dark } from '../../page/theme';
 import { TimeChart } from '../../charts/time_chart';
+import { ExcursionCurves, sideChooser } from './excursion_chart';
 import { MuscleCurves, muscleChooser } from './muscle_chart';
 import { TrackCurves, trackChooser } from './track_chart';
 
@@ -20,6 +21,7 @@ export class Plots {
   ) {
     const corners = this.add('Corners of the mouth', () => cornerCurves(replay, shown));
     if (corners) dressCornerCard(replay, shown, corners.card);
+    this.addExcursions(replay);
     this.add('Stretch of either side, ξ(t)', () => stretchCurves(replay, shown));
     this.add('Symmetry of motion, S(t)', () => symmetryCurves(replay, shown));
     this.add('What each variant adds, Δ(ξL − ξR)', () => addedCurves(replay, shown));
@@ -44,9 +46,16 @@ export class Plots {
     return plot;
   }
 
+  private addExcursions(replay: Replay): void {
+    const curves = ExcursionCurves.of(replay, this.shown);
+    if (!curves) return;
+    const plot = this.add('A corner of the mouth in all variants', () => [curves.now])!;
+    plot.card.append(sideChooser(curves, () => plot.change(curves.now)));
+  }
+
   private addMuscles({ muscles, faces }: Replay): void {
     if (!muscles || muscles.groups.length === 0 || muscles.timeS.length < 2) return;
-    const curves = new MuscleCurves(muscles, faces.length > 1);
+    const curves = new MuscleCurves(muscles, faces, this.shown);
     const plot = this.add('Muscles', () => [curves.now])!;
     plot.card.append(muscleChooser(curves, () => plot.change(curves.now)));
   }
