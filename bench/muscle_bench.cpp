@@ -55,6 +55,9 @@ reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::In
   take("teeth_along", m.teeth_layer.along_pa_per_m, kpa_per_mm);
   take("teeth_reach", m.teeth_reach_m, mm);
   take("foundation", m.foundation_pa_per_m, kpa_per_mm);
+  take("throat", m.throat_pa_per_m, kpa_per_mm);
+  take("throat_reach", m.throat_reach_m, mm);
+  take("side", m.side_correlation);
   take("lip_E", m.lip_stiffening);
   take("lip_reach", m.lip_reach_m, mm);
   take("band", m.shape.band);

@@ -7,6 +7,7 @@
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/scene/stages/drive_choice.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
 #include "hyperex/scene/stages/thinned_scan.hpp"
 #include "hyperex/scene/stages/tissue_fields.hpp"
@@ -51,6 +52,7 @@ std::unique_ptr<ReadyScene> made_ready(const Path& file, const std::vector<std::
   auto ready = std::make_unique<ReadyScene>();
   ready->scene = scene::read_scene(file, changes);
   scene::Inputs& inputs = ready->inputs = scene::read_inputs(ready->scene);
+  scene::choose_drive(ready->scene, inputs);
   ready->mesh = std::make_shared<tissue::TissueMesh>(
       tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, ready->scene.mesh,
                                 inputs.scan.file.string(), scene::on_seams(inputs.scan)));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "hyperex/core/error.hpp"
@@ -156,6 +157,8 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
   const Points normals = vertex_normals(mesh_.volume.outer);
   const Eigen::VectorXd areas = node_areas(mesh_.volume.outer);
   const std::vector<double> to_lips = distances_to_lips(mesh_, landmarks);
+  const std::vector<EdgeOfJaw> edge =
+      support.throat_pa_per_m > 0 ? edge_of_jaw(mesh_, landmarks) : std::vector<EdgeOfJaw>();
   const bool follows_field = driven_->field_weights.rows() > 0;
   const auto layered = [&](int v, const BoneLayer& layer) {
     const Vec3 n = normals.row(v);
@@ -173,7 +176,12 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
     if (bones[v] == Bone::none && support.teeth_layer.across_pa_per_m > 0 &&
         to_lips[v] < support.teeth_reach_m)
       springs_.push_back({node, layered(v, support.teeth_layer),
-                          mesh_.upper_margin[v] > 0 ? Spring::rest : Spring::jaw, v});
+                          mesh_.upper_margin[v] > 0 ? Spring::rest : Spring::jaw, v,
+                          mesh_.volume.nodes.row(node).transpose()});
+    if (bones[v] == Bone::none && !edge.empty() && edge[v].below)
+      springs_.push_back({node, areas[v] * support.throat_pa_per_m * Eigen::Matrix3d::Identity(),
+                          Spring::jaw, v, edge[v].nearest,
+                          std::exp(-std::pow(edge[v].distance_m / support.throat_reach_m, 2))});
     if (bones[v] == Bone::none) continue;
     const bool skull = bones[v] == Bone::skull;
     if (skull ? support.skull == Hold::free : support.mandible == Mandible::free) continue;
@@ -184,7 +192,8 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
       continue;
     }
     const BoneLayer& layer = skull ? support.skull_layer : support.mandible_layer;
-    springs_.push_back({node, layered(v, layer), follows ? Spring::jaw : Spring::rest, v});
+    springs_.push_back({node, layered(v, layer), follows ? Spring::jaw : Spring::rest, v,
+                        mesh_.volume.nodes.row(node).transpose()});
   }
 }
 
@@ -235,8 +244,7 @@ Eigen::VectorXd Boundary::forces_of_jaw(const JawMotion& jaw) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * mesh_.volume.nodes.rows());
   for (const Spring& s : springs_)
     if (s.target == Spring::jaw)
-      force.segment<3>(3 * s.node) +=
-          s.stiffness * (jaw.turn * mesh_.volume.nodes.row(s.node).transpose() + jaw.slide);
+      force.segment<3>(3 * s.node) += s.stiffness * (s.share * (jaw.turn * s.at + jaw.slide));
   return force;
 }
 
@@ -254,10 +262,9 @@ void Boundary::prescribe(const Points& point_displacement, const JawMotion& jaw,
   force.setZero();
   for (const Spring& s : springs_) {
     if (s.target == Spring::rest) continue;
-    const Vec3 x = mesh_.volume.nodes.row(s.node);
     const Vec3 to =
         s.target == Spring::jaw
-            ? Vec3(jaw.turn * x + jaw.slide)
+            ? Vec3(s.share * (jaw.turn * s.at + jaw.slide))
             : Vec3((driven_->field_weights.row(s.row) * point_displacement).transpose());
     force.segment<3>(3 * s.node) += s.stiffness * to;
   }

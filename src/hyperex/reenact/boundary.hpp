@@ -84,7 +84,9 @@ class Boundary {
     int node;
     Eigen::Matrix3d stiffness;  // N/m
     enum Target { rest, jaw, field } target;
-    int row;  // of the field
+    int row;                 // of the field
+    Vec3 at = Vec3::Zero();  // of the jaw: the place on it that the spring follows
+    double share = 1;        // of that place's displacement
   };
   void hold_border(const io::Landmarks& landmarks, const SupportOptions& support);
   void set_bones(const io::Landmarks& landmarks, const SupportOptions& support);

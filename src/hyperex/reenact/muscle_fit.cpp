@@ -43,6 +43,26 @@ Eigen::MatrixXd MuscleFit::blend(const Eigen::MatrixXd& narrow, const Eigen::Mat
   return narrow + (wide - narrow) * share.asDiagonal();
 }
 
+double MuscleFit::sigma_of(Eigen::Index m) const {
+  const double sigma = tone_[m] && last_.activation[m] < 0 ? priors_.tone
+                       : ring_[m]                          ? priors_.ring
+                                                           : priors_.activation;
+  return priors_.readiness.size() > 0 ? priors_.readiness[m] * sigma : sigma;
+}
+
+/// The inverse of the activations' covariance before a point is seen.
+void MuscleFit::add_priors(Eigen::MatrixXd& h) const {
+  for (Eigen::Index m = 0; m < Eigen::Index(tone_.size()); ++m) {
+    const double own = sigma_of(m);
+    const Eigen::Index other =
+        priors_.counterpart.empty() ? -1 : priors_.counterpart[std::size_t(m)];
+    const double along = other < 0 ? 0 : priors_.side_correlation;
+    const double left = 1 - along * along;
+    h(m, m) += 1 / (own * own * left);
+    if (other >= 0) h(m, other) -= along / (own * sigma_of(other) * left);
+  }
+}
+
 FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
   const Eigen::Index muscles = response_.of_muscles.cols(), all = muscles + 6;
   const double weight = 1 / sigma_m_;
@@ -63,13 +83,7 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
     h.topRightCorner(muscles, 6) = pulls.transpose() * jaw;
     h.bottomLeftCorner(6, muscles) = h.topRightCorner(muscles, 6).transpose();
     h.bottomRightCorner(6, 6) = jaw.transpose() * jaw;
-    for (Eigen::Index m = 0; m < muscles; ++m) {
-      const double sigma = tone_[m] && last_.activation[m] < 0 ? priors_.tone
-                           : ring_[m]                          ? priors_.ring
-                                                               : priors_.activation;
-      const double own = priors_.readiness.size() > 0 ? priors_.readiness[m] * sigma : sigma;
-      h(m, m) += 1 / (own * own);
-    }
+    add_priors(h);
     for (int k = 0; k < 6; ++k) h(muscles + k, muscles + k) += 1 / (prior[k] * prior[k]);
     Eigen::VectorXd g(all), x(all);
     g << pulls.transpose() * right, jaw.transpose() * right;

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Dense>
 #include <array>
+#include <vector>
 
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/reenact/jaw.hpp"
@@ -29,7 +30,9 @@ struct FitPriors {
   double ring = 0.2;  ///< of muscles that act as rings
   double tone = 0.1;  ///< of muscles that may relax below rest, on that side
   double opening_rad = 0.35, turn_rad = 0.03, tilt_rad = 0.02, slide_m = 0.002;
-  Eigen::VectorXd readiness = {};  ///< per muscle: a factor on the three of it; empty: all 1
+  Eigen::VectorXd readiness = {};     ///< per muscle: a factor on the three of it; empty: all 1
+  std::vector<int> counterpart = {};  ///< of each muscle, on the other side; -1 or empty: none
+  double side_correlation = 0;        ///< of its activation with the counterpart's: 0 to below 1
 };
 
 /// Points as functions of activations and the jaw's motion: 3 P x M and 3 P x 12, m. With wide
@@ -64,6 +67,8 @@ class MuscleFit {
   double sigma_m_;
   std::vector<char> tone_, ring_;
   Eigen::MatrixXd blend(const Eigen::MatrixXd& narrow, const Eigen::MatrixXd& wide) const;
+  double sigma_of(Eigen::Index muscle) const;
+  void add_priors(Eigen::MatrixXd& h) const;
   FitResult last_;
 };
 

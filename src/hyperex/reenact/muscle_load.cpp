@@ -63,6 +63,13 @@ MuscleModelOptions model_options(const SimulationOptions& options) {
           options.muscles.widening};
 }
 
+int counterpart_of(const std::vector<muscles::MuscleLine>& lines, const std::string& name) {
+  const std::string other = muscles::other_side(name);
+  for (std::size_t m = 0; m < lines.size(); ++m)
+    if (lines[m].name == other) return int(m);
+  return -1;
+}
+
 MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const Driven& driven,
                  const MuscleOptions& options) {
   const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
@@ -71,9 +78,11 @@ MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const
   priors.ring = options.ring_sigma;
   priors.tone = options.tone_sigma;
   priors.slide_m = options.slide_sigma_m;
+  priors.side_correlation = options.side_correlation;
   std::vector<char> tone, ring;
   priors.readiness.resize(Eigen::Index(model.lines().size()));
   for (const muscles::MuscleLine& line : model.lines()) {
+    priors.counterpart.push_back(counterpart_of(model.lines(), line.name));
     const muscles::TemplateMuscle& muscle = options.table()[std::size_t(line.row)];
     priors.readiness[Eigen::Index(tone.size())] = muscle.readiness;
     tone.push_back(muscle.tone);
@@ -202,6 +211,8 @@ SupportOptions muscle_support(const SupportOptions& given, const MuscleOptions& 
   support.teeth_layer = options.teeth_layer;
   support.teeth_reach_m = options.teeth_reach_m;
   support.field_pa_per_m = options.foundation_pa_per_m;
+  support.throat_pa_per_m = options.throat_pa_per_m;
+  support.throat_reach_m = options.throat_reach_m;
   return support;
 }
 

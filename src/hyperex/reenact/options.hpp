@@ -52,6 +52,10 @@ struct SupportOptions {
   /// where neither skull nor mandible is; those of the lower lip follow the jaw. 0: none.
   BoneLayer teeth_layer{0, 0};
   double teeth_reach_m = 0.014;
+  /// The floor of the mouth hangs between the edge of the mandible and the neck: springs per area
+  /// at the inner surface below that edge, towards the motion of its nearest point times
+  /// exp(-(d / throat_reach_m)^2) at the distance d to it. 0: none.
+  double throat_pa_per_m = 0, throat_reach_m = 0.09;
   std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
   static constexpr Bounds stiffness_pa_per_m_in{0, 1e12};  ///< of each of the five
   bool operator==(const SupportOptions&) const = default;
@@ -106,6 +110,7 @@ struct MuscleOptions {
   double lip_stiffening = 3.2, lip_reach_m = 0.0085;
   double foundation_pa_per_m = 3.1e5;  ///< under tissue over neither bone
   double teeth_reach_m = 0.013;
+  double throat_pa_per_m = 1e6, throat_reach_m = 0.09;
   muscles::ForceShape shape;
   /// A pull's band grows with its activation a: of its force, a / (a + half) acts in a band
   /// `widening` times as wide.
@@ -115,7 +120,9 @@ struct MuscleOptions {
   /// kFewPoints) and where many are; of an activation before a point is seen, on the side below
   /// rest of those that may relax; of rings; of the jaw's slide.
   double few_sigma_m = 0.0008, many_sigma_m = 0.0016;
-  double activation_sigma = 0.34, ring_sigma = 0.1, tone_sigma = 0.075, slide_sigma_m = 0.0028;
+  double activation_sigma = 0.406, ring_sigma = 0.12, tone_sigma = 0.09, slide_sigma_m = 0.0028;
+  /// Correlation of a muscle's activation with that of its counterpart, before a point is seen.
+  double side_correlation = 0.3;
   /// Radius of the patches of skin at many points, over which what muscles leave over is spread; at
   /// few it is DriveOptions::patch_radius_m.
   double many_patch_m = 0.015;

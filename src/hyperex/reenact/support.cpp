@@ -45,15 +45,24 @@ class BoneMap {
     return best;
   }
 
-  /// From a point in the face's frame to the jaw's line between two of its points.
-  double distance_to_jaw(const Vec3& p, int first, int last) const {
-    double best = 1;
+  /// The place of the jaw's line between two of its points nearest to a point in the face's frame.
+  Vec3 nearest_on_jaw(const Vec3& p, int first, int last) const {
+    Vec3 best = jaw_line_[first];
     for (int k = first; k < last; ++k) {
       const Vec3 e = jaw_line_[k + 1] - jaw_line_[k];
       const double t = std::clamp((p - jaw_line_[k]).dot(e) / e.squaredNorm(), 0.0, 1.0);
-      best = std::min(best, (p - jaw_line_[k] - t * e).norm());
+      const Vec3 at = jaw_line_[k] + t * e;
+      if ((p - at).norm() < (p - best).norm()) best = at;
     }
     return best;
+  }
+  double distance_to_jaw(const Vec3& p, int first, int last) const {
+    return (p - nearest_on_jaw(p, first, last)).norm();
+  }
+
+  EdgeOfJaw edge_from(const Vec3& outer) const {
+    const Vec3 p = frame_.local(outer), at = nearest_on_jaw(p, chin_first, chin_last);
+    return {p.y() < at.y(), frame_.world(at), (p - at).norm()};
   }
 
   const face::FaceFrame& frame() const { return frame_; }
@@ -90,6 +99,14 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
   for (int v = 0; v < volume.surface_nodes(); ++v)
     bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v));
   return bones;
+}
+
+std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  const BoneMap map(landmarks);
+  std::vector<EdgeOfJaw> out;
+  for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
+    out.push_back(map.edge_from(mesh.volume.nodes.row(v)));
+  return out;
 }
 
 std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,

@@ -26,6 +26,14 @@ std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,
 /// chin, its border moves with the jaw and cannot be held.
 std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
+/// Where an inner node lies from the edge of the mandible (ibug68_5 to 11).
+struct EdgeOfJaw {
+  bool below = false;  ///< it, or it lies outside of the edge's two ends: the floor of the mouth
+  Vec3 nearest;        ///< the place on the edge
+  double distance_m;   ///< to it from the skin over the node
+};
+std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+
 /// Area of the outer surface that belongs to each outer node, m^2.
 Eigen::VectorXd node_areas(const TriMesh& surface);
 

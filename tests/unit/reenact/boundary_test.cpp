@@ -7,6 +7,8 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/reenact/support.hpp"
 #include "reenact/small_face.hpp"
 
 namespace hyperex::reenact {
@@ -131,6 +133,37 @@ TEST_F(BoundaryTest, SpringsOfTheJawPullToWhereItTurns) {
   EXPECT_GT(force.norm(), 0);
   EXPECT_LT((springs(b) * carried - force).norm(), 1e-6 * force.norm())
       << "no force where the tissue moved with the jaw";
+}
+
+/// What hangs below the jaw's edge goes a share of the way of the edge's nearest point.
+TEST_F(BoundaryTest, TheFloorOfTheMouthHangsFromTheEdgeOfTheJaw) {
+  SupportOptions with = options_.support, without = options_.support;
+  with.throat_pa_per_m = 1e6;
+  with.throat_reach_m = 0.05;
+  io::Landmarks landmarks = face_.landmarks;  // the small face ends at the jaw
+  for (int k = 5; k <= 11; ++k) landmarks.at(face::ibug(k)).y() += 0.03;
+  const Boundary a(face_.mesh, landmarks, with), b(face_.mesh, landmarks, without);
+  const Eigen::VectorXd stiffness = Eigen::MatrixXd(springs(a) - springs(b)).diagonal();
+  Boundary::JawMotion jaw;
+  jaw.turn << 0, 0.1, 0.2, -0.1, 0, 0.3, -0.2, -0.3, 0.05;
+  jaw.slide = Vec3(0.001, -0.002, 0.004);
+  const Eigen::VectorXd force = a.forces_of_jaw(jaw) - b.forces_of_jaw(jaw);
+  const std::vector<Bone> bones = bones_under(face_.mesh, landmarks);
+  const std::vector<EdgeOfJaw> edge = edge_of_jaw(face_.mesh, landmarks);
+  const Eigen::VectorXd areas = node_areas(face_.mesh.volume.outer);
+  int hanging = 0;
+  for (int v = 0; v < face_.mesh.volume.surface_nodes(); ++v) {
+    const Eigen::Index at = 3 * face_.mesh.volume.inner_node(v);
+    const bool hangs = bones[std::size_t(v)] == Bone::none && edge[std::size_t(v)].below;
+    const double wanted = hangs ? 1e6 * areas[v] : 0;
+    EXPECT_LT((stiffness.segment<3>(at) - Vec3::Constant(wanted)).norm(), 1e-6 * 1e6 * areas[v]);
+    const double d = edge[std::size_t(v)].distance_m;
+    const Vec3 to =
+        std::exp(-d * d / (0.05 * 0.05)) * (jaw.turn * edge[std::size_t(v)].nearest + jaw.slide);
+    EXPECT_LT((force.segment<3>(at) - wanted * to).norm(), 1e-9) << v;
+    hanging += hangs;
+  }
+  EXPECT_GT(hanging, 5);
 }
 
 TEST_F(BoundaryTest, SupportOptionsReachTheirNodes) {

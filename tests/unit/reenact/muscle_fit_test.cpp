@@ -175,6 +175,36 @@ TEST_F(FitOfPoints, AReadierMuscleActsMore) {
   EXPECT_NEAR(a[1], 4 * a[0], 1e-12);
 }
 
+/// Where points tell of one side alone, the other is expected to act by the correlation's share, as
+/// a Gaussian prior has it; where they tell of both, both are as they tell.
+TEST_F(FitOfPoints, BothSidesAreExpectedToActAlikeUnlessPointsTellThemApart) {
+  const Eigen::Vector3d way(0.004, -0.003, 0.012), other(0.002, 0.011, 0.001);
+  FitPriors priors;
+  priors.activation = 0.3, priors.ring = 0.15;
+  priors.counterpart = {1, 0};
+  priors.side_correlation = 0.6;
+  const Eigen::MatrixXd no_jaw = Eigen::MatrixXd::Zero(3, 12);
+  Eigen::MatrixXd left_alone(3, 2), both(3, 2);
+  left_alone << way, Vec3::Zero();
+  both << way, other;
+  const auto found = [&](const Eigen::MatrixXd& ways, double sigma_m, char right_is_ring) {
+    MuscleFit fit({ways, no_jaw, {}}, jaw_, priors, sigma_m, {0, 0}, {0, right_is_ring});
+    return fit.fit(0.5 * way);
+  };
+  const FitResult told = found(left_alone, 0.002, 0);
+  EXPECT_NEAR(told.activation[1], 0.6 * told.activation[0], 1e-12);
+  EXPECT_NEAR(std::sqrt(told.covariance(1, 1) - 0.36 * told.covariance(0, 0)), 0.3 * 0.8, 1e-12)
+      << "and the rest of it stays open";
+  const double of_points = way.squaredNorm() / (0.002 * 0.002);
+  EXPECT_NEAR(told.activation[0], 0.5 * of_points / (of_points + 1 / 0.09), 1e-12)
+      << "what is told of the left side alone is as without the right";
+  const FitResult ring = found(left_alone, 0.002, 1);
+  EXPECT_NEAR(ring.activation[1], 0.6 * 0.5 * ring.activation[0], 1e-12) << "by their sigmas";
+  const FitResult apart = found(both, 1e-6, 0);
+  EXPECT_NEAR(apart.activation[0], 0.5, 1e-6);
+  EXPECT_NEAR(apart.activation[1], 0, 1e-6) << "a one-sided motion stays one";
+}
+
 /// Of activations drawn from the prior and points with noise, sigma is what the fit is wrong by.
 TEST_F(FitOfPoints, SigmaIsWhatTheFitIsWrongBy) {
   constexpr int kMuscles = 5, kDraws = 3000;

@@ -56,6 +56,28 @@ TEST(NearJaw, IsTheLowerFaceOnly) {
   for (int k : {0, 16, 19, 24, 27, 30, 36, 45}) EXPECT_FALSE(at(k)) << k;
 }
 
+TEST(EdgeOfJaw, IsTheLineOfTheChin) {
+  const test::SmallFace face = test::small_face();
+  const std::vector<EdgeOfJaw> edge = edge_of_jaw(face.mesh, face.landmarks);
+  const Points& skin = face.mesh.volume.outer.points;
+  std::vector<Vec3> line;  // in steps of less than 0.1 mm
+  for (int k = 5; k < 11; ++k)
+    for (int step = 0; step < 1000; ++step)
+      line.push_back((1 - step / 1e3) * face.landmarks.at(ibug(k)) +
+                     step / 1e3 * face.landmarks.at(ibug(k + 1)));
+  line.push_back(face.landmarks.at(ibug(11)));
+  for (Eigen::Index v = 0; v < skin.rows(); v += 7) {
+    double least = 1;
+    for (const Vec3& p : line) least = std::min(least, (p - skin.row(v).transpose()).norm());
+    const EdgeOfJaw& e = edge[std::size_t(v)];
+    EXPECT_NEAR(e.distance_m, least, 1e-4) << v;
+    EXPECT_NEAR((e.nearest - skin.row(v).transpose()).norm(), e.distance_m, 1e-12) << v;
+  }
+  const auto at = [&](const Vec3& p) { return edge[std::size_t(nearest_vertex(skin, p))]; };
+  EXPECT_FALSE(at(face.landmarks.at(ibug(57))).below) << "the lower lip";
+  EXPECT_FALSE(at(face.landmarks.at(ibug(30))).below) << "the nose";
+}
+
 TEST(NodeAreas, ShareOutTheSurface) {
   const auto sheet = hyperex::test::sheet_mesh({6, 5}, {0.06, 0.05});
   const Eigen::VectorXd areas = node_areas(sheet.mesh);

@@ -65,6 +65,9 @@ TEST(MuscleKeys, MusclesDriveASceneWithVariantsThatDoesNotSayWhatDrives) {
     EXPECT_EQ(scene_of(smallest + variant + key + "\n").drive.by, DriveBy::displacement) << key;
   EXPECT_EQ(scene_of(smallest + stiffer, {"support.field_kpa_per_mm=2"}).drive.by,
             DriveBy::displacement);
+  EXPECT_EQ(scene_of(smallest + stiffer, {"support.jaw_points=[\"Chin\"]"}).drive.by,
+            DriveBy::muscles)
+      << "muscles fit the jaw to all points";
 }
 
 TEST(MuscleKeys, GainsAreATableOfNamesAndNumbers) {

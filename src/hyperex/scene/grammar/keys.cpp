@@ -344,9 +344,13 @@ std::vector<Key> run_keys() {
           "What the points are: places that the skin is carried to, whatever the tissue; or what "
           "muscles, the jaw and forces at the points are found from (docs/muscles.md), or forces "
           "alone. Forces are found once, in the scene's tissue, and variants answer the same "
-          "forces. Where it is not given, a scene with variants is driven by \"muscles\", save "
-          "where "
-          "it or a variant sets a key of [support] or [region]."),
+          "forces. Where it is not given: \"displacement\" where the scene or a variant sets a key "
+          "of "
+          "[support] (but jaw_points) or [region]; else \"muscles\" where there are variants; else "
+          "\"displacement\" where the mouth opens by more than 0.2 of the distance between the "
+          "outer "
+          "corners of the eyes while its own corners part by less than 0.004 of it, as by the jaw "
+          "alone, and \"muscles\" for every other motion. The run says which and why."),
       number<Scene>(
           "drive.patch_radius_mm", millimetres, AT(drive.patch_radius_m),
           in(Drive::patch_radius_m_in, millimetres),
@@ -477,6 +481,11 @@ const std::vector<Key>& keys() {
     return table;
   }();
   return all;
+}
+
+bool speaks_of_displacement(const std::string& key) {
+  return key.starts_with("region.") ||
+         (key.starts_with("support.") && !key.starts_with("support.jaw_points"));
 }
 
 const Key* find_key(const std::string& name) {

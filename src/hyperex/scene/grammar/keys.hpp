@@ -76,6 +76,10 @@ const std::vector<Section>& sections();        ///< in the order of the page; ""
 const std::vector<Key>& keys();                ///< in the order of the sections
 const Key* find_key(const std::string& name);  ///< null where there is none
 
+/// Whether a key has a meaning for a drive by displacement alone: those of [region], and of
+/// [support] but jaw_points (which muscles, that fit the jaw to all points, can do without).
+bool speaks_of_displacement(const std::string& key);
+
 /// On one line, cut to a readable length; "nan" and "inf" as such.
 std::string show(const nlohmann::json& value);
 

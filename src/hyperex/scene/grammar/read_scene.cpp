@@ -231,7 +231,7 @@ void Reader::settle_motion() {
 void Reader::settle_drive() {
   if (!variants_.is_array()) return;
   const auto speaks_of_another = [](const std::string& key) {
-    return key == "drive.by" || key.starts_with("support.") || key.starts_with("region.");
+    return key == "drive.by" || speaks_of_displacement(key);
   };
   for (const auto& [key, given] : given_)
     if (speaks_of_another(key)) return;

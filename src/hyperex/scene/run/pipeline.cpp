@@ -22,6 +22,7 @@
 #include "hyperex/scene/output/report_page.hpp"
 #include "hyperex/scene/run/earlier_run.hpp"
 #include "hyperex/scene/run/variants.hpp"
+#include "hyperex/scene/stages/drive_choice.hpp"
 #include "hyperex/scene/stages/kept_order.hpp"
 #include "hyperex/scene/stages/landmark_search.hpp"
 #include "hyperex/scene/stages/plausible.hpp"
@@ -184,13 +185,14 @@ reenact::SimulationResult run_with_bar(reenact::Simulator& simulator) {
   return simulator.run(callbacks);
 }
 
-Json run_into(const Scene& scene, const std::filesystem::path& directory) {
+Json run_into(Scene scene, const std::filesystem::path& directory) {
   Stopwatch total, stage;
   Json seconds;
   Inputs inputs;
   {
     Progress progress("reading scan and recording", 0);
     inputs = read_inputs(scene);
+    choose_drive(scene, inputs);
   }
   seconds["read"] = stage.lap();
   for (const auto& note : inputs.notes) spdlog::info("{}", note);
