@@ -228,18 +228,25 @@ void stiffen_lips(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks
   }
 }
 
+MuscleModel muscle_model(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                         const SimulationOptions& options, const fem::SparseMatrix& stiffness,
+                         std::shared_ptr<const fem::NodeOrder> order) {
+  return {mesh,
+          landmarks,
+          stiffness,
+          options.muscles.table(),
+          model_options(options),
+          std::move(order)};
+}
+
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const AlignedMotion& motion, const MeasuredRegion& region,
-                     const SimulationOptions& options, const fem::SparseMatrix& stiffness,
-                     std::shared_ptr<const fem::NodeOrder>& order) {
+                     const SimulationOptions& options, const MuscleModel& model) {
   // First, since it says what is wrong with the points.
   const Driven driven(mesh, motion, options.drive);
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
   const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
-  MuscleModel model(mesh, landmarks, stiffness, options.muscles.table(), model_options(options),
-                    order);
-  order = model.order();
   MuscleFit fit = fit_of(landmarks, model, driven, options.muscles);
   const JawKinematics jaw(landmarks);
 

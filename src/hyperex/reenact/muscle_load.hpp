@@ -2,10 +2,10 @@
 #pragma once
 #include <memory>
 
-#include "hyperex/fem/form/system.hpp"
 #include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/reenact/alignment.hpp"
 #include "hyperex/reenact/held_load.hpp"
+#include "hyperex/reenact/muscle_model.hpp"
 #include "hyperex/reenact/point_curve.hpp"
 #include "hyperex/reenact/skin_measured.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
@@ -27,11 +27,15 @@ void stiffen_lips(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks
 /// points becomes forces too: those that hold patches of skin around the points (driven_skin) where
 /// the muscles put them, plus the left-over interpolated. In static equilibrium the driven points
 /// end where patches would put them, and nothing is prescribed.
-/// `stiffness`: assembled, without springs. `order`: where it was found before, of the same pattern
-/// and held nodes; else it is found and left there.
+/// `model`: muscle_model() with these options.
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const AlignedMotion& motion, const MeasuredRegion& region,
-                     const SimulationOptions& options, const fem::SparseMatrix& stiffness,
-                     std::shared_ptr<const fem::NodeOrder>& order);
+                     const SimulationOptions& options, const MuscleModel& model);
+
+/// What muscles and jaw make of a face as these options have it, whatever its motion. `stiffness`:
+/// assembled, without springs. `order`: of the same pattern and held nodes; null: found here.
+MuscleModel muscle_model(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                         const SimulationOptions& options, const fem::SparseMatrix& stiffness,
+                         std::shared_ptr<const fem::NodeOrder> order);
 
 }  // namespace hyperex::reenact

@@ -31,6 +31,7 @@ Simulator::Simulator(const Simulator& other) : impl_(std::make_unique<Impl>()) {
   impl_->boundary = from.boundary;
   impl_->assembler = from.assembler;
   impl_->order = from.order;
+  impl_->known_muscles = from.known_muscles;
   impl_->load = from.load;
   impl_->load_held = from.load_held;
   impl_->load_lost = from.load_lost;

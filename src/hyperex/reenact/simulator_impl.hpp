@@ -29,6 +29,8 @@ struct Shot {
   int frame;  ///< or -1 - index of a still
 };
 
+class MuscleModel;
+
 struct Simulator::Impl {
   // Given.
   std::shared_ptr<const tissue::TissueMesh> mesh;
@@ -45,6 +47,10 @@ struct Simulator::Impl {
   std::shared_ptr<const Boundary> boundary;
   std::shared_ptr<const fem::Assembler> assembler;
   std::shared_ptr<const EliminationOrder> order;
+  /// Of the last load that was found; used again where the motion alone is another, as a mirrored
+  /// twin's is.
+  struct KnownMuscles;
+  std::shared_ptr<const KnownMuscles> known_muscles;
   std::shared_ptr<const HeldLoad> load;
   bool load_held = false;
   bool load_lost = false;  // there was one, for the tissue or support before
@@ -119,6 +125,7 @@ struct Simulator::Impl {
   void keep_order(const std::shared_ptr<const fem::NodeOrder>& nodes);
   void need_reduced();
   void need_full();
+  const MuscleModel& need_muscles();
   /// The forces that make the motion in the tissue that is set.
   void need_load(const PointCurve& points);
   void note_found_anew();

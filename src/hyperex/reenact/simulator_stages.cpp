@@ -166,22 +166,43 @@ void Simulator::Impl::need_full() {
   });
 }
 
+struct Simulator::Impl::KnownMuscles {
+  SimulationOptions of;  // what the model rests on, all else by default
+  MuscleModel model;
+};
+
+const MuscleModel& Simulator::Impl::need_muscles() {
+  SimulationOptions of;
+  of.model = options.model;
+  of.tissue = options.tissue;
+  of.support = options.support;
+  of.muscles = options.muscles;
+  of.muscles.gains.clear();
+  of.muscles.mirrored = false;
+  if (!known_muscles || !(known_muscles->of == of)) {
+    fem::System system;
+    assembler->assemble(material(), system);
+    known_muscles = std::make_shared<const KnownMuscles>(KnownMuscles{
+        of, muscle_model(*mesh, *landmarks, options, system.stiffness, known_order())});
+  }
+  keep_order(known_muscles->model.order());
+  return known_muscles->model;
+}
+
 void Simulator::Impl::need_load(const PointCurve& points) {
   if (load || !by_forces()) return;
   if (options.region.measured != Measured::none)
     throw InputError("drive.by",
                      "forces cannot drive a face of which a region follows the recording "
                      "(region.measured): expected drive.by = \"displacement\"");
-  fem::System system;
-  assembler->assemble(material(), system);
   if (options.drive.by == DriveBy::muscles) {
-    std::shared_ptr<const fem::NodeOrder> nodes = known_order();
     load = std::make_shared<const HeldLoad>(
-        muscle_load(*mesh, *landmarks, *motion, *region, options, system.stiffness, nodes));
-    keep_order(nodes);
+        muscle_load(*mesh, *landmarks, *motion, *region, options, need_muscles()));
     note_found_anew();
     return;
   }
+  fem::System system;
+  assembler->assemble(material(), system);
   Boundary whole(*mesh, *landmarks, *motion, driven, options.support);
   whole.add_springs(system.stiffness);
   const InputShapes shapes = input_shapes(
@@ -226,6 +247,7 @@ void Simulator::Impl::prepare() {
   if (options.region.measured == Measured::all) return;  // nothing is simulated
   run_together({[&] { need_boundary(); }, [&] { need_assembler(); }});
   options.solver.method == SolverMethod::direct ? need_full() : need_reduced();
+  if (options.drive.by == DriveBy::muscles && !load) need_muscles();
   prepared = report;
 }
 

@@ -216,6 +216,32 @@ TEST_F(DrivenByForces, ForcesFoundAnewInOtherTissueAreNoted) {
   EXPECT_FALSE(noted(simulator.run())) << "no forces";
 }
 
+/// What muscles make of the face is found once for several motions, and anew for other tissue,
+/// support or muscles: never seen in a number.
+TEST_F(DrivenByForces, AnotherMotionAnswersAsASimulatorMadeWithIt) {
+  Simulator simulator = made(options_, 1);
+  simulator.run();
+  const auto another = [&](const SimulationOptions& options) {
+    Simulator copy = simulator;
+    copy.set_motion(smile(face_.landmarks, 0.3));
+    copy.set_options(options);
+    return apart(copy.run(), made(options, 0.3).run());
+  };
+  EXPECT_EQ(another(options_), 0);
+  SimulationOptions other = options_;
+  other.tissue.uniform[tissue::young] *= 2;
+  EXPECT_EQ(another(other), 0);
+  other = options_;
+  other.support.border_held = false;
+  EXPECT_EQ(another(other), 0);
+  other = options_;
+  other.muscles.widening = 1.5;
+  EXPECT_EQ(another(other), 0);
+  other = options_;
+  other.model.element = fem::ElementKind::tet4;
+  EXPECT_EQ(another(other), 0);
+}
+
 TEST_F(DrivenByForces, AStiffLeftCheekChangesTheLeftCorner) {
   Simulator simulator = made(options_, 0);
   const SimulationResult before = simulator.run();

@@ -87,11 +87,10 @@ TEST_F(MuscleTwin, GroupsOfMusclesAreFoundFromLandmarks) {
     motion.motion.time_s.push_back(k / 30.0);
     motion.motion.positions.push_back(rest + moved);
   }
-  std::shared_ptr<const fem::NodeOrder> order = model.order();
   const HeldLoad load =
       muscle_load(face_.mesh, face_.landmarks, motion,
                   measured_region(face_.mesh, face_.landmarks, motion, options_.region), options_,
-                  stiffness_, order);
+                  muscle_model(face_.mesh, face_.landmarks, options_, stiffness_, model.order()));
   EXPECT_EQ(load.muscles.names.size(), std::size_t(count));
 
   std::map<std::string, std::array<Eigen::VectorXd, 2>> sums;  // of a group on a side
