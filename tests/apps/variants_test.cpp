@@ -60,12 +60,17 @@ TEST_F(Variants, ColumnsOfASideHoldThatSide) {
          "[[variant]]\nname = \"right\"\n"
          "tissue = { region = [{ name = \"cheek_R\", young_factor = 10 }] }\n"
          "[[variant]]\nname = \"left\"\n"
-         "tissue = { region = [{ name = \"cheek_L\", young_factor = 10 }] }\n";
+         "tissue = { region = [{ name = \"cheek_L\", young_factor = 10 }] }\n"
+         "[[variant]]\nname = \"weak\"\nmuscles = { gain = { side_R = 0.5 } }\n";
   const Outcome outcome = call("run cheeks.toml --out out");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+  // Muscles are drawn where they pull differently.
+  EXPECT_TRUE(std::filesystem::exists(in("out/muscles.png")));
+  EXPECT_FALSE(std::filesystem::exists(in("out/variants/right/muscles.png")));
+  EXPECT_TRUE(std::filesystem::exists(in("out/variants/weak/muscles.png")));
   const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
   const auto& table = summary["variants"]["table"];
-  ASSERT_EQ(table.size(), 3u);
+  ASSERT_EQ(table.size(), 4u);
   const auto change_mm = [&](int row, const char* side) {
     const std::string column = std::string("mean_displacement_") + side + "_mm";
     return std::abs(table[row][column].get<double>() - table[0][column].get<double>());

@@ -26,10 +26,7 @@ int rounded_up(double samples) {
   return below + (samples > below ? 1 : 0);
 }
 
-/// What is linear over the samples: its value at the first, and how it grows to the right and down.
-struct Plane {
-  double first, right, down;
-};
+using Plane = Raster::Plane;
 
 /// A triangle over a box of samples, which begins at its first.
 struct Cover {
@@ -38,33 +35,43 @@ struct Cover {
   int columns, rows;
 };
 
-/// Samples that are looked at together.
-constexpr int kTogether = 4;
+/// Samples that are looked at together, in blocks of as many rows and columns: most triangles of a
+/// face fit in one, so that no branch depends on their size.
+constexpr int kBlock = 4;
+
+/// Triangles for whose corners the memory is asked ahead: no cache could foresee them.
+constexpr int kAhead = 6;
 
 /// Into samples whose rows are `stride` apart: where the triangle is nearer than what was seen.
-/// Looks at up to kTogether - 1 samples beyond the box in each row: they do not lie in the
-/// triangle, or beyond the picture.
+/// Looks at up to kBlock - 1 samples beyond the box in each row and column: they do not lie in the
+/// triangle, or beyond the band.
 HX_CLONES void keep_nearer(const Cover& cover, int id, int stride, float* nearest, int* seen) {
   const Plane a = cover.inside[0], b = cover.inside[1], c = cover.inside[2];
-  for (int y = 0; y < cover.rows; ++y, nearest += stride, seen += stride) {
-    const double a0 = a.first + y * a.down, b0 = b.first + y * b.down, c0 = c.first + y * c.down;
-    const double z0 = cover.z.first + y * cover.z.down;
-    for (int x0 = 0; x0 < cover.columns; x0 += kTogether)
-      for (int x = x0; x < x0 + kTogether; ++x) {
-        const auto z = static_cast<float>(z0 + x * cover.z.right);
-        const bool covered = (a0 + x * a.right >= 0) & (b0 + x * b.right >= 0) &
-                             (c0 + x * c.right >= 0) & (z > nearest[x]);
-        nearest[x] = covered ? z : nearest[x];
-        seen[x] = covered ? id : seen[x];
+  for (int y0 = 0; y0 < cover.rows; y0 += kBlock)
+    for (int x0 = 0; x0 < cover.columns; x0 += kBlock)
+      for (int y = y0; y < y0 + kBlock; ++y) {
+        const double a0 = a.first + y * a.down, b0 = b.first + y * b.down;
+        const double c0 = c.first + y * c.down, z0 = cover.z.first + y * cover.z.down;
+        float* const near = nearest + std::ptrdiff_t(y) * stride;
+        int* const ids = seen + std::ptrdiff_t(y) * stride;
+        for (int x = x0; x < x0 + kBlock; ++x) {
+          const auto z = static_cast<float>(z0 + x * cover.z.right);
+          const bool covered = (a0 + x * a.right >= 0) & (b0 + x * b.right >= 0) &
+                               (c0 + x * c.right >= 0) & (z > near[x]);
+          near[x] = covered ? z : near[x];
+          ids[x] = covered ? id : ids[x];
+        }
       }
-  }
 }
 
-/// Twice the area of (p, q, sample) over a box that begins at sample (x, y), times `scale`.
+/// Twice the area of (p, q, sample) over a box that begins at sample (x, y).
 template <class Corner>
-Plane edge(const Corner& p, const Corner& q, double x, double y, double scale) {
-  return {scale * ((p.x - x) * (q.y - y) - (p.y - y) * (q.x - x)), scale * (p.y - q.y),
-          scale * (q.x - p.x)};
+Plane edge(const Corner& p, const Corner& q, double x, double y) {
+  return {(p.x - x) * (q.y - y) - (p.y - y) * (q.x - x), p.y - q.y, q.x - p.x};
+}
+
+Plane times(double scale, const Plane& p) {
+  return {scale * p.first, scale * p.right, scale * p.down};
 }
 
 }  // namespace
@@ -73,23 +80,28 @@ Raster::Raster(const std::vector<Surface>& surfaces, const Camera& camera, int w
                double m_per_sample, int band_rows)
     : width_(width), height_(height), band_rows_(band_rows), m_per_sample_(m_per_sample) {
   HX_ASSERT(width <= most_samples && height <= most_samples);
-  for (std::size_t s = 0; s < surfaces.size(); ++s) add(surfaces[s], int(s), camera, m_per_sample);
-  sort_into_bands();
+  std::vector<Triangle> seen;
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    add(surfaces[s], int(s), camera, m_per_sample, seen);
+  sort_into_bands(seen);
 }
 
-void Raster::add(const Surface& surface, int index, const Camera& camera, double m_per_sample) {
+void Raster::add(const Surface& surface, int index, const Camera& camera, double m_per_sample,
+                 std::vector<Triangle>& seen) {
   const Eigen::Matrix3d camera_from_world = camera.axes();
   const auto first = int(corners_.size());
+  corners_.reserve(corners_.size() + std::size_t(surface.mesh.points.rows()));
   for (Eigen::Index v = 0; v < surface.mesh.points.rows(); ++v) {
     const Vec3 world = surface.mesh.points.row(v).transpose();
     const Vec3 local = camera_from_world * (world - camera.target);
     corners_.push_back({on_grid(local[0] / m_per_sample + width_ / 2.0 - 0.5),
                         on_grid(height_ / 2.0 - 0.5 - local[1] / m_per_sample), local[2]});
   }
+  seen.reserve(seen.size() + std::size_t(surface.mesh.triangles.rows()));
   for (Eigen::Index f = 0; f < surface.mesh.triangles.rows(); ++f) {
     const auto at = [&](int k) { return first + surface.mesh.triangles(f, k); };
     Triangle t{{at(0), at(1), at(2)}, index, int(f), {}};
-    if (may_be_seen(t)) triangles_.push_back(t);
+    if (may_be_seen(t)) seen.push_back(t);
   }
 }
 
@@ -109,32 +121,39 @@ bool Raster::may_be_seen(Triangle& t) const {
   return true;
 }
 
-void Raster::sort_into_bands() {
+void Raster::sort_into_bands(const std::vector<Triangle>& seen) {
   const int count = (height_ + band_rows_ - 1) / band_rows_;
   const auto bands_of = [&](const Triangle& t) {
     return std::pair{t.box.top / band_rows_, t.box.bottom / band_rows_};
   };
   first_.assign(std::size_t(count) + 1, 0);
-  for (const Triangle& t : triangles_)
+  for (const Triangle& t : seen)
     for (auto [band, last] = bands_of(t); band <= last; ++band) ++first_[std::size_t(band) + 1];
   for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
-  of_band_.resize(std::size_t(first_.back()));
+  triangles_.resize(std::size_t(first_.back()));
   std::vector<int> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < triangles_.size(); ++i)
-    for (auto [band, last] = bands_of(triangles_[i]); band <= last; ++band)
-      of_band_[std::size_t(next[std::size_t(band)]++)] = int(i);
+  for (const Triangle& t : seen)
+    for (auto [band, last] = bands_of(t); band <= last; ++band)
+      triangles_[std::size_t(next[std::size_t(band)]++)] = t;
 }
 
 void Raster::look(int band, Seen& seen) const {
   const int begin = band * band_rows_, end = std::min(height_, begin + band_rows_);
-  seen.stride = width_ + kTogether;
-  const auto samples = std::size_t(end - begin) * std::size_t(seen.stride);
+  seen.stride = width_ + kBlock;
+  const auto samples = std::size_t(end - begin + kBlock) * std::size_t(seen.stride);
   seen.first_row = begin;
   seen.rows = end - begin;
   seen.nearest.assign(samples, -std::numeric_limits<float>::infinity());
   seen.triangle.assign(samples, -1);
-  for (int i = first_[std::size_t(band)]; i < first_[std::size_t(band) + 1]; ++i)
-    draw(of_band_[std::size_t(i)], seen);
+  const int first = first_[std::size_t(band)], last = first_[std::size_t(band) + 1];
+  seen.drawn.clear();
+  seen.drawn.reserve(std::size_t(last - first));
+  for (int i = first; i < last; ++i) {
+    if (i + kAhead < last)
+      for (int k = 0; k < 3; ++k)
+        __builtin_prefetch(&corner(triangles_[std::size_t(i + kAhead)], k));
+    draw(i, seen);
+  }
 }
 
 void Raster::draw(int id, Seen& seen) const {
@@ -143,7 +162,8 @@ void Raster::draw(int id, Seen& seen) const {
   const int x0 = t.box.left, y0 = std::max(seen.first_row, int(t.box.top));
   const int y1 = std::min(seen.first_row + seen.rows - 1, int(t.box.bottom));
   const double twice = area(t), sign = twice > 0 ? 1 : -1, per_area = sign / twice;
-  Cover cover{{edge(b, c, x0, y0, sign), edge(c, a, x0, y0, sign), edge(a, b, x0, y0, sign)},
+  const Plane of_a = edge(b, c, x0, y0), of_b = edge(c, a, x0, y0), of_c = edge(a, b, x0, y0);
+  Cover cover{{times(sign, of_a), times(sign, of_b), times(sign, of_c)},
               {},
               t.box.right - x0 + 1,
               y1 - y0 + 1};
@@ -153,15 +173,17 @@ void Raster::draw(int id, Seen& seen) const {
   };
   cover.z = {mixed(&Plane::first), mixed(&Plane::right), mixed(&Plane::down)};
   const auto at = std::size_t(y0 - seen.first_row) * std::size_t(seen.stride) + std::size_t(x0);
-  keep_nearer(cover, id, seen.stride, seen.nearest.data() + at, seen.triangle.data() + at);
+  keep_nearer(cover, int(seen.drawn.size()), seen.stride, seen.nearest.data() + at,
+              seen.triangle.data() + at);
+  seen.drawn.push_back({t.surface, t.triangle, id, x0, y0, twice, {of_a, of_b}});
 }
 
-Raster::Weights Raster::weights(int id, int x, int y) const {
-  const Triangle& t = triangles_[std::size_t(id)];
-  const double per_area = 1 / area(t);
-  const Plane a = edge(corner(t, 1), corner(t, 2), x, y, per_area);
-  const Plane b = edge(corner(t, 2), corner(t, 0), x, y, per_area);
-  return {a.first, b.first, a.right, b.right};
+Raster::Weights Raster::Drawn::weights(int at_x, int at_y) const {
+  const double per_area = 1 / area;
+  const auto at = [&](const Plane& p) {
+    return per_area * (p.first + (at_x - x) * p.right + (at_y - y) * p.down);
+  };
+  return {at(inside[0]), at(inside[1]), per_area * inside[0].right, per_area * inside[1].right};
 }
 
 Eigen::Vector3f Raster::normal(int id) const {

@@ -24,19 +24,6 @@ class Raster {
 
   int bands() const { return int(first_.size()) - 1; }
 
-  /// Rows of samples; room that look() fills.
-  struct Seen {
-    int first_row = 0, rows = 0;
-    int stride = 0;              // from a row to the next, some room after the picture's width
-    std::vector<int> triangle;   // the id that all below take, or -1
-    std::vector<float> nearest;  // its depth, m to the viewer
-  };
-  /// What the samples of a band see. Safe to call from several threads.
-  void look(int band, Seen& seen) const;
-  int surface(int id) const { return triangles_[std::size_t(id)].surface; }
-  int triangle(int id) const { return triangles_[std::size_t(id)].triangle; }
-  bool faces_viewer(int id) const { return area(triangles_[std::size_t(id)]) < 0; }
-  Eigen::Vector3f normal(int id) const;  // of the facet, unit, camera frame
   /// The first two barycentric weights of a sample, and how they grow from it to the right.
   struct Weights {
     double a, b, a_right, b_right;
@@ -45,7 +32,31 @@ class Raster {
       return {float(wa), float(wb), float(1 - wa - wb)};
     }
   };
-  Weights weights(int id, int x, int y) const;
+  /// What is linear over the samples: its value at the first, and how it grows to the right and
+  /// down.
+  struct Plane {
+    double first, right, down;
+  };
+  /// A triangle of a band.
+  struct Drawn {
+    int surface, triangle, id;
+    int x, y;         // the sample at which the planes begin
+    double area;      // twice, in samples; negative where the front is seen
+    Plane inside[2];  // twice the areas opposite to the first two corners; exact on the grid
+    bool faces_viewer() const { return area < 0; }
+    Weights weights(int at_x, int at_y) const;
+  };
+  /// Rows of samples; room that look() fills.
+  struct Seen {
+    int first_row = 0, rows = 0;
+    int stride = 0;            // from a row to the next, some room after the width and the last row
+    std::vector<Drawn> drawn;  // the triangles of the band
+    std::vector<int> triangle;   // which of them each sample sees, or -1
+    std::vector<float> nearest;  // its depth, m to the viewer
+  };
+  /// What the samples of a band see. Safe to call from several threads.
+  void look(int band, Seen& seen) const;
+  Eigen::Vector3f normal(int id) const;  // of the facet, unit, camera frame
 
  private:
   struct Corner {
@@ -55,7 +66,6 @@ class Raster {
   struct Box {
     std::uint16_t left, right, top, bottom;
   };
-  /// Small, since all of them together are read in no order that a cache could foresee.
   struct Triangle {
     std::array<int, 3> corner;  // of corners_
     int surface, triangle;
@@ -70,17 +80,21 @@ class Raster {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
 
-  void add(const Surface& surface, int index, const Camera& camera, double m_per_sample);
+  /// Appends those of the surface's triangles that may be seen.
+  void add(const Surface& surface, int index, const Camera& camera, double m_per_sample,
+           std::vector<Triangle>& seen);
   /// Sets the box; whether the triangle may be seen.
   bool may_be_seen(Triangle& t) const;
-  void sort_into_bands();
+  void sort_into_bands(const std::vector<Triangle>& seen);
   void draw(int id, Seen& seen) const;
 
   int width_, height_, band_rows_;
   double m_per_sample_;
-  std::vector<Corner> corners_;       // of all surfaces
-  std::vector<Triangle> triangles_;   // those that may be seen
-  std::vector<int> first_, of_band_;  // triangles of band i: of_band_[first_[i]] to first_[i + 1]
+  std::vector<Corner> corners_;  // of all surfaces
+  /// Those of band i: from first_[i] to first_[i + 1]; copied where several bands have them, so
+  /// that a band reads them in their order.
+  std::vector<Triangle> triangles_;
+  std::vector<int> first_;
 };
 
 }  // namespace hyperex::render

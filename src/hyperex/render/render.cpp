@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/render/render.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -101,21 +102,34 @@ struct Prepared {
   }
 };
 
-// A triangle as its samples take it from the surface. A triangle covers few samples of a row, so
-// that nothing is copied and the facet's own normal is computed where a sample asks for it.
+// A triangle as its samples take it from the surface: copied, since they lie in several rows.
 class Corners {
  public:
-  Corners(const Prepared& prepared, const Raster& raster, int id)
-      : from_(&prepared), raster_(&raster), id_(id) {
+  Corners() = default;
+  Corners(const Prepared& prepared, const Raster& raster, const Raster::Drawn& drawn)
+      : from_(&prepared), raster_(&raster), id_(drawn.id) {
     const Surface& s = *prepared.surface;
-    const auto vertices = s.mesh.triangles.row(raster.triangle(id));
+    const auto vertices = s.mesh.triangles.row(drawn.triangle);
     for (int k = 0; k < 3; ++k) {
       const Eigen::Index v = vertices[k];
-      if (s.smooth) normal_[k] = prepared.normals.row(v).data();
+      if (s.smooth) normal_[k] = prepared.normals.row(v).transpose();
       if (s.scalar.size() != 0)
         scalar_[k] = s.scalar[v];
       else if (!prepared.colours.empty())
-        colour_[k] = &prepared.colours[std::size_t(v)];
+        colour_[k] = prepared.colours[std::size_t(v)];
+    }
+  }
+
+  /// Asks the memory for what the constructor reads.
+  static void fetch(const Prepared& prepared, const Raster::Drawn& drawn) {
+    const Surface& s = *prepared.surface;
+    const auto vertices = s.mesh.triangles.row(drawn.triangle);
+    for (int k = 0; k < 3; ++k) {
+      if (s.smooth) __builtin_prefetch(prepared.normals.row(vertices[k]).data());
+      if (s.scalar.size() != 0)
+        __builtin_prefetch(s.scalar.data() + vertices[k]);
+      else if (!prepared.colours.empty())
+        __builtin_prefetch(&prepared.colours[std::size_t(vertices[k])]);
     }
   }
 
@@ -128,26 +142,63 @@ class Corners {
       return map[std::size_t(share_in(from_->surface->range, value) * double(map.size() - 1) +
                              0.5)];
     }
-    if (!colour_[0]) return from_->plain;
-    return *colour_[0] * weight[0] + *colour_[1] * weight[1] + *colour_[2] * weight[2];
+    if (from_->colours.empty()) return from_->plain;
+    return colour_[0] * weight[0] + colour_[1] * weight[1] + colour_[2] * weight[2];
   }
 
   Vec3f normal_at(const Vec3f& weight) const {
     if (!from_->surface->smooth) return raster_->normal(id_);
-    const auto corner = [&](int k) { return Eigen::Map<const Vec3f>(normal_[k]); };
-    const Vec3f normal = corner(0) * weight[0] + corner(1) * weight[1] + corner(2) * weight[2];
+    const Vec3f normal = normal_[0] * weight[0] + normal_[1] * weight[1] + normal_[2] * weight[2];
     const float length = normal.norm();
     return length > 1e-6f ? Vec3f(normal / length) : raster_->normal(id_);
   }
 
  private:
-  const Prepared* from_;
-  const Raster* raster_;
-  int id_;
+  const Prepared* from_ = nullptr;
+  const Raster* raster_ = nullptr;
+  int id_ = -1;
   double scalar_[3] = {0, 0, 0};
-  const float* normal_[3] = {nullptr, nullptr, nullptr};
-  const Vec3f* colour_[3] = {nullptr, nullptr, nullptr};
+  Vec3f normal_[3], colour_[3];
 };
+
+struct Sum {
+  Vec3f light = Vec3f::Zero();
+  int hits = 0;
+};
+
+/// What a thread needs for a band, kept from one to the next: new memory would cost more than what
+/// is done in it.
+struct Room {
+  Raster::Seen seen;
+  std::vector<char> known;       // of each of the band's triangles, that it is in `visible`
+  std::vector<int> visible;      // those that a sample sees
+  std::vector<Corners> corners;  // of these, at the triangle's index in the band
+  std::vector<Sum> row;
+};
+
+void take_corners(const Raster& raster, const std::vector<Prepared>& prepared, Room& room) {
+  const Raster::Seen& seen = room.seen;
+  std::vector<int>& visible = room.visible;
+  visible.clear();
+  room.known.assign(seen.drawn.size(), 0);
+  for (const int i : seen.triangle) {
+    if (i < 0 || room.known[std::size_t(i)]) continue;
+    room.known[std::size_t(i)] = 1;
+    visible.push_back(i);
+  }
+  constexpr std::size_t ahead = 8;
+  if (room.corners.size() < seen.drawn.size()) room.corners.resize(seen.drawn.size());
+  const auto drawn = [&](std::size_t v) -> const Raster::Drawn& {
+    return seen.drawn[std::size_t(visible[v])];
+  };
+  const auto surface = [&](std::size_t v) -> const Prepared& {
+    return prepared[std::size_t(drawn(v).surface)];
+  };
+  for (std::size_t v = 0; v < visible.size(); ++v) {
+    if (v + ahead < visible.size()) Corners::fetch(surface(v + ahead), drawn(v + ahead));
+    room.corners[std::size_t(visible[v])] = Corners(surface(v), raster, drawn(v));
+  }
+}
 
 struct Lamps {
   Vec3f key = Vec3f(-0.42f, 0.52f, 0.74f).normalized();
@@ -177,38 +228,37 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
   const Raster raster(surfaces, camera, along, n * options.height_px,
                       camera.height_m / options.height_px / n, n * band_px);
   const Lamps lamps;
-  struct Sum {
-    Vec3f light = Vec3f::Zero();
-    int hits = 0;
-  };
+  tbb::enumerable_thread_specific<Room> rooms;
   tbb::parallel_for(0, raster.bands(), [&](int band) {
-    Raster::Seen seen;
+    Room& room = rooms.local();
+    Raster::Seen& seen = room.seen;
     raster.look(band, seen);
+    take_corners(raster, prepared, room);
     for (int y = 0; y < seen.rows / n; ++y) {
-      std::vector<Sum> row(static_cast<std::size_t>(options.width_px));
+      room.row.assign(static_cast<std::size_t>(options.width_px), {});
       for (int s = n * y; s < n * (y + 1); ++s) {
         const int* ids = seen.triangle.data() + std::ptrdiff_t(s) * seen.stride;
-        std::optional<Corners> corners;
         bool back = false;
         Raster::Weights weights{};
         for (int x = 0, first = 0, last = -1; x < along; ++x) {
           if (ids[x] < 0) continue;
           if (ids[x] != last) {
             first = x, last = ids[x];
-            back = !raster.faces_viewer(last);
-            corners.emplace(prepared[static_cast<std::size_t>(raster.surface(last))], raster, last);
-            weights = raster.weights(last, x, seen.first_row + s);
+            const Raster::Drawn& drawn = seen.drawn[std::size_t(last)];
+            back = !drawn.faces_viewer();
+            weights = drawn.weights(x, seen.first_row + s);
           }
           if (options.hide_backs && back) continue;
           const auto w = weights.at(x - first);
           const Vec3f weight(w[0], w[1], w[2]);
-          Sum& sum = row[static_cast<std::size_t>(x / n)];
-          sum.light += shaded(lamps, corners->colour_at(weight), corners->normal_at(weight), back);
+          Sum& sum = room.row[static_cast<std::size_t>(x / n)];
+          const Corners& at = room.corners[std::size_t(last)];
+          sum.light += shaded(lamps, at.colour_at(weight), at.normal_at(weight), back);
           ++sum.hits;
         }
       }
       for (int x = 0; x < options.width_px; ++x) {
-        const Sum& sum = row[static_cast<std::size_t>(x)];
+        const Sum& sum = room.row[static_cast<std::size_t>(x)];
         if (sum.hits == 0) continue;
         const Vec3f light = (sum.light + static_cast<float>(n * n - sum.hits) * background) /
                             static_cast<float>(n * n);

@@ -62,9 +62,10 @@ std::vector<Hit> all_hits(const Raster& raster) {
       const int x = i % kSize, y = i / kSize;
       const int id = seen.triangle[std::size_t(y * seen.stride + x)];
       if (id < 0) continue;
-      const auto w = raster.weights(id, x, seen.first_row + y).at(0);
-      hit = {raster.surface(id), raster.triangle(id), {w[0], w[1], w[2]}, raster.normal(id)};
-      EXPECT_EQ(raster.faces_viewer(id), hit.normal.z() > 0);
+      const Raster::Drawn& drawn = seen.drawn[std::size_t(id)];
+      const auto w = drawn.weights(x, seen.first_row + y).at(0);
+      hit = {drawn.surface, drawn.triangle, {w[0], w[1], w[2]}, raster.normal(drawn.id)};
+      EXPECT_EQ(drawn.faces_viewer(), hit.normal.z() > 0);
     }
   }
   return all;

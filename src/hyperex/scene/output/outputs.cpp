@@ -122,6 +122,10 @@ Points framed_points(const Results& r, const std::vector<Still>& stills,
   return points;
 }
 
+bool pull_alike(const reenact::MuscleCourse& a, const reenact::MuscleCourse& b) {
+  return a.names == b.names && a.time_s == b.time_s && a.activation == b.activation;
+}
+
 }  // namespace
 
 double run_end_s(const Scene& scene, const Inputs& inputs) {
@@ -238,7 +242,8 @@ std::string glb_note(const OutputOptions& output, const report::GlbReport& glb) 
 }
 
 std::optional<report::GlbReport> write_outputs(const Results& r,
-                                               const std::filesystem::path& directory) {
+                                               const std::filesystem::path& directory,
+                                               const Results* base) {
   const Performance& p = r.simulation.performance;
   std::optional<report::GlbReport> glb;
   Progress progress("writing pictures and files", 0);
@@ -260,9 +265,10 @@ std::optional<report::GlbReport> write_outputs(const Results& r,
          metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
          if (!p.muscles.names.empty()) {
            write_activations_csv(directory / "activations.csv", p.muscles);
-           render::write_png(
-               directory / "muscles.png",
-               draw_muscles(r.mesh, r.inputs.landmarks, p.muscles, r.scene.muscles.table()));
+           if (!base || !pull_alike(p.muscles, base->simulation.performance.muscles))
+             render::write_png(
+                 directory / "muscles.png",
+                 draw_muscles(r.mesh, r.inputs.landmarks, p.muscles, r.scene.muscles.table()));
          }
          metrics::write_excursions_csv(directory / "excursions.csv", r.symmetry.excursions);
        }});

@@ -29,9 +29,11 @@ struct Results {
 };
 
 /// Writes all files but summary.json and report.html into `directory`, and tells of
-/// performance.glb; nothing where that is not wanted.
+/// performance.glb; nothing where that is not wanted. Of a variant of `base`, muscles.png is
+/// written only where its muscles pull differently: the picture would be that of the base.
 std::optional<report::GlbReport> write_outputs(const Results& results,
-                                               const std::filesystem::path& directory);
+                                               const std::filesystem::path& directory,
+                                               const Results* base = nullptr);
 
 /// "glb" of summary.json: keys, largest_error_mm, size_mb.
 nlohmann::ordered_json glb_json(const report::GlbReport& glb);

@@ -121,7 +121,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
                                  {run.simulation.performance, run.symmetry}, compared_inputs, pair);
     const fs::path folder = directory / "variants" / run.folder;
     fs::create_directories(folder);
-    glb[i] = write_outputs(results, folder);
+    glb[i] = write_outputs(results, folder, &base);
   });
   const metrics::VariantComparison own =
       metrics::compare_variant("base", own_run, own_run, compared_inputs, pair);
