@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/reenact/lip_contact.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +12,23 @@ namespace hyperex::reenact {
 namespace {
 constexpr double lip_reach_m = 0.010;  // of the inner lip points
 constexpr double deepest_m = 0.006;    // farther behind is another part of the face, not a lip
+
+using Box = Eigen::AlignedBox3d;
+
+Box grown(const Box& box) {
+  return {box.min().array() - deepest_m, box.max().array() + deepest_m};
+}
+
+/// With those triangles alone that reach into the box.
+TriMesh part_in(const Box& box, const TriMesh& mesh) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    Box own;
+    for (const int v : mesh.triangles.row(f)) own.extend(mesh.points.row(v).transpose());
+    if (box.intersects(own)) kept.push_back(f);
+  }
+  return {mesh.points, mesh.triangles(kept, Eigen::all)};
+}
 }  // namespace
 
 LipContact::LipContact(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
@@ -55,16 +73,28 @@ double LipContact::depth(const PointsF& displacement) const {
 }
 
 double LipContact::raw_depth(const Points& lower, const TriMesh& upper) const {
-  if (lower.rows() == 0 || upper.triangles.rows() == 0) return 0;
-  const SurfaceTree tree(upper);
+  // Parted lips are near each other at the corners of the mouth alone, or nowhere.
+  Box of_upper, of_near;
+  for (const Vec3& p : upper.points.rowwise()) of_upper.extend(p);
+  of_upper = grown(of_upper);
+  std::vector<Vec3> near;
+  for (const Vec3& p : lower.rowwise())
+    if (of_upper.contains(p)) {
+      near.push_back(p);
+      of_near.extend(p);
+    }
+  if (near.empty()) return 0;
+  const TriMesh part = part_in(grown(of_near), upper);
+  if (part.triangles.rows() == 0) return 0;
+  const SurfaceTree tree(part);
   double deepest = 0;
-  for (const Vec3& p : lower.rowwise()) {
+  for (const Vec3& p : near) {
     const ClosestPoint c = tree.query(p, deepest_m);
     if (c.triangle < 0) continue;
     // A foot on the rim of the lip says nothing about inside and outside.
     if (c.weights.minCoeff() < 1e-6) continue;
     const auto corner = [&](int k) -> Vec3 {
-      return upper.points.row(upper.triangles(c.triangle, k));
+      return part.points.row(part.triangles(c.triangle, k));
     };
     const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
     const double height = (p - c.point).dot(normal);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "hyperex/render/canvas.hpp"
@@ -219,8 +220,38 @@ Vec3f shaded(const Lamps& lamps, const Vec3f& colour, Vec3f normal, bool back) {
   return (colour * light).array() * (back ? 0.4f : 1.f) + (back ? 0.f : sheen);
 }
 
+/// How near to the viewer each sample of a picture is, so that lines and markers can be hidden.
+class DepthPicture {
+ public:
+  DepthPicture(int width, int height, double m_per_sample)
+      : width_(width),
+        height_(height),
+        m_per_sample_(m_per_sample),
+        nearest_(std::size_t(width) * std::size_t(height)) {}
+  /// Rows that a band saw.
+  void take(const Raster::Seen& seen) {
+    for (int y = 0; y < seen.rows; ++y)
+      std::copy_n(seen.nearest.data() + std::ptrdiff_t(y) * seen.stride, width_,
+                  nearest_.data() + std::ptrdiff_t(seen.first_row + y) * width_);
+  }
+  /// Whether a surface lies more than `bias_m` in front of the point (camera frame) at the sample
+  /// next to it.
+  bool hides(const Vec3& point, double bias_m) const {
+    const double x = std::nearbyint(point[0] / m_per_sample_ + width_ / 2.0 - 0.5);
+    const double y = std::nearbyint(height_ / 2.0 - 0.5 - point[1] / m_per_sample_);
+    if (!(x >= 0 && x < width_ && y >= 0 && y < height_)) return false;
+    return nearest_[std::size_t(y) * std::size_t(width_) + std::size_t(x)] > point[2] + bias_m;
+  }
+
+ private:
+  int width_, height_;
+  double m_per_sample_;
+  std::vector<float> nearest_;
+};
+
+/// `depth`: filled where there is one.
 void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& surfaces,
-           const Camera& camera, const RenderOptions& options, Image& image) {
+           const Camera& camera, const RenderOptions& options, Image& image, DepthPicture* depth) {
   constexpr int band_px = 8;
   const Vec3f background = linear(options.background);
   const int n = options.samples;
@@ -233,6 +264,7 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
     Room& room = rooms.local();
     Raster::Seen& seen = room.seen;
     raster.look(band, seen);
+    if (depth) depth->take(seen);
     take_corners(raster, prepared, room);
     for (int y = 0; y < seen.rows / n; ++y) {
       room.row.assign(static_cast<std::size_t>(options.width_px), {});
@@ -269,7 +301,7 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
 }
 
 // Visible stretches of a line, tested piece by piece of about two pixels.
-void draw_line(const Polyline& line, const RayScene& scene, const Camera& camera,
+void draw_line(const Polyline& line, const DepthPicture& depth, const Camera& camera,
                const RenderOptions& options, Canvas& canvas) {
   const Eigen::Matrix3d camera_from_world = camera.axes();
   const double px_per_m = options.height_px / camera.height_m;
@@ -280,7 +312,7 @@ void draw_line(const Polyline& line, const RayScene& scene, const Camera& camera
     for (int i = 0; i < pieces; ++i) {
       const Vec3 from = a + (b - a) * i / pieces, to = a + (b - a) * (i + 1) / pieces;
       const Vec3 middle = camera_from_world * ((from + to) / 2 - camera.target);
-      if (scene.hides(middle.cast<float>(), static_cast<float>(options.overlay_bias_m))) continue;
+      if (depth.hides(middle, options.overlay_bias_m)) continue;
       const Projected p = project(camera, options.width_px, options.height_px, from);
       const Projected q = project(camera, options.width_px, options.height_px, to);
       canvas.line(p.x, p.y, q.x, q.y, line.colour, line.width_px);
@@ -288,11 +320,11 @@ void draw_line(const Polyline& line, const RayScene& scene, const Camera& camera
   }
 }
 
-void draw_marker(const Marker& marker, const RayScene& scene, const Camera& camera,
+void draw_marker(const Marker& marker, const DepthPicture& depth, const Camera& camera,
                  const RenderOptions& options, Canvas& canvas) {
   const Vec3 local = camera.axes() * (marker.at - camera.target);
   if (!local.allFinite()) return;
-  if (scene.hides(local.cast<float>(), static_cast<float>(options.overlay_bias_m))) return;
+  if (depth.hides(local, options.overlay_bias_m)) return;
   const Projected p = project(camera, options.width_px, options.height_px, marker.at);
   canvas.disc(p.x, p.y, marker.radius_px + 1, {1, 1, 1});
   canvas.disc(p.x, p.y, marker.radius_px, marker.colour);
@@ -310,12 +342,15 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
   std::vector<Prepared> prepared;
   for (const Surface& surface : surfaces) prepared.emplace_back(surface, camera.axes());
   Image image(options.width_px, options.height_px, options.background);
-  paint(prepared, surfaces, camera, options, image);
-  if (markers.empty() && lines.empty()) return image;
-  const RayScene scene(surfaces, camera);
+  std::optional<DepthPicture> depth;
+  if (!markers.empty() || !lines.empty())
+    depth.emplace(options.samples * options.width_px, options.samples * options.height_px,
+                  camera.height_m / options.height_px / options.samples);
+  paint(prepared, surfaces, camera, options, image, depth ? &*depth : nullptr);
+  if (!depth) return image;
   Canvas canvas(image);
-  for (const Polyline& line : lines) draw_line(line, scene, camera, options, canvas);
-  for (const Marker& marker : markers) draw_marker(marker, scene, camera, options, canvas);
+  for (const Polyline& line : lines) draw_line(line, *depth, camera, options, canvas);
+  for (const Marker& marker : markers) draw_marker(marker, *depth, camera, options, canvas);
   return canvas.image();
 }
 

@@ -2,8 +2,10 @@
 #include "hyperex/scene/output/variants_picture.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "hyperex/face/face_frame.hpp"
@@ -80,19 +82,26 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
     return render::render(BackingSurfaces(backing, frame, skin.mesh.points).with(skin), camera,
                           size);
   };
-  for (const Vec3& view : {render::front_view(), oblique}) {
-    render::Camera camera = render::framing(framed, view, aspect);
-    camera.height_m *= 1.15;
-    sheet.pictures.push_back({drawn({.mesh = own}, camera), "base"});
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      const TriMesh skin = skin_at_peak(runs[i].simulation.performance);
-      const render::Surface surface{
-          .mesh = skin,
-          .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
-          .range = {0, top}};
-      sheet.pictures.push_back({drawn(surface, camera), compared[i].name});
-    }
+  std::array<render::Camera, 2> cameras;
+  for (std::size_t v = 0; v < cameras.size(); ++v) {
+    cameras[v] = render::framing(framed, v == 0 ? render::front_view() : oblique, aspect);
+    cameras[v].height_m *= 1.15;
   }
+  const std::size_t columns = runs.size() + 1;
+  sheet.pictures.resize(cameras.size() * columns);
+  tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t at) {
+    const render::Camera& camera = cameras[at / columns];
+    if (at % columns == 0) {
+      sheet.pictures[at] = {drawn({.mesh = own}, camera), "base"};
+      return;
+    }
+    const std::size_t i = at % columns - 1;
+    const TriMesh skin = skin_at_peak(runs[i].simulation.performance);
+    const render::Surface surface{.mesh = skin,
+                                  .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
+                                  .range = {0, top}};
+    sheet.pictures[at] = {drawn(surface, camera), compared[i].name};
+  });
   render::write_png(file, render::contact_sheet(sheet));
 }
 

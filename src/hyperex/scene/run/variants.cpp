@@ -9,6 +9,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_tables.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
@@ -40,6 +41,18 @@ class SpentSimulators {
   std::mutex mutex_;
   std::vector<std::shared_ptr<reenact::Simulator>> spent_;
 };
+
+void write_tables(const Results& base, const std::vector<VariantRun>& runs,
+                  const metrics::VariantComparison& own,
+                  const std::vector<metrics::VariantComparison>& compared,
+                  const metrics::ResponsePair& pair, const fs::path& directory) {
+  metrics::write_variants_csv(directory / "variants.csv", own, compared, pair);
+  std::vector<metrics::NamedExcursions> excursions;
+  for (const VariantRun& run : runs)
+    excursions.push_back({run.scene.title, run.symmetry.excursions});
+  metrics::write_variant_excursions_csv(directory / "variants_excursions.csv",
+                                        base.symmetry.excursions, excursions);
+}
 
 }  // namespace
 
@@ -109,30 +122,30 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
       base.simulation.performance, base.inputs.motion.motion, 2 * base.scene.drive.patch_radius_m);
   const metrics::ComparedInputs compared_inputs{base.inputs.landmarks, base.inputs.motion.motion};
   const metrics::ComparedRun own_run{base.simulation.performance, base.symmetry};
-  std::vector<metrics::VariantComparison> compared(runs.size());
-  std::vector<std::optional<report::GlbReport>> glb(runs.size());
   Progress progress("writing variants", 0);
+  std::vector<metrics::VariantComparison> compared(runs.size());
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
-    const VariantRun& run = runs[i];
-    const Results results{run.scene,    run.inputs, mesh, run.simulation,
-                          run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
-    compared[i] =
-        metrics::compare_variant(run.scene.title, own_run,
-                                 {run.simulation.performance, run.symmetry}, compared_inputs, pair);
-    const fs::path folder = directory / "variants" / run.folder;
-    fs::create_directories(folder);
-    glb[i] = write_outputs(results, folder, &base);
+    compared[i] = metrics::compare_variant(runs[i].scene.title, own_run,
+                                           {runs[i].simulation.performance, runs[i].symmetry},
+                                           compared_inputs, pair);
   });
   const metrics::VariantComparison own =
       metrics::compare_variant("base", own_run, own_run, compared_inputs, pair);
-  metrics::write_variants_csv(directory / "variants.csv", own, compared, pair);
-  std::vector<metrics::NamedExcursions> excursions;
-  for (const VariantRun& run : runs)
-    excursions.push_back({run.scene.title, run.symmetry.excursions});
-  metrics::write_variant_excursions_csv(directory / "variants_excursions.csv",
-                                        base.symmetry.excursions, excursions);
-  draw_variants(base, compared, runs, directory / "variants.png");
-  draw_variant_symmetry(base, runs, directory / "variants_symmetry.png");
+  std::vector<std::optional<report::GlbReport>> glb(runs.size());
+  run_together({[&] { draw_variants(base, compared, runs, directory / "variants.png"); },
+                [&] { draw_variant_symmetry(base, runs, directory / "variants_symmetry.png"); },
+                [&] { write_tables(base, runs, own, compared, pair, directory); },
+                [&] {
+                  tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
+                    const VariantRun& run = runs[i];
+                    const Results results{
+                        run.scene,    run.inputs, mesh, run.simulation,
+                        run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
+                    const fs::path folder = directory / "variants" / run.folder;
+                    fs::create_directories(folder);
+                    glb[i] = write_outputs(results, folder, &base);
+                  });
+                }});
   Json json;
   json["driven_point"] = pair.driven;
   json["response_point"] = pair.response;
