@@ -6,7 +6,8 @@ whole_run.py PROGRAM RESULT.json [--quick]
 
 Subject A's mouth opening where the data set lies beside the checkout, else the demo. Each case is run
 three times (once with --quick), each time into a new folder; "first" begins with an empty cache
-folder, "again" finds what the first run kept there. Thirty variants are run once (six with --quick).
+folder, "again" finds what the first run kept there. Thirty variants (six with --quick) are run once
+each way, and compared with one run that is driven alike.
 """
 import json
 import os
@@ -83,10 +84,17 @@ def main():
             "again": case(program, SCENE, folder, [], repeats, True),
             "first_no_frames": case(program, SCENE, folder, no_frames, repeats, False),
             "again_no_frames": case(program, SCENE, folder, no_frames, repeats, True),
-            "variants": run(program, with_variants(folder, variants), folder, [],
-                            folder / "cache"),
         }
-    found["variants"]["count"] = variants
+        # What drives a scene may depend on whether it has variants: the same run is compared.
+        scene = with_variants(folder, variants)
+        for by in ("muscles", "displacement"):
+            driven = ["--set", f"drive.by={by}"]
+            found[f"variants_{by}"] = {
+                "count": variants,
+                "one": case(program, SCENE, folder, driven, repeats, False),
+                "one_again": case(program, SCENE, folder, driven, repeats, True),
+                "all": case(program, scene, folder, driven, 1, False),
+                "all_again": case(program, scene, folder, driven, 1, True)}
     result.write_text(json.dumps(found, indent=1) + "\n")
 
 
