@@ -12,6 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/program.hpp"
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/io/scan.hpp"
+#include "hyperex/metrics/mouth_outline.hpp"
 
 namespace hyperex {
 namespace {
@@ -128,6 +131,29 @@ TEST_P(FidelityOf, IsAsGoodAsItWas) {
 
 INSTANTIATE_TEST_SUITE_P(Case, FidelityOf, testing::ValuesIn(kCases),
                          [](const auto& c) { return std::string(c.param.name); });
+
+/// Opened, the mouth's rim is as smooth as the true one, without steps between neighbours.
+TEST_F(Fidelity, RimOfTheOpenMouthIsSmooth) {
+  if (!fs::exists(data(kOpen))) GTEST_SKIP() << "no " << data(kOpen);
+  io::Landmarks landmarks = io::read_landmarks(data(kMarks), io::LengthUnit::millimetre);
+  const TriMesh rest = io::read_scan(data(kRest), io::LengthUnit::millimetre).mesh;
+  const std::vector<int> rim = metrics::mouth_rim(rest, landmarks);
+  for (const Case& c : kCases) {
+    if (std::string(c.rest) != kRest) continue;
+    const TriMesh truth = io::read_scan(data(c.truth), io::LengthUnit::millimetre).mesh;
+    const auto wanted =
+        metrics::mouth_outline(rest, rim, (truth.points - rest.points).cast<float>());
+    ASSERT_TRUE(wanted);
+    errors_of(c, c.more);
+    const auto found =
+        nlohmann::json::parse(read_file(in("out/summary.json"))).at("mouth_outline_at_peak");
+    EXPECT_NEAR(found.at("turning_deg").get<double>() / wanted->turning_deg, 1, 0.15) << c.title;
+    EXPECT_LT(found.at("largest_jump_mm").get<double>(), 2) << c.title;
+    fmt::print("{}: turning {:.0f} of {:.0f} degrees, largest jump {:.2f} of {:.2f} mm\n", c.title,
+               found.at("turning_deg").get<double>(), wanted->turning_deg,
+               found.at("largest_jump_mm").get<double>(), wanted->largest_jump_mm);
+  }
+}
 
 TEST_F(Fidelity, TableIsWritten) {
   const char* page = std::getenv("HYPEREX_FIDELITY_PAGE");

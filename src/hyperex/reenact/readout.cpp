@@ -41,13 +41,20 @@ PointsF in_single_precision(const Points& points) {
 PointsF Readout::skin(const MeasuredRegion& region, const Points& nodes,
                       const Points& points) const {
   Points out(mesh_.skin.points.rows(), 3);
+  auto rim = mesh_.rim.begin();
   for (Eigen::Index v = 0; v < out.rows(); ++v) {
     const double share = region.share[v];
     Vec3 d = Vec3::Zero();
     if (share < 1) {
-      const tissue::Anchor& anchor = mesh_.anchors[v];
-      for (int k = 0; k < 3; ++k) d += anchor.weight[k] * nodes.row(anchor.node[k]).transpose();
+      if (rim != mesh_.rim.end() && rim->vertex == v) {
+        for (std::size_t k = 0; k < rim->node.size(); ++k)
+          d += rim->weight[k] * nodes.row(rim->node[k]).transpose();
+      } else {
+        const tissue::Anchor& anchor = mesh_.anchors[v];
+        for (int k = 0; k < 3; ++k) d += anchor.weight[k] * nodes.row(anchor.node[k]).transpose();
+      }
     }
+    if (rim != mesh_.rim.end() && rim->vertex == v) ++rim;
     if (share > 0) d = (1 - share) * d + share * region.skin[v].displacement(points);
     out.row(v) = d.transpose();
   }

@@ -10,6 +10,7 @@
 #include "hyperex/geometry/thin_mesh.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/tissue/rim.hpp"
 #include "hyperex/tissue/thickness.hpp"
 #include "hyperex/tissue/volume_mesh.hpp"
 
@@ -63,6 +64,7 @@ struct TissueMesh {
   Points lip_cut;                    ///< the line of the cut, empty where none was made
   VolumeMesh volume;
   std::vector<Anchor> anchors;  ///< per skin vertex
+  std::vector<RimVertex> rim;   ///< what moves otherwise than its anchor, in rising order
   std::vector<double>
       upper_margin;  ///< per outer node: walk to the lower minus to the upper lip (m)
   std::vector<double> skin_upper_margin;  ///< the same, per skin vertex

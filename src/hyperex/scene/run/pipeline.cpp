@@ -13,6 +13,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/metrics/mouth_outline.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
@@ -87,6 +88,11 @@ Json summary_of(const Results& r, const SkinOff& off) {
   s["max_displacement_mm"] = 1e3 * metrics::greatest_displacement_m(p.skin_displacement_m);
   s["lip_opening_mm"] = report.lip_gap_mm;
   s["lip_overlap_mm"] = report.lip_overlap_mm;
+  if (const auto outline = metrics::mouth_outline(
+          p.skin_rest, metrics::mouth_rim(p.skin_rest, r.inputs.landmarks),
+          p.skin_displacement_m[std::size_t(p.peak_frame)]))
+    s["mouth_outline_at_peak"] = {{"turning_deg", outline->turning_deg},
+                                  {"largest_jump_mm", outline->largest_jump_mm}};
   s["jaw_opening_deg"] = report.greatest_opening_deg;
   s["inverted_tets"] = report.inverted_tets;
   s["at_peak"] = stress_summary(p);

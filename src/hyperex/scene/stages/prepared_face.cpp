@@ -38,6 +38,11 @@ void parts(Archive& archive, T& of) {
   auto& [node, weight] = of;
   archive(node, weight);
 }
+template <class Archive, SameButConst<tissue::RimVertex> T>
+void parts(Archive& archive, T& of) {
+  auto& [vertex, node, weight] = of;
+  archive(vertex, node, weight);
+}
 template <class Archive, SameButConst<tissue::FullSkin> T>
 void parts(Archive& archive, T& of) {
   auto& [skin, scan_vertices, appended, source_triangle, kept, kept_triangle, places] = of;
@@ -56,9 +61,9 @@ void parts(Archive& archive, T& of) {
 template <class Archive, SameButConst<tissue::TissueMesh> T>
 void parts(Archive& archive, T& of) {
   // `full` is packed apart.
-  auto& [skin, full, scan_vertices, appended, source_triangle, lip_cut, volume, anchors,
+  auto& [skin, full, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim,
          upper_margin, skin_upper_margin, on_border, quality, mean_mm, max_mm, notes] = of;
-  archive(skin, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, upper_margin,
+  archive(skin, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim, upper_margin,
           skin_upper_margin, on_border, quality, mean_mm, max_mm, notes);
 }
 template <class Archive, SameButConst<metrics::MidsagittalPlane> T>
