@@ -86,8 +86,8 @@ class Resolver {
       if (other.landmark != name) continue;
       if (other.value == value) return true;
       complain(key + ".landmark",
-               fmt::format("one set of values for {}, and {} gives another{}", name,
-                           other.key, options_.mirror ? " (mirror is true)" : ""));
+               fmt::format("one set of values for {}, and {} gives another{}", name, other.key,
+                           options_.mirror ? " (mirror is true)" : ""));
       return false;
     }
     points_.push_back({name, value, key});

@@ -103,10 +103,9 @@ void check_region(const TissueFieldOptions& options, std::size_t index,
   for (std::size_t other = 0; other < index; ++other)
     if (!region.name.empty() && region.name != options.regions[other].name &&
         mirrored_landmark(region.name) == options.regions[other].name)
-      complain(".name",
-               fmt::format("one side alone, as mirror is true and region[{}] "
-                           "is {}",
-                           other, options.regions[other].name));
+      complain(".name", fmt::format("one side alone, as mirror is true and region[{}] "
+                                    "is {}",
+                                    other, options.regions[other].name));
 }
 
 }  // namespace
