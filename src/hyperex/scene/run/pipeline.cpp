@@ -88,9 +88,9 @@ Json summary_of(const Results& r, const SkinOff& off) {
   s["max_displacement_mm"] = 1e3 * metrics::greatest_displacement_m(p.skin_displacement_m);
   s["lip_opening_mm"] = report.lip_gap_mm;
   s["lip_overlap_mm"] = report.lip_overlap_mm;
-  if (const auto outline = metrics::mouth_outline(
-          p.skin_rest, metrics::mouth_rim(p.skin_rest, r.inputs.landmarks),
-          p.skin_displacement_m[std::size_t(p.peak_frame)]))
+  if (const auto outline =
+          metrics::mouth_outline(p.skin_rest, metrics::mouth_rim(p.skin_rest, r.inputs.landmarks),
+                                 p.skin_displacement_m[std::size_t(p.peak_frame)]))
     s["mouth_outline_at_peak"] = {{"turning_deg", outline->turning_deg},
                                   {"largest_jump_mm", outline->largest_jump_mm}};
   s["jaw_opening_deg"] = report.greatest_opening_deg;

@@ -63,8 +63,8 @@ void parts(Archive& archive, T& of) {
   // `full` is packed apart.
   auto& [skin, full, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim,
          upper_margin, skin_upper_margin, on_border, quality, mean_mm, max_mm, notes] = of;
-  archive(skin, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim, upper_margin,
-          skin_upper_margin, on_border, quality, mean_mm, max_mm, notes);
+  archive(skin, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim,
+          upper_margin, skin_upper_margin, on_border, quality, mean_mm, max_mm, notes);
 }
 template <class Archive, SameButConst<metrics::MidsagittalPlane> T>
 void parts(Archive& archive, T& of) {
