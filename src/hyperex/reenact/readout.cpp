@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/reenact/rim_places.hpp"
 
 namespace hyperex::reenact {
 namespace {
@@ -25,12 +26,14 @@ Points places_of(const io::Landmarks& landmarks) {
 
 }  // namespace
 
-Readout::Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks)
+Readout::Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                 const std::vector<Match>& driven)
     : mesh_(mesh),
       names_(names_of(landmarks)),
       rest_(places_of(landmarks)),
       places_(skin_places(mesh, names_, rest_)),
-      contact_(mesh, landmarks) {}
+      contact_(mesh, landmarks),
+      rim_(rim_through(mesh, driven)) {}
 
 PointsF in_single_precision(const Points& points) {
   return points.unaryExpr([](double x) {
@@ -41,12 +44,12 @@ PointsF in_single_precision(const Points& points) {
 PointsF Readout::skin(const MeasuredRegion& region, const Points& nodes,
                       const Points& points) const {
   Points out(mesh_.skin.points.rows(), 3);
-  auto rim = mesh_.rim.begin();
+  auto rim = rim_.begin();
   for (Eigen::Index v = 0; v < out.rows(); ++v) {
     const double share = region.share[v];
     Vec3 d = Vec3::Zero();
     if (share < 1) {
-      if (rim != mesh_.rim.end() && rim->vertex == v) {
+      if (rim != rim_.end() && rim->vertex == v) {
         for (std::size_t k = 0; k < rim->node.size(); ++k)
           d += rim->weight[k] * nodes.row(rim->node[k]).transpose();
       } else {
@@ -54,7 +57,7 @@ PointsF Readout::skin(const MeasuredRegion& region, const Points& nodes,
         for (int k = 0; k < 3; ++k) d += anchor.weight[k] * nodes.row(anchor.node[k]).transpose();
       }
     }
-    if (rim != mesh_.rim.end() && rim->vertex == v) ++rim;
+    if (rim != rim_.end() && rim->vertex == v) ++rim;
     if (share > 0) d = (1 - share) * d + share * region.skin[v].displacement(points);
     out.row(v) = d.transpose();
   }

@@ -12,12 +12,14 @@
 
 namespace hyperex::reenact {
 
-/// What is read off a moving face: the skin, its landmarks, the lips. Depends on the face alone
-/// and serves any number of runs. Const members may be called from several threads.
+/// What is read off a moving face: the skin, its landmarks, the lips. Depends on the face and
+/// the driven points alone and serves any number of runs. Const members may be called from several
+/// threads.
 class Readout {
  public:
-  /// `mesh` must outlive this.
-  Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+  /// `driven`: places on the skin that move exactly as they are driven. `mesh` must outlive this.
+  Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+          const std::vector<Match>& driven);
 
   /// Displacement of the skin (|skin| x 3, m): of the tissue's nodes (|nodes| x 3) or, where
   /// measured, of the tracked points (P x 3).
@@ -42,6 +44,7 @@ class Readout {
   Points rest_;                // of the landmarks
   std::vector<Match> places_;  // of them on the skin
   LipContact contact_;
+  std::vector<tissue::RimVertex> rim_;
 };
 
 /// As floats. What a float could hold with fewer digits alone becomes 0: some libraries' threads

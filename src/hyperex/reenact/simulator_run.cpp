@@ -163,9 +163,6 @@ void Simulator::Impl::describe(const PointCurve& points, Performance& p) {
   p.source_triangle = mesh->source_triangle;
   p.lip_cut_rest = mesh->lip_cut;
   p.landmarks = readout->landmark_tracks(p.frame_time_s, p.skin_displacement_m);
-  if (!driven_points)
-    driven_points = std::make_shared<const DrivenPoints>(*mesh, *motion,
-                                                         options.drive.names_in(motion->motion));
   p.driven_names = driven_points->names;
   p.driven_points_rest = driven_points->rest;
   if (load) p.muscles = changed_muscles(load->muscles, options.muscles);

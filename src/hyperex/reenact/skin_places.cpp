@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/reenact/skin_places.hpp"
 
-#include <algorithm>
-
 #include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::reenact {
@@ -10,14 +8,6 @@ namespace hyperex::reenact {
 namespace {
 /// Below this a weight is the rounding of a place on an edge or at a corner.
 constexpr double kLeastWeight = 1e-6;
-
-/// Null where the vertex is none.
-const tissue::RimVertex* rim_vertex(const tissue::TissueMesh& mesh, int vertex) {
-  const auto at = std::lower_bound(
-      mesh.rim.begin(), mesh.rim.end(), vertex,
-      [](const tissue::RimVertex& rim, int wanted) { return rim.vertex < wanted; });
-  return at != mesh.rim.end() && at->vertex == vertex ? &*at : nullptr;
-}
 }  // namespace
 
 std::vector<Match> skin_places(const tissue::TissueMesh& mesh,
@@ -34,14 +24,7 @@ CarrierMatrix carriers(const tissue::TissueMesh& mesh, const std::vector<Match>&
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < places.size(); ++i)
     for (int k = 0; k < 3; ++k) {
-      const int vertex = places[i].point[k];
-      if (const tissue::RimVertex* rim = rim_vertex(mesh, vertex)) {
-        for (std::size_t a = 0; a < rim->node.size(); ++a)
-          entries.emplace_back(static_cast<int>(i), rim->node[a],
-                               places[i].weight[k] * rim->weight[a]);
-        continue;
-      }
-      const tissue::Anchor& anchor = mesh.anchors[vertex];
+      const tissue::Anchor& anchor = mesh.anchors[places[i].point[k]];
       for (int a = 0; a < 3; ++a)
         if (const double weight = places[i].weight[k] * anchor.weight[a]; weight > kLeastWeight)
           entries.emplace_back(static_cast<int>(i), anchor.node[a], weight);
