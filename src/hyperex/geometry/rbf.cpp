@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -88,6 +89,18 @@ Points Rbf::at_all(const Points& x) const {
     values.row(row) = at(Vec3(x.row(row).transpose())).transpose();
   });
   return values;
+}
+
+Eigen::MatrixXd rbf_weights(const Points& centres, Eigen::Index moving, const Points& places) {
+  Eigen::MatrixXd all(places.rows(), moving);
+  // Three centres at a time: one unit value an axis.
+  for (Eigen::Index first = 0; first < moving; first += 3) {
+    const Eigen::Index count = std::min<Eigen::Index>(3, moving - first);
+    Points unit = Points::Zero(centres.rows(), 3);
+    for (Eigen::Index k = 0; k < count; ++k) unit(first + k, k) = 1;
+    all.middleCols(first, count) = Rbf(centres, unit).at_all(places).leftCols(count);
+  }
+  return all;
 }
 
 }  // namespace hyperex

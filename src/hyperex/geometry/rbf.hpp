@@ -38,4 +38,8 @@ class Rbf {
   Vec3 origin_;                             // the affine part is about the centres' mean
 };
 
+/// Interpolated values at `places` as weights (rows) of those at the first `moving` centres
+/// (columns), the others' being 0.
+Eigen::MatrixXd rbf_weights(const Points& centres, Eigen::Index moving, const Points& places);
+
 }  // namespace hyperex

@@ -129,15 +129,7 @@ Eigen::MatrixXd DriveField::weights(const Points& places, const std::vector<doub
   Points at(places.rows(), 3);
   for (Eigen::Index j = 0; j < at.rows(); ++j)
     at.row(j) = opened(places.row(j), margin[j]).transpose();
-  Eigen::MatrixXd all(places.rows(), points_.size());
-  // Three points at a time: one unit displacement an axis.
-  for (std::size_t first = 0; first < points_.size(); first += 3) {
-    const std::size_t count = std::min<std::size_t>(3, points_.size() - first);
-    Points unit = Points::Zero(centres_.rows(), 3);
-    for (std::size_t k = 0; k < count; ++k) unit(first + k, k) = 1;
-    all.middleCols(first, count) = Rbf(centres_, unit).at_all(at).leftCols(count);
-  }
-  return all;
+  return rbf_weights(centres_, static_cast<Eigen::Index>(points_.size()), at);
 }
 
 double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_rows,

@@ -18,14 +18,7 @@ Eigen::MatrixXd field_weights(const std::vector<DrivenPoint>& points,
   for (Eigen::Index i = 0; i < centres.rows(); ++i)
     centres.row(i) = i < count ? points[std::size_t(i)].rest.transpose()
                                : still[std::size_t(i - count)].transpose();
-  Eigen::MatrixXd weights(places.rows(), count);
-  for (Eigen::Index i = 0; i < count; i += 3) {  // one unit displacement an axis
-    const Eigen::Index some = std::min<Eigen::Index>(3, count - i);
-    Points unit = Points::Zero(centres.rows(), 3);
-    for (Eigen::Index k = 0; k < some; ++k) unit(i + k, k) = 1;
-    weights.middleCols(i, some) = Rbf(centres, unit).at_all(places).leftCols(some);
-  }
-  return weights;
+  return rbf_weights(centres, count, places);
 }
 
 }  // namespace

@@ -26,14 +26,12 @@ Points places_of(const io::Landmarks& landmarks) {
 
 }  // namespace
 
-Readout::Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                 const std::vector<Match>& driven)
+Readout::Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks)
     : mesh_(mesh),
       names_(names_of(landmarks)),
       rest_(places_of(landmarks)),
       places_(skin_places(mesh, names_, rest_)),
-      contact_(mesh, landmarks),
-      rim_(rim_through(mesh, driven)) {}
+      contact_(mesh, landmarks) {}
 
 PointsF in_single_precision(const Points& points) {
   return points.unaryExpr([](double x) {
@@ -41,23 +39,23 @@ PointsF in_single_precision(const Points& points) {
   });
 }
 
-PointsF Readout::skin(const MeasuredRegion& region, const Points& nodes,
-                      const Points& points) const {
+PointsF Readout::skin(const MeasuredRegion& region, const std::vector<tissue::RimVertex>& rim,
+                      const Points& nodes, const Points& points) const {
   Points out(mesh_.skin.points.rows(), 3);
-  auto rim = rim_.begin();
+  auto on_rim = rim.begin();
   for (Eigen::Index v = 0; v < out.rows(); ++v) {
     const double share = region.share[v];
     Vec3 d = Vec3::Zero();
     if (share < 1) {
-      if (rim != rim_.end() && rim->vertex == v) {
-        for (std::size_t k = 0; k < rim->node.size(); ++k)
-          d += rim->weight[k] * nodes.row(rim->node[k]).transpose();
+      if (on_rim != rim.end() && on_rim->vertex == v) {
+        for (std::size_t k = 0; k < on_rim->node.size(); ++k)
+          d += on_rim->weight[k] * nodes.row(on_rim->node[k]).transpose();
       } else {
         const tissue::Anchor& anchor = mesh_.anchors[v];
         for (int k = 0; k < 3; ++k) d += anchor.weight[k] * nodes.row(anchor.node[k]).transpose();
       }
     }
-    if (rim != rim_.end() && rim->vertex == v) ++rim;
+    if (on_rim != rim.end() && on_rim->vertex == v) ++on_rim;
     if (share > 0) d = (1 - share) * d + share * region.skin[v].displacement(points);
     out.row(v) = d.transpose();
   }
@@ -102,6 +100,7 @@ DrivenPoints::DrivenPoints(const tissue::TissueMesh& mesh, const AlignedMotion& 
     }
   rest = motion.rest(rows, Eigen::all);
   places = skin_places(mesh, names, rest);
+  rim = rim_through(mesh, places);
 }
 
 std::vector<double> DrivenPoints::off_m(const Performance& performance,

@@ -12,18 +12,19 @@
 
 namespace hyperex::reenact {
 
-/// What is read off a moving face: the skin, its landmarks, the lips. Depends on the face and
-/// the driven points alone and serves any number of runs. Const members may be called from several
+/// What is read off a moving face: the skin, its landmarks, the lips. Depends on the face alone
+/// and serves any number of runs. Const members may be called from several
 /// threads.
 class Readout {
  public:
-  /// `driven`: places on the skin that move exactly as they are driven. `mesh` must outlive this.
-  Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-          const std::vector<Match>& driven);
+  /// `mesh` must outlive this.
+  Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
   /// Displacement of the skin (|skin| x 3, m): of the tissue's nodes (|nodes| x 3) or, where
   /// measured, of the tracked points (P x 3).
-  PointsF skin(const MeasuredRegion& region, const Points& nodes, const Points& points) const;
+  /// `rim`: as DrivenPoints has it.
+  PointsF skin(const MeasuredRegion& region, const std::vector<tissue::RimVertex>& rim,
+               const Points& nodes, const Points& points) const;
   /// The landmarks as the moved skin carries them, a sample a frame.
   motion::Motion landmark_tracks(const std::vector<double>& time_s,
                                  const std::vector<PointsF>& frames) const;
@@ -44,7 +45,6 @@ class Readout {
   Points rest_;                // of the landmarks
   std::vector<Match> places_;  // of them on the skin
   LipContact contact_;
-  std::vector<tissue::RimVertex> rim_;
 };
 
 /// As floats. What a float could hold with fewer digits alone becomes 0: some libraries' threads
@@ -59,8 +59,9 @@ struct DrivenPoints {
 
   std::vector<int> rows;  ///< in the motion
   std::vector<std::string> names;
-  Points rest;                ///< positions at rest (n x 3, m)
-  std::vector<Match> places;  ///< on the skin
+  Points rest;                         ///< positions at rest (n x 3, m)
+  std::vector<Match> places;           ///< on the skin
+  std::vector<tissue::RimVertex> rim;  ///< the mesh's, through these places (rim_through)
 
   /// Of each, over the frames: the greatest distance (m) from where it is driven.
   std::vector<double> off_m(const Performance& performance, const PointCurve& wanted) const;

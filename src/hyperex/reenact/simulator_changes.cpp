@@ -56,7 +56,6 @@ void Simulator::Impl::drop_boundary() {
 void Simulator::Impl::drop_driven() {
   driven.reset();
   driven_points.reset();
-  readout.reset();
   load.reset();
   load_lost = false;  // another question: other forces are no surprise
   drop_boundary();

@@ -40,7 +40,7 @@ struct Simulator::Impl {
 
   // Stages in the order of the header's table; null where they are still to be computed. What
   // copies may share is const.
-  std::shared_ptr<const Readout> readout;  // of the face and the driven points
+  std::shared_ptr<const Readout> readout;  // of the face alone
   std::shared_ptr<const MeasuredRegion> region;
   std::shared_ptr<const DrivenPoints> driven_points;
   std::shared_ptr<const DrivenSkin> driven;

@@ -125,7 +125,7 @@ void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve
 
 void Simulator::Impl::store(const Shot& shot, const Points& nodes, const PointCurve& points,
                             SimulationResult& result) const {
-  const PointsF skin = readout->skin(*region, nodes, points.at(shot.time_s));
+  const PointsF skin = readout->skin(*region, driven_points->rim, nodes, points.at(shot.time_s));
   Performance& p = result.performance;
   if (shot.frame < 0) {
     result.still_displacement_m[-1 - shot.frame] = skin;

@@ -38,7 +38,7 @@ void Simulator::Impl::need_region() {
   if (!driven_points)
     driven_points = std::make_shared<const DrivenPoints>(*mesh, *motion,
                                                          options.drive.names_in(motion->motion));
-  if (!readout) readout = std::make_shared<const Readout>(*mesh, *landmarks, driven_points->places);
+  if (!readout) readout = std::make_shared<const Readout>(*mesh, *landmarks);
   if (!region)
     region = std::make_shared<const MeasuredRegion>(
         measured_region(*mesh, *landmarks, *motion, options.region));

@@ -43,7 +43,7 @@ PointsF Simulator::Impl::step(const Points& displacement_m) {
                                            displacement_m.rows(), motion->rest.rows()));
   if (!stream_current) renew_stream(stream->interval_s());
   const Points points = options.drive.gain * displacement_m;
-  return readout->skin(*region, stream->step(points), points);
+  return readout->skin(*region, driven_points->rim, stream->step(points), points);
 }
 
 }  // namespace hyperex::reenact
