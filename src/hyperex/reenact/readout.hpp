@@ -13,8 +13,7 @@
 namespace hyperex::reenact {
 
 /// What is read off a moving face: the skin, its landmarks, the lips. Depends on the face alone
-/// and serves any number of runs. Const members may be called from several
-/// threads.
+/// and serves any number of runs. Const members may be called from several threads.
 class Readout {
  public:
   /// `mesh` must outlive this.
