@@ -121,7 +121,14 @@ void Assembler::find_slots() {
   });
 }
 
-SparseMatrix Assembler::zero_pattern(const Lists& neighbours) const {
+SparseMatrix Assembler::stiffness_pattern() const {
+  SparseMatrix m = pattern(stiffness_neighbours());
+  std::fill_n(m.valuePtr(), m.nonZeros(), 0.0);
+  return m;
+}
+
+/// Values are left as they are.
+SparseMatrix Assembler::pattern(const Lists& neighbours) const {
   const int nodes = neighbours.size();
   const std::size_t count = 9 * neighbours.item.size();
   if (count > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -153,7 +160,6 @@ std::vector<Assembler::Moduli> Assembler::moduli(const Material& material) const
   return out;
 }
 
-/// kappa_g V_g of each group.
 std::vector<double> Assembler::group_stiffness(const std::vector<Moduli>& moduli) const {
   std::vector<double> stiffness(groups_.size(), 0);
   for_each_index(groups_.size(), [&](Eigen::Index at) {
@@ -208,18 +214,18 @@ void Assembler::fill_elements(int n, const Material& material, const std::vector
   }
 }
 
-/// Adds kappa_g V_g b_g b_g^T of the groups that node n belongs to, to its three columns.
-void Assembler::fill_groups(int n, const std::vector<double>& stiffness, System& system) const {
+void Assembler::add_groups(int n, const std::vector<double>& stiffness,
+                           const std::vector<Vec3>& gradient, SparseMatrix& matrix) const {
   const auto height = 3 * wide_[n].size();
-  double* const x = system.stiffness.valuePtr() + system.stiffness.outerIndexPtr()[3 * n];
+  double* const x = matrix.valuePtr() + matrix.outerIndexPtr()[3 * n];
   double* const y = x + height;
   double* const z = y + height;
   for (int k = member_start_[n]; k < member_start_[n + 1]; ++k) {
     const Membership& member = memberships_[k];
-    const Vec3 own = stiffness[member.group] * group_gradient_[member.place];
+    const Vec3 own = stiffness[member.group] * gradient[member.place];
     const std::uint16_t* slot = group_slots_.data() + member.slots_from;
-    const Vec3* other = group_gradient_.data() + group_nodes_.start[member.group];
-    const Vec3* const end = group_gradient_.data() + group_nodes_.start[member.group + 1];
+    const Vec3* other = gradient.data() + group_nodes_.start[member.group];
+    const Vec3* const end = gradient.data() + group_nodes_.start[member.group + 1];
     for (; other != end; ++other, ++slot)
       for (int row = 0; row < 3; ++row) {
         const double value = (*other)[row];
@@ -240,9 +246,9 @@ void Assembler::assemble(const Material& material, System& system) const {
            m.nonZeros() == 9 * static_cast<Eigen::Index>(neighbours.item.size());
   };
   system.nodes = nodes_;
-  if (!fits(system.stiffness, wide)) system.stiffness = zero_pattern(wide);
-  if (!fits(system.damping, narrow_)) system.damping = zero_pattern(narrow_);
-  if (!fits(system.mass, narrow_)) system.mass = zero_pattern(narrow_);
+  if (!fits(system.stiffness, wide)) system.stiffness = pattern(wide);
+  if (!fits(system.damping, narrow_)) system.damping = pattern(narrow_);
+  if (!fits(system.mass, narrow_)) system.mass = pattern(narrow_);
 
   const std::vector<Moduli> of_element = moduli(material);
   const std::vector<double> of_group = group_stiffness(of_element);
@@ -252,7 +258,7 @@ void Assembler::assemble(const Material& material, System& system) const {
       std::fill(m->valuePtr() + m->outerIndexPtr()[3 * n],
                 m->valuePtr() + m->outerIndexPtr()[3 * n + 3], 0.0);
     fill_elements(n, material, of_element, system);
-    if (groups_.size() > 0) fill_groups(n, of_group, system);
+    if (groups_.size() > 0) add_groups(n, of_group, group_gradient_, system.stiffness);
   });
 }
 

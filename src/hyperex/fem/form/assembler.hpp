@@ -24,6 +24,25 @@ class Assembler {
   Eigen::Index element_count() const { return static_cast<Eigen::Index>(shapes_.size()); }
   const std::vector<Tet4>& shapes() const { return shapes_; }
 
+  // What another form on this mesh gathers with: form/finite_strain.hpp.
+  const Points& nodes() const { return nodes_; }
+  const std::vector<std::array<int, 4>>& corners() const { return corners_; }
+  const Lists& tets_around() const { return tets_around_; }  ///< node -> tetrahedra, rising
+  /// Node -> nodes of a common tetrahedron, and those that the stiffness couples it to.
+  const Lists& mass_neighbours() const { return narrow_; }
+  const Lists& stiffness_neighbours() const { return groups_.size() ? wide_ : narrow_; }
+  /// For each entry of tets_around(): where its four corners stand among the node's neighbours.
+  const std::vector<std::array<int, 4>>& mass_slots() const { return narrow_slots_; }
+  const std::vector<std::array<int, 4>>& stiffness_slots() const {
+    return groups_.size() ? wide_slots_ : narrow_slots_;
+  }
+  const Lists& groups() const { return groups_; }  ///< of dilatation -> tetrahedra; may be none
+  const Lists& groups_of() const { return groups_of_; }  ///< and back
+  const Lists& group_nodes() const { return group_nodes_; }
+  const std::vector<double>& group_volume() const { return group_volume_; }  ///< m^3
+  /// Zeros on the pattern of System::stiffness.
+  SparseMatrix stiffness_pattern() const;
+
   /// Values that no material may have (E <= 0 ...) must have been refused before: asserted. A
   /// `system` that this assembler filled before keeps its patterns: values are overwritten, no
   /// matrix is allocated. Parallel; the sums' order does not depend on the number of threads.
@@ -39,25 +58,30 @@ class Assembler {
   /// theta, the mean of the groups of the element: the strain's trace for tet4 alone.
   Eigen::VectorXd dilatation(const Points& d) const;
 
- private:
   /// Of one element: the stress of strain e is first tr(e) I + 2 shear e, its kept volumetric part
-  /// included; `averaged` is what the bulk modulus leaves to the groups.
+  /// included; `averaged` is what the bulk modulus leaves to the groups. Pa.
   struct Moduli {
     double first, shear, averaged;
+    double kept() const { return first + 2 * shear / 3; }
   };
+  std::vector<Moduli> moduli(const Material& material) const;
+  /// kappa_g V_g of each group, N m.
+  std::vector<double> group_stiffness(const std::vector<Moduli>& moduli) const;
+  /// Adds stiffness_g b_g b_g^T of the groups that node n belongs to, to its three columns;
+  /// `gradient`: b_g for each entry of group_nodes().
+  void add_groups(int n, const std::vector<double>& stiffness, const std::vector<Vec3>& gradient,
+                  SparseMatrix& matrix) const;
+
+ private:
   void take_groups(const DilatationGroups& groups);
   void find_slots();
-  SparseMatrix zero_pattern(const Lists& neighbours) const;
-  const Lists& stiffness_neighbours() const { return groups_.size() ? wide_ : narrow_; }
+  SparseMatrix pattern(const Lists& neighbours) const;
   Eigen::Matrix<double, 4, 3> corner_values(const Points& d, Eigen::Index t) const;
   Eigen::VectorXd own_dilatation(const Points& d) const;
   Eigen::VectorXd group_dilatation(const Points& d) const;
   Eigen::VectorXd spread(const Eigen::VectorXd& of_group) const;
-  std::vector<Moduli> moduli(const Material& material) const;
-  std::vector<double> group_stiffness(const std::vector<Moduli>& moduli) const;
   void fill_elements(int n, const Material& material, const std::vector<Moduli>& moduli,
                      System& system) const;
-  void fill_groups(int n, const std::vector<double>& stiffness, System& system) const;
 
   Points nodes_;
   std::vector<Tet4> shapes_;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Dense>
+
+#include "hyperex/fem/form/lists.hpp"
+#include "hyperex/fem/form/system.hpp"
+
+namespace hyperex::fem {
+
+/// Blocks of three by three in a matrix that couples nodes: what a potential adds to.
+class NodeBlocks {
+ public:
+  /// `neighbours`: of each node, rising: the pattern of `matrix`, whose blocks have all nine
+  /// entries.
+  NodeBlocks(const Lists& neighbours, SparseMatrix& matrix)
+      : neighbours_(neighbours), matrix_(matrix) {}
+
+  void add(int node, const Eigen::Matrix3d& block) { add(node, node, block); }
+  /// Rows of `row`, columns of `column`; the caller adds the transposed block at (column, row),
+  /// too. False where the matrix does not couple the two nodes: nothing is added.
+  bool add(int row, int column, const Eigen::Matrix3d& block) {
+    const auto list = neighbours_[column];
+    const auto at = std::lower_bound(list.begin(), list.end(), row);
+    if (at == list.end() || *at != row) return false;
+    const auto slot = 3 * (at - list.begin());
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < 3; ++k)
+        matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * column + axis] + slot + k] += block(k, axis);
+    return true;
+  }
+
+ private:
+  const Lists& neighbours_;
+  SparseMatrix& matrix_;
+};
+
+/// An energy of the nodes' displacements besides that of the tissue: contact with a rigid body,
+/// sliding round a bone. Unknown 3 n + axis, as everywhere; d has 3 |nodes| rows. Evaluated once in
+/// each iteration; must not allocate there.
+class NodalPotential {
+ public:
+  virtual ~NodalPotential() = default;
+  /// Adds the energy's gradient (N) at d (m); returns the energy (J). Must be continuously
+  /// differentiable.
+  virtual double add_gradient(const Eigen::VectorXd& d, Eigen::VectorXd& gradient) const = 0;
+  /// Adds second derivatives (N/m), or a positive semidefinite part of them.
+  virtual void add_tangent(const Eigen::VectorXd& d, NodeBlocks& blocks) const = 0;
+};
+
+}  // namespace hyperex::fem

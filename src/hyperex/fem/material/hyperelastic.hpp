@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+
+namespace hyperex::fem {
+
+/// How the resistance to a change of shape grows with it. mu = E / (2 (1 + nu)) of the Material is
+/// each law's shear modulus at rest, and so all of them have the stiffness of the linear form
+/// there. I1 = |F|^2, I2 = |cof F|^2, J = det F; I1bar = J^(-2/3) I1 and I2bar = J^(-4/3) I2 do not
+/// see a change of volume, which dilatation groups resist (form/finite_strain.hpp).
+///  linear:        W = mu |dev e|^2, e the small strain: the linear form itself
+///  neo_hookean:   W = mu/2 (I1 - 3) - mu (J - 1) + mu/6 (J - 1)^2, finite for any F: what Smith,
+///  de
+///                 Goes and Kim (Stable Neo-Hookean Flesh Simulation, ACM Trans. Graph. 37, 2018)
+///                 build on, its own volumetric part at rest taken away
+///  isochoric_neo_hookean: W = mu/2 (I1bar - 3)
+///  yeoh:          W = C10 (x + c20 x^2 + c30 x^3), x = I1bar - 3, C10 = mu/2
+///                 (Yeoh, Rubber Chem. Technol. 66, 1993)
+///  mooney_rivlin: W = C10 (I1bar - 3 + c01 (I2bar - 3)), C10 = mu / (2 (1 + c01))
+///                 (Mooney, J. Appl. Phys. 11, 1940; Rivlin, Phil. Trans. R. Soc. A 241, 1948)
+enum class HyperelasticLaw { linear, neo_hookean, isochoric_neo_hookean, yeoh, mooney_rivlin };
+
+inline constexpr HyperelasticLaw kHyperelasticLaws[] = {
+    HyperelasticLaw::linear, HyperelasticLaw::neo_hookean, HyperelasticLaw::isochoric_neo_hookean,
+    HyperelasticLaw::yeoh, HyperelasticLaw::mooney_rivlin};
+
+/// As in scene files.
+constexpr std::string_view to_string(HyperelasticLaw law) {
+  switch (law) {
+    case HyperelasticLaw::linear:
+      return "linear";
+    case HyperelasticLaw::neo_hookean:
+      return "neo-hookean";
+    case HyperelasticLaw::isochoric_neo_hookean:
+      return "isochoric-neo-hookean";
+    case HyperelasticLaw::yeoh:
+      return "yeoh";
+    case HyperelasticLaw::mooney_rivlin:
+      break;
+  }
+  return "mooney-rivlin";
+}
+
+/// A spring and a dashpot beside the law: at a held stretch its stress, `ratio` times the law's at
+/// once, fades as exp(-t / relaxation_s). E is the modulus that remains in the end.
+struct MaxwellBranch {
+  double ratio = 0;         ///< >= 0
+  double relaxation_s = 1;  ///< > 0
+};
+
+/// A law with its ratios, all without dimension, so that E alone varies from place to place.
+struct Hyperelastic {
+  HyperelasticLaw law = HyperelasticLaw::neo_hookean;
+  /// C20/C10 and C30/C10 of yeoh. Default: 1.175 / 2.5 kPa of facial tissue (Nazari, Perrier,
+  /// Chabanas and Payan, Comput. Methods Biomech. Biomed. Engin. 13, 2010).
+  double c20 = 0.47, c30 = 0;
+  double c01 = 0;  ///< C01/C10 of mooney_rivlin, >= 0; 0 is isochoric_neo_hookean
+  /// Keeps every element from turning inside out: mu (-ln J + x - x^2/2), x = J - 1, where J < 1.
+  /// Its first two derivatives vanish at J = 1; below kLeastRatio its Taylor polynomial of second
+  /// order goes on, so that it is finite for any F. `linear` has none.
+  bool barrier = true;
+  std::vector<MaxwellBranch> branches;  ///< besides the Material's viscosity
+};
+
+/// Ratio of volumes below which what has no value at J = 0 goes on as a polynomial of second order:
+/// the barrier, and J^(-2/3), J^(-4/3) of the isochoric laws.
+inline constexpr double kLeastRatio = 0.05;
+
+/// Whether the ratios are in their ranges, and the law's derivative by I1bar stays positive:
+/// c30 >= 0 and c20 >= -sqrt(3 c30).
+bool is_admissible(const Hyperelastic& law);
+
+/// W (J/m^3 = Pa) and its derivatives by I1, I2 and J.
+struct LawResponse {
+  double w = 0;
+  double d1 = 0, d2 = 0, dj = 0;
+  double d11 = 0, d1j = 0, d2j = 0, djj = 0;  ///< those by I1 and I2, I2 and I2: always zero
+};
+
+/// The law's energy without the barrier; not for `linear`. `i2` matters to mooney_rivlin alone.
+LawResponse respond(const Hyperelastic& law, double shear_pa, double i1, double i2, double j);
+
+/// A function of J with its first two derivatives.
+struct OfRatio {
+  double w = 0, d = 0, dd = 0;
+};
+
+/// The barrier, per shear modulus.
+OfRatio volume_barrier(double j);
+
+/// First Piola-Kirchhoff stress dW/dF (Pa) of law and barrier at the deformation gradient F, and
+/// their energy density: for single points; `linear` included.
+Eigen::Matrix3d first_piola_pa(const Hyperelastic& law, double shear_pa, const Eigen::Matrix3d& f,
+                               double* energy_pa = nullptr);
+
+/// cof F = dJ/dF.
+inline Eigen::Matrix3d cofactor(const Eigen::Matrix3d& f) {
+  Eigen::Matrix3d c;
+  c.col(0) = f.col(1).cross(f.col(2));
+  c.col(1) = f.col(2).cross(f.col(0));
+  c.col(2) = f.col(0).cross(f.col(1));
+  return c;
+}
+
+}  // namespace hyperex::fem
