@@ -7,4 +7,5 @@
 #include "hyperex/fem/form/system.hpp"
 #include "hyperex/fem/reduced/reduced_model.hpp"
 #include "hyperex/fem/solve/static_solve.hpp"
+#include "hyperex/fem/time/finite_newton.hpp"
 #include "hyperex/fem/time/newmark.hpp"

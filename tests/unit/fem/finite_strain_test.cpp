@@ -365,7 +365,7 @@ class Spring : public NodalPotential {
     gradient.segment<3>(6) += 5 * d.segment<3>(6);
     return 2.5 * d.segment<3>(6).squaredNorm();
   }
-  void add_tangent(const VectorXd&, NodeBlocks& blocks) const override {
+  void add_tangent(const VectorXd&, TangentBlocks& blocks) const override {
     blocks.add(2, 5 * Matrix3d::Identity());
     Matrix3d coupling = Matrix3d::Zero();
     coupling(0, 1) = 7;
@@ -378,7 +378,7 @@ TEST(NodalPotential, AddsBlocksToAMatrixOfThisPattern) {
   const auto mesh = box();
   const Assembler assembler(mesh.nodes, mesh.tets, ElementKind::tet4);
   SparseMatrix k = assembler.stiffness_pattern();
-  NodeBlocks blocks(assembler.stiffness_neighbours(), k);
+  TangentBlocks blocks(assembler.stiffness_neighbours(), k);
   Spring().add_tangent({}, blocks);
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(k.rows(), k.cols());
   expected.block<3, 3>(6, 6).diagonal().setConstant(5);

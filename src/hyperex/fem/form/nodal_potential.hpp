@@ -8,11 +8,11 @@
 namespace hyperex::fem {
 
 /// Blocks of three by three in a matrix that couples nodes: what a potential adds to.
-class NodeBlocks {
+class TangentBlocks {
  public:
   /// `neighbours`: of each node, rising: the pattern of `matrix`, whose blocks have all nine
   /// entries.
-  NodeBlocks(const Lists& neighbours, SparseMatrix& matrix)
+  TangentBlocks(const Lists& neighbours, SparseMatrix& matrix)
       : neighbours_(neighbours), matrix_(matrix) {}
 
   void add(int node, const Eigen::Matrix3d& block) { add(node, node, block); }
@@ -44,7 +44,7 @@ class NodalPotential {
   /// differentiable.
   virtual double add_gradient(const Eigen::VectorXd& d, Eigen::VectorXd& gradient) const = 0;
   /// Adds second derivatives (N/m), or a positive semidefinite part of them.
-  virtual void add_tangent(const Eigen::VectorXd& d, NodeBlocks& blocks) const = 0;
+  virtual void add_tangent(const Eigen::VectorXd& d, TangentBlocks& blocks) const = 0;
 };
 
 }  // namespace hyperex::fem

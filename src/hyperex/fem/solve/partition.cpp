@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/solve/partition.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "hyperex/core/assert.hpp"
@@ -51,6 +54,22 @@ Partition::Partition(int unknowns, std::vector<int> prescribed_)
 
 SparseMatrix free_lower(const SparseMatrix& a, const Partition& partition) {
   return free_rows(a, partition, partition.free, true);
+}
+
+void refill_free_lower(const SparseMatrix& a, const Partition& partition, SparseMatrix& lower) {
+  HX_ASSERT(lower.cols() == static_cast<Eigen::Index>(partition.free.size()));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, partition.free.size(), 256),
+                    [&](const auto& range) {
+                      for (std::size_t c = range.begin(); c < range.end(); ++c) {
+                        const int column = partition.free[c], end = a.outerIndexPtr()[column + 1];
+                        double* out = lower.valuePtr() + lower.outerIndexPtr()[c];
+                        for (int k = a.outerIndexPtr()[column]; k < end; ++k)
+                          if (const int row = a.innerIndexPtr()[k];
+                              row >= column && partition.free_index[row] >= 0)
+                            *out++ = a.valuePtr()[k];
+                        HX_ASSERT(out == lower.valuePtr() + lower.outerIndexPtr()[c + 1]);
+                      }
+                    });
 }
 
 SparseMatrix coupling(const SparseMatrix& a, const Partition& partition) {

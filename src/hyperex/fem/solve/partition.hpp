@@ -18,6 +18,8 @@ struct Partition {
 
 /// Lower triangle of A_oo, the free rows of the free columns.
 SparseMatrix free_lower(const SparseMatrix& a, const Partition& partition);
+/// The same into a matrix that free_lower() made of this pattern: allocates nothing. Parallel.
+void refill_free_lower(const SparseMatrix& a, const Partition& partition, SparseMatrix& lower);
 /// A_oc, the free rows of the prescribed columns.
 SparseMatrix coupling(const SparseMatrix& a, const Partition& partition);
 /// K + damping_share C + mass_share M; the pattern of K contains that of C and M.

@@ -62,12 +62,31 @@ void PartitionedFactor::refactor(const SparseMatrix& a) {
   factor_s_ += extract_s;
 }
 
-void PartitionedFactor::factor(const SparseMatrix& a, const SparseMatrix& lower) {
+int PartitionedFactor::try_refactor(const SparseMatrix& a) {
+  Stopwatch watch;
+  if (cholesky_) {
+    if (lower_.cols() == 0)
+      lower_ = free_lower(a, partition_);
+    else
+      refill_free_lower(a, partition_, lower_);
+  }
+  const double extract_s = watch.lap();
+  const int lost = try_factor(a, lower_);
+  factor_s_ += extract_s;
+  return lost;
+}
+
+/// The unknown at which the matrix is not positive definite, or -1.
+int PartitionedFactor::try_factor(const SparseMatrix& a, const SparseMatrix& lower) {
   Stopwatch watch;
   const int lost = cholesky_ ? cholesky_->factorize(lower) : iterative_->factorize(a);
   factor_s_ = watch.lap();
-  if (lost < 0) return;
-  const int unknown = free()[lost];
+  return lost < 0 ? -1 : free()[lost];
+}
+
+void PartitionedFactor::factor(const SparseMatrix& a, const SparseMatrix& lower) {
+  const int unknown = try_factor(a, lower);
+  if (unknown < 0) return;
   throw NumericalError(fmt::format(
       "{}: the matrix of the {} free unknowns is not positive definite (seen at node {}, axis {}): "
       "too few supports to hold every part of the mesh ({} unknowns are prescribed), or a node "

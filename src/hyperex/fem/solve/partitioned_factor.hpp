@@ -34,6 +34,9 @@ class PartitionedFactor {
 
   /// Other values on the same pattern: ordering and analysis are kept.
   void refactor(const SparseMatrix& a);
+  /// The same again and again: after the first time nothing is allocated with Cholesky. Returns -1,
+  /// or the unknown at which A_oo is not positive definite: the factor is then of no use.
+  int try_refactor(const SparseMatrix& a);
 
   const Partition& partition() const { return partition_; }
   const std::vector<int>& prescribed() const { return partition_.prescribed; }
@@ -64,6 +67,7 @@ class PartitionedFactor {
   void pick(const SparseMatrix& a, const SparseMatrix& lower, const Points& nodes,
             LinearSolver wanted, double spare_bytes);
   void factor(const SparseMatrix& a, const SparseMatrix& lower);
+  int try_factor(const SparseMatrix& a, const SparseMatrix& lower);
 
   Partition partition_;
   std::string purpose_;
@@ -72,6 +76,7 @@ class PartitionedFactor {
   std::shared_ptr<const NodeOrder> order_;
   std::optional<Cholesky> cholesky_;
   std::optional<IterativeSolver> iterative_;
+  SparseMatrix lower_;  // of try_refactor
 };
 
 }  // namespace hyperex::fem
