@@ -13,6 +13,7 @@
 #include <sstream>
 #include <string>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 
 namespace hyperex::test {
@@ -53,8 +54,20 @@ void write_mesh(fmt::ostream& out, const CalculixModel& model) {
   for (Eigen::Index t = 0; t < model.tets.rows(); ++t)
     out.print("{},{},{},{},{}\n", t + 1, model.tets(t, 0) + 1, model.tets(t, 1) + 1,
               model.tets(t, 2) + 1, model.tets(t, 3) + 1);
-  out.print("*MATERIAL,NAME=TISSUE\n*ELASTIC\n{},{}\n*DENSITY\n{}\n", number(model.young_pa),
-            number(model.poisson), number(model.density_kg_m3));
+  out.print("*MATERIAL,NAME=TISSUE\n");
+  if (model.hyperelastic) {
+    const CalculixHyperelastic& h = *model.hyperelastic;
+    const std::string d1 = number(2 / h.bulk_pa);  // U = (J - 1)^2 / D1 + ...
+    if (h.c20_pa == 0 && h.c30_pa == 0)
+      out.print("*HYPERELASTIC,NEO HOOKE\n{},{}\n", number(h.c10_pa), d1);
+    else
+      out.print("*HYPERELASTIC,YEOH\n{},{},{},{},1e20,1e20\n", number(h.c10_pa), number(h.c20_pa),
+                number(h.c30_pa), d1);
+    out.print("*SOLID SECTION,ELSET=EALL,MATERIAL=TISSUE\n");
+    return;
+  }
+  out.print("*ELASTIC\n{},{}\n*DENSITY\n{}\n", number(model.young_pa), number(model.poisson),
+            number(model.density_kg_m3));
   out.print("*DAMPING,ALPHA={},BETA={}\n*SOLID SECTION,ELSET=EALL,MATERIAL=TISSUE\n",
             number(model.alpha_per_s), number(model.beta_s));
 }
@@ -68,8 +81,14 @@ void write_motion(fmt::ostream& out, const CalculixModel& model, double gain) {
     for (Eigen::Index i = 0; i < steps; ++i)
       out.print("{},{}\n", number((i + 1) * model.dt_s), number(gain * model.motion_m(i, j)));
   }
-  out.print("*STEP,INC={}\n*DYNAMIC,DIRECT,ALPHA=0,SOLVER=SPOOLES\n{},{}\n", 2 * steps + 10,
-            number(model.dt_s), number(steps * model.dt_s));
+  if (model.hyperelastic)
+    out.print(
+        "*STEP,INC={},NLGEOM\n*STATIC,DIRECT,SOLVER=SPOOLES\n{},{}\n"
+        "*CONTROLS,PARAMETERS=FIELD\n1e-8,1e-8,,,1e-8\n",
+        2 * steps + 10, number(model.dt_s), number(steps * model.dt_s));
+  else
+    out.print("*STEP,INC={}\n*DYNAMIC,DIRECT,ALPHA=0,SOLVER=SPOOLES\n{},{}\n", 2 * steps + 10,
+              number(model.dt_s), number(steps * model.dt_s));
   for (std::size_t j = 0; j < model.driven.size(); ++j)
     out.print("*BOUNDARY,AMPLITUDE=A{0}\n{1},{2},{2},1\n", j, model.driven[j] / 3 + 1,
               model.driven[j] % 3 + 1);
@@ -126,6 +145,7 @@ double calculix_gain(double greatest) {
 }
 
 CalculixRun run_calculix(const CalculixModel& model, double gain, int threads) {
+  HX_ASSERT(gain == 1 || !model.hyperelastic);
   const auto ccx = find_calculix();
   if (!ccx) throw NumericalError("ccx is not on the PATH");
   const Scratch scratch;

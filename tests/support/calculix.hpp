@@ -10,6 +10,12 @@
 
 namespace hyperex::test {
 
+/// W = C10 x + C20 x^2 + C30 x^3 + kappa/2 (J - 1)^2, x = I1bar - 3: CalculiX's NEO HOOKE where C20
+/// and C30 are zero, else its YEOH.
+struct CalculixHyperelastic {
+  double c10_pa = 0, c20_pa = 0, c30_pa = 0, bulk_pa = 0;
+};
+
 /// A mesh of one isotropic material, at rest until its driven unknowns move as given.
 struct CalculixModel {
   Points nodes;     ///< m
@@ -20,6 +26,9 @@ struct CalculixModel {
   std::vector<int> driven;             ///< unknowns 3 n + axis
   Eigen::MatrixXd motion_m;            ///< steps x |driven|: displacement at the end of each step
   double dt_s = 0;
+  /// In place of the elastic constants, for a sequence of equilibria at finite strain: density and
+  /// damping are then left out, and the time means nothing.
+  std::optional<CalculixHyperelastic> hyperelastic;
 };
 
 /// A displacement of all unknowns a step.
@@ -35,8 +44,9 @@ std::optional<std::filesystem::path> find_calculix();
 
 /// Its *DYNAMIC, DIRECT, ALPHA=0: average-acceleration Newmark (beta 1/4, gamma 1/2). It prints
 /// seven digits of each number; as the model is linear, `gain` multiplies the motion on the way in
-/// and divides the results (calculix_gain). Throws NumericalError with the last lines of its log
-/// where it fails or writes too little. `threads`: of ccx; they wait for one another actively.
+/// and divides the results (calculix_gain). A hyperelastic model: *STATIC, DIRECT with NLGEOM, gain
+/// 1, iterated until corrections are below 1e-8. Throws NumericalError with the last lines of its
+/// log where it fails or writes too little. `threads`: of ccx; they wait for one another actively.
 CalculixRun run_calculix(const CalculixModel& model, double gain = 1, int threads = 1);
 
 /// Brings displacements of up to `greatest` to 9.9 times a power of ten: seven digits then round by

@@ -29,9 +29,8 @@ inline std::vector<Case> all_cases() {
   return cases;
 }
 
-/// A distorted box, coarse or fine, of a case's element and material.
-class Conformance : public testing::TestWithParam<Case> {
- protected:
+/// A distorted box, coarse or fine.
+struct DistortedBox {
   static inline const Vec3 kSize{0.04, 0.03, 0.02};
 
   static BoxMesh coarse() { return box_mesh({2, 2, 2}, kSize, 0.15); }
@@ -42,7 +41,11 @@ class Conformance : public testing::TestWithParam<Case> {
   static Points linear_field(const Points& nodes, const Eigen::Matrix3d& gradient) {
     return (nodes * gradient.transpose()).rowwise() + Eigen::RowVector3d(1e-3, -2e-3, 5e-4);
   }
+};
 
+/// Of a case's element and material.
+class Conformance : public testing::TestWithParam<Case>, protected DistortedBox {
+ protected:
   fem::Material varied(const BoxMesh& box) const {
     fem::Material m = varied_material(box.tets.rows());
     m.viscous_form = GetParam().viscous_form;

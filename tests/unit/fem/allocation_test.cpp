@@ -8,6 +8,7 @@
 
 #include "hyperex/fem/solve/cholesky.hpp"
 #include "hyperex/fem/solve/partition.hpp"
+#include "hyperex/fem/time/finite_newton.hpp"
 #include "hyperex/fem/time/newmark.hpp"
 #include "support/fem_support.hpp"
 
@@ -96,6 +97,32 @@ TEST(Allocations, NoneInAStepOrASolve) {
   cholesky.factorize(lower);
   Eigen::VectorXd x = Eigen::VectorXd::Ones(lower.cols());
   EXPECT_EQ(allocated_by([&] { cholesky.solve(x); }), 0);
+}
+
+TEST(Allocations, NoneInAStepAtFiniteStrain) {
+  const auto box = test::box_mesh({8, 7, 4}, Vec3(0.08, 0.07, 0.04), 0.1);
+  const Assembler assembler(box.nodes, box.tets, ElementKind::tet4_star);
+  Hyperelastic law;
+  law.branches = {{0.5, 0.05}};
+  FiniteStrain form(assembler, test::varied_material(box.tets.rows()), law);
+  const auto held = test::unknowns_where(box.nodes, [](const Vec3& p) { return p.z() < 1e-9; });
+  const auto n = box.nodes.size();
+  SparseMatrix springs(n, n);
+  springs.insert(n - 1, n - 1) = 3;
+  springs.makeCompressed();
+  FiniteNewton newton(form, held, {}, springs);
+  const Eigen::VectorXd up = 1e-4 * test::random_vector(static_cast<Eigen::Index>(held.size()), 1);
+  const Eigen::VectorXd force = 0.01 * test::random_vector(n, 2);
+  double sign = 1;
+  Eigen::VectorXd to = up;
+  newton.step(0.01, to, force);
+  EXPECT_EQ(allocated_by([&] {
+              sign = -sign;
+              to = sign * up;
+              newton.step(0.01, to, force);
+            }),
+            0);
+  EXPECT_EQ(allocated_by([&] { newton.equilibrium(to, force); }), 0);
 }
 
 #else

@@ -337,6 +337,19 @@ TEST(FiniteNewton, RefusesABodyThatNothingHolds) {
   EXPECT_NO_THROW(FiniteNewton(form, {}, {})) << "inertia holds it";
 }
 
+/// Nodes of one end thrown to and fro from step to step, strains of a third: what lies between must
+/// not be carried away.
+TEST(FiniteNewton, ViolentAlternationDoesNotGrow) {
+  const Block block(0.45, 400, 1.5e5);
+  FiniteStrain form(block.assembler, block.material, {});
+  FiniteNewton newton(form, block.held, {});
+  const VectorXd up = 1.2e-3 * test::random_vector(static_cast<Eigen::Index>(block.held.size()), 1);
+  for (int i = 0; i < 40; ++i) {
+    newton.step(0.01, i % 2 ? up : -up);
+    ASSERT_LT(newton.displacement().cwiseAbs().maxCoeff(), 1.5e-3) << i;
+  }
+}
+
 /// A plane that pushes back nodes that go below it: z < height.
 class Floor : public NodalPotential {
  public:

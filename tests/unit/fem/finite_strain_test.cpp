@@ -127,7 +127,7 @@ TEST(FiniteStrain, ViscousAndMaxwellPotentialsHaveTheirDerivatives) {
     law.branches = {{0.5, 0.02}, {0.3, 0.2}};
     FiniteStrain form(assembler, material, law);
     for (const RateRule& rule : {kEuler, bdf2(1), bdf2(0.5)}) {
-      VectorXd before = motion(mesh, 1e-3, 1), last = motion(mesh, 1e-3, 2);
+      const VectorXd before = motion(mesh, 1e-3, 1), last = before + motion(mesh, 1e-4, 2);
       form.begin_step(kEuler, before, before);
       form.accept(last);
       form.begin_step(rule, last, before);
@@ -155,7 +155,8 @@ TEST(FiniteStrain, RigidMotionCostsNothingAndTurnsForces) {
       EXPECT_LT(gradient.norm(), 1e-11 * unit / kSize.norm());
     }
     // A history turned as a whole, each instant by the same rotation, gives turned forces.
-    const VectorXd a = motion(mesh, 1e-3, 1), b = motion(mesh, 1e-3, 2), c = motion(mesh, 1e-3, 3);
+    const VectorXd a = motion(mesh, 1e-3, 1), b = a + motion(mesh, 1e-4, 2),
+                   c = b + motion(mesh, 1e-3, 3);
     const auto run = [&](const Matrix3d& q, VectorXd& force) {
       form.rest_at(rest);
       form.begin_step(kEuler, turned(mesh, a, q), turned(mesh, a, q));

@@ -41,6 +41,10 @@ double determinant(const Matrix3d& m) {
   return m.col(0).dot(m.col(1).cross(m.col(2)));
 }
 
+/// Where the strain changed by more in the last step, its rate is taken from this step alone: to
+/// extrapolate such a change makes BDF2 unstable.
+constexpr double kMostExtrapolated = 0.1;
+
 constexpr int kFirst[6] = {0, 0, 0, 1, 1, 2}, kSecond[6] = {1, 2, 3, 2, 3, 3};
 /// Which of the six pairs two different corners are.
 constexpr int kPair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
@@ -218,6 +222,34 @@ Matrix3d FiniteStrain::law_stress(const Matrix3d& f, double shear_pa) const {
   return s;
 }
 
+/// E^, C*^-1 and 2 eta J* now of element t, F being that at the last displacement.
+void FiniteStrain::set_viscous_step(Eigen::Index t, const RateRule& rule, double w,
+                                    const Matrix3d& f, const Eigen::VectorXd& before) {
+  StepData& step = step_[t];
+  double now = 1 / rule.step_s;
+  step.strain = strain_of(f);
+  Matrix3d c = f.transpose() * f, inverse = c.inverse();
+  if (linear() || !inverse.allFinite()) {
+    c.setIdentity();
+    inverse.setIdentity();
+  }
+  if (rule.before != 0) {
+    const Matrix3d g = gradient_at(before, t), change = step.strain - strain_of(g);
+    if (linear() || (inverse * change).norm() < kMostExtrapolated) {
+      now = rule.now;
+      step.strain += rule.before / rule.now * change;
+      // C* = C (w C_before^-1 + (1 - w) C^-1) C = C + w (C - C_before) + ..., positive definite for
+      // 0 <= w <= 1.
+      if (!linear()) c = w * (c * (g.transpose() * g).inverse() * c) + (1 - w) * c;
+      inverse = c.inverse();
+    }
+  }
+  step.metric = inverse;
+  // An element that is all but flat keeps a little of its viscosity.
+  step.viscosity =
+      2 * viscosity_[t] * std::sqrt(std::max(determinant(c), kLeastRatio * kLeastRatio)) * now;
+}
+
 void FiniteStrain::begin_step(const RateRule& rule, const Eigen::VectorXd& last,
                               const Eigen::VectorXd& before) {
   HX_ASSERT(last.size() == 3 * mesh_.node_count() && before.size() == last.size());
@@ -241,38 +273,7 @@ void FiniteStrain::begin_step(const RateRule& rule, const Eigen::VectorXd& last,
     step.metric.setIdentity();
     step.strain.setZero();
     step.stress.setZero();
-    if (viscosity_[t] > 0 && rule.now > 0) {
-      step.strain = -(rule.last / rule.now) * strain_of(f);
-      double ratio = 1;
-      if (rule.before != 0) {
-        const Matrix3d g = gradient_at(before, t);
-        step.strain -= rule.before / rule.now * strain_of(g);
-        if (!linear()) {
-          // C* = C (w C_before^-1 + (1 - w) C^-1) C = C + w (C - C_before) + ..., positive definite
-          // for 0 <= w <= 1; flat elements excepted.
-          const Matrix3d c = f.transpose() * f, c_before = g.transpose() * g;
-          const Matrix3d inverse = c.inverse();
-          const Matrix3d extrapolated = c * c_before.inverse() * c;
-          const Matrix3d star = w * extrapolated + (1 - w) * c;
-          const double square = determinant(star);
-          step.metric = star.inverse();
-          ratio = std::sqrt(square);
-          if (!(step.metric.allFinite() && square > kLeastRatio * kLeastRatio)) {
-            step.metric = inverse;
-            ratio = std::sqrt(determinant(c));
-          }
-        }
-      } else if (!linear()) {
-        const Matrix3d c = f.transpose() * f;
-        step.metric = c.inverse();
-        ratio = std::sqrt(determinant(c));
-      }
-      if (!(step.metric.allFinite() && ratio > kLeastRatio)) {
-        step.metric.setIdentity();
-        ratio = 1;
-      }
-      step.viscosity = 2 * viscosity_[t] * ratio * rule.now;
-    }
+    if (viscosity_[t] > 0 && rule.now > 0) set_viscous_step(t, rule, w, f, before);
     for (std::size_t i = 0; i < branch_.size(); ++i)
       step.stress += fade_[i] * branch_[i][t] - share_[i] * law_stress_[t];
   });

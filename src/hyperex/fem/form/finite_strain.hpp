@@ -41,10 +41,11 @@ class FiniteStrain {
   /// `last` (displacement at t; `before` at t-1) to their argument. The viscosity's potential is
   ///   sum_e V_e eta J* now |E - E^|^2,  |X|^2 = tr(A X A X) - tr(A X)^2 / 3,  A = (C*)^-1,
   /// E being Green-Lagrange's strain, E^ = -(last E(t) + before E(t-1)) / now, so that now (E - E^)
-  /// is its rate; C* and J* = sqrt(det C*) are C = F^T F extrapolated to the end of the step (C(t)
-  /// where rule.before is 0). Its stress is Stokes' law, 2 eta dev(D); at small strain it is that
-  /// of the linear form, and rotations cost nothing. The potential of a branch of ratio g and time
-  /// tau is, h being the step,
+  /// is its rate; C* and J* = sqrt(det C*) are C = F^T F extrapolated to the end of the step. Where
+  /// rule.before is 0, and in elements whose strain changed by more than 0.1 in the step before,
+  /// the rate is (E - E(t)) / h and C* = C(t) instead (backward Euler). Its stress is Stokes' law,
+  /// 2 eta dev(D); at small strain it is that of the linear form, and rotations cost nothing. The
+  /// potential of a branch of ratio g and time tau is, h being the step,
   ///   delta W + (exp(-h / tau) Q(t) - delta S(t)) : E,   delta = g (1 - exp(-h / tau)) tau / h,
   /// with S the law's second Piola-Kirchhoff stress (its part W alone, without barrier and
   /// volumetric parts) and Q the branch's: exact where S is linear in time within the step.
@@ -94,6 +95,8 @@ class FiniteStrain {
   Eigen::Matrix3d ratio_gradient(const Eigen::Matrix3d& f) const;
   Eigen::Matrix3d strain_of(const Eigen::Matrix3d& f) const;
   Eigen::Matrix3d law_stress(const Eigen::Matrix3d& f, double shear_pa) const;
+  void set_viscous_step(Eigen::Index t, const RateRule& rule, double w, const Eigen::Matrix3d& f,
+                        const Eigen::VectorXd& before);
   void find_kinematics(const Eigen::VectorXd& d);
   double evaluate(const Eigen::VectorXd& d, bool step, Eigen::VectorXd* gradient);
   void find_group_gradients();

@@ -25,8 +25,8 @@ constexpr double kMostGrowth = 2.0 + 1e-9;
 constexpr double kNoResidual = 1e-9;
 /// Share of the rounding in the terms of an energy.
 constexpr double kEnergyNoise = 1e-11;
-/// Corrections shrinking more slowly than this want a new factor.
-constexpr double kSlow = 0.4;
+/// A new factor costs as much as this many corrections with the old one.
+constexpr double kFactorInCorrections = 10;
 constexpr int kBacktracks = 12;
 /// The step that the first factor is made for; only its pattern matters later.
 constexpr double kNominalStep_s = 0.01;
@@ -107,10 +107,10 @@ struct FiniteNewton::Impl {
   RateRule rule;
   double mass_share = 0;
   VectorXd x, x_hat, gradient, external, residual;  // all unknowns
-  VectorXd trial, trial_gradient, delta, mass_u, prescribed_change, target, part_force;
+  VectorXd trial, trial_gradient, delta, from_hat, mass_u, prescribed_change, target, part_force;
   VectorXd q, s, y;  // free unknowns
   Secants secants{0};
-  double energy_scale = 0;
+  double energy_scale = 0, right_side = 0;
 
   Impl(FiniteStrain& f, std::vector<int> prescribed, const FiniteNewtonOptions& o,
        SparseMatrix given_springs, std::vector<const NodalPotential*> given_potentials,
@@ -180,7 +180,7 @@ struct FiniteNewton::Impl {
       energy_scale += std::abs(e);
     };
     if (mass_share > 0) {
-      delta_from_hat(d);
+      from_hat = d - x_hat;
       form.mass_product(from_hat, mass_u);
       out += mass_share * mass_u;
       count(mass_share / 2 * from_hat.dot(mass_u));
@@ -193,8 +193,6 @@ struct FiniteNewton::Impl {
     for (const NodalPotential* p : potentials) count(p->add_gradient(d, out));
     return sum;
   }
-  VectorXd from_hat;
-  void delta_from_hat(const VectorXd& d) { from_hat = d - x_hat; }
 
   void find_residual() {
     residual = gradient - external;
@@ -217,10 +215,10 @@ struct FiniteNewton::Impl {
       refactor = false;
       const bool jump = k == 0 && !prescribed_change.isZero(0);
       find_direction(jump);
-      if (k == 0) first_residual = first_right_side;
+      if (k == 0) first_residual = right_side;
       const double size = greatest_motion(delta);
       double share = 1;
-      if (jump) {  // the ends of the prescribed springs, so to say: the energy may well rise
+      if (jump) {  // what is prescribed does work: the energy may well rise
         trial = x + delta;
         energy = potential(trial, trial_gradient);
         if (!std::isfinite(energy) || !trial_gradient.allFinite()) return false;
@@ -254,7 +252,8 @@ struct FiniteNewton::Impl {
       } else if (k > 0 && share == 1 && size < last_size) {
         const double rate = size / last_size;
         missing = rate / (1 - rate) * size;
-        refactor = rate > kSlow;
+        const double needed = std::log(options.tolerance * scale / missing) / std::log(rate);
+        refactor = needed > kFactorInCorrections;
       } else if (k == 0) {
         missing = 10 * size;  // nothing is known of the rate yet
       } else {
@@ -282,7 +281,7 @@ struct FiniteNewton::Impl {
       x = *guess;
       for (std::size_t i = 0; i < prescribed.size(); ++i) x[prescribed[i]] = target[i];
     } else if (dynamic && last_h > 0) {
-      x = state.d + h / last_h * (state.d - d_before);
+      x = state.d + h * state.v + h * h / 2 * state.a;
     } else if (dynamic) {
       x = state.d + h * state.v;
     } else {
@@ -292,7 +291,6 @@ struct FiniteNewton::Impl {
       prescribed_change[i] = target[i] - x[prescribed[i]];
   }
 
-  double first_right_side = 0;
   /// delta := -A^-1 residual, with the prescribed unknowns' way to their target in the first
   /// iteration.
   void find_direction(bool jump) {
@@ -310,7 +308,7 @@ struct FiniteNewton::Impl {
       delta.setZero();
     }
     q = -q;
-    first_right_side = q.norm();
+    right_side = q.norm();
     secants.apply(q, [&](VectorXd& v) { factor->solve(v); });
     for (std::size_t i = 0; i < free.size(); ++i) delta[free[i]] = q[i];
     if (jump)
@@ -399,7 +397,10 @@ struct FiniteNewton::Impl {
     double error = 0;
     while (done < whole) {
       const double h = dt * part / whole, until = static_cast<double>(done + part) / whole;
-      target = until == 1 ? prescribed : start_prescribed + until * (prescribed - start_prescribed);
+      if (done + part == whole)
+        target = prescribed;
+      else
+        target = start_prescribed + until * (prescribed - start_prescribed);
       if (force.size() > 0)
         part_force = (1 - until) * force_last + until * force;
       else
