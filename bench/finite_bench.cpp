@@ -68,7 +68,7 @@ Face make_face(double element_size_m) {
   }
   face.way = Eigen::Map<VectorXd>(way.data(), static_cast<Eigen::Index>(way.size()));
 
-  // 1 N/m a node below the tissue, and held fast at its border.
+  // Springs to the bone at every node below the tissue, stiff ones at its border (N/m).
   std::vector<Eigen::Triplet<double>> springs;
   for (int v = 0; v < surface; ++v) {
     const int n = face.mesh.layers * surface + v;
