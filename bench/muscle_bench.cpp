@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How near muscles come to true faces, through the simulator that everybody has, for constants on
 // the command line: what docs/muscles.md says of choosing them.
-//   muscle_bench CASES.txt [key=value ...]     today=1: driven by displacement; show=1: activations
+//   muscle_bench CASES.txt [key=value ...]     today=1: driven by displacement; show=1: activations;
+//                                              finite=1: finite strain
 // CASES: lines "name scene truth 7|all", or "name scene - markers" for the recording of markers.
 // The share of the warp's error over parts of the face, at the peak. Truths for other expressions
 // of a rig: bench/rig_cases.py.
@@ -41,6 +42,8 @@ bool listed(const std::string& key, const std::string& name) {
 reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::Inputs& inputs) {
   constexpr double kpa_per_mm = 1e6, mm = 1e-3;
   reenact::SimulationOptions o = scene::simulation_options(scene, inputs);
+  if (has("finite")) o.model.strain = reenact::Strain::finite;
+  take("finite_step", o.solver.finite_step_s);
   if (has("today")) return o;
   o.drive.by = reenact::DriveBy::muscles;
   take("patch", o.drive.patch_radius_m, mm);

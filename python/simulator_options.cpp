@@ -83,7 +83,9 @@ void bind_solver(py::module_& m) {
             "tet4-star (for nearly incompressible tissue) or tet4.")
       .word("viscous_form", &ModelOptions::viscous_form,
             {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
-            "isotropic or printed.");
+            "isotropic or printed.")
+      .word("strain", &ModelOptions::strain,
+            {{"linear", Strain::linear}, {"finite", Strain::finite}}, "linear or finite.");
   OptionsClass<SolverOptions>(m, "SolverOptions", "How the equations are solved.")
       .word("method", &SolverOptions::method,
             {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},
@@ -97,6 +99,12 @@ void bind_solver(py::module_& m) {
              "Of the reduced model, over the greatest displacement, 1e-9 to 0.1.")
       .field("newmark_beta", &SolverOptions::newmark_beta, "0.25 to 1.")
       .field("newmark_gamma", &SolverOptions::newmark_gamma, "0.5 to 1, at most 2 beta.")
+      .field("finite_step_s", &SolverOptions::finite_step_s,
+             "Of a step at finite strain, 0 to 0.5; 0: a frame.")
+      .field("finite_tolerance", &SolverOptions::finite_tolerance,
+             "Of its iterations, over the greatest displacement, 1e-9 to 0.1.")
+      .field("full_newton", &SolverOptions::full_newton,
+             "Factor in each of them, not once a step.")
       .field("verify", &SolverOptions::verify,
              "Run the full model too and measure the reduced one's error.");
   OptionsClass<TimeOptions>(m, "TimeOptions", "Steps and frames.")

@@ -120,6 +120,20 @@ fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double d
                           });
 }
 
+HeldLoad jaw_part(const HeldLoad& load) {
+  HeldLoad out = load;
+  out.course.setZero();
+  out.course.middleRows(load.jaw_from, load.jaw_columns) =
+      load.course.middleRows(load.jaw_from, load.jaw_columns);
+  return out;
+}
+
+HeldLoad turning_part(const HeldLoad& load) {
+  HeldLoad out = load;
+  out.course.middleRows(load.jaw_from, load.jaw_columns).setZero();
+  return out;
+}
+
 HeldLoad reactions_of(const fem::Drive& drive, const fem::SparseMatrix& stiffness,
                       const std::vector<int>& prescribed, double dt_s) {
   HeldLoad load;

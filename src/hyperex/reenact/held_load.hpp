@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "hyperex/fem/time/drive.hpp"
+#include "hyperex/reenact/nodal_course.hpp"
 #include "hyperex/reenact/options.hpp"
 #include "hyperex/reenact/performance.hpp"
 
@@ -20,6 +22,14 @@ struct HeldLoad {
   bool wide_bands = false;
   MuscleCourse muscles;  ///< no names where there are none
   double greatest_opening_deg = 0;
+  /// The columns whose forces keep their direction however the tissue turns: those of the jaw's
+  /// springs. First, and how many.
+  Eigen::Index jaw_from = 0, jaw_columns = 0;
+  /// The nodes of the patches around driven points. Where strain is finite, what holds them where
+  /// these forces put them at small strain is found by the run that first needs it, and is a part
+  /// of the load from then on.
+  std::vector<int> patch_nodes;
+  std::shared_ptr<const NodalCourse> patch_forces;
 };
 
 /// Per muscle: the product of the gains that name it, its branch on its side, or its side. Throws
@@ -39,6 +49,10 @@ Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::s
 /// cubic spline, after the last it is held. Nothing prescribed moves.
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
                     double tolerance, Eigen::Index prescribed);
+
+/// The same load with the jaw's forces alone, or with all others alone.
+HeldLoad jaw_part(const HeldLoad& load);
+HeldLoad turning_part(const HeldLoad& load);
 
 /// Moving what is prescribed by `drive` makes the same motion, at rest in each instant, as these
 /// forces on the same stiffness with nothing of it prescribed that moves: K u for the static answer

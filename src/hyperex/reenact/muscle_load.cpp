@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/reenact/finite_run.hpp"
 #include "hyperex/reenact/muscle_fit.hpp"
 #include "hyperex/reenact/muscle_model.hpp"
 #include "hyperex/reenact/skin_places.hpp"
@@ -123,12 +123,9 @@ Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& drive
 /// equilibrium without.
 Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patches,
                                const Eigen::MatrixXd& displaced) {
-  std::set<int> unknowns(model.boundary().prescribed().begin(),
-                         model.boundary().prescribed().end());
-  for (const int node : patches.nodes)
-    for (int axis = 0; axis < 3; ++axis) unknowns.insert(3 * node + axis);
-  const std::vector<int> prescribed(unknowns.begin(), unknowns.end());
-  fem::PartitionedFactor factor(model.stiffness(), prescribed, "patches of the driven points");
+  fem::PartitionedFactor factor(model.stiffness(),
+                                with_nodes(model.boundary().prescribed(), patches.nodes),
+                                "patches of the driven points");
   const fem::SparseMatrix coupling = fem::coupling(model.stiffness(), factor.partition());
   Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(model.stiffness().rows(), displaced.cols());
   for (std::size_t j = 0; j < patches.nodes.size(); ++j)
@@ -294,6 +291,9 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   load.course << course, directions.transpose() * left_over;
   load.force = forces_of(model, patches, driven, directions,
                          tissue_shares(model, driven.few(), options.muscles), motion.rest.rows());
+  load.jaw_from = of_jaw;
+  load.jaw_columns = 12;
+  load.patch_nodes = patches.nodes;
   return load;
 }
 

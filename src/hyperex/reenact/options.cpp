@@ -29,6 +29,27 @@ fem::Material TissueValues::material(std::size_t tets, fem::ViscousForm viscous_
   return out;
 }
 
+namespace {
+
+void check_finite(const SimulationOptions& o, std::vector<InputProblem>& problems) {
+  const auto wrong = [&](const char* name, const std::string& value, const char* expected) {
+    problems.push_back({{}, 0, name, value, expected});
+  };
+  if (!fem::is_admissible(o.model.law))
+    wrong("model.law", std::string(fem::to_string(o.model.law.law)),
+          "ratios that keep the stress rising: c01 >= 0, c30 >= 0, c20 >= -sqrt(3 c30)");
+  for (const fem::MaxwellBranch& b : o.model.law.branches)
+    if (!(b.ratio >= 0) || !(b.relaxation_s > 0))
+      wrong("model.law.branches", fmt::format("ratio {:g}, {:g} s", b.ratio, b.relaxation_s),
+            "a ratio of at least 0 and a time above 0 s");
+  if (o.model.viscous_form != fem::ViscousForm::isotropic)
+    wrong("model.viscous_form", "printed", "isotropic where strain is finite");
+  if (o.drive.by == DriveBy::reactions)
+    wrong("drive.by", "reactions", "displacement or muscles where strain is finite");
+}
+
+}  // namespace
+
 void check(const SimulationOptions& o) {
   std::vector<InputProblem> problems;
   const auto in = [&](const char* name, double value, const Bounds& bounds) {
@@ -57,6 +78,9 @@ void check(const SimulationOptions& o) {
   in("solver.newmark_gamma", o.solver.newmark_gamma,
      {o.solver.newmark_gamma_in.least,
       std::min(o.solver.newmark_gamma_in.most, 2 * o.solver.newmark_beta)});
+  in("solver.finite_step_s", o.solver.finite_step_s, o.solver.finite_step_s_in);
+  in("solver.finite_tolerance", o.solver.finite_tolerance, o.solver.finite_tolerance_in);
+  if (o.model.strain == Strain::finite) check_finite(o, problems);
   in("time.step_s", o.time.step_s, o.time.step_s_in);
   in("time.end_s", o.time.end_s, o.time.end_s_in);
   in("time.frame_rate_hz", o.time.frame_rate_hz, o.time.frame_rate_hz_in);

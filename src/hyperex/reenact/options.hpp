@@ -8,6 +8,7 @@
 
 #include "hyperex/core/bounds.hpp"
 #include "hyperex/fem/element/element_kind.hpp"
+#include "hyperex/fem/material/hyperelastic.hpp"
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
 #include "hyperex/fem/solve/linear_solver.hpp"
 #include "hyperex/motion/motion.hpp"
@@ -134,10 +135,17 @@ struct MuscleOptions {
   bool operator==(const MuscleOptions&) const = default;
 };
 
+enum class Strain {
+  linear,  ///< small strain and rotation: one factorisation serves all steps
+  finite   ///< any strain and rotation: a factorisation or more in each step
+};
+
 /// What the tissue is made of, and the elements that stand for it.
 struct ModelOptions {
   fem::ElementKind element = fem::ElementKind::tet4_star;
   fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
+  Strain strain = Strain::linear;
+  fem::Hyperelastic law;  ///< of finite strain; E, nu and eta are TissueValues'
   bool operator==(const ModelOptions&) const = default;
 };
 
@@ -163,6 +171,12 @@ struct SolverOptions {
   double newmark_beta = 0.25;  ///< 2 beta >= gamma
   double newmark_gamma = 0.5;
   bool verify = false;  ///< run the full model too and measure the reduced one's error
+  /// Of finite strain: the length of a step (0: that of a frame), halved where it does not
+  /// converge; the error of the iterations in a step over the greatest displacement; whether the
+  /// matrix is factored anew in each of them.
+  double finite_step_s = 0, finite_tolerance = 1e-3;
+  bool full_newton = false;
+  static constexpr Bounds finite_step_s_in{0, 0.5}, finite_tolerance_in{1e-9, 0.1};
   static constexpr Bounds tolerance_in{1e-9, 0.1}, newmark_beta_in{0.25, 1},
       newmark_gamma_in{0.5, 1};
   bool operator==(const SolverOptions&) const = default;

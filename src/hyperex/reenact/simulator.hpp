@@ -34,8 +34,10 @@ struct SimulationReport {
   int free_dofs = 0, steps = 0, driven_nodes = 0, skull_nodes = 0, mandible_nodes = 0;
   int input_shapes = 0, basis_size = 0;                            ///< basis_size 0: full model
   fem::LinearSolver linear_solver = fem::LinearSolver::automatic;  ///< the one picked
-  double estimated_error = -1;  ///< of the reduced model, over the greatest displacement
-  double verified_error = -1;   ///< measured against the full model; below 0: not measured
+  int iterations = 0, factorisations = 0;  ///< of finite strain, whose `steps` are those it took
+  /// Of the reduced model or, at finite strain, of the iterations: over the greatest displacement.
+  double estimated_error = -1;
+  double verified_error = -1;  ///< measured against the full model; below 0: not measured
   double boundary_s = 0, assemble_s = 0, analyse_s = 0, factor_s = 0, basis_s = 0, simulate_s = 0,
          skin_s = 0;
   /// Where forces drive: tissue or support was changed after a run, no load was held, and so this

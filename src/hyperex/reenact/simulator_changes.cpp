@@ -89,6 +89,7 @@ void Simulator::Impl::set(SimulationOptions next) {
     drop_values();
     drop_load();
   }
+  if (options.model.strain != before.model.strain) drop_input();
   if (options.solver.linear != before.solver.linear) drop_factors();
   if (options.solver.newmark_beta != before.solver.newmark_beta ||
       options.solver.newmark_gamma != before.solver.newmark_gamma ||

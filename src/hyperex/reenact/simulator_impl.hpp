@@ -135,6 +135,8 @@ struct Simulator::Impl {
   // ----- a run
 
   Solution solved(const std::vector<double>& times);
+  NodalCourse patch_places(double interval_s);
+  Solution solved_finite(const std::vector<double>& times);
   void integrate(const std::vector<Shot>& shots, const PointCurve& points,
                  SimulationResult& result);
   void store(const Shot& shot, const Points& nodes, const PointCurve& points,

@@ -11,6 +11,7 @@
 
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/form/inverted.hpp"
+#include "hyperex/reenact/finite_run.hpp"
 #include "hyperex/reenact/muscle_load.hpp"
 #include "hyperex/reenact/simulator_impl.hpp"
 
@@ -78,6 +79,77 @@ Solution Simulator::Impl::solved(const std::vector<double>& times) {
   return out;
 }
 
+/// Where the load's patches go at small strain.
+NodalCourse Simulator::Impl::patch_places(double interval_s) {
+  const fem::Drive whole =
+      drive_of(*load, {}, options.time.step_s, steps(), 1e-3 * options.solver.tolerance,
+               static_cast<Eigen::Index>(boundary->prescribed().size()));
+  need_reduced();
+  const fem::Response linear = reduced->run(whole, {newmark(), options.solver.tolerance});
+  NodalCourse out;
+  out.nodes = load->patch_nodes;
+  std::vector<double> times;
+  const double end = end_s();
+  const int count = std::max(1, static_cast<int>(std::ceil(end / interval_s - 1e-9)));
+  for (int k = 0; k <= count; ++k) {
+    out.time_s.push_back(std::min(k * interval_s, end));
+    times.push_back(std::min(out.time_s.back() / options.time.step_s, double(steps())));
+  }
+  const Eigen::MatrixXd nodes = linear.displacement(times);
+  for (int k = 0; k <= count; ++k) {
+    Eigen::VectorXd at(3 * Eigen::Index(out.nodes.size()));
+    for (std::size_t i = 0; i < out.nodes.size(); ++i)
+      at.segment<3>(3 * Eigen::Index(i)) = nodes.col(k).segment<3>(3 * out.nodes[i]);
+    out.value.push_back(at);
+  }
+  return out;
+}
+
+Solution Simulator::Impl::solved_finite(const std::vector<double>& times) {
+  const double interval_s = options.solver.finite_step_s > 0 ? options.solver.finite_step_s
+                                                             : 1 / options.time.frame_rate_hz;
+  FiniteDrive drive;
+  drive.step_s = options.time.step_s;
+  drive.still = input->drive;
+  NodalCourse places;
+  if (by_forces()) {
+    drive.turning = drive_of(turning_part(*load), options.muscles, options.time.step_s, steps(),
+                             1e-3 * options.solver.tolerance,
+                             static_cast<Eigen::Index>(boundary->prescribed().size()));
+    if (load_held && load->patch_forces) {
+      drive.forces = load->patch_forces.get();
+    } else {
+      places = patch_places(interval_s);
+      drive.places = &places;
+    }
+  }
+  Stopwatch watch;
+  fem::FiniteStrain form(*assembler, material(), options.model.law);
+  fem::SparseMatrix springs = assembler->stiffness_pattern();
+  boundary->add_springs(springs);
+  springs.prune(0.0);
+  report.assemble_s += watch.lap();
+  fem::FiniteNewtonOptions how;
+  how.tolerance = options.solver.finite_tolerance;
+  how.full_newton = options.solver.full_newton;
+  fem::FiniteNewton newton(form, with_nodes(boundary->prescribed(), places.nodes), how,
+                           std::move(springs), {}, options.solver.linear,
+                           places.nodes.empty() ? known_order() : nullptr);
+  report.factor_s += watch.lap();
+  FiniteSolution out =
+      run_finite(newton, *assembler, boundary->prescribed(), drive, interval_s, end_s(), times,
+                 [this](double share) { tell(kDirectDone * share); });
+  if (drive.places) {
+    HeldLoad whole = *load;
+    whole.patch_forces = std::make_shared<const NodalCourse>(std::move(out.reactions));
+    load = std::make_shared<const HeldLoad>(std::move(whole));
+  }
+  report.steps = out.parts;
+  report.iterations = out.iterations;
+  report.factorisations = out.factorisations;
+  return std::move(out.solution);
+}
+
 void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve& points,
                                 SimulationResult& result) {
   Stopwatch watch;
@@ -95,7 +167,8 @@ void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve
   for (const Shot& shot : shots)
     times.push_back(
         std::clamp(shot.time_s / options.time.step_s, 0.0, static_cast<double>(report.steps)));
-  const Solution solution = solved(times);
+  const bool finite = options.model.strain == Strain::finite;
+  const Solution solution = finite ? solved_finite(times) : solved(times);
   report.simulate_s = watch.lap() - report.basis_s - (factoring_s() - prepared_s);
   result.performance.node_displacement_m.resize(result.performance.frame_time_s.size());
   tell(std::max(told, kReducedDone));

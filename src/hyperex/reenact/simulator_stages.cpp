@@ -229,11 +229,11 @@ void Simulator::Impl::need_input(const PointCurve& points) {
   if (input) return;
   if (by_forces()) {
     need_load(points);
-    input = std::make_shared<const InputShapes>(
-        InputShapes{drive_of(*load, options.muscles, options.time.step_s, steps(),
-                             1e-3 * options.solver.tolerance,
-                             static_cast<Eigen::Index>(boundary->prescribed().size())),
-                    load->greatest_opening_deg});
+    input = std::make_shared<const InputShapes>(InputShapes{
+        drive_of(options.model.strain == Strain::finite ? jaw_part(*load) : *load, options.muscles,
+                 options.time.step_s, steps(), 1e-3 * options.solver.tolerance,
+                 static_cast<Eigen::Index>(boundary->prescribed().size())),
+        load->greatest_opening_deg});
     return;
   }
   // Following the jaw begins at its last position: of this run, not of the one before.
@@ -249,7 +249,8 @@ void Simulator::Impl::prepare() {
   need_region();
   if (options.region.measured == Measured::all) return;  // nothing is simulated
   run_together({[&] { need_boundary(); }, [&] { need_assembler(); }});
-  options.solver.method == SolverMethod::direct ? need_full() : need_reduced();
+  if (options.model.strain == Strain::linear)
+    options.solver.method == SolverMethod::direct ? need_full() : need_reduced();
   if (options.drive.by == DriveBy::muscles && !load) need_muscles();
   prepared = report;
 }

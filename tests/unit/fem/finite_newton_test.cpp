@@ -434,7 +434,7 @@ TEST(FiniteNewton, HooksMayTurnForcesWithTheBody) {
   };
   int calls = 0;
   FiniteNewtonHooks hooks;
-  hooks.before_iteration = [&](const VectorXd& d, VectorXd& force) {
+  hooks.before_iteration = [&](const VectorXd& d, double, VectorXd& force) {
     force.setZero();
     force.segment<3>(3 * tip) = newton_force * direction(d);
     ++calls;

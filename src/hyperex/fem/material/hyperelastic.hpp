@@ -49,6 +49,7 @@ constexpr std::string_view to_string(HyperelasticLaw law) {
 struct MaxwellBranch {
   double ratio = 0;         ///< >= 0
   double relaxation_s = 1;  ///< > 0
+  bool operator==(const MaxwellBranch&) const = default;
 };
 
 /// A law with its ratios, all without dimension, so that E alone varies from place to place.
@@ -63,6 +64,7 @@ struct Hyperelastic {
   /// order goes on, so that it is finite for any F. `linear` has none.
   bool barrier = true;
   std::vector<MaxwellBranch> branches;  ///< besides the Material's viscosity
+  bool operator==(const Hyperelastic&) const = default;
 };
 
 /// Ratio of volumes below which what has no value at J = 0 goes on as a polynomial of second order:

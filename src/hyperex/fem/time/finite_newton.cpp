@@ -205,7 +205,7 @@ struct FiniteNewton::Impl {
     begin(h, guess);
     external = part_force;
     double energy = potential(x, gradient);
-    if (hooks.before_iteration) hooks.before_iteration(x, external);
+    if (hooks.before_iteration) hooks.before_iteration(x, time + h, external);
     find_residual();
     double first_residual = 0, last_size = 0;
     bool refactor = true;
@@ -242,7 +242,7 @@ struct FiniteNewton::Impl {
       x.swap(trial);
       gradient.swap(trial_gradient);
       ++report.iterations;
-      if (hooks.before_iteration) hooks.before_iteration(x, external);
+      if (hooks.before_iteration) hooks.before_iteration(x, time + h, external);
       find_residual();
 
       const double scale = std::max(greatest_motion(x), options.least_motion_m);

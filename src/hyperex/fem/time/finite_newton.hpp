@@ -26,10 +26,12 @@ struct FiniteNewtonOptions {
 
 /// What may be done between the parts of a step. Each may be empty.
 struct FiniteNewtonHooks {
-  /// Before each evaluation of the forces: `d` is the present iterate (3 |nodes|, m) and `force`
-  /// the external forces (N), which may be overwritten: those of muscles that turn with the tissue.
-  /// A force that depends on d takes part in the iterations, but not in their matrix.
-  std::function<void(const Eigen::VectorXd& d, Eigen::VectorXd& force)> before_iteration;
+  /// Before each iteration: `d` is the present iterate (3 |nodes|, m), `t_s` the time since start()
+  /// that it is to be that of, and `force` the external forces (N), which may be overwritten: those
+  /// of muscles that turn with the tissue. A force that depends on d takes part in the iterations,
+  /// but not in their matrix.
+  std::function<void(const Eigen::VectorXd& d, double t_s, Eigen::VectorXd& force)>
+      before_iteration;
   /// After each part of a step that was accepted, at time t (s) since start(): for progress; may
   /// throw to cancel, and then the state is that at t.
   std::function<void(double t_s)> after_part;

@@ -266,6 +266,35 @@ std::vector<Key> model_keys() {
           {{"tet4", fem::ElementKind::tet4}, {"tet4-star", fem::ElementKind::tet4_star}},
           "The finite element: linear tetrahedra, plain, or with the change of volume averaged "
           "over patches, which does not lock near poisson = 0.5 (docs/elements.md)."),
+      choice<Scene, reenact::Strain>(
+          "tissue.strain", AT(model.strain),
+          {{"linear", reenact::Strain::linear}, {"finite", reenact::Strain::finite}},
+          "Small strain and rotation, for which one factorisation serves all steps, or any strain "
+          "and rotation by a hyperelastic law, some ten times as slow (docs/mechanics.md)."),
+      choice<Scene, fem::HyperelasticLaw>(
+          "tissue.law", AT(model.law.law),
+          {{"neo-hookean", fem::HyperelasticLaw::neo_hookean},
+           {"isochoric-neo-hookean", fem::HyperelasticLaw::isochoric_neo_hookean},
+           {"yeoh", fem::HyperelasticLaw::yeoh},
+           {"mooney-rivlin", fem::HyperelasticLaw::mooney_rivlin}},
+          "The hyperelastic law where tissue.strain = \"finite\"; its stiffness at rest is "
+          "that of tissue.young_kpa and tissue.poisson."),
+      number<Scene>("tissue.yeoh_c20", none, AT(model.law.c20), {-10, 100},
+                    "C20 / C10 of tissue.law = \"yeoh\". The default is of facial tissue (2.5 "
+                    "and 1.175 kPa)."),
+      number<Scene>("tissue.yeoh_c30", none, AT(model.law.c30), {0, 100},
+                    "C30 / C10 of tissue.law = \"yeoh\"."),
+      number<Scene>("tissue.mooney_c01", none, AT(model.law.c01), {0, 100},
+                    "C01 / C10 of tissue.law = \"mooney-rivlin\"."),
+      rows<Scene, fem::MaxwellBranch>(
+          "tissue.maxwell", AT(model.law.branches),
+          {number<fem::MaxwellBranch>("ratio", none, AT(ratio), {0, 100},
+                                      "Stress of the branch at once, over that of the law."),
+           number<fem::MaxwellBranch>("relaxation_s", seconds, AT(relaxation_s), {1e-6, 1e6},
+                                      "The time in which it falls to 1/e at a held stretch.")},
+          "A spring and a dashpot in line, beside law and viscosity: tissue held at a stretch "
+          "relaxes. tissue.young_kpa is what remains in the end. Only where tissue.strain = "
+          "\"finite\"."),
       text<Scene>("tissue.preset", AT(tissue.preset), 0,
                   "Published parameters by name (hyperex presets lists them with their sources); "
                   "keys that are given here take the place of its values. Empty: none."),
@@ -399,6 +428,16 @@ std::vector<Key> run_keys() {
                     "solver.newmark_beta."),
       flag<Scene>("solver.verify", AT(solver.verify),
                   "Run the full model beside the reduced one and tell its true error."),
+      number<Scene>("solver.finite_step_s", seconds, AT(solver.finite_step_s),
+                    in(Solver::finite_step_s_in, seconds),
+                    "The time step where tissue.strain = \"finite\"; it is halved where it does "
+                    "not converge. 0: the time between frames."),
+      number<Scene>("solver.finite_tolerance", none, AT(solver.finite_tolerance),
+                    in(Solver::finite_tolerance_in, none),
+                    "Error of a step's iterations at finite strain, over the greatest "
+                    "displacement."),
+      flag<Scene>("solver.full_newton", AT(solver.full_newton),
+                  "Factor the matrix in each iteration at finite strain, not once a step."),
       number<Scene>("time.step_s", seconds, AT(time.step_s), in(Time::step_s_in, seconds),
                     "The time step."),
       number<Scene>("time.end_s", seconds, AT(time.end_s), in(Time::end_s_in, seconds),

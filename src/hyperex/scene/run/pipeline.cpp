@@ -69,7 +69,15 @@ Json summary_of(const Results& r, const SkinOff& off) {
   s["skin_vertices"] = (r.mesh.full ? r.mesh.full->skin : p.skin_rest).points.rows();
   if (r.mesh.full) s["thinned_skin_vertices"] = p.skin_rest.points.rows();
   s["element"] = fem::to_string(r.scene.model.element);
-  s["solver"] = report.basis_size > 0 ? "reduced" : "direct";
+  const bool finite = r.scene.model.strain == reenact::Strain::finite;
+  if (finite) {
+    s["strain"] = "finite";
+    s["law"] = fem::to_string(r.scene.model.law.law);
+    s["iterations"] = report.iterations;
+    s["factorisations"] = report.factorisations;
+    s["estimated_error"] = report.estimated_error;
+  }
+  s["solver"] = finite ? "finite" : report.basis_size > 0 ? "reduced" : "direct";
   s["linear_solver"] = fem::to_string(report.linear_solver);
   s["input_shapes"] = report.input_shapes;
   if (report.basis_size > 0) {
