@@ -120,17 +120,21 @@ fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double d
                           });
 }
 
-HeldLoad jaw_part(const HeldLoad& load) {
-  HeldLoad out = load;
-  out.course.setZero();
-  out.course.middleRows(load.jaw_from, load.jaw_columns) =
-      load.course.middleRows(load.jaw_from, load.jaw_columns);
+std::vector<char> turning_columns(const HeldLoad& load, const muscles::MuscleTable& table) {
+  std::vector<char> out(std::size_t(load.force.cols()), 0);
+  const std::size_t count = load.muscles.names.size();
+  for (std::size_t m = 0; m < (load.wide_bands ? 2 : 1) * count; ++m) {
+    const std::string& name = load.muscles.names[m % count];
+    const auto* muscle = muscles::find_muscle(name.substr(0, name.size() - 2), table);
+    out[m] = muscle && muscle->cheek;
+  }
   return out;
 }
 
-HeldLoad turning_part(const HeldLoad& load) {
+HeldLoad with_columns(const HeldLoad& load, const std::vector<char>& wanted) {
   HeldLoad out = load;
-  out.course.middleRows(load.jaw_from, load.jaw_columns).setZero();
+  for (std::size_t c = 0; c < wanted.size(); ++c)
+    if (!wanted[c]) out.course.row(Eigen::Index(c)).setZero();
   return out;
 }
 

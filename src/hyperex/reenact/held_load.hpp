@@ -22,9 +22,6 @@ struct HeldLoad {
   bool wide_bands = false;
   MuscleCourse muscles;  ///< no names where there are none
   double greatest_opening_deg = 0;
-  /// The columns whose forces keep their direction however the tissue turns: those of the jaw's
-  /// springs. First, and how many.
-  Eigen::Index jaw_from = 0, jaw_columns = 0;
   /// The nodes of the patches around driven points. Where strain is finite, what holds them where
   /// these forces put them at small strain is found by the run that first needs it, and is a part
   /// of the load from then on.
@@ -50,9 +47,14 @@ Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::s
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
                     double tolerance, Eigen::Index prescribed);
 
-/// The same load with the jaw's forces alone, or with all others alone.
-HeldLoad jaw_part(const HeldLoad& load);
-HeldLoad turning_part(const HeldLoad& load);
+/// Of each column: whether its force turns with the tissue where strain is finite. Those of muscles
+/// of the cheek (TemplateMuscle::cheek) do, whose lines lie in the skin that they carry; those of
+/// the jaw's springs, of what is left over and of muscles of lips and chin keep their direction
+/// (docs/mechanics.md).
+std::vector<char> turning_columns(const HeldLoad& load, const muscles::MuscleTable& table);
+
+/// The load with nothing but some of its columns.
+HeldLoad with_columns(const HeldLoad& load, const std::vector<char>& wanted);
 
 /// Moving what is prescribed by `drive` makes the same motion, at rest in each instant, as these
 /// forces on the same stiffness with nothing of it prescribed that moves: K u for the static answer

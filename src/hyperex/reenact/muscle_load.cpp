@@ -291,8 +291,6 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   load.course << course, directions.transpose() * left_over;
   load.force = forces_of(model, patches, driven, directions,
                          tissue_shares(model, driven.few(), options.muscles), motion.rest.rows());
-  load.jaw_from = of_jaw;
-  load.jaw_columns = 12;
   load.patch_nodes = patches.nodes;
   return load;
 }

@@ -129,6 +129,7 @@ struct Simulator::Impl {
   /// The forces that make the motion in the tissue that is set.
   void need_load(const PointCurve& points);
   void note_found_anew();
+  fem::Drive drive_by(const HeldLoad& forces, const MuscleOptions& muscles) const;
   void need_input(const PointCurve& points);
   void prepare();
 

@@ -81,11 +81,9 @@ Solution Simulator::Impl::solved(const std::vector<double>& times) {
 
 /// Where the load's patches go at small strain.
 NodalCourse Simulator::Impl::patch_places(double interval_s) {
-  const fem::Drive whole =
-      drive_of(*load, {}, options.time.step_s, steps(), 1e-3 * options.solver.tolerance,
-               static_cast<Eigen::Index>(boundary->prescribed().size()));
   need_reduced();
-  const fem::Response linear = reduced->run(whole, {newmark(), options.solver.tolerance});
+  const fem::Response linear =
+      reduced->run(drive_by(*load, {}), {newmark(), options.solver.tolerance});
   NodalCourse out;
   out.nodes = load->patch_nodes;
   std::vector<double> times;
@@ -113,9 +111,10 @@ Solution Simulator::Impl::solved_finite(const std::vector<double>& times) {
   drive.still = input->drive;
   NodalCourse places;
   if (by_forces()) {
-    drive.turning = drive_of(turning_part(*load), options.muscles, options.time.step_s, steps(),
-                             1e-3 * options.solver.tolerance,
-                             static_cast<Eigen::Index>(boundary->prescribed().size()));
+    std::vector<char> turning = turning_columns(*load, options.muscles.table());
+    drive.turning = drive_by(with_columns(*load, turning), options.muscles);
+    for (char& turns : turning) turns = !turns;
+    drive.still = drive_by(with_columns(*load, turning), options.muscles);
     if (load_held && load->patch_forces) {
       drive.forces = load->patch_forces.get();
     } else {

@@ -225,15 +225,17 @@ void Simulator::Impl::note_found_anew() {
   report.notes.push_back(kForcesFoundAnew);
 }
 
+fem::Drive Simulator::Impl::drive_by(const HeldLoad& forces, const MuscleOptions& muscles) const {
+  return drive_of(forces, muscles, options.time.step_s, steps(), 1e-3 * options.solver.tolerance,
+                  static_cast<Eigen::Index>(boundary->prescribed().size()));
+}
+
 void Simulator::Impl::need_input(const PointCurve& points) {
   if (input) return;
   if (by_forces()) {
     need_load(points);
-    input = std::make_shared<const InputShapes>(InputShapes{
-        drive_of(options.model.strain == Strain::finite ? jaw_part(*load) : *load, options.muscles,
-                 options.time.step_s, steps(), 1e-3 * options.solver.tolerance,
-                 static_cast<Eigen::Index>(boundary->prescribed().size())),
-        load->greatest_opening_deg});
+    input = std::make_shared<const InputShapes>(
+        InputShapes{drive_by(*load, options.muscles), load->greatest_opening_deg});
     return;
   }
   // Following the jaw begins at its last position: of this run, not of the one before.
