@@ -6,6 +6,7 @@
 #include "hyperex/geometry/insert_line.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/reenact/options.hpp"
 
 namespace hyperex::reenact {
 
@@ -39,6 +40,7 @@ struct Performance {
   Tetrahedra tets;
   std::vector<PointsF> node_displacement_m;                          ///< per frame
   std::vector<float> tet_young_pa, tet_poisson, tet_viscosity_pa_s;  ///< per tetrahedron
+  ModelOptions model;  ///< by which strain and stress follow from the displacement
 
   /// Landmarks of the scan as the moved skin carries them, at the frame times.
   motion::Motion landmarks;

@@ -211,6 +211,7 @@ void Simulator::Impl::store(const Shot& shot, const Points& nodes, const PointCu
 void Simulator::Impl::describe_tissue(Performance& p) {
   p.nodes = mesh->volume.nodes;
   p.tets = mesh->volume.tets;
+  p.model = options.model;
   const fem::Material values = material();
   p.tet_young_pa = floats(values.young_pa);
   p.tet_poisson = floats(values.poisson);

@@ -41,7 +41,10 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
     ['at_peak.von_mises_stress_kpa.median', 'Von Mises stress, median', 'kPa'],
     ['at_peak.von_mises_stress_kpa.p95', '95 % of the tissue below', 'kPa'],
     ['at_peak.von_mises_stress_kpa.p99', '99 % below', 'kPa'],
+    ['at_peak.von_mises_max_over_p99', 'Largest stress, of the 99 %'],
     ['at_peak.greatest_principal_strain.p95', 'Largest principal strain, 95 % below'],
+    ['at_peak.greatest_principal_stretch.p95', 'Largest principal stretch, 95 % below'],
+    ['at_peak.volume_ratio.min', 'Least ratio of volumes of an element'],
   ]],
   ['Mesh', [
     ['skin_vertices', 'Vertices of the skin'],
@@ -54,6 +57,8 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
   ]],
   ['Simulation', [
     ['element', 'Element'],
+    ['strain', 'Strain'],
+    ['law', 'Law of the tissue'],
     ['solver', 'Solver'],
     ['basis_size', 'Modes of the basis'],
     ['estimated_error', 'Estimated error of the reduced model', '(relative)'],

@@ -578,6 +578,16 @@ VoigtRows FiniteStrain::cauchy_stress_pa(const Eigen::VectorXd& d) {
   return stress;
 }
 
+Eigen::VectorXd von_mises_of(const VoigtRows& stress) {
+  Eigen::VectorXd out(stress.rows());
+  for_each_index(out.size(), [&](Eigen::Index t) {
+    const auto s = stress.row(t);
+    const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
+    out[t] = std::sqrt((xy * xy + yz * yz + zx * zx) / 2 + 3 * s.tail<3>().squaredNorm());
+  });
+  return out;
+}
+
 Points FiniteStrain::principal_stretches(const Eigen::VectorXd& d) const {
   Points stretch(mesh_.element_count(), 3);
   for_each_index(stretch.rows(), [&](Eigen::Index t) {

@@ -127,4 +127,7 @@ class FiniteStrain {
   std::vector<double> blocks_;  // six 3 x 3 off the diagonal of each element
 };
 
+/// Per element: von Mises stress of a stress, in its unit. NaN where the stress is.
+Eigen::VectorXd von_mises_of(const VoigtRows& stress);
+
 }  // namespace hyperex::fem

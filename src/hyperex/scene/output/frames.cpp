@@ -16,8 +16,8 @@ namespace {
 using reenact::Performance;
 
 /// The shear of a tensor is half the engineering shear.
-io::VtuArray strain_array(const fem::VoigtRows& strain) {
-  io::VtuArray array{"strain (1)", strain.cast<float>()};
+io::VtuArray strain_array(const char* name, const fem::VoigtRows& strain) {
+  io::VtuArray array{name, strain.cast<float>()};
   array.values.rightCols<3>() /= 2;
   return array;
 }
@@ -45,6 +45,10 @@ Eigen::VectorXd greatest_principal(const fem::VoigtRows& strain) {
   return greatest;
 }
 
+bool is_finite(const Performance& p) {
+  return p.model.strain == reenact::Strain::finite;
+}
+
 nlohmann::ordered_json spread_of(const Eigen::VectorXd& values,
                                  const std::vector<std::uint8_t>& inverted) {
   std::vector<double> sorted(values.begin(), values.end());
@@ -57,6 +61,38 @@ nlohmann::ordered_json spread_of(const Eigen::VectorXd& values,
           {"p99", quantile_of_sorted(sorted, 0.99)},
           {"max", sorted.back()},
           {"max_not_inverted", sound}};
+}
+
+/// Without those turned inside out; null where none is left.
+nlohmann::ordered_json spread_of_sound(const Eigen::VectorXd& values,
+                                       const std::vector<std::uint8_t>& inverted) {
+  Eigen::VectorXd sound(values.size());
+  Eigen::Index count = 0;
+  for (Eigen::Index t = 0; t < values.size(); ++t)
+    if (!inverted[static_cast<std::size_t>(t)]) sound[count++] = values[t];
+  if (count == 0) return nullptr;
+  return spread_of(sound.head(count), std::vector<std::uint8_t>(std::size_t(count), 0));
+}
+
+nlohmann::ordered_json finite_summary(const Performance& p, const Points& d,
+                                      const std::vector<std::uint8_t>& inverted) {
+  const FiniteState state = FiniteTissue(p).at(d);
+  nlohmann::ordered_json stress = spread_of_sound(1e-3 * state.von_mises_pa, inverted);
+  nlohmann::ordered_json over;
+  if (stress.is_object() && stress["p99"] > 0)
+    over = stress["max"].get<double>() / stress["p99"].get<double>();
+  nlohmann::ordered_json volume = spread_of_sound(state.volume_ratio, inverted);
+  if (volume.is_object()) {
+    volume.erase("max_not_inverted");
+    volume["min"] = -spread_of_sound(-state.volume_ratio, inverted)["max"].get<double>();
+  }
+  return {{"von_mises_stress_kpa", std::move(stress)},
+          {"von_mises_max_over_p99", std::move(over)},
+          {"greatest_principal_strain",
+           spread_of_sound(greatest_principal(state.green_lagrange), inverted)},
+          {"greatest_principal_stretch", spread_of_sound(state.stretch.col(2), inverted)},
+          {"volume_ratio", std::move(volume)},
+          {"inverted_tets", std::count(inverted.begin(), inverted.end(), 1)}};
 }
 
 /// Parameters of the tissue that differ from place to place.
@@ -78,14 +114,28 @@ FrameCells::FrameCells(const Performance& performance, bool with_strain)
     : performance_(performance),
       with_strain_(with_strain),
       strain_(performance.nodes, performance.tets),
-      material_(elastic_material(performance)) {}
+      material_(elastic_material(performance)),
+      finite_(is_finite(performance) ? std::make_unique<FiniteTissue>(performance) : nullptr) {}
 
 std::vector<io::VtuArray> FrameCells::at(const Points& d) const {
-  const fem::VoigtRows strain = strain_.at(d);
   std::vector<io::VtuArray> cells;
-  if (with_strain_) cells.push_back(strain_array(strain));
-  cells.push_back(
-      {"von Mises stress (kPa)", (1e-3 * fem::von_mises_pa(strain, material_)).cast<float>()});
+  const auto von_mises = [&](const Eigen::VectorXd& pa) {
+    cells.push_back({"von Mises stress (kPa)", (1e-3 * pa).cast<float>()});
+  };
+  if (finite_) {
+    const FiniteState state = finite_->at(d);
+    if (with_strain_) {
+      cells.push_back(strain_array("Green-Lagrange strain (1)", state.green_lagrange));
+      cells.push_back({"Cauchy stress (kPa)", (1e-3 * state.cauchy_pa).cast<float>()});
+      cells.push_back({"principal stretches (1)", state.stretch.cast<float>()});
+    }
+    cells.push_back({"volume ratio J (1)", state.volume_ratio.cast<float>()});
+    von_mises(state.von_mises_pa);
+  } else {
+    const fem::VoigtRows strain = strain_.at(d);
+    if (with_strain_) cells.push_back(strain_array("strain (1)", strain));
+    von_mises(fem::von_mises_pa(strain, material_));
+  }
   const std::vector<std::uint8_t> inverted =
       fem::inverted_tets(performance_.nodes, performance_.tets, d);
   cells.push_back({"inverted",
@@ -125,6 +175,7 @@ nlohmann::ordered_json stress_summary(const Performance& p) {
   if (p.tets.rows() == 0) return nullptr;
   const Points d = p.node_displacement_m[static_cast<std::size_t>(p.peak_frame)].cast<double>();
   const auto inverted = fem::inverted_tets(p.nodes, p.tets, d);
+  if (is_finite(p)) return finite_summary(p, d, inverted);
   const fem::VoigtRows strain = fem::ElementStrain(p.nodes, p.tets).at(d);
   return {{"von_mises_stress_kpa",
            spread_of(1e-3 * fem::von_mises_pa(strain, elastic_material(p)), inverted)},

@@ -113,17 +113,19 @@ Json summary_of(const Results& r, const SkinOff& off) {
 }
 
 /// What the simulation has to say that a user should not overlook.
-std::vector<std::string> warnings_of(const reenact::SimulationReport& report, Eigen::Index tets) {
+std::vector<std::string> warnings_of(const reenact::SimulationReport& report,
+                                     const reenact::Performance& p) {
   std::vector<std::string> notes = report.notes;
   if (report.lip_overlap_mm > kLipsPass_mm)
     notes.push_back(fmt::format(
         "the lips pass through each other by up to {:.1f} mm: there is no contact in the model",
         report.lip_overlap_mm));
-  if (report.inverted_tets > 0 && report.inverted_tets > kFewInverted * double(tets))
+  if (report.inverted_tets > 0 && report.inverted_tets > kFewInverted * double(p.tets.rows()))
     notes.push_back(fmt::format(
-        "{} of {} tetrahedra are turned inside out in some frame: the motion is too large for "
-        "linear strain there",
-        report.inverted_tets, tets));
+        "{} of {} tetrahedra are turned inside out in some frame: the motion is too "
+        "large for {} there",
+        report.inverted_tets, p.tets.rows(),
+        p.model.strain == reenact::Strain::finite ? "these elements" : "linear strain"));
   return notes;
 }
 
@@ -280,7 +282,7 @@ Json run_into(Scene scene, const std::filesystem::path& directory) {
       few > 0 && few <= kFewInverted * double(tets))
     results.notes.push_back(fmt::format(
         "{} of {} tetrahedra turned inside out in some frame, too few to matter", few, tets));
-  warn(warnings_of(simulation.report, tets), results);
+  warn(warnings_of(simulation.report, simulation.performance), results);
   const NotesPlace before_doubts(results);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty()) warn({note}, results);
   if (!twin.why_not.empty())
