@@ -29,6 +29,12 @@ fem::Material TissueValues::material(std::size_t tets, fem::ViscousForm viscous_
   return out;
 }
 
+MuscleOptions as_recorded(MuscleOptions options) {
+  options.gains.clear();
+  options.mirrored = false;
+  return options;
+}
+
 namespace {
 
 void check_finite(const SimulationOptions& o, std::vector<InputProblem>& problems) {

@@ -140,6 +140,9 @@ enum class Strain {
   finite   ///< any strain and rotation: a factorisation or more in each step
 };
 
+/// The same without gains and mirroring: forces as they were found.
+MuscleOptions as_recorded(MuscleOptions options);
+
 /// What the tissue is made of, and the elements that stand for it.
 struct ModelOptions {
   fem::ElementKind element = fem::ElementKind::tet4_star;

@@ -13,10 +13,8 @@ bool same_but_gain(DriveOptions a, const DriveOptions& b) {
   return a == b;
 }
 
-bool same_but_gains(MuscleOptions a, const MuscleOptions& b) {
-  a.gains = b.gains;
-  a.mirrored = b.mirrored;
-  return a == b;
+bool same_but_gains(const MuscleOptions& a, const MuscleOptions& b) {
+  return as_recorded(a) == as_recorded(b);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "hyperex/fem/form/assembler.hpp"
 #include "hyperex/fem/reduced/reduced_model.hpp"
 #include "hyperex/reenact/boundary.hpp"
+#include "hyperex/reenact/finite_run.hpp"
 #include "hyperex/reenact/held_load.hpp"
 #include "hyperex/reenact/input_shapes.hpp"
 #include "hyperex/reenact/readout.hpp"
@@ -136,7 +137,10 @@ struct Simulator::Impl {
   // ----- a run
 
   Solution solved(const std::vector<double>& times);
-  NodalCourse patch_places(double interval_s);
+  double finite_interval_s() const;
+  NodalCourse patch_places();
+  FiniteSolution run_at_finite_strain(const MuscleOptions& muscles, const NodalCourse* places,
+                                      const std::vector<double>& times);
   Solution solved_finite(const std::vector<double>& times);
   void integrate(const std::vector<Shot>& shots, const PointCurve& points,
                  SimulationResult& result);

@@ -80,10 +80,11 @@ Solution Simulator::Impl::solved(const std::vector<double>& times) {
 }
 
 /// Where the load's patches go at small strain.
-NodalCourse Simulator::Impl::patch_places(double interval_s) {
+NodalCourse Simulator::Impl::patch_places() {
+  const double interval_s = finite_interval_s();
   need_reduced();
-  const fem::Response linear =
-      reduced->run(drive_by(*load, {}), {newmark(), options.solver.tolerance});
+  const fem::Response linear = reduced->run(drive_by(*load, as_recorded(options.muscles)),
+                                            {newmark(), options.solver.tolerance});
   NodalCourse out;
   out.nodes = load->patch_nodes;
   std::vector<double> times;
@@ -103,26 +104,22 @@ NodalCourse Simulator::Impl::patch_places(double interval_s) {
   return out;
 }
 
-Solution Simulator::Impl::solved_finite(const std::vector<double>& times) {
-  const double interval_s = options.solver.finite_step_s > 0 ? options.solver.finite_step_s
-                                                             : 1 / options.time.frame_rate_hz;
+FiniteSolution Simulator::Impl::run_at_finite_strain(const MuscleOptions& muscles,
+                                                     const NodalCourse* places,
+                                                     const std::vector<double>& times) {
+  Stopwatch watch;
   FiniteDrive drive;
   drive.step_s = options.time.step_s;
-  drive.still = input->drive;
-  NodalCourse places;
+  drive.places = places;
   if (by_forces()) {
-    std::vector<char> turning = turning_columns(*load, options.muscles.table());
-    drive.turning = drive_by(with_columns(*load, turning), options.muscles);
+    std::vector<char> turning = turning_columns(*load, muscles.table());
+    drive.turning = drive_by(with_columns(*load, turning), muscles);
     for (char& turns : turning) turns = !turns;
-    drive.still = drive_by(with_columns(*load, turning), options.muscles);
-    if (load_held && load->patch_forces) {
-      drive.forces = load->patch_forces.get();
-    } else {
-      places = patch_places(interval_s);
-      drive.places = &places;
-    }
+    drive.still = drive_by(with_columns(*load, turning), muscles);
+    if (!places) drive.forces = load->patch_forces.get();
+  } else {
+    drive.still = input->drive;
   }
-  Stopwatch watch;
   fem::FiniteStrain form(*assembler, material(), options.model.law);
   fem::SparseMatrix springs = assembler->stiffness_pattern();
   boundary->add_springs(springs);
@@ -131,22 +128,37 @@ Solution Simulator::Impl::solved_finite(const std::vector<double>& times) {
   fem::FiniteNewtonOptions how;
   how.tolerance = options.solver.finite_tolerance;
   how.full_newton = options.solver.full_newton;
-  fem::FiniteNewton newton(form, with_nodes(boundary->prescribed(), places.nodes), how,
-                           std::move(springs), {}, options.solver.linear,
-                           places.nodes.empty() ? known_order() : nullptr);
+  std::vector<int> prescribed = boundary->prescribed();
+  if (places) prescribed = with_nodes(prescribed, places->nodes);
+  fem::FiniteNewton newton(form, std::move(prescribed), how, std::move(springs), {},
+                           options.solver.linear, places ? nullptr : known_order());
+  if (!places) keep_order(newton.order());
   report.factor_s += watch.lap();
   FiniteSolution out =
-      run_finite(newton, *assembler, boundary->prescribed(), drive, interval_s, end_s(), times,
-                 [this](double share) { tell(kDirectDone * share); });
-  if (drive.places) {
-    HeldLoad whole = *load;
-    whole.patch_forces = std::make_shared<const NodalCourse>(std::move(out.reactions));
-    load = std::make_shared<const HeldLoad>(std::move(whole));
-  }
+      run_finite(newton, *assembler, boundary->prescribed(), drive, finite_interval_s(), end_s(),
+                 times, [this](double share) { tell(kDirectDone * share); });
   report.steps = out.parts;
-  report.iterations = out.iterations;
-  report.factorisations = out.factorisations;
-  return std::move(out.solution);
+  report.iterations += out.iterations;
+  report.factorisations += out.factorisations;
+  return out;
+}
+
+double Simulator::Impl::finite_interval_s() const {
+  return options.solver.finite_step_s > 0 ? options.solver.finite_step_s
+                                          : 1 / options.time.frame_rate_hz;
+}
+
+Solution Simulator::Impl::solved_finite(const std::vector<double>& times) {
+  if (!by_forces() || (load_held && load->patch_forces))
+    return std::move(run_at_finite_strain(options.muscles, nullptr, times).solution);
+  // What holds the patches belongs to the motion as it was recorded, whatever the gains.
+  const NodalCourse places = patch_places();
+  FiniteSolution recorded = run_at_finite_strain(as_recorded(options.muscles), &places, times);
+  HeldLoad whole = *load;
+  whole.patch_forces = std::make_shared<const NodalCourse>(std::move(recorded.reactions));
+  load = std::make_shared<const HeldLoad>(std::move(whole));
+  if (options.muscles == as_recorded(options.muscles)) return std::move(recorded.solution);
+  return std::move(run_at_finite_strain(options.muscles, nullptr, times).solution);
 }
 
 void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve& points,

@@ -143,10 +143,7 @@ bool Simulator::Impl::Values::operator==(const Values& other) const {
 }
 
 Simulator::Impl::Values Simulator::Impl::values() const {
-  Values now{options.tissue, options.model, options.drive.by, options.muscles, boundary};
-  now.muscles.gains.clear();  // of forces alone
-  now.muscles.mirrored = false;
-  return now;
+  return {options.tissue, options.model, options.drive.by, as_recorded(options.muscles), boundary};
 }
 
 void Simulator::Impl::need_reduced() {
@@ -179,9 +176,7 @@ const MuscleModel& Simulator::Impl::need_muscles() {
   of.model = options.model;
   of.tissue = options.tissue;
   of.support = options.support;
-  of.muscles = options.muscles;
-  of.muscles.gains.clear();
-  of.muscles.mirrored = false;
+  of.muscles = as_recorded(options.muscles);
   if (!known_muscles || !(known_muscles->of == of)) {
     fem::System system;
     assembler->assemble(material(), system);
