@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How near muscles come to true faces, through the simulator that everybody has, for constants on
 // the command line: what docs/muscles.md says of choosing them.
-//   muscle_bench CASES.txt [key=value ...]     today=1: driven by displacement; show=1: activations;
-//                                              finite=1: finite strain
+//   muscle_bench CASES.txt [key=value ...]     today=1: driven by displacement; show=1:
+//   activations;
+//                                              finite=1: finite strain; contact=1: lips keep apart
 // CASES: lines "name scene truth 7|all", or "name scene - markers" for the recording of markers.
 // The share of the warp's error over parts of the face, at the peak. Truths for other expressions
 // of a rig: bench/rig_cases.py.
@@ -21,6 +22,7 @@
 #include "hyperex/metrics/baseline.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
+#include "hyperex/reenact/lip_surfaces.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/scene/stages/inputs.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
@@ -44,6 +46,9 @@ reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::In
   reenact::SimulationOptions o = scene::simulation_options(scene, inputs);
   if (has("finite")) o.model.strain = reenact::Strain::finite;
   take("finite_step", o.solver.finite_step_s);
+  o.contact.lips = has("contact");
+  take("give", o.contact.point_give);
+  take("patch_spring", o.contact.patch_pa_per_m, kpa_per_mm);
   if (has("today")) return o;
   o.drive.by = reenact::DriveBy::muscles;
   take("patch", o.drive.patch_radius_m, mm);
@@ -145,7 +150,15 @@ Score score_scan(const std::string& name, const std::string& scene_file,
     fmt::print("  {} {:.2f} of {:.2f} ({:.2f})", part, a, b, a / b);
     score.share.push_back(a / b);
   }
-  fmt::print("\n");
+  const reenact::LipSurfaces lips(*mesh, inputs.landmarks);
+  PointsF true_motion = PointsF::Zero(mesh->skin.points.rows(), 3);
+  true_motion.topRows(mesh->scan_vertices) =
+      (truth.points.topRows(mesh->scan_vertices) - rest).cast<float>();
+  fmt::print("  truth overlaps {:.2f}", 1e3 * lips.depth(true_motion));
+  fmt::print("  overlap {:.2f} -> {:.3f} ({:.3f}), residual {:.4f}, {} frames, {:.2f} s\n",
+             result.report.contact.overlap_mm, result.report.contact.left_mm,
+             result.report.lip_overlap_mm, result.report.contact.residual_mm,
+             result.report.contact.frames, result.report.contact.seconds);
   if (has("show") && !p.muscles.names.empty()) show(p.muscles);
   return score;
 }

@@ -8,8 +8,8 @@
 
 namespace hyperex::reenact {
 
-/// How deep the lips pass through each other. There is no contact in the model, so this is
-/// measured.
+/// How deep the lips pass through each other where nothing keeps them apart (ContactOptions): a
+/// measure that looks at the scan's skin alone and takes the greatest depth at rest off.
 class LipContact {
  public:
   LipContact(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);

@@ -52,6 +52,8 @@ void check_finite(const SimulationOptions& o, std::vector<InputProblem>& problem
     wrong("model.viscous_form", "printed", "isotropic where strain is finite");
   if (o.drive.by == DriveBy::reactions)
     wrong("drive.by", "reactions", "displacement or muscles where strain is finite");
+  if (o.contact.lips)
+    wrong("contact.lips", "true", "false where strain is finite: its correction is linear");
 }
 
 }  // namespace
@@ -87,6 +89,8 @@ void check(const SimulationOptions& o) {
   in("solver.finite_step_s", o.solver.finite_step_s, o.solver.finite_step_s_in);
   in("solver.finite_tolerance", o.solver.finite_tolerance, o.solver.finite_tolerance_in);
   if (o.model.strain == Strain::finite) check_finite(o, problems);
+  in("contact.patch_pa_per_m", o.contact.patch_pa_per_m, o.contact.patch_pa_per_m_in);
+  in("contact.point_give", o.contact.point_give, o.contact.point_give_in);
   in("time.step_s", o.time.step_s, o.time.step_s_in);
   in("time.end_s", o.time.end_s, o.time.end_s_in);
   in("time.frame_rate_hz", o.time.frame_rate_hz, o.time.frame_rate_hz_in);

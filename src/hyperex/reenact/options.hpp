@@ -185,6 +185,21 @@ struct SolverOptions {
   bool operator==(const SolverOptions&) const = default;
 };
 
+/// What the mouth's skin may not pass through (mouth_contact.hpp). Streams know no contact.
+struct ContactOptions {
+  bool lips = false;  ///< the lips each other
+  /// Patches of skin that are carried to where points are recorded (DriveBy::displacement) give way
+  /// to contact as springs per area of this stiffness; without contact they end where they are
+  /// driven.
+  double patch_pa_per_m = 2e8;
+  /// Where forces drive, driven points near the lips stay where the motion without contact has
+  /// them, but for this share of the tissue's own compliance: what touches in a recording touched
+  /// already when it was recorded.
+  double point_give = 0.5;
+  static constexpr Bounds patch_pa_per_m_in{1e5, 1e12}, point_give_in{1e-6, 1e6};
+  bool operator==(const ContactOptions&) const = default;
+};
+
 struct TimeOptions {
   double step_s = 0.002;
   double end_s = 0;  ///< 0: the end of the motion; past it, its last sample is held
@@ -207,6 +222,7 @@ struct SimulationOptions {
   MuscleOptions muscles;
   RegionOptions region;
   SolverOptions solver;
+  ContactOptions contact;
   TimeOptions time;
   bool operator==(const SimulationOptions&) const = default;
 };

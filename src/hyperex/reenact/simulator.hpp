@@ -49,6 +49,15 @@ struct SimulationReport {
   double lip_overlap_mm =
       0;                  ///< greatest depth by which the lips pass through each other, over rest
   double lip_gap_mm = 0;  ///< greatest distance between the lips (ibug68_62, 66), over rest
+  /// Of ContactOptions; all 0 where it is off. Depths are those of LipSurfaces: beyond rest, each
+  /// vertex by itself, the lips going on inwards from their rims.
+  struct Contact {
+    int frames = 0;          ///< in which something touches that would pass without contact
+    double overlap_mm = 0;   ///< greatest depth of the lips in each other, without contact
+    double left_mm = 0;      ///< and with it
+    double residual_mm = 0;  ///< greatest of the complementarity problems
+    double seconds = 0;
+  } contact;
   std::vector<std::string> notes;
 };
 
@@ -97,7 +106,8 @@ struct EliminationOrder {
 ///   input                    boundary or load, motion, drive.gain, muscles, time.step_s, end_s,
 ///                            solver.tolerance
 ///   reduced motion           factor, input, solver
-///   frames of the skin       reduced motion, time
+///   compliance of the lips   factor, driven points, contact
+///   frames of the skin       reduced motion, time, contact
 ///   stream                   factor, boundary; begins anew with another order
 ///
 /// A run after set_tissue() factors again, but neither matches, orders nor analyses. Equal options

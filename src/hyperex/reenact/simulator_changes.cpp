@@ -21,6 +21,7 @@ bool same_but_gains(const MuscleOptions& a, const MuscleOptions& b) {
 
 void Simulator::Impl::drop_values() {
   reduced_current = full_current = false, response.reset();
+  contact.reset();
   stream_current = false;
 }
 
@@ -54,6 +55,7 @@ void Simulator::Impl::drop_boundary() {
 void Simulator::Impl::drop_driven() {
   driven.reset();
   driven_points.reset();
+  contact.reset();
   load.reset();
   load_lost = false;  // another question: other forces are no surprise
   drop_boundary();
@@ -88,6 +90,7 @@ void Simulator::Impl::set(SimulationOptions next) {
     drop_load();
   }
   if (options.model.strain != before.model.strain) drop_input();
+  if (options.contact != before.contact) contact.reset();
   if (options.solver.linear != before.solver.linear) drop_factors();
   if (options.solver.newmark_beta != before.solver.newmark_beta ||
       options.solver.newmark_gamma != before.solver.newmark_gamma ||

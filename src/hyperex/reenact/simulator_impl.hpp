@@ -14,6 +14,7 @@
 #include "hyperex/reenact/finite_run.hpp"
 #include "hyperex/reenact/held_load.hpp"
 #include "hyperex/reenact/input_shapes.hpp"
+#include "hyperex/reenact/mouth_contact.hpp"
 #include "hyperex/reenact/readout.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/reenact/solve.hpp"
@@ -56,6 +57,7 @@ struct Simulator::Impl {
   bool load_held = false;
   bool load_lost = false;  // there was one, for the tissue or support before
   std::shared_ptr<const InputShapes> input;
+  std::shared_ptr<const LipSurfaces> lip_surfaces;  // of the face alone
   // Of this simulator alone.
   std::optional<fem::ReducedModel> reduced;
   std::optional<fem::Newmark> full;
@@ -71,6 +73,7 @@ struct Simulator::Impl {
   };
   std::optional<Values> reduced_values;  // that the factor was made of
   std::optional<fem::Response> response;
+  std::optional<MouthContact> contact;  // of the values, the driven points and the options
 
   std::optional<Stream> stream;
   bool stream_current = false, stream_fits = false;  // with the values; with the pattern and order
@@ -136,6 +139,13 @@ struct Simulator::Impl {
 
   // ----- a run
 
+  /// The stiffness that contact works against, made ready for solving; the reduced model's own
+  /// where that has it.
+  fem::PartitionedFactor& contact_factor(std::optional<fem::PartitionedFactor>& own);
+  void need_contact(fem::PartitionedFactor& factor);
+  /// What contact changes in the frames that were stored.
+  void touch(const std::vector<Shot>& shots, const PointCurve& points, Solution& solution,
+             SimulationResult& result);
   Solution solved(const std::vector<double>& times);
   double finite_interval_s() const;
   NodalCourse patch_places();

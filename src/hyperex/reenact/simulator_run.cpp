@@ -179,7 +179,7 @@ void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve
     times.push_back(
         std::clamp(shot.time_s / options.time.step_s, 0.0, static_cast<double>(report.steps)));
   const bool finite = options.model.strain == Strain::finite;
-  const Solution solution = finite ? solved_finite(times) : solved(times);
+  Solution solution = finite ? solved_finite(times) : solved(times);
   report.simulate_s = watch.lap() - report.basis_s - (factoring_s() - prepared_s);
   result.performance.node_displacement_m.resize(result.performance.frame_time_s.size());
   tell(std::max(told, kReducedDone));
@@ -188,6 +188,7 @@ void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve
                                          mesh->volume.nodes.rows(), 3);
     store(shots[i], nodes, points, result);
   });
+  if (options.contact.lips) touch(shots, points, solution, result);
   report.greatest_opening_deg = input->greatest_opening_deg;
   report.input_shapes = static_cast<int>(input->drive.shapes());
   report.free_dofs = solution.free_dofs;

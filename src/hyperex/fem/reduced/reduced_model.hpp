@@ -62,6 +62,9 @@ class ReducedModel {
   /// The response from rest (d = d' = 0 on the free unknowns at step 0, d'' in equilibrium).
   Response run(const Drive& drive, const ReducedOptions& options);
 
+  /// That of the stiffness, for other static answers with the values given last.
+  PartitionedFactor& static_factor() { return factor_; }
+
   int free_count() const { return static_cast<int>(factor_.free().size()); }
   double analyse_seconds() const { return factor_.analyse_seconds(); }
   double factor_seconds() const { return factor_.factor_seconds(); }

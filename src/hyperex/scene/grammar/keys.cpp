@@ -403,6 +403,11 @@ std::vector<Key> run_keys() {
           "facial nerve moves on one side, or of a side; 0 is a palsy. Several multiply."),
       flag<Scene>("muscles.mirrored", AT(muscles.mirrored),
                   "Each muscle takes the activation of its counterpart on the other side."),
+      flag<Scene>(
+          "contact.lips", AT(contact.lips),
+          "The lips may touch but not pass through each other, without friction. Each frame "
+          "is corrected by itself, in static equilibrium. Recorded points then end where "
+          "they are recorded only as far as no lip is in their way. Of small strain alone."),
       choice<Scene, SolverMethod>(
           "solver.method", AT(solver.method),
           {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},
@@ -505,6 +510,7 @@ const std::vector<Section>& sections() {
       {"support", "What holds the tissue from within and at its border."},
       {"drive", "What moves it."},
       {"muscles", "Muscles, where they are what moves it (`drive.by`)."},
+      {"contact", "What may not pass through each other."},
       {"solver", "How the equations of motion are solved."},
       {"time", "Steps and frames."},
       {"output", "What is written."},

@@ -89,6 +89,7 @@ struct Scene {
   std::filesystem::path muscles_file;
   std::vector<std::string> muscles_without;
   reenact::DriveOptions drive;  ///< gain: of the key motion.gain
+  reenact::ContactOptions contact;
   reenact::SolverOptions solver;
   /// peak_time_s, still_times_s (up to 12; none: spread_frames()): of the section output.
   reenact::TimeOptions time;

@@ -96,6 +96,11 @@ Json summary_of(const Results& r, const SkinOff& off) {
   s["max_displacement_mm"] = 1e3 * metrics::greatest_displacement_m(p.skin_displacement_m);
   s["lip_opening_mm"] = report.lip_gap_mm;
   s["lip_overlap_mm"] = report.lip_overlap_mm;
+  if (r.scene.contact.lips)
+    s["contact"] = {{"frames", report.contact.frames},
+                    {"lip_overlap_without_mm", report.contact.overlap_mm},
+                    {"lip_overlap_mm", report.contact.left_mm},
+                    {"residual_mm", report.contact.residual_mm}};
   if (const auto outline =
           metrics::mouth_outline(p.skin_rest, metrics::mouth_rim(p.skin_rest, r.inputs.landmarks),
                                  p.skin_displacement_m[std::size_t(p.peak_frame)]))
@@ -118,7 +123,7 @@ std::vector<std::string> warnings_of(const reenact::SimulationReport& report,
   std::vector<std::string> notes = report.notes;
   if (report.lip_overlap_mm > kLipsPass_mm)
     notes.push_back(fmt::format(
-        "the lips pass through each other by up to {:.1f} mm: there is no contact in the model",
+        "the lips pass through each other by up to {:.1f} mm (contact.lips keeps them apart)",
         report.lip_overlap_mm));
   if (report.inverted_tets > 0 && report.inverted_tets > kFewInverted * double(p.tets.rows()))
     notes.push_back(fmt::format(

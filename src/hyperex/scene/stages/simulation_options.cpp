@@ -15,6 +15,7 @@ reenact::SimulationOptions simulation_options(const Scene& scene, const Inputs& 
   o.drive.points = inputs.driven;
   o.muscles = scene.muscles;
   o.region = scene.region;
+  o.contact = scene.contact;
   o.solver = scene.solver;
   o.time = scene.time;
   return o;
