@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/core/run_together.hpp"
 
+#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <exception>
@@ -14,7 +15,9 @@ void run_together(const std::vector<std::function<void()>>& all) {
   for (std::size_t i = all.size(); i-- > 0;)
     group.run([&, i] {
       try {
-        all[i]();
+        // A thread that waits within one of them must not begin another meanwhile: it would have
+        // to end that one first, and the others would idle.
+        tbb::this_task_arena::isolate([&] { all[i](); });
       } catch (...) {
         thrown[i] = std::current_exception();
       }

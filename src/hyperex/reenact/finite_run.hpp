@@ -32,12 +32,12 @@ struct FiniteSolution {
 /// Sorted unknowns: `prescribed` and the three of each of the nodes.
 std::vector<int> with_nodes(const std::vector<int>& prescribed, const std::vector<int>& nodes);
 
-/// From rest to `end_s`, in steps of `interval_s` or parts of them; displacements at `times` (in
-/// steps of the drive), by cubics between steps. `newton` prescribes what `still` does and the
-/// nodes of `places`. Throws NumericalError as FiniteNewton::step().
+/// From rest, in steps that end at `step_ends_s` (0 first) or parts of them; displacements at
+/// `times` (in steps of the drive), by cubics between steps. `newton` prescribes what `still` does
+/// and the nodes of `places`. Throws NumericalError as FiniteNewton::step().
 FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assembler,
                           const std::vector<int>& still_prescribed, const FiniteDrive& drive,
-                          double interval_s, double end_s, const std::vector<double>& times,
+                          const std::vector<double>& step_ends_s, const std::vector<double>& times,
                           const StepProgress& progress = {});
 
 }  // namespace hyperex::reenact

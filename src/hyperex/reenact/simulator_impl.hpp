@@ -147,9 +147,11 @@ struct Simulator::Impl {
   void touch(const std::vector<Shot>& shots, const PointCurve& points, Solution& solution,
              SimulationResult& result);
   Solution solved(const std::vector<double>& times);
-  double finite_interval_s() const;
-  NodalCourse patch_places();
-  FiniteSolution run_at_finite_strain(const MuscleOptions& muscles, const NodalCourse* places,
+  /// From 0 to the end, s: of the steps at finite strain.
+  std::vector<double> finite_times_s() const;
+  NodalCourse patch_places(const std::vector<double>& times_s);
+  /// `holds`: the load's patches are prescribed and what holds them is found.
+  FiniteSolution run_at_finite_strain(const MuscleOptions& muscles, bool holds,
                                       const std::vector<double>& times);
   Solution solved_finite(const std::vector<double>& times);
   void integrate(const std::vector<Shot>& shots, const PointCurve& points,

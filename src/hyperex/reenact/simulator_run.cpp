@@ -79,44 +79,54 @@ Solution Simulator::Impl::solved(const std::vector<double>& times) {
   return out;
 }
 
-/// Where the load's patches go at small strain.
-NodalCourse Simulator::Impl::patch_places() {
-  const double interval_s = finite_interval_s();
-  need_reduced();
-  const fem::Response linear = reduced->run(drive_by(*load, as_recorded(options.muscles)),
-                                            {newmark(), options.solver.tolerance});
-  NodalCourse out;
-  out.nodes = load->patch_nodes;
-  std::vector<double> times;
+std::vector<double> Simulator::Impl::finite_times_s() const {
+  const double interval_s = options.solver.finite_step_s > 0 ? options.solver.finite_step_s
+                                                             : 1 / options.time.frame_rate_hz;
   const double end = end_s();
   const int count = std::max(1, static_cast<int>(std::ceil(end / interval_s - 1e-9)));
-  for (int k = 0; k <= count; ++k) {
-    out.time_s.push_back(std::min(k * interval_s, end));
-    times.push_back(std::min(out.time_s.back() / options.time.step_s, double(steps())));
-  }
-  const Eigen::MatrixXd nodes = linear.displacement(times);
-  for (int k = 0; k <= count; ++k) {
-    Eigen::VectorXd at(3 * Eigen::Index(out.nodes.size()));
+  std::vector<double> out;
+  for (int k = 0; k <= count; ++k) out.push_back(std::min(k * interval_s, end));
+  return out;
+}
+
+/// Where the load's patches go at small strain.
+NodalCourse Simulator::Impl::patch_places(const std::vector<double>& times_s) {
+  need_reduced();
+  std::vector<double> times;
+  for (const double t : times_s)
+    times.push_back(std::min(t / options.time.step_s, double(steps())));
+  const Eigen::MatrixXd nodes = reduced
+                                    ->run(drive_by(*load, as_recorded(options.muscles)),
+                                          {newmark(), options.solver.tolerance})
+                                    .displacement(times);
+  NodalCourse out;
+  out.nodes = load->patch_nodes;
+  Eigen::VectorXd at(3 * Eigen::Index(out.nodes.size()));
+  for (std::size_t k = 0; k < times_s.size(); ++k) {
     for (std::size_t i = 0; i < out.nodes.size(); ++i)
-      at.segment<3>(3 * Eigen::Index(i)) = nodes.col(k).segment<3>(3 * out.nodes[i]);
-    out.value.push_back(at);
+      at.segment<3>(3 * Eigen::Index(i)) = nodes.col(Eigen::Index(k)).segment<3>(3 * out.nodes[i]);
+    out.take(times_s[k], at);
   }
   return out;
 }
 
-FiniteSolution Simulator::Impl::run_at_finite_strain(const MuscleOptions& muscles,
-                                                     const NodalCourse* places,
+FiniteSolution Simulator::Impl::run_at_finite_strain(const MuscleOptions& muscles, bool holds,
                                                      const std::vector<double>& times) {
   Stopwatch watch;
   FiniteDrive drive;
   drive.step_s = options.time.step_s;
-  drive.places = places;
+  const std::vector<double> times_s = finite_times_s();
+  NodalCourse places;
+  if (holds) {
+    places = patch_places(times_s);
+    drive.places = &places;
+  }
   if (by_forces()) {
     std::vector<char> turning = turning_columns(*load, muscles.table());
     drive.turning = drive_by(with_columns(*load, turning), muscles);
     for (char& turns : turning) turns = !turns;
     drive.still = drive_by(with_columns(*load, turning), muscles);
-    if (!places) drive.forces = load->patch_forces.get();
+    if (!holds) drive.forces = load->patch_forces.get();
   } else {
     drive.still = input->drive;
   }
@@ -129,36 +139,29 @@ FiniteSolution Simulator::Impl::run_at_finite_strain(const MuscleOptions& muscle
   how.tolerance = options.solver.finite_tolerance;
   how.full_newton = options.solver.full_newton;
   std::vector<int> prescribed = boundary->prescribed();
-  if (places) prescribed = with_nodes(prescribed, places->nodes);
+  if (holds) prescribed = with_nodes(prescribed, places.nodes);
   fem::FiniteNewton newton(form, std::move(prescribed), how, std::move(springs), {},
-                           options.solver.linear, places ? nullptr : known_order());
-  if (!places) keep_order(newton.order());
+                           options.solver.linear, holds ? nullptr : known_order());
+  if (!holds) keep_order(newton.order());
   report.factor_s += watch.lap();
-  FiniteSolution out =
-      run_finite(newton, *assembler, boundary->prescribed(), drive, finite_interval_s(), end_s(),
-                 times, [this](double share) { tell(kDirectDone * share); });
+  FiniteSolution out = run_finite(newton, *assembler, boundary->prescribed(), drive, times_s, times,
+                                  [this](double share) { tell(kDirectDone * share); });
   report.steps = out.parts;
   report.iterations += out.iterations;
   report.factorisations += out.factorisations;
   return out;
 }
 
-double Simulator::Impl::finite_interval_s() const {
-  return options.solver.finite_step_s > 0 ? options.solver.finite_step_s
-                                          : 1 / options.time.frame_rate_hz;
-}
-
 Solution Simulator::Impl::solved_finite(const std::vector<double>& times) {
   if (!by_forces() || (load_held && load->patch_forces))
-    return std::move(run_at_finite_strain(options.muscles, nullptr, times).solution);
+    return std::move(run_at_finite_strain(options.muscles, false, times).solution);
   // What holds the patches belongs to the motion as it was recorded, whatever the gains.
-  const NodalCourse places = patch_places();
-  FiniteSolution recorded = run_at_finite_strain(as_recorded(options.muscles), &places, times);
+  FiniteSolution recorded = run_at_finite_strain(as_recorded(options.muscles), true, times);
   HeldLoad whole = *load;
   whole.patch_forces = std::make_shared<const NodalCourse>(std::move(recorded.reactions));
   load = std::make_shared<const HeldLoad>(std::move(whole));
   if (options.muscles == as_recorded(options.muscles)) return std::move(recorded.solution);
-  return std::move(run_at_finite_strain(options.muscles, nullptr, times).solution);
+  return std::move(run_at_finite_strain(options.muscles, false, times).solution);
 }
 
 void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve& points,
