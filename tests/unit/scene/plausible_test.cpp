@@ -73,5 +73,20 @@ TEST(AverageFace, TellsHowRealRecordingsStart) {
   }
 }
 
+TEST(IdleLawWarning, NamesKeysOfFiniteStrainWhereNothingHasIt) {
+  Scene scene;
+  EXPECT_EQ(idle_law_warning(scene), "");
+  scene.origins["tissue.law"] = {};
+  scene.origins["tissue.maxwell"] = {};
+  EXPECT_THAT(idle_law_warning(scene), testing::EndsWith(": tissue.law, tissue.maxwell"));
+  Variant variant;
+  variant.scene.model.strain = reenact::Strain::finite;
+  scene.variants.push_back(variant);
+  EXPECT_EQ(idle_law_warning(scene), "");
+  scene.variants.clear();
+  scene.model.strain = reenact::Strain::finite;
+  EXPECT_EQ(idle_law_warning(scene), "");
+}
+
 }  // namespace
 }  // namespace hyperex::scene

@@ -343,5 +343,39 @@ TEST(OptionsJson, HoldsEveryKeyAndReadsBackAsTheSameScene) {
   EXPECT_EQ(options_json(again), options);
 }
 
+TEST(ReadScene, FiniteStrainRefusesWhatItHasNoMeaningForEachInOneLine) {
+  const auto of = [](const std::string& more) {
+    return only_problem(std::string(smallest) + "[tissue]\nstrain = \"finite\"\n" + more);
+  };
+  for (const auto& [more, problem] : std::vector<std::pair<const char*, const char*>>{
+           {"viscous_form = \"printed\"",
+            "scene.toml:7: tissue.viscous_form = \"printed\": expected \"isotropic\", as "
+            "tissue.strain is \"finite\""},
+           {"[drive]\nby = \"reactions\"",
+            "scene.toml:8: drive.by = \"reactions\": expected \"displacement\" or \"muscles\", as "
+            "tissue.strain is \"finite\""},
+           {"law = \"yeoh\"\nyeoh_c20 = -0.5",
+            "scene.toml:8: tissue.yeoh_c20 = -0.5: expected at least 0, -sqrt(3 tissue.yeoh_c30)"},
+           {"law = \"yeoh\"\nyeoh_c20 = -1.8\nyeoh_c30 = 1",
+            "scene.toml:8: tissue.yeoh_c20 = -1.8: expected at least -1.73205"},
+           {"yeoh_c30 = -1", "tissue.yeoh_c30 = -1: expected a number from 0 to 100"},
+           {"law = \"linear\"", "tissue.law = \"linear\": expected \"neo-hookean\""},
+           {"law = \"ogden\"", "tissue.law = \"ogden\": expected \"neo-hookean\""},
+           {"mooney_c01 = -0.2", "tissue.mooney_c01 = -0.2: expected a number from 0 to 100"},
+           {"poisson = 0.5", "tissue.poisson = 0.5: expected a number from -0.99 to 0.4999"},
+           {"young_kpa = 0.0001", "tissue.young_kpa = 0.0001: expected a number from 0.001"},
+           {"maxwell = \"two\"", "tissue.maxwell = \"two\": expected [[tissue.maxwell]] tables"},
+           {"maxwell = [{ ratio = -1, relaxation_s = 1 }]", "tissue.maxwell[0].ratio = -1"},
+           {"maxwell = [{ ratio = inf, relaxation_s = 1 }]", "tissue.maxwell[0].ratio = inf"},
+           {"maxwell = [{ ratio = 1, relaxation_s = 0 }]", "tissue.maxwell[0].relaxation_s = 0"},
+           {"maxwell = [{ ratio = 1 }]", "tissue.maxwell[0].relaxation_s: expected a number"},
+           {"[solver]\nfinite_step_s = 3", "solver.finite_step_s = 3: expected a number from 0"},
+           {"[solver]\nfinite_step_s = -0.1", "solver.finite_step_s = -0.1: expected a number"},
+           {"[solver]\nfinite_tolerance = 0", "solver.finite_tolerance = 0: expected a number"},
+           {"[[variant]]\nname = \"x\"\ntissue.viscous_form = \"printed\"",
+            "scene.toml:9: variant[0].tissue.viscous_form = \"printed\": expected \"isotropic\""}})
+    EXPECT_THAT(of(std::string(more) + "\n"), HasSubstr(problem)) << more;
+}
+
 }  // namespace
 }  // namespace hyperex::scene

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
@@ -66,6 +67,8 @@ class Reader {
                      const std::string& expected);
   /// Whether gains name muscles of the scene's table.
   void check_gains();
+  /// What finite strain does not go with.
+  void check_strain();
   muscles::MuscleTable muscles_of_scene();
   Origin in_file(const std::string& name) const;
 
@@ -313,8 +316,23 @@ void Reader::check_gains() {
       complain_part("muscles.gain", "." + gain.muscle, gain.gain, one_of_names(gain.muscle, names));
 }
 
+void Reader::check_strain() {
+  const reenact::ModelOptions& model = scene.model;
+  if (model.strain != reenact::Strain::finite) return;
+  if (model.viscous_form != fem::ViscousForm::isotropic)
+    complain_given("tissue.viscous_form", "\"isotropic\", as tissue.strain is \"finite\"");
+  if (scene.drive.by == reenact::DriveBy::reactions)
+    complain_given("drive.by", "\"displacement\" or \"muscles\", as tissue.strain is \"finite\"");
+  if (const double least = 0 - std::sqrt(3 * model.law.c30); model.law.c20 < least)
+    complain_given("tissue.yeoh_c20",
+                   fmt::format("at least {:g}, -sqrt(3 tissue.yeoh_c30): below, stress falls "
+                               "where stretch grows",
+                               least));
+}
+
 void Reader::check_together() {
   check_gains();
+  check_strain();
   if (scene.region.measured == reenact::Measured::points && scene.region.measured_points.empty())
     complain_given("region.measured_points", "one or more names, as region.measured is \"points\"");
   if (scene.mesh.thickness_m != 0 && !scene.mesh.depths.empty())

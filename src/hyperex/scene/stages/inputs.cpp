@@ -494,6 +494,7 @@ Inputs read_inputs(const Scene& scene, Look look) {
   };
   if (!scene.scan.landmarks.empty())
     for (const auto& doubt : tissue::landmark_doubts(given, in.scan.mesh)) warn(doubt);
+  warn(idle_law_warning(scene));
   warn(misfit_warning(in.motion));
   warn(start_warning(steadied->motion, at_rest));
   warn(exchanged_warning(steadied->motion, at_rest));

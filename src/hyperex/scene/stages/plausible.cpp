@@ -113,6 +113,21 @@ std::string timing_warning(const motion::Motion& m) {
       m.time_s.back(), step_s, longest_s, longest_step_s);
 }
 
+std::string idle_law_warning(const Scene& scene) {
+  const auto finite = [](const Scene& s) { return s.model.strain == reenact::Strain::finite; };
+  if (finite(scene)) return "";
+  for (const Variant& variant : scene.variants)
+    if (finite(variant.scene)) return "";
+  std::vector<std::string> idle;
+  for (const char* key :
+       {"tissue.law", "tissue.yeoh_c20", "tissue.yeoh_c30", "tissue.mooney_c01", "tissue.maxwell",
+        "solver.finite_step_s", "solver.finite_tolerance", "solver.full_newton"})
+    if (scene.origins.contains(key)) idle.push_back(key);
+  if (idle.empty()) return "";
+  return fmt::format("without effect, as tissue.strain is not \"finite\": {}",
+                     fmt::join(idle, ", "));
+}
+
 std::string stillness_warning(const motion::Motion& stabilised) {
   constexpr double least_m = 0.05e-3;
   double most_m = 0;

@@ -49,6 +49,10 @@ std::string stillness_warning(const motion::Motion& stabilised);
 /// right (check_sides tells of those).
 std::string exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
+/// A sentence that names the keys given which only finite strain heeds, where neither the scene nor
+/// one of its variants has it; else empty.
+std::string idle_law_warning(const Scene& scene);
+
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before
 /// its second frame.
 void check_length(const Scene& scene, const motion::Motion& m);
