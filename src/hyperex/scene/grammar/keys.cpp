@@ -461,7 +461,9 @@ std::vector<Key> run_keys() {
           "at rest in every frame; the filter Warp By Vector moves them."),
       integer<Scene>("output.vtu_every", AT(output.vtu_every), {1, 10000},
                      "Write only every so many frames there: 3 takes a third of the space."),
-      flag<Scene>("output.vtu_strain", AT(output.vtu_strain), "Write the tensors of strain there; at finite strain also those of stress, and stretches."),
+      flag<Scene>("output.vtu_strain", AT(output.vtu_strain),
+                  "Write the tensors of strain there; at finite strain also those of stress, and "
+                  "stretches."),
       flag<Scene>("output.variants_vtu", AT(output.variants_vtu),
                   "Write the same for each variant, into its folder."),
       flag<Scene>("output.glb", AT(output.glb),
