@@ -103,8 +103,7 @@ void bind_solver(py::module_& m) {
              "Of a step at finite strain, 0 to 0.5; 0: a frame.")
       .field("finite_tolerance", &SolverOptions::finite_tolerance,
              "Of its iterations, over the greatest displacement, 1e-9 to 0.1.")
-      .field("full_newton", &SolverOptions::full_newton,
-             "Factor in each of them, not once a step.")
+      .field("full_newton", &SolverOptions::full_newton, "Factor in each of them, not once a step.")
       .field("verify", &SolverOptions::verify,
              "Run the full model too and measure the reduced one's error.");
   OptionsClass<TimeOptions>(m, "TimeOptions", "Steps and frames.")
