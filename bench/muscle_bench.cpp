@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How near muscles come to true faces, through the simulator that everybody has, for constants on
 // the command line: what docs/muscles.md says of choosing them.
-//   muscle_bench CASES.txt [key=value ...]     today=1: driven by displacement; show=1:
-//   activations;
-//                                              finite=1: finite strain; contact=1: lips keep apart
+//   muscle_bench CASES.txt [key=value ...]
+// today=1: driven by displacement; show=1: activations; finite=1: finite strain; contact=1: lips
+// keep apart.
 // CASES: lines "name scene truth 7|all", or "name scene - markers" for the recording of markers.
 // The share of the warp's error over parts of the face, at the peak. Truths for other expressions
 // of a rig: bench/rig_cases.py.
