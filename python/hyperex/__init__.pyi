@@ -231,7 +231,8 @@ class RegionOptions:
 class ModelOptions:
     element: str
     viscous_form: str
-    def __init__(self, *, element: str = ..., viscous_form: str = ...) -> None: ...
+    strain: str
+    def __init__(self, *, element: str = ..., viscous_form: str = ..., strain: str = ...) -> None: ...
     def replace(self, **fields: Any) -> ModelOptions: ...
 
 class SolverOptions:
@@ -240,8 +241,11 @@ class SolverOptions:
     tolerance: float
     newmark_beta: float
     newmark_gamma: float
+    finite_step_s: float
+    finite_tolerance: float
+    full_newton: bool
     verify: bool
-    def __init__(self, *, method: str = ..., linear: str = ..., tolerance: float = ..., newmark_beta: float = ..., newmark_gamma: float = ..., verify: bool = ...) -> None: ...
+    def __init__(self, *, method: str = ..., linear: str = ..., tolerance: float = ..., newmark_beta: float = ..., newmark_gamma: float = ..., finite_step_s: float = ..., finite_tolerance: float = ..., full_newton: bool = ..., verify: bool = ...) -> None: ...
     def replace(self, **fields: Any) -> SolverOptions: ...
 
 class TimeOptions:

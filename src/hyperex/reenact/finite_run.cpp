@@ -10,6 +10,9 @@
 namespace hyperex::reenact {
 namespace {
 
+/// Iterates of a step with which forces turn.
+constexpr int kTurnedIterates = 2;
+
 /// Courses at a time, linear between steps and held after the last.
 void courses_at(const fem::Drive& drive, double steps, Eigen::VectorXd& out) {
   const double at = std::clamp(steps, 0.0, static_cast<double>(drive.steps()));
@@ -33,6 +36,8 @@ class Forces {
     if (drive_.still.force.rows() > 0) {
       courses_at(drive_.still, steps, courses_);
       still_.noalias() = drive_.still.force * courses_;
+    } else {
+      still_.setZero();
     }
     if (drive_.forces) {
       drive_.forces->at(time_s, nodal_);
@@ -142,16 +147,17 @@ FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assem
   Forces forces(drive, assembler);
   Prescribed prescribed(drive, newton.prescribed(), still_prescribed);
   fem::FiniteNewtonHooks hooks;
-  // Forces turn with the tissue as it is expected at a step's end, which its first iterate is: of
-  // second order in the step, as the steps are, and the iterations converge as quickly as with
-  // forces that keep their direction.
+  // Forces turn with the first two iterates of a step: the second is all but its end, and later
+  // iterations converge as quickly as with forces that keep their direction.
   double turned_for_s = -1;
+  int turns = 0;
   Eigen::VectorXd turned;
   hooks.before_iteration = [&](const Eigen::VectorXd& d, double time_s, Eigen::VectorXd& force) {
-    if (time_s != turned_for_s) {
+    if (time_s != turned_for_s) turns = 0;
+    turned_for_s = time_s;
+    if (turns++ < kTurnedIterates) {
       forces.at(time_s);
       forces.turned(d, turned);
-      turned_for_s = time_s;
     }
     force = turned;
   };
@@ -174,6 +180,10 @@ FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assem
   for (const double t : times) times_s.push_back(t * drive.step_s);
   ReadOff read_off(times_s, newton);
   out.steps = static_cast<int>(step_ends_s.size()) - 1;
+  hooks.after_part = [&](double time_s) {
+    read_off.take(time_s, newton.displacement(), newton.velocity());
+    if (progress) progress(time_s / step_ends_s.back());
+  };
   for (int step = 1; step <= out.steps; ++step) {
     const double time_s = step_ends_s[std::size_t(step)];
     const fem::FiniteStepReport report =
@@ -182,9 +192,7 @@ FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assem
     out.iterations += report.iterations;
     out.factorisations += report.factorisations;
     out.solution.estimated_error = std::max(out.solution.estimated_error, report.error);
-    read_off.take(time_s, newton.displacement(), newton.velocity());
     take_reactions();
-    if (progress) progress(static_cast<double>(step) / out.steps);
   }
   out.solution.displacement.swap(read_off.displacement());
   out.solution.free_dofs = newton.free_count();

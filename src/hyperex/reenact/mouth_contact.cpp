@@ -125,6 +125,15 @@ MouthContact::Correction MouthContact::correct(const PointsF& skin) const {
           sum += weight * pairs[std::size_t(i)].normal.dot(response.col(k).segment<3>(3 * node));
         between(i, k) = between(k, i) = sum;
       }
+    // Pairs that nothing can move (skin that follows the recording, held nodes) are left as they
+    // are.
+    std::vector<LipPair> movable;
+    for (Index i = 0; i < count; ++i)
+      if (between(i, i) > 0) movable.push_back(pairs[std::size_t(i)]);
+    if (movable.size() < pairs.size()) {
+      pairs = movable;
+      continue;
+    }
     between.diagonal().array() += kRidge * between.diagonal().maxCoeff();
     lambda.setZero(count);
     const fem::Complementarity solved =
@@ -134,7 +143,7 @@ MouthContact::Correction MouthContact::correct(const PointsF& skin) const {
     const std::vector<LipPair> now = surfaces_->pairs(
         lower_free + followed(lower_, moved), upper_free + followed(upper_, moved), kWithin_m);
     const double depth = depth_of(now);
-    if (out.rounds == 1 || depth < out.after_m) {
+    if (depth < out.after_m) {
       out.after_m = depth;
       out.residual_m = solved.residual;
       out.force.setZero(compliance_.rows());

@@ -37,6 +37,9 @@ MuscleOptions as_recorded(MuscleOptions options) {
 
 namespace {
 
+/// Shorter steps would take longer than anyone waits.
+constexpr double kLeastFiniteStep_s = 1e-4;
+
 void check_finite(const SimulationOptions& o, std::vector<InputProblem>& problems) {
   const auto wrong = [&](const char* name, const std::string& value, const char* expected) {
     problems.push_back({{}, 0, name, value, expected});
@@ -87,6 +90,12 @@ void check(const SimulationOptions& o) {
      {o.solver.newmark_gamma_in.least,
       std::min(o.solver.newmark_gamma_in.most, 2 * o.solver.newmark_beta)});
   in("solver.finite_step_s", o.solver.finite_step_s, o.solver.finite_step_s_in);
+  if (o.solver.finite_step_s > 0 && o.solver.finite_step_s < kLeastFiniteStep_s)
+    problems.push_back({{},
+                        0,
+                        "solver.finite_step_s",
+                        fmt::format("{:g}", o.solver.finite_step_s),
+                        fmt::format("0 (a frame) or at least {:g} s", kLeastFiniteStep_s)});
   in("solver.finite_tolerance", o.solver.finite_tolerance, o.solver.finite_tolerance_in);
   if (o.model.strain == Strain::finite) check_finite(o, problems);
   in("contact.patch_pa_per_m", o.contact.patch_pa_per_m, o.contact.patch_pa_per_m_in);

@@ -68,6 +68,11 @@ void Simulator::Impl::drop_region() {
 
 void Simulator::Impl::set(SimulationOptions next) {
   check(next);
+  if (load_held && load && !load->patch_forces && next.model.strain == Strain::finite &&
+      options.model.strain == Strain::linear)
+    throw InputError("model.strain",
+                     "the forces that are held were found at small strain: expected finite in the "
+                     "run that they are of, too");
   const SimulationOptions before = std::move(options);
   options = std::move(next);
   if (options.region != before.region) drop_region();

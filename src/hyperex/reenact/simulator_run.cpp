@@ -146,13 +146,17 @@ FiniteSolution Simulator::Impl::run_at_finite_strain(const MuscleOptions& muscle
   report.factor_s += watch.lap();
   FiniteSolution out = run_finite(newton, *assembler, boundary->prescribed(), drive, times_s, times,
                                   [this](double share) { tell(kDirectDone * share); });
-  report.steps = out.parts;
+  report.steps += out.parts;
   report.iterations += out.iterations;
   report.factorisations += out.factorisations;
   return out;
 }
 
 Solution Simulator::Impl::solved_finite(const std::vector<double>& times) {
+  if (load_held && load && load->patch_forces && load->patch_forces->time_s.back() < end_s() - 1e-9)
+    throw InputError("time.end_s",
+                     fmt::format("{:g} s: forces are held of a run of {:g} s; expected no more",
+                                 end_s(), load->patch_forces->time_s.back()));
   if (!by_forces() || (load_held && load->patch_forces))
     return std::move(run_at_finite_strain(options.muscles, false, times).solution);
   // What holds the patches belongs to the motion as it was recorded, whatever the gains.
@@ -175,12 +179,12 @@ void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve
   need_assembler();
   report.boundary_s = watch.lap();
   ask();
-  report.steps = steps();
+  report.steps = options.model.strain == Strain::linear ? steps() : 0;
   need_input(points);
   std::vector<double> times;
   for (const Shot& shot : shots)
     times.push_back(
-        std::clamp(shot.time_s / options.time.step_s, 0.0, static_cast<double>(report.steps)));
+        std::clamp(shot.time_s / options.time.step_s, 0.0, static_cast<double>(steps())));
   const bool finite = options.model.strain == Strain::finite;
   Solution solution = finite ? solved_finite(times) : solved(times);
   report.simulate_s = watch.lap() - report.basis_s - (factoring_s() - prepared_s);

@@ -246,6 +246,8 @@ void Simulator::Impl::prepare() {
   need_region();
   if (options.region.measured == Measured::all) return;  // nothing is simulated
   run_together({[&] { need_boundary(); }, [&] { need_assembler(); }});
+  const bool holds = by_forces() && !(load && load->patch_forces);
+  if (options.model.strain == Strain::finite && holds) need_reduced();
   if (options.model.strain == Strain::linear)
     options.solver.method == SolverMethod::direct ? need_full() : need_reduced();
   if (options.drive.by == DriveBy::muscles && !load) need_muscles();

@@ -17,6 +17,10 @@ void Simulator::Impl::start_stream(double interval_s) {
     throw InputError("stream", "the whole skin is measured: there is nothing to simulate");
   if (by_forces())
     throw InputError("stream", "forces need the whole motion: expected drive.by = displacement");
+  if (options.model.strain == Strain::finite || options.contact.lips)
+    throw InputError("stream",
+                     "a stream knows neither finite strain nor contact: expected model.strain = "
+                     "linear and contact.lips = false");
   stream.reset();
   renew_stream(interval_s);
 }

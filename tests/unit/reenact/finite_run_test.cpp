@@ -127,9 +127,47 @@ TEST_F(FiniteRun, RefusesWhatItCannotDo) {
   wrong.model.viscous_form = fem::ViscousForm::printed;
   expect_refused(wrong, "viscous_form");
   wrong = options_;
+  wrong.solver.finite_step_s = 1e-6;
+  expect_refused(wrong, "finite_step_s");
+  wrong = options_;
+  wrong.contact.lips = true;
+  expect_refused(wrong, "contact.lips");
+  wrong = options_;
   wrong.model.law.law = fem::HyperelasticLaw::yeoh;
   wrong.model.law.c20 = -1;
   expect_refused(wrong, "model.law");
+}
+
+TEST_F(FiniteRun, ForcesHeldAtSmallStrainAreNotForFiniteStrain) {
+  options_.drive.by = DriveBy::muscles;
+  options_.model.strain = Strain::linear;
+  Simulator simulator = made(options_, smile(1));
+  simulator.run();
+  simulator.hold_load();
+  options_.model.strain = Strain::finite;
+  options_.tissue.uniform[tissue::young] *= 3;
+  EXPECT_THROW(simulator.set_options(options_), InputError);
+  EXPECT_EQ(simulator.options().model.strain, Strain::linear) << "nothing changed";
+}
+
+TEST_F(FiniteRun, ThereAndBackIsAsNew) {
+  options_.model.strain = Strain::linear;
+  for (const DriveBy by : {DriveBy::displacement, DriveBy::muscles}) {
+    options_.drive.by = by;
+    Simulator simulator = made(options_, smile(1));
+    const auto linear = simulator.run();
+    SimulationOptions finite = options_;
+    finite.model.strain = Strain::finite;
+    simulator.set_options(finite);
+    EXPECT_EQ(apart(simulator.run(), made(finite, smile(1)).run()), 0);
+    simulator.set_options(options_);
+    EXPECT_EQ(apart(simulator.run(), linear), 0);
+  }
+}
+
+TEST_F(FiniteRun, AStreamKnowsNoFiniteStrain) {
+  Simulator simulator = made(options_, smile(1));
+  EXPECT_THROW(simulator.start_stream(0.02), InputError);
 }
 
 TEST_F(FiniteRun, ForcesTurnWithTheTissue) {

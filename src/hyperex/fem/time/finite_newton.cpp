@@ -225,7 +225,12 @@ struct FiniteNewton::Impl {
       } else if (size > 0) {
         share = search(energy);
         if (share == 0) {
-          if (fresh) return residual_is_rounding(first_residual);
+          find_residual();  // the search's direction stood in its place
+          if (fresh) {
+            // At an iterate as good as found there may be no descent that rounding does not hide.
+            report.error = size / std::max(greatest_motion(x), options.least_motion_m);
+            return residual_is_rounding(first_residual) || report.error <= options.tolerance;
+          }
           refactor = true;  // the old factor's direction leads nowhere
           continue;
         }

@@ -122,9 +122,8 @@ std::vector<std::string> warnings_of(const reenact::SimulationReport& report,
                                      const reenact::Performance& p) {
   std::vector<std::string> notes = report.notes;
   if (report.lip_overlap_mm > kLipsPass_mm)
-    notes.push_back(fmt::format(
-        "the lips pass through each other by up to {:.1f} mm (contact.lips keeps them apart)",
-        report.lip_overlap_mm));
+    notes.push_back(
+        fmt::format("the lips pass through each other by up to {:.1f} mm", report.lip_overlap_mm));
   if (report.inverted_tets > 0 && report.inverted_tets > kFewInverted * double(p.tets.rows()))
     notes.push_back(fmt::format(
         "{} of {} tetrahedra are turned inside out in some frame: the motion is too "

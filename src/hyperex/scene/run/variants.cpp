@@ -110,8 +110,7 @@ std::vector<std::string> lips_that_pass(const std::vector<VariantRun>& runs, dou
     if (const double mm = run.simulation.report.lip_overlap_mm;
         mm > kLipsPass_mm && (base_mm <= kLipsPass_mm || mm > base_mm + kAsBase_mm))
       notes.push_back(fmt::format(
-          "variant {}: the lips pass through each other by up to {:.1f} mm ({:.1f} mm in base): "
-          "contact.lips keeps them apart",
+          "variant {}: the lips pass through each other by up to {:.1f} mm ({:.1f} mm in base)",
           run.scene.title, mm, base_mm));
   return notes;
 }
