@@ -13,9 +13,8 @@ namespace hyperex::fem {
 /// see a change of volume, which dilatation groups resist (form/finite_strain.hpp).
 ///  linear:        W = mu |dev e|^2, e the small strain: the linear form itself
 ///  neo_hookean:   W = mu/2 (I1 - 3) - mu (J - 1) + mu/6 (J - 1)^2, finite for any F: what Smith,
-///  de
-///                 Goes and Kim (Stable Neo-Hookean Flesh Simulation, ACM Trans. Graph. 37, 2018)
-///                 build on, its own volumetric part at rest taken away
+///                 de Goes and Kim (Stable Neo-Hookean Flesh Simulation, ACM Trans. Graph. 37,
+///                 2018) build on, its own volumetric part at rest taken away
 ///  isochoric_neo_hookean: W = mu/2 (I1bar - 3)
 ///  yeoh:          W = C10 (x + c20 x^2 + c30 x^3), x = I1bar - 3, C10 = mu/2
 ///                 (Yeoh, Rubber Chem. Technol. 66, 1993)
