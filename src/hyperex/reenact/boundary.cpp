@@ -285,4 +285,13 @@ bool Boundary::jaw_acts() const {
                      [](const Spring& s) { return s.target == Spring::jaw; });
 }
 
+std::vector<int> with_nodes(const std::vector<int>& prescribed, const std::vector<int>& nodes) {
+  std::vector<int> out = prescribed;
+  for (const int node : nodes)
+    for (int axis = 0; axis < 3; ++axis) out.push_back(3 * node + axis);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 }  // namespace hyperex::reenact

@@ -104,4 +104,7 @@ class Boundary {
   int skull_count_ = 0, mandible_count_ = 0;
 };
 
+/// Sorted unknowns: `prescribed` and the three of each of the nodes.
+std::vector<int> with_nodes(const std::vector<int>& prescribed, const std::vector<int>& nodes);
+
 }  // namespace hyperex::reenact

@@ -130,15 +130,6 @@ class ReadOff {
 
 }  // namespace
 
-std::vector<int> with_nodes(const std::vector<int>& prescribed, const std::vector<int>& nodes) {
-  std::vector<int> out = prescribed;
-  for (const int node : nodes)
-    for (int axis = 0; axis < 3; ++axis) out.push_back(3 * node + axis);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
 FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assembler,
                           const std::vector<int>& still_prescribed, const FiniteDrive& drive,
                           const std::vector<double>& step_ends_s, const std::vector<double>& times,

@@ -29,9 +29,6 @@ struct FiniteSolution {
   int steps = 0, parts = 0, iterations = 0, factorisations = 0;
 };
 
-/// Sorted unknowns: `prescribed` and the three of each of the nodes.
-std::vector<int> with_nodes(const std::vector<int>& prescribed, const std::vector<int>& nodes);
-
 /// From rest, in steps that end at `step_ends_s` (0 first) or parts of them; displacements at
 /// `times` (in steps of the drive), by cubics between steps. `newton` prescribes what `still` does
 /// and the nodes of `places`. Throws NumericalError as FiniteNewton::step().

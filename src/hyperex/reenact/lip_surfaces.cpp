@@ -23,7 +23,7 @@ Box grown(const Box& box, double by) {
   return {box.min().array() - by, box.max().array() + by};
 }
 
-/// Edges of the skin that one triangle alone has.
+/// How many triangles have each edge.
 std::map<std::pair<int, int>, int> uses_of_edges(const Triangles& triangles) {
   std::map<std::pair<int, int>, int> uses;
   for (Index f = 0; f < triangles.rows(); ++f)

@@ -40,8 +40,8 @@ class LipSurfaces {
   /// Vertices of the skin.
   const std::vector<int>& lower() const { return lower_; }
   const std::vector<int>& upper() const { return upper_; }
-  Points lower_rest() const { return lower_rest_; }
-  Points upper_rest() const { return upper_rest_; }
+  const Points& lower_rest() const { return lower_rest_; }
+  const Points& upper_rest() const { return upper_rest_; }
 
   /// Pairs nearer than `within_m` over what is allowed, where vertices are displaced (one row each
   /// of lower() and upper(), m). May be called from several threads.

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "hyperex/muscles/muscle_template.hpp"
-#include "hyperex/reenact/finite_run.hpp"
 #include "hyperex/reenact/muscle_fit.hpp"
 #include "hyperex/reenact/muscle_model.hpp"
 #include "hyperex/reenact/skin_places.hpp"

@@ -2,23 +2,15 @@
 #include "hyperex/fem/form/assembler.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <limits>
 
 #include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/fem/form/for_each_index.hpp"
 
 namespace hyperex::fem {
 namespace {
-
-template <typename F>
-void for_each_index(Eigen::Index count, F f) {
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, 64), [&](const auto& range) {
-    for (Eigen::Index i = range.begin(); i < range.end(); ++i) f(i);
-  });
-}
 
 std::vector<Tet4> shapes_of(const Points& nodes, const Tetrahedra& tets) {
   std::vector<Tet4> shapes(tets.rows());

@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/form/finite_strain.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/fem/form/for_each_index.hpp"
 
 namespace hyperex::fem {
 namespace {
 
 using Eigen::Matrix3d;
-
-template <typename F>
-void for_each_index(Eigen::Index count, F f) {
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, 64), [&](const auto& range) {
-    for (Eigen::Index i = range.begin(); i < range.end(); ++i) f(i);
-  });
-}
 
 Matrix3d cross_matrix(const Vec3& w) {
   Matrix3d m;
@@ -176,12 +167,6 @@ void FiniteStrain::set_material(const Material& material) {
         row[mesh_.mass_slots()[k][a]] += element_mass_[t] * (mesh_.corners()[t][a] == n ? 2 : 1);
     }
   });
-  rest_at(Eigen::VectorXd::Zero(3 * mesh_.node_count()));
-}
-
-void FiniteStrain::set_law(const Hyperelastic& law) {
-  HX_ASSERT(is_admissible(law) && law.branches.size() == law_.branches.size());
-  law_ = law;
   rest_at(Eigen::VectorXd::Zero(3 * mesh_.node_count()));
 }
 

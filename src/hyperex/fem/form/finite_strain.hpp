@@ -34,8 +34,6 @@ class FiniteStrain {
   const Hyperelastic& law() const { return law_; }
   /// Other values, the same law; history is forgotten.
   void set_material(const Material& material);
-  /// Other ratios or another law of as many branches; history is forgotten.
-  void set_law(const Hyperelastic& law);
 
   /// From now on energy(), its gradient and tangent() hold what belongs to the step that leads from
   /// `last` (displacement at t; `before` at t-1) to their argument. The viscosity's potential is

@@ -499,9 +499,6 @@ LinearSolver FiniteNewton::solver() const {
 const std::shared_ptr<const NodeOrder>& FiniteNewton::order() const {
   return impl_->factor->order();
 }
-double FiniteNewton::factor_seconds() const {
-  return impl_->factor->factor_seconds();
-}
 
 void FiniteNewton::solve(VectorXd& x) {
   Impl& m = *impl_;

@@ -103,7 +103,6 @@ class FiniteNewton {
   int free_count() const;
   LinearSolver solver() const;  ///< cholesky or iterative
   const std::shared_ptr<const NodeOrder>& order() const;
-  double factor_seconds() const;  ///< of the last factorisation
 
   /// x := A^-1 x among the free unknowns (3 |nodes|; prescribed rows become zero) with the factor
   /// at hand: the displacement (m) that forces (N) make, to first order. For hooks that correct

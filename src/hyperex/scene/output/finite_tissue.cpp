@@ -7,8 +7,14 @@ namespace hyperex::scene {
 namespace {
 using reenact::Performance;
 
-/// Neither mass nor viscosity enters elastic stress.
-fem::Material elastic(const Performance& p) {
+fem::Hyperelastic without_branches(fem::Hyperelastic law) {
+  law.branches.clear();
+  return law;
+}
+
+}  // namespace
+
+fem::Material elastic_material(const Performance& p) {
   fem::Material material;
   material.young_pa.assign(p.tet_young_pa.begin(), p.tet_young_pa.end());
   material.poisson.assign(p.tet_poisson.begin(), p.tet_poisson.end());
@@ -17,16 +23,9 @@ fem::Material elastic(const Performance& p) {
   return material;
 }
 
-fem::Hyperelastic without_branches(fem::Hyperelastic law) {
-  law.branches.clear();
-  return law;
-}
-
-}  // namespace
-
 FiniteTissue::FiniteTissue(const Performance& p)
     : assembler_(p.nodes, p.tets, p.model.element),
-      form_(assembler_, elastic(p), without_branches(p.model.law)) {}
+      form_(assembler_, elastic_material(p), without_branches(p.model.law)) {}
 
 FiniteState FiniteTissue::at(const Points& d) const {
   const Eigen::VectorXd flat = Eigen::Map<const Eigen::VectorXd>(d.data(), d.size());

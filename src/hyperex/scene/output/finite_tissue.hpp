@@ -7,6 +7,9 @@
 
 namespace hyperex::scene {
 
+/// What a performance's tissue is made of, as elastic stress needs it: no mass, no viscosity.
+fem::Material elastic_material(const reenact::Performance& performance);
+
 /// Per tetrahedron, at one displacement.
 struct FiniteState {
   fem::VoigtRows green_lagrange;  ///< engineering shear

@@ -22,14 +22,6 @@ io::VtuArray strain_array(const char* name, const fem::VoigtRows& strain) {
   return array;
 }
 
-/// What von Mises stress takes: Young's modulus and Poisson's ratio.
-fem::Material elastic_material(const Performance& p) {
-  fem::Material material;
-  material.young_pa.assign(p.tet_young_pa.begin(), p.tet_young_pa.end());
-  material.poisson.assign(p.tet_poisson.begin(), p.tet_poisson.end());
-  return material;
-}
-
 Eigen::VectorXd greatest_principal(const fem::VoigtRows& strain) {
   Eigen::VectorXd greatest(strain.rows());
   for (Eigen::Index t = 0; t < strain.rows(); ++t) {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "hyperex/geometry/types.hpp"
+
+namespace hyperex {
+
+/// A closed surface as the distance to it: teeth, eyeballs, whatever skin may touch and not enter.
+class SignedDistance {
+ public:
+  virtual ~SignedDistance() = default;
+  /// Of a place (m), below 0 inside. `outward`: the gradient there, of length 1 or nearly so.
+  /// Continuously differentiable near the surface. May be called from several threads, and
+  /// allocates nothing.
+  virtual double at(const Vec3& place, Vec3& outward) const = 0;
+};
+
+/// A ball.
+class SphereDistance final : public SignedDistance {
+ public:
+  SphereDistance(const Vec3& centre, double radius_m) : centre_(centre), radius_m_(radius_m) {}
+  double at(const Vec3& place, Vec3& outward) const override {
+    const Vec3 from = place - centre_;
+    const double length = from.norm();
+    outward = length > 0 ? Vec3(from / length) : Vec3::UnitZ();
+    return length - radius_m_;
+  }
+
+ private:
+  Vec3 centre_;
+  double radius_m_;
+};
+
+}  // namespace hyperex
