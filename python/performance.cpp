@@ -69,8 +69,9 @@ void bind_report(py::module_& m) {
       .def_readonly("greatest_opening_deg", &SimulationReport::greatest_opening_deg, "Of the jaw.")
       .def_readonly("driven_off_mm", &SimulationReport::driven_off_mm,
                     "Greatest distance of a driven point from where it is driven.")
-      .def_readonly("lip_overlap_mm", &SimulationReport::lip_overlap_mm,
-                    "Greatest depth by which the lips pass through each other.")
+      .def_readonly(
+          "lip_overlap_mm", &SimulationReport::lip_overlap_mm,
+          "Greatest depth by which the lips pass through each other, each vertex over its rest.")
       .def_readonly("lip_gap_mm", &SimulationReport::lip_gap_mm,
                     "Greatest distance between the lips, over rest.")
       .def_readonly("notes", &SimulationReport::notes, "A sentence each.")

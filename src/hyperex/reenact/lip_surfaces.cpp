@@ -68,7 +68,14 @@ LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& la
   for (std::size_t i = 0; i < follows_.size(); ++i) follows_[i] = int(i);
   // The rim: edges that one triangle of the whole skin has, not of this part of it alone.
   const Vec3 inward = -kInward_m * face::face_frame(landmarks).z;
-  const auto uses = uses_of_edges(mesh.skin.triangles);
+  std::vector<Index> about;  // all triangles that share an edge with this part
+  for (Index f = 0; f < mesh.skin.triangles.rows(); ++f) {
+    const auto corners = mesh.skin.triangles.row(f);
+    if (std::count_if(corners.begin(), corners.end(), [&](int v) { return near[std::size_t(v)]; }) >
+        1)
+      about.push_back(f);
+  }
+  const auto uses = uses_of_edges(mesh.skin.triangles(about, Eigen::all));
   std::map<int, int> behind;  // of a vertex on the rim, the one that lies inwards of it
   const auto inner = [&](int v) {
     const auto [at, is_new] = behind.emplace(v, int(follows_.size()));

@@ -31,7 +31,7 @@ Readout::Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks)
       names_(names_of(landmarks)),
       rest_(places_of(landmarks)),
       places_(skin_places(mesh, names_, rest_)),
-      contact_(mesh, landmarks) {}
+      surfaces_(std::make_shared<const LipSurfaces>(mesh, landmarks)) {}
 
 PointsF in_single_precision(const Points& points) {
   return points.unaryExpr([](double x) {
@@ -82,7 +82,7 @@ Readout::Lips Readout::lips(const motion::Motion& tracks, const std::vector<Poin
   const int upper = tracks.index_of(face::ibug(62)), lower = tracks.index_of(face::ibug(66));
   const auto gap = [&](const Points& at) { return 1e3 * (at.row(upper) - at.row(lower)).norm(); };
   std::vector<double> depth_mm(frames.size());
-  each(frames.size(), [&](std::size_t f) { depth_mm[f] = 1e3 * contact_.depth(frames[f]); });
+  each(frames.size(), [&](std::size_t f) { depth_mm[f] = 1e3 * surfaces_->depth(frames[f]); });
   Lips most;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     most.overlap_mm = std::max(most.overlap_mm, depth_mm[f]);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "hyperex/reenact/lip_contact.hpp"
+#include "hyperex/reenact/lip_surfaces.hpp"
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/reenact/point_curve.hpp"
 #include "hyperex/reenact/skin_measured.hpp"
@@ -28,8 +29,8 @@ class Readout {
   motion::Motion landmark_tracks(const std::vector<double>& time_s,
                                  const std::vector<PointsF>& frames) const;
 
-  /// Over the frames: the greatest depth by which the lips pass through each other beyond rest, and
-  /// the greatest distance between upper and lower lip (ibug68_62, 66) over the first frame's.
+  /// Over the frames: the greatest depth of LipSurfaces, by which the lips pass through each other,
+  /// and the greatest distance between upper and lower lip (ibug68_62, 66) over the first frame's.
   struct Lips {
     double overlap_mm = 0, gap_mm = 0;
   };
@@ -38,12 +39,14 @@ class Readout {
   Lips lips(const motion::Motion& tracks, const std::vector<PointsF>& frames,
             const EachFrame& each) const;
 
+  const std::shared_ptr<const LipSurfaces>& lip_surfaces() const { return surfaces_; }
+
  private:
   const tissue::TissueMesh& mesh_;
   std::vector<std::string> names_;
   Points rest_;                // of the landmarks
   std::vector<Match> places_;  // of them on the skin
-  LipContact contact_;
+  std::shared_ptr<const LipSurfaces> surfaces_;
 };
 
 /// As floats. What a float could hold with fewer digits alone becomes 0: some libraries' threads

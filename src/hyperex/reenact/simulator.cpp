@@ -36,7 +36,6 @@ Simulator::Simulator(const Simulator& other) : impl_(std::make_unique<Impl>()) {
   impl_->load_held = from.load_held;
   impl_->load_lost = from.load_lost;
   impl_->input = from.input;
-  impl_->lip_surfaces = from.lip_surfaces;
 }
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator other) noexcept {

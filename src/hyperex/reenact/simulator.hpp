@@ -45,10 +45,9 @@ struct SimulationReport {
   bool forces_found_anew = false;
   int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
   double greatest_opening_deg = 0;  ///< of the jaw
-  double driven_off_mm = 0;  ///< greatest distance of any driven point from where it is driven
-  double lip_overlap_mm =
-      0;                  ///< greatest depth by which the lips pass through each other, over rest
-  double lip_gap_mm = 0;  ///< greatest distance between the lips (ibug68_62, 66), over rest
+  double driven_off_mm = 0;   ///< greatest distance of any driven point from where it is driven
+  double lip_overlap_mm = 0;  ///< greatest depth of LipSurfaces: the lips in each other, over rest
+  double lip_gap_mm = 0;      ///< greatest distance between the lips (ibug68_62, 66), over rest
   /// Of ContactOptions; all 0 where it is off. Depths are those of LipSurfaces: beyond rest, each
   /// vertex by itself, the lips going on inwards from their rims.
   struct Contact {

@@ -71,18 +71,19 @@ void Simulator::Impl::need_contact(fem::PartitionedFactor& factor) {
   const auto of = [&](const std::vector<int>& vertices) {
     return skin_carriers(*mesh, driven_points->rim, *region, vertices);
   };
-  contact.emplace(lip_surfaces, of(lip_surfaces->lower()), of(lip_surfaces->upper()),
-                  by_forces() ? carriers_near(*mesh, *driven_points, *lip_surfaces)
-                              : std::vector<SkinCarrier>(),
-                  options.contact.point_give, factor);
+  const std::shared_ptr<const LipSurfaces>& lips = readout->lip_surfaces();
+  contact.emplace(
+      lips, of(lips->lower()), of(lips->upper()),
+      by_forces() ? carriers_near(*mesh, *driven_points, *lips) : std::vector<SkinCarrier>(),
+      options.contact.point_give, factor);
 }
 
 void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& points,
                             Solution& solution, SimulationResult& result) {
   Stopwatch watch;
   report.contact = {};
-  if (!lip_surfaces) lip_surfaces = std::make_shared<const LipSurfaces>(*mesh, *landmarks);
-  if (lip_surfaces->empty()) return;
+  const LipSurfaces& lips = *readout->lip_surfaces();
+  if (lips.empty()) return;
   const auto skin_of = [&](std::size_t shot) -> const PointsF& {
     const int frame = shots[shot].frame;
     return frame < 0 ? result.still_displacement_m[std::size_t(-1 - frame)]
@@ -90,7 +91,7 @@ void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& po
   };
   std::vector<double> depth_m(shots.size());
   const auto measure = [&] {
-    for_frames(shots.size(), [&](std::size_t i) { depth_m[i] = lip_surfaces->depth(skin_of(i)); });
+    for_frames(shots.size(), [&](std::size_t i) { depth_m[i] = lips.depth(skin_of(i)); });
     return 1e3 * *std::max_element(depth_m.begin(), depth_m.end());
   };
   report.contact.overlap_mm = report.contact.left_mm = measure();

@@ -57,7 +57,6 @@ struct Simulator::Impl {
   bool load_held = false;
   bool load_lost = false;  // there was one, for the tissue or support before
   std::shared_ptr<const InputShapes> input;
-  std::shared_ptr<const LipSurfaces> lip_surfaces;  // of the face alone
   // Of this simulator alone.
   std::optional<fem::ReducedModel> reduced;
   std::optional<fem::Newmark> full;

@@ -64,6 +64,8 @@ TEST_F(MouthContactOfAFace, KeepsLipsApartAndLeavesRestAlone) {
     EXPECT_LT(with.report.contact.residual_mm, 0.05);
     EXPECT_GT(with.report.contact.frames, 0);
     EXPECT_EQ(free.report.contact.frames, 0) << "off";
+    EXPECT_EQ(free.report.lip_overlap_mm, with.report.contact.overlap_mm) << "one measure";
+    EXPECT_EQ(with.report.lip_overlap_mm, with.report.contact.left_mm);
     EXPECT_EQ(free.performance.skin_displacement_m.front(),
               with.performance.skin_displacement_m.front())
         << "no jump at rest";
