@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "hyperex/fem/reduced/reduced_model.hpp"
+#include "hyperex/reenact/muscle_load.hpp"
+#include "hyperex/reenact/muscle_model.hpp"
 #include "hyperex/reenact/solve.hpp"
 #include "support/face_case.hpp"
 #include "support/machine.hpp"
@@ -111,6 +113,54 @@ Json edit_to_frames(const FaceCase& face, fem::ElementKind kind, int repeats) {
           {"skin_vertices", face.mesh().skin.points.rows()}};
 }
 
+/// The same face driven by muscles: the forces of a recording once the muscles' unit responses are
+/// there, and what another strength of one muscle costs, up to all frames of the skin.
+Json muscles(const FaceCase& face, int repeats) {
+  reenact::Simulator simulator = face.simulator();
+  reenact::SimulationOptions options = simulator.options();
+  options.drive.by = reenact::DriveBy::muscles;
+  simulator.set_options(options);
+  simulator.run();
+  simulator.hold_load();
+  std::vector<double> strength, tissue, fit;
+  for (int i = 0; i < repeats; ++i) {
+    options.muscles.gains = {{"zyg_major_L", 1 - 0.9 * (i + 1) / repeats}};
+    strength.push_back(seconds_of([&] {
+      simulator.set_options(options);
+      simulator.run();
+    }));
+  }
+  options.muscles.gains.clear();
+  for (int i = 0; i < repeats; ++i) {
+    options.tissue.uniform[tissue::young] *= 0.95;
+    tissue.push_back(seconds_of([&] {
+      simulator.set_options(options);
+      simulator.run();
+    }));
+  }
+  reenact::SimulationOptions of = face.simulator().options();
+  of.drive.by = reenact::DriveBy::muscles;
+  fem::System system;
+  const fem::Assembler assembler(face.mesh().volume.nodes, face.mesh().volume.tets,
+                                 of.model.element);
+  fem::Material material =
+      of.tissue.material(std::size_t(face.mesh().volume.tets.rows()), of.model.viscous_form);
+  stiffen_lips(face.mesh(), simulator.landmarks(), of.muscles, material);
+  assembler.assemble(material, system);
+  const reenact::MuscleModel model =
+      muscle_model(face.mesh(), simulator.landmarks(), of, system.stiffness, nullptr);
+  const reenact::MeasuredRegion region =
+      measured_region(face.mesh(), simulator.landmarks(), simulator.motion(), of.region);
+  for (int i = 0; i < std::min(repeats, 5); ++i)
+    fit.push_back(seconds_of([&] {
+      muscle_load(face.mesh(), simulator.landmarks(), simulator.motion(), region, of, model);
+    }));
+  return {{"strength_to_frames_s", median(strength)},
+          {"tissue_to_frames_s", median(tissue)},
+          {"samples", simulator.motion().motion.time_s.size()},
+          {"forces_s", median(fit)}};
+}
+
 Json measure(bool quick) {
   const FaceCase face(Face::subject_a_if_there);
   const std::vector<double> tolerances =
@@ -138,18 +188,24 @@ Json measure(bool quick) {
     e["hard"] = sweep(face, face.system(kind, 0.1), hard, tolerances);
     out["elements"][std::string(to_string(kind))] = e;
   }
+  out["muscles"] = muscles(face, quick ? 3 : 9);
   return out;
 }
 
 }  // namespace
 }  // namespace hyperex::bench
 
-/// reduced_bench FILE.json [--quick | --edit]; --edit: what an edit costs, alone
+/// reduced_bench FILE.json [--quick | --edit | --muscles]; --edit: what an edit costs, --muscles:
+/// what muscles cost, alone
 int main(int argc, char** argv) {
   using namespace hyperex::bench;
   if (argc > 2 && std::string(argv[2]) == "--edit") {
     const FaceCase face(Face::subject_a_if_there);
     write_json(edit_to_frames(face, hyperex::fem::ElementKind::tet4_star, 21), argv[1]);
+    return 0;
+  }
+  if (argc > 2 && std::string(argv[2]) == "--muscles") {
+    write_json(muscles(FaceCase(Face::subject_a_if_there), 9), argv[1]);
     return 0;
   }
   write_json(measure(argc > 2 && std::string(argv[2]) == "--quick"), argc > 1 ? argv[1] : "-");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/reenact/muscle_fit.hpp"
 #include "hyperex/reenact/muscle_model.hpp"
@@ -118,21 +119,44 @@ Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& drive
   return out;
 }
 
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// Forces that hold the patches' nodes so displaced (columns), the rest of the face being in
 /// equilibrium without.
 Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patches,
                                const Eigen::MatrixXd& displaced) {
-  fem::PartitionedFactor factor(model.stiffness(),
-                                with_nodes(model.boundary().prescribed(), patches.nodes),
-                                "patches of the driven points");
-  const fem::SparseMatrix coupling = fem::coupling(model.stiffness(), factor.partition());
-  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(model.stiffness().rows(), displaced.cols());
-  for (std::size_t j = 0; j < patches.nodes.size(); ++j)
-    moved.middleRows<3>(3 * patches.nodes[j]) = displaced.middleRows<3>(3 * Eigen::Index(j));
-  Eigen::MatrixXd free = -(coupling * moved(factor.prescribed(), Eigen::all));
+  const std::vector<int>& held = model.boundary().prescribed();
+  const std::vector<int> prescribed = with_nodes(held, patches.nodes);
+  fem::PartitionedFactor factor(
+      model.stiffness(), prescribed, "patches of the driven points", {},
+      fem::LinearSolver::automatic,
+      std::make_shared<const fem::NodeOrder>(
+          restricted(*model.order(), int(model.stiffness().rows()), held, prescribed)));
+  const auto unknown = [&](Eigen::Index row) { return 3 * patches.nodes[row / 3] + int(row % 3); };
+  const std::vector<int>& place = factor.partition().free_index;
+  const Rows held_at = displaced;
+  Rows right = Rows::Zero(Eigen::Index(factor.free().size()), displaced.cols());
+  for (Eigen::Index row = 0; row < held_at.rows(); ++row)
+    for (fem::SparseMatrix::InnerIterator it(model.stiffness(), unknown(row)); it; ++it)
+      if (place[it.row()] >= 0) right.row(place[it.row()]) -= it.value() * held_at.row(row);
+  Eigen::MatrixXd free = right;
   factor.solve(free);
-  moved(factor.free(), Eigen::all) = free;
-  return model.stiffness() * moved;
+  right = free;
+  // Of the rest the forces are zero.
+  Rows moved = Rows::Zero(model.stiffness().rows(), displaced.cols());
+  for (std::size_t i = 0; i < factor.free().size(); ++i)
+    moved.row(factor.free()[i]) = right.row(Eigen::Index(i));
+  for (Eigen::Index row = 0; row < held_at.rows(); ++row)
+    moved.row(unknown(row)) = held_at.row(row);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model.stiffness().rows(), displaced.cols());
+  Eigen::RowVectorXd sum(displaced.cols());
+  for (Eigen::Index row = 0; row < held_at.rows(); ++row) {
+    sum.setZero();
+    for (fem::SparseMatrix::InnerIterator it(model.stiffness(), unknown(row)); it; ++it)
+      sum += it.value() * moved.row(it.row());
+    out.row(unknown(row)) = sum;
+  }
+  return out;
 }
 
 /// The forces of muscles and jaw, then of the left-over's directions: columns of a HeldLoad. In the

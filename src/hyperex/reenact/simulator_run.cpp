@@ -11,6 +11,7 @@
 
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/form/inverted.hpp"
+#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/reenact/finite_run.hpp"
 #include "hyperex/reenact/muscle_load.hpp"
 #include "hyperex/reenact/simulator_impl.hpp"
@@ -140,8 +141,12 @@ FiniteSolution Simulator::Impl::run_at_finite_strain(const MuscleOptions& muscle
   how.full_newton = options.solver.full_newton;
   std::vector<int> prescribed = boundary->prescribed();
   if (holds) prescribed = with_nodes(prescribed, places.nodes);
+  auto order_now = known_order();
+  if (holds && order_now)
+    order_now = std::make_shared<const fem::NodeOrder>(
+        restricted(*order_now, int(springs.cols()), boundary->prescribed(), prescribed));
   fem::FiniteNewton newton(form, std::move(prescribed), how, std::move(springs), {},
-                           options.solver.linear, holds ? nullptr : known_order());
+                           options.solver.linear, order_now);
   if (!holds) keep_order(newton.order());
   report.factor_s += watch.lap();
   FiniteSolution out = run_finite(newton, *assembler, boundary->prescribed(), drive, times_s, times,

@@ -207,6 +207,29 @@ TEST(NodeOrder, IsAnOrderAndForecastsTheFactor) {
   EXPECT_TRUE(order_by_nodes(SparseMatrix(0, 0), {}).unknowns.empty());
 }
 
+TEST(NodeOrder, OfFewerUnknownsKeepsTheOrderAndTakesNoLargerFactor) {
+  const Box b(8);
+  const Partition whole = b.partition();
+  std::vector<int> more = whole.prescribed;
+  for (int k = 0; k < int(whole.free.size()); k += 5) more.push_back(whole.free[k]);
+  std::sort(more.begin(), more.end());
+  const Partition part(whole.unknowns(), more);
+  std::vector<int> node_of;
+  for (const int f : whole.free) node_of.push_back(f / 3);
+  const NodeOrder order = order_by_nodes(free_lower(b.system.stiffness, whole), node_of);
+  const NodeOrder fewer = restricted(order, whole.unknowns(), whole.prescribed, more);
+  ASSERT_EQ(fewer.unknowns.size(), part.free.size());
+  std::vector<int> from_whole, from_part;
+  for (const int k : order.unknowns)
+    if (part.free_index[whole.free[k]] >= 0) from_whole.push_back(whole.free[k]);
+  for (const int k : fewer.unknowns) from_part.push_back(part.free[k]);
+  EXPECT_EQ(from_whole, from_part);
+  const SparseMatrix lower = free_lower(b.system.stiffness, part);
+  EXPECT_LE(
+      Cholesky(lower, "test", fewer.unknowns).entries_needed(),
+      Cholesky(free_lower(b.system.stiffness, whole), "test", order.unknowns).entries_needed());
+}
+
 TEST(PickLinearSolver, GoesByMemoryAndByWhatCholmodCanCount) {
   using enum LinearSolver;
   const double gib = 1ULL << 30U;

@@ -7,6 +7,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
 #include "hyperex/fem/solve/metis_turn.hpp"
+#include "hyperex/fem/solve/partition.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -65,6 +66,20 @@ NodeOrder order_by_nodes(const SparseMatrix& lower, const std::vector<int>& node
   out.entries = size * size * common.lnz;
   out.flops = size * size * size * common.fl;
   cholmod_free_factor(&factor, &common);
+  return out;
+}
+
+NodeOrder restricted(const NodeOrder& order, int unknowns, const std::vector<int>& prescribed,
+                     const std::vector<int>& more) {
+  const Partition whole(unknowns, prescribed), part(unknowns, more);
+  HX_ASSERT(order.unknowns.size() == whole.free.size());
+  NodeOrder out;
+  out.entries = order.entries;
+  out.flops = order.flops;
+  out.unknowns.reserve(part.free.size());
+  for (const int k : order.unknowns)
+    if (const int at = part.free_index[whole.free[k]]; at >= 0) out.unknowns.push_back(at);
+  HX_ASSERT(out.unknowns.size() == part.free.size());
   return out;
 }
 

@@ -19,4 +19,10 @@ struct NodeOrder {
 /// Nested dissection by METIS. Throws NumericalError where memory runs out.
 NodeOrder order_by_nodes(const SparseMatrix& lower, const std::vector<int>& node_of);
 
+/// `order` is of the unknowns that `prescribed` leaves free; the same for those that are free where
+/// `more` are prescribed (both sorted, the second holds the first). No factor takes more for it;
+/// `entries` and `flops` stay as bounds.
+NodeOrder restricted(const NodeOrder& order, int unknowns, const std::vector<int>& prescribed,
+                     const std::vector<int>& more);
+
 }  // namespace hyperex::fem
