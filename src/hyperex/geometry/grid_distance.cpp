@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/mesh_distance.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 
 namespace hyperex {
@@ -22,62 +23,16 @@ constexpr int kStride = 4;  // cells between the samples that are exact everywhe
 constexpr int kMargin = 3;  // cells beyond the band
 constexpr double kMostSamples = 1 << 28;
 
-/// One watertight component.
-class Component {
- public:
-  explicit Component(TriMesh mesh) : mesh_(std::move(mesh)), tree_(mesh_) {
-    low_ = mesh_.points.colwise().minCoeff();
-    high_ = mesh_.points.colwise().maxCoeff();
-    face_.resize(mesh_.triangles.rows(), 3);
-    corner_ = Points::Zero(mesh_.points.rows(), 3);
-    for (Index f = 0; f < mesh_.triangles.rows(); ++f) {
-      const Vec3 a = corner(f, 0), b = corner(f, 1), c = corner(f, 2);
-      const Vec3 normal = (b - a).cross(c - a).normalized();
-      face_.row(f) = normal;
-      for (int k = 0; k < 3; ++k) {
-        const Vec3 to = (corner(f, (k + 1) % 3) - corner(f, k)).normalized();
-        const Vec3 from = (corner(f, (k + 2) % 3) - corner(f, k)).normalized();
-        corner_.row(mesh_.triangles(f, k)) +=
-            std::acos(std::clamp(to.dot(from), -1.0, 1.0)) * normal.transpose();
-        edge(f, k) += normal;
-      }
-    }
-  }
+/// The last answer on a row of samples: by how much the next can differ bounds the search for it.
+struct Before {
+  Vec3 place = Vec3::Zero();
+  double distance = std::numeric_limits<double>::infinity();
 
-  bool may_hold(const Vec3& p) const {
-    return (p.array() > low_.array()).all() && (p.array() < high_.array()).all();
+  double bound(const Vec3& p) const { return distance + (p - place).norm(); }
+  void set(const Vec3& p, double d) {
+    place = p;
+    distance = std::abs(d);
   }
-
-  double signed_distance(const Vec3& p) const {
-    const ClosestPoint near = tree_.query(p);
-    const double distance = std::sqrt(near.squared_distance);
-    return (p - near.point).dot(normal_at(near)) < 0 ? -distance : distance;
-  }
-
- private:
-  Vec3 corner(Index f, int k) const { return mesh_.points.row(mesh_.triangles(f, k)); }
-  std::pair<int, int> edge_key(Index f, int k) const {
-    return std::minmax({mesh_.triangles(f, k), mesh_.triangles(f, (k + 1) % 3)});
-  }
-  Vec3& edge(Index f, int k) {
-    return edge_.try_emplace(edge_key(f, k), Vec3::Zero()).first->second;
-  }
-
-  Vec3 normal_at(const ClosestPoint& near) const {
-    constexpr double on = 1e-9;
-    const Index f = near.triangle;
-    for (int k = 0; k < 3; ++k)
-      if (near.weights[k] > 1 - on) return corner_.row(mesh_.triangles(f, k));
-    for (int k = 0; k < 3; ++k)
-      if (near.weights[(k + 2) % 3] < on) return edge_.at(edge_key(f, k));
-    return face_.row(f);
-  }
-
-  TriMesh mesh_;
-  SurfaceTree tree_;
-  Vec3 low_, high_;
-  Points face_, corner_;
-  std::map<std::pair<int, int>, Vec3> edge_;
 };
 
 std::vector<TriMesh> components_of(const TriMesh& mesh) {
@@ -110,17 +65,36 @@ class Union {
   explicit Union(const TriMesh& mesh) : whole_(mesh) {
     for (TriMesh& part : components_of(mesh)) parts_.emplace_back(std::move(part));
   }
-  double at(const Vec3& p) const {
-    double inside = 0;
-    for (const Component& part : parts_)
-      if (part.may_hold(p)) inside = std::min(inside, part.signed_distance(p));
+  /// What the samples of a row tell of the next.
+  struct Row {
+    std::vector<Before> part;
+    Before whole;
+    bool outside = false;  ///< of all components, at whole.place
+  };
+  Row begin_row() const { return {std::vector<Before>(parts_.size()), {}}; }
+
+  double at(const Vec3& p, Row& row) const {
+    // No surface lies between here and a place that was farther from all of them.
+    if (!row.outside || (p - row.whole.place).norm() >= row.whole.distance) {
+      double inside = 0;
+      for (std::size_t c = 0; c < parts_.size(); ++c)
+        if (parts_[c].may_hold(p)) {
+          const double own = parts_[c].at(p, row.part[c].bound(p));
+          row.part[c].set(p, own);
+          inside = std::min(inside, own);
+        }
+      row.outside = inside >= 0;
+      if (!row.outside) return inside;
+    }
     // Outside of all, no surface that is hidden in the union can be the nearest.
-    return inside < 0 ? inside : std::sqrt(whole_.query(p).squared_distance);
+    const ClosestPoint near = whole_.query(p, row.whole.bound(p) * (1 + 1e-9) + 1e-12);
+    row.whole.set(p, std::sqrt(near.squared_distance));
+    return row.whole.distance;
   }
 
  private:
   SurfaceTree whole_;
-  std::vector<Component> parts_;
+  std::vector<MeshDistance> parts_;
 };
 
 /// Weights of four neighbours, and their derivatives by the place, at `t` in [0, 1] between the
@@ -166,14 +140,16 @@ GridDistance::GridDistance(const TriMesh& closed, const GridDistanceOptions& opt
   std::vector<float> far(std::size_t(coarse[0]) * coarse[1] * coarse[2]);
   tbb::parallel_for(0, coarse[1] * coarse[2], [&](int row) {
     const int j = row % coarse[1], k = row / coarse[1];
+    Union::Row before = solid.begin_row();
     for (int i = 0; i < coarse[0]; ++i)
       far[offset(coarse, i, j, k)] =
-          static_cast<float>(solid.at(place(kStride * i, kStride * j, kStride * k)));
+          static_cast<float>(solid.at(place(kStride * i, kStride * j, kStride * k), before));
   });
   const double exact_within = options.band_m + cell_m_ * kStride / 2;
   sample_.resize(std::size_t(size_[0]) * size_[1] * size_[2]);
   tbb::parallel_for(0, size_[1] * size_[2], [&](int row) {
     const int j = row % size_[1], k = row / size_[1];
+    Union::Row before = solid.begin_row();
     for (int i = 0; i < size_[0]; ++i) {
       const std::array<int, 3> at{i, j, k};
       std::array<int, 3> block{};
@@ -188,7 +164,7 @@ GridDistance::GridDistance(const TriMesh& closed, const GridDistanceOptions& opt
         value += (x ? t[0] : 1 - t[0]) * (y ? t[1] : 1 - t[1]) * (z ? t[2] : 1 - t[2]) *
                  far[offset(coarse, block[0] + x, block[1] + y, block[2] + z)];
       }
-      if (std::abs(value) < exact_within) value = solid.at(place(i, j, k));
+      if (std::abs(value) < exact_within) value = solid.at(place(i, j, k), before);
       sample_[offset(size_, i, j, k)] = static_cast<float>(value);
     }
   });

@@ -9,7 +9,7 @@ namespace hyperex {
 
 struct GridDistanceOptions {
   double cell_m = 5e-4;  ///< between samples, > 0
-  double band_m = 2e-3;  ///< samples as near to the surface as this are exact, >= 0
+  double band_m = 1e-3;  ///< samples as near to the surface as this are exact, >= 0
 };
 
 /// The distance to a closed mesh, sampled on a regular grid. Between samples it goes by cubic
@@ -17,8 +17,7 @@ struct GridDistanceOptions {
 /// (Keys, IEEE Trans. Acoust. 29, 1981, 1153). Samples farther from the surface than the band are
 /// interpolated from exact ones four cells apart. Beyond the grid, which ends a band and some cells
 /// off the mesh, the way to the grid is added; the gradient jumps there.
-/// Inside and outside are told by the normal at the closest point, on edges and corners by the
-/// angle-weighted one (Baerentzen and Aanaes, IEEE TVCG 11, 2005, 243).
+/// The samples are those of MeshDistance.
 class GridDistance final : public SignedDistance {
  public:
   /// `closed`: outward triangles, metres; each of its components watertight. Components may overlap
