@@ -6,7 +6,10 @@ import { viteSingleFile } from 'vite-plugin-singlefile';
 
 // The finished page may ask nothing of anyone: scripts and styles stand in it, pictures it makes itself. In the
 // finished page alone: while it is developed Vite serves its parts.
-const policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+// The studio's alone talks, to the server that it came from.
+const page = process.env.HYPEREX_PAGE ?? 'report.html';
+const talks = page === 'studio.html' ? "; connect-src 'self'" : '';
+const policy = `default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:${talks}`;
 const withPolicy: Plugin = {
   name: 'content-security-policy',
   apply: 'build',
@@ -20,6 +23,6 @@ export default defineConfig({
     target: 'es2022',
     reportCompressedSize: false,
     chunkSizeWarningLimit: 2000,
-    rollupOptions: { input: process.env.HYPEREX_PAGE ?? 'report.html' },
+    rollupOptions: { input: page },
   },
 });

@@ -7,12 +7,13 @@ namespace hyperex::report {
 enum class Page {
   replay,    ///< web/report.html
   tracking,  ///< web/tracking.html
+  studio,    ///< web/studio.html, which has no place for data: it asks the studio's server for them
 };
 
 /// A page as Vite built it from web/, with scripts and styles inside and no data.
 std::string_view page_template(Page page);
 
-/// Where in it the data belong.
+/// Where in a replay's or a tracking's the data belong.
 inline constexpr std::string_view data_mark = "<!--HYPEREX_DATA-->";
 
 }  // namespace hyperex::report
