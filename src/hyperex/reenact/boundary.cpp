@@ -85,6 +85,26 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
   return driven;
 }
 
+std::vector<int> jaw_rows(const AlignedMotion& motion, const std::vector<int>& driven,
+                          const SupportOptions& support) {
+  std::vector<int> rows;
+  for (const std::string& name : support.jaw_points) {
+    const int row = motion.motion.index_of(name);
+    if (row < 0)
+      throw InputError(motion.motion.source,
+                       fmt::format("has no point {}, which is to carry the jaw", name));
+    rows.push_back(row);
+  }
+  if (!rows.empty()) return rows;
+  for (int k = 6; k <= 10; ++k)
+    for (const int row : driven)
+      if (motion.motion.names[std::size_t(row)] == face::ibug(k)) rows.push_back(row);
+  if (!rows.empty()) return rows;
+  for (const std::string& name : {face::ibug(8), std::string("pogonion")})
+    if (const int row = motion.motion.index_of(name); row >= 0 && rows.empty()) rows.push_back(row);
+  return rows;
+}
+
 Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                    const AlignedMotion& motion, const MeasuredRegion& region,
                    const DriveOptions& drive, const SupportOptions& support)
@@ -96,8 +116,16 @@ Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmark
 Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                    const AlignedMotion& motion, std::shared_ptr<const DrivenSkin> driven,
                    const SupportOptions& support)
-    : mesh_(mesh), rest_(motion.rest), jaw_(landmarks), driven_(std::move(driven)) {
-  set_jaw_points(motion, support);
+    : mesh_(mesh),
+      rest_(motion.rest),
+      jaw_(landmarks),
+      driven_(std::move(driven)),
+      jaw_rows_(jaw_rows(motion, driven_->rows, support)) {
+  if (jaw_rows_.empty() && support.mandible == Mandible::follow)
+    throw InputError(motion.motion.source,
+                     "has no point over the chin (" + face::ibug(8) +
+                         " or pogonion) for the jaw to follow; name some in "
+                         "support.jaw_points, or set support.mandible = \"free\"");
   hold_border(landmarks, support);
   set_bones(landmarks, support);
   number_unknowns();
@@ -127,29 +155,6 @@ void Boundary::hold_border(const io::Landmarks& landmarks, const SupportOptions&
     if (mesh_.on_border[v] && !moves_with_jaw[v])
       for (int level = 0; level <= mesh_.volume.layers; ++level)
         fixed_nodes_.push_back(static_cast<int>(level * mesh_.volume.surface_nodes()) + v);
-}
-
-void Boundary::set_jaw_points(const AlignedMotion& motion, const SupportOptions& support) {
-  for (const std::string& name : support.jaw_points) {
-    const int row = motion.motion.index_of(name);
-    if (row < 0)
-      throw InputError(motion.motion.source,
-                       fmt::format("has no point {}, which is to carry the jaw", name));
-    jaw_rows_.push_back(row);
-  }
-  if (!jaw_rows_.empty()) return;
-  for (int k = 6; k <= 10; ++k)
-    for (int row : driven_->rows)
-      if (motion.motion.names[row] == face::ibug(k)) jaw_rows_.push_back(row);
-  if (!jaw_rows_.empty()) return;
-  for (const std::string& name : {face::ibug(8), std::string("pogonion")})
-    if (const int row = motion.motion.index_of(name); row >= 0 && jaw_rows_.empty())
-      jaw_rows_.push_back(row);
-  if (jaw_rows_.empty() && support.mandible == Mandible::follow)
-    throw InputError(motion.motion.source,
-                     "has no point over the chin (" + face::ibug(8) +
-                         " or pogonion) for the jaw to follow; name some in "
-                         "support.jaw_points, or set support.mandible = \"free\"");
 }
 
 void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& support) {

@@ -26,6 +26,12 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
                        const AlignedMotion& motion, const MeasuredRegion& region,
                        const DriveOptions& drive);
 
+/// Rows of the motion's points that carry the jaw: those that the options name, else those over the
+/// chin (ibug68_6 to 10) among `driven`, else ibug68_8 or pogonion; none where there are none.
+/// Throws InputError for a name that the motion has not.
+std::vector<int> jaw_rows(const AlignedMotion& motion, const std::vector<int>& driven,
+                          const SupportOptions& support);
+
 /// Everything that is prescribed to the tissue over time: patches of skin and measured nodes follow
 /// the tracked points, held nodes stay, nodes over the mandible follow the jaw, springs pull
 /// towards the bones.
@@ -90,7 +96,6 @@ class Boundary {
   };
   void hold_border(const io::Landmarks& landmarks, const SupportOptions& support);
   void set_bones(const io::Landmarks& landmarks, const SupportOptions& support);
-  void set_jaw_points(const AlignedMotion& motion, const SupportOptions& support);
   void number_unknowns();
 
   const tissue::TissueMesh& mesh_;

@@ -20,24 +20,33 @@ int counterpart(const std::vector<std::string>& muscles, std::size_t m) {
   return static_cast<int>(it == muscles.end() ? m : it - muscles.begin());
 }
 
-/// Courses (rows) at `count` times, `dt_s` apart, from 0.
-Eigen::MatrixXd at_steps(const std::vector<double>& time_s, const Eigen::MatrixXd& course,
-                         double dt_s, Eigen::Index count) {
+/// Courses (rows) at times.
+Eigen::MatrixXd at_times(const std::vector<double>& time_s, const Eigen::MatrixXd& course,
+                         const std::vector<double>& times_s) {
+  const auto count = static_cast<Eigen::Index>(times_s.size());
   Eigen::MatrixXd out(course.rows(), count);
   if (time_s.size() < 2) return course.col(0).replicate(1, count);
   const Eigen::MatrixXd slope = motion::spline_slopes(time_s, course.transpose()).transpose();
-  Eigen::Index i = 0;
   const auto last = static_cast<Eigen::Index>(time_s.size()) - 1;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const double t = static_cast<double>(k) * dt_s;
-    while (i + 1 < last && time_s[i + 1] <= t) ++i;
-    const double h = time_s[i + 1] - time_s[i];
-    const double x = std::clamp((t - time_s[i]) / h, 0.0, 1.0);
+    const double t = times_s[std::size_t(k)];
+    const auto next = std::upper_bound(time_s.begin() + 1, time_s.begin() + last, t);
+    const Eigen::Index i = next - time_s.begin() - 1;
+    const double h = time_s[std::size_t(i) + 1] - time_s[std::size_t(i)];
+    const double x = std::clamp((t - time_s[std::size_t(i)]) / h, 0.0, 1.0);
     const double y = 1 - x;
     out.col(k) = (1 + 2 * x) * y * y * course.col(i) + x * x * (3 - 2 * x) * course.col(i + 1) +
                  h * x * y * (y * slope.col(i) - x * slope.col(i + 1));
   }
   return out;
+}
+
+/// At `count` times, `dt_s` apart, from 0.
+Eigen::MatrixXd at_steps(const std::vector<double>& time_s, const Eigen::MatrixXd& course,
+                         double dt_s, Eigen::Index count) {
+  std::vector<double> times_s;
+  for (Eigen::Index k = 0; k < count; ++k) times_s.push_back(static_cast<double>(k) * dt_s);
+  return at_times(time_s, course, times_s);
 }
 
 }  // namespace
@@ -93,6 +102,15 @@ Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::s
       sums.row(group - groups.begin()) += muscles.activation.row(static_cast<Eigen::Index>(m));
   }
   return sums;
+}
+
+Eigen::MatrixXd course_at(const HeldLoad& load, Eigen::Index first_row, Eigen::Index rows,
+                          const std::vector<double>& times_s) {
+  return at_times(load.time_s, load.course.middleRows(first_row, rows), times_s);
+}
+
+Eigen::Index jaw_row(const HeldLoad& load) {
+  return (load.wide_bands ? 2 : 1) * Eigen::Index(load.muscles.names.size());
 }
 
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,

@@ -42,6 +42,15 @@ MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& o
 Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,
                            const muscles::MuscleTable& table);
 
+/// Rows of the course at any times: between samples by the C2 cubic spline, before the first and
+/// after the last as there.
+Eigen::MatrixXd course_at(const HeldLoad& load, Eigen::Index first_row, Eigen::Index rows,
+                          const std::vector<double>& times_s);
+
+/// Where in HeldLoad::course the jaw's motion stands: twelve rows, a Boundary::JawMotion's turn
+/// column by column, then its slide. Of a load of muscles.
+Eigen::Index jaw_row(const HeldLoad& load);
+
 /// The load over a run as few shapes, in the form of compressed_drive(); between samples by the C2
 /// cubic spline, after the last it is held. Nothing prescribed moves.
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,

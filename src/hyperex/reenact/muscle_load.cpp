@@ -274,9 +274,9 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const auto count = static_cast<Eigen::Index>(model.lines().size());
   const auto samples = static_cast<Eigen::Index>(motion.motion.time_s.size());
   load.wide_bands = model.wide_force().cols() > 0;
-  const Eigen::Index of_jaw = (load.wide_bands ? 2 : 1) * count;
   MuscleCourse& muscle = load.muscles;
   for (const muscles::MuscleLine& line : model.lines()) muscle.names.push_back(line.name);
+  const Eigen::Index of_jaw = jaw_row(load);
   const Eigen::MatrixXd members =
       name_groups(model.lines(), options.muscles.table(), muscle.groups);
   muscle.group_activation.resize(members.rows(), samples);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct Performance {
   std::vector<double> frame_time_s;
   std::vector<PointsF> skin_displacement_m;  ///< per frame, |skin_rest| x 3
   int peak_frame = 0;                        ///< where the driven points moved most in the mean
+  /// The jaw's place in each frame: a point of it that is at x at rest is at
+  /// jaw_now_from_rest[f] * x.
+  std::vector<Eigen::Isometry3d> jaw_now_from_rest;
 
   /// The simulated tissue; empty where everything was measured.
   Points nodes;

@@ -63,6 +63,8 @@ struct SimulationReport {
 struct SimulationResult {
   Performance performance;
   std::vector<PointsF> still_displacement_m;  ///< of the skin at the still times
+  std::vector<Eigen::Isometry3d>
+      still_jaw_now_from_rest;  ///< as Performance has it, at those times
   SimulationReport report;
 };
 

@@ -158,6 +158,11 @@ struct Simulator::Impl {
   void store(const Shot& shot, const Points& nodes, const PointCurve& points,
              SimulationResult& result) const;
   void describe_tissue(Performance& p);
+  /// The jaw's places (Performance::jaw_now_from_rest) at times from the start of the motion, once
+  /// the input is there: where the chin's points lead it or, where muscles drive, as their load has
+  /// it; where the mandible is held, at rest.
+  std::vector<Eigen::Isometry3d> jaw_now_from_rest(const std::vector<double>& times_s,
+                                                   const PointCurve& points) const;
   /// Everything but the frames themselves.
   void describe(const PointCurve& points, Performance& p);
   void note_driven_off(const std::vector<double>& off_m, const std::vector<std::string>& points);

@@ -305,6 +305,13 @@ SimulationResult Simulator::Impl::run() {
     integrate(shots, points, result);
   }
   Stopwatch watch;
+  std::vector<double> times_s = result.performance.frame_time_s;
+  for (const double t : options.time.still_times_s) times_s.push_back(std::min(t, end_s()));
+  auto jaw = jaw_now_from_rest(times_s, points);
+  const auto stills = jaw.begin() + std::ptrdiff_t(result.performance.frame_time_s.size());
+  result.still_jaw_now_from_rest.assign(stills, jaw.end());
+  jaw.erase(stills, jaw.end());
+  result.performance.jaw_now_from_rest = std::move(jaw);
   describe(points, result.performance);
   report.skin_s = watch.lap();
   tell(1);
