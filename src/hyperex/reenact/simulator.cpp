@@ -113,4 +113,9 @@ SimulationResult Simulator::run(const RunCallbacks& callbacks) {
   return impl_->run();
 }
 
+PointsF Simulator::still(double time_s) {
+  impl_->callbacks = {};
+  return impl_->still(time_s);
+}
+
 }  // namespace hyperex::reenact

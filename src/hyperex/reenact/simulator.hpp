@@ -161,6 +161,12 @@ class Simulator {
   /// solved, Cancelled.
   SimulationResult run(const RunCallbacks& callbacks = {});
 
+  /// The skin's displacement (|skin| x 3, m, scan frame) at `time_s` since the start of the motion,
+  /// at rest there: without inertia and viscosity, of small strain, without contact. For a view
+  /// that follows a slider: where nothing but gains was set it takes one solution, after other
+  /// tissue a factor too. Throws as run().
+  PointsF still(double time_s);
+
   /// For points that come in one sample after the other, `interval_s` apart (> 0), from a tracker
   /// that is running: begins at rest with all unknowns. Throws as run() does, and InputError where
   /// the whole skin is measured.

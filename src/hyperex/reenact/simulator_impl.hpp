@@ -167,6 +167,7 @@ struct Simulator::Impl {
   void describe(const PointCurve& points, Performance& p);
   void note_driven_off(const std::vector<double>& off_m, const std::vector<std::string>& points);
   SimulationResult run();
+  PointsF still(double time_s);
 
   // ----- a stream
 

@@ -319,4 +319,21 @@ SimulationResult Simulator::Impl::run() {
   return result;
 }
 
+PointsF Simulator::Impl::still(double time_s) {
+  report = {};
+  need_region();
+  const PointCurve points(*motion, options.drive.gain);
+  Points nodes = Points::Zero(mesh->volume.nodes.rows(), 3);
+  if (options.region.measured != Measured::all) {
+    need_boundary();
+    need_assembler();
+    need_input(points);
+    need_reduced();
+    const Eigen::MatrixXd d = reduced->at_rest(
+        input->drive, {std::clamp(time_s / options.time.step_s, 0.0, double(steps()))});
+    nodes = Eigen::Map<const Points>(d.data(), nodes.rows(), 3);
+  }
+  return readout->skin(*region, driven_points->rim, nodes, points.at(time_s));
+}
+
 }  // namespace hyperex::reenact

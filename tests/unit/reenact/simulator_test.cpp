@@ -61,6 +61,30 @@ TEST_F(SimulatorOfAFace, AnotherRunIsEqualAndComputesNothing) {
     EXPECT_EQ(spent, 0);
 }
 
+TEST_F(SimulatorOfAFace, AStillIsAFrameOfASlowMotion) {
+  for (const DriveBy by : {DriveBy::displacement, DriveBy::muscles}) {
+    SimulationOptions options = options_;
+    options.drive.by = by;
+    options.tissue.uniform[tissue::viscosity] = 1;
+    options.tissue.uniform[tissue::density] = 1;
+    Simulator simulator = made(options);
+    const PointsF before = simulator.still(0.2);  // nothing was run yet
+    const SimulationResult result = simulator.run();
+    const PointsF& frame = result.performance.skin_displacement_m[6];
+    EXPECT_LT((before - frame).cwiseAbs().maxCoeff(), 2e-3 * frame.cwiseAbs().maxCoeff());
+    EXPECT_EQ(simulator.still(0.2), before);
+    EXPECT_LT(simulator.still(0).cwiseAbs().maxCoeff(), 1e-9);
+    simulator.hold_load();
+    TissueValues stiff = options.tissue;
+    stiff.uniform[tissue::young] *= 3;
+    simulator.set_tissue(stiff);
+    const PointsF stiffer = simulator.still(0.2);
+    const PointsF again = simulator.run().performance.skin_displacement_m[6];
+    EXPECT_LT((stiffer - again).cwiseAbs().maxCoeff(), 2e-3 * again.cwiseAbs().maxCoeff());
+    EXPECT_GT((stiffer - before).cwiseAbs().maxCoeff(), 1e-5);
+  }
+}
+
 TEST_F(SimulatorOfAFace, OtherTissueFactorsAgainAndKeepsTheOrder) {
   Simulator simulator = made(options_);
   simulator.run();

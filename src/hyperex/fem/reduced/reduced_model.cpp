@@ -219,9 +219,9 @@ class Growth {
   double greatest_ = 0;
 };
 
-}  // namespace
-
-Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps) const {
+/// Columns at times in steps, linear between them.
+Eigen::MatrixXd columns_at(const Eigen::MatrixXd& course,
+                           const std::vector<double>& times_in_steps) {
   Eigen::MatrixXd at(course.rows(), static_cast<Eigen::Index>(times_in_steps.size()));
   for (std::size_t i = 0; i < times_in_steps.size(); ++i) {
     const double t = std::clamp(times_in_steps[i], 0.0, static_cast<double>(course.cols() - 1));
@@ -230,6 +230,13 @@ Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps
     const double share = t - static_cast<double>(before);
     at.col(i) = (1 - share) * course.col(before) + share * course.col(after);
   }
+  return at;
+}
+
+}  // namespace
+
+Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps) const {
+  const Eigen::MatrixXd at = columns_at(course, times_in_steps);
   Eigen::MatrixXd d = Eigen::MatrixXd::Zero(shapes.rows(), at.cols());
   add_product(shapes, at, 1, d);
   return d;
@@ -244,6 +251,18 @@ ReducedModel::ReducedModel(System system, std::vector<int> prescribed, LinearSol
 void ReducedModel::refill(System system) {
   system_ = std::move(system);
   factor_.refactor(system_.stiffness);
+}
+
+Eigen::MatrixXd ReducedModel::at_rest(const Drive& drive,
+                                      const std::vector<double>& times_in_steps) {
+  const Eigen::MatrixXd s = columns_at(drive.s, times_in_steps);
+  Eigen::MatrixXd d = with_zeros(drive.prescribed * s, factor_.prescribed(), system_.mass.rows());
+  Eigen::MatrixXd force = -symmetric_product(system_.stiffness, d);
+  if (drive.force.rows() > 0) force.noalias() += drive.force * s;
+  Eigen::MatrixXd x = free_rows(force, factor_.partition());
+  factor_.solve(x);
+  d += with_zeros(x, factor_.free(), d.rows());
+  return d;
 }
 
 Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {

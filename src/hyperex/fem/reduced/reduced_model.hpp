@@ -62,6 +62,10 @@ class ReducedModel {
   /// The response from rest (d = d' = 0 on the free unknowns at step 0, d'' in equilibrium).
   Response run(const Drive& drive, const ReducedOptions& options);
 
+  /// The static answer to a drive at times in steps (linear between them), without inertia and
+  /// viscosity, all unknowns: 3 |nodes| x |times|. One solution a time, no basis.
+  Eigen::MatrixXd at_rest(const Drive& drive, const std::vector<double>& times_in_steps);
+
   /// That of the stiffness, for other static answers with the values given last.
   PartitionedFactor& static_factor() { return factor_; }
 

@@ -38,6 +38,7 @@ class Reader {
   explicit Reader(const fs::path& file) { scene.file = file; }
   /// False where nothing could be read at all.
   bool take_file();
+  bool take_text(const std::string& text);
   void take_override(const Override& given);
   void settle_motion();
   /// Where no key says what drives: muscles in a scene with variants, save where the keys given
@@ -150,11 +151,21 @@ bool Reader::take_file() {
                        "Put {} = {{ file = '{}' }} into a file that ends in .toml "
                        "(docs/scene.md)",
                        kind, kind == "scan" ? "scan" : "motion", scene.file.filename().string()));
-  TomlValues values;
   try {
-    values = parse_toml(read_file(scene.file));
+    return take_text(read_file(scene.file));
   } catch (const InputError&) {
     return fail(0, "a file that can be read");
+  }
+}
+
+bool Reader::take_text(const std::string& text) {
+  const auto fail = [&](int line, const std::string& expected) {
+    problems.push_back({scene.file, line, "", "", expected});
+    return false;
+  };
+  TomlValues values;
+  try {
+    values = parse_toml(text);
   } catch (const TornToml& torn) {
     return fail(torn.line, "sound TOML (" + torn.why + ")" +
                                (torn.backslash ? "; a backslash between double quotes begins an "
@@ -460,10 +471,11 @@ void Reader::settle_variants() {
 }
 
 /// The scene as far as it could be read, and everything that is wrong with it: the file's problems
-/// by line, then those of the overrides.
-Reader read(const fs::path& file, const std::vector<Override>& overrides) {
+/// by line, then those of the overrides. `text`: in the place of what the file holds; null: that.
+Reader read(const fs::path& file, const std::vector<Override>& overrides,
+            const std::string* text = nullptr) {
   Reader reader(file);
-  if (reader.take_file()) {
+  if (text ? reader.take_text(*text) : reader.take_file()) {
     for (const Override& given : overrides) reader.take_override(given);
     reader.settle_motion();
     reader.settle_drive();
@@ -496,6 +508,12 @@ const std::vector<std::string>& variant_sections() {
 
 Scene read_scene_with(const fs::path& file, const std::vector<Override>& overrides) {
   Reader reader = read(file, overrides);
+  if (!reader.problems.empty()) throw InputError(reader.problems);
+  return std::move(reader.scene);
+}
+
+Scene read_scene_text(const std::string& text, const fs::path& file) {
+  Reader reader = read(file, {}, &text);
   if (!reader.problems.empty()) throw InputError(reader.problems);
   return std::move(reader.scene);
 }

@@ -119,6 +119,9 @@ const std::vector<std::string>& variant_sections();
 /// wrong types, values out of range, keys or files that are missing.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
+/// The same of a text that stands in the place of the file's own; the file need not be there.
+Scene read_scene_text(const std::string& text, const std::filesystem::path& file);
+
 /// The same problems, not thrown; empty for a sound scene.
 std::vector<InputProblem> problems_of(const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides = {});
