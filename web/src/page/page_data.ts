@@ -27,6 +27,15 @@ function bytesOf(base64: string): ArrayBuffer {
   return bytes.buffer;
 }
 
+/** `binary` from `start` on, a multiple of 8. */
+export const blockOf = (binary: ArrayBuffer, start = 0): Block => ({
+  float32: (s) => new Float32Array(binary, start + s.offset, s.count),
+  int32: (s) => new Int32Array(binary, start + s.offset, s.count),
+  int16: (s) => new Int16Array(binary, start + s.offset, s.count),
+  int8: (s) => new Int8Array(binary, start + s.offset, s.count),
+  uint8: (s) => new Uint8Array(binary, start + s.offset, s.count),
+});
+
 function textOf(id: string): string {
   const text = document.getElementById(id)?.textContent;
   if (!text) throw new Error(`This page holds no data (${id} is missing): it is only a template.`);
@@ -38,15 +47,5 @@ export function readPageData<M extends { version: number }>(): { manifest: M; bl
   const manifest = JSON.parse(textOf('hyperex-manifest')) as M & { palette: Palette };
   if (manifest.version !== 1) throw new Error(`Unknown version of the data: ${manifest.version}`);
   defineColours(manifest.palette);
-  const binary = bytesOf(textOf('hyperex-binary').trim());
-  return {
-    manifest,
-    block: {
-      float32: (s) => new Float32Array(binary, s.offset, s.count),
-      int32: (s) => new Int32Array(binary, s.offset, s.count),
-      int16: (s) => new Int16Array(binary, s.offset, s.count),
-      int8: (s) => new Int8Array(binary, s.offset, s.count),
-      uint8: (s) => new Uint8Array(binary, s.offset, s.count),
-    },
-  };
+  return { manifest, block: blockOf(bytesOf(textOf('hyperex-binary').trim())) };
 }

@@ -2,7 +2,7 @@
 // The replay's data as the other parts use them.
 import type { Manifest, ModeData, MuscleData, SymmetryCurve, TissueMapData } from './manifest';
 import { usePointWords } from '../page/format';
-import { readPageData, type Block, type Stretch } from '../page/page_data';
+import type { Block, Stretch } from '../page/page_data';
 
 export type Vec3 = [number, number, number];
 
@@ -53,7 +53,7 @@ export interface Muscles {
   timeS: number[];
   fewPoints: boolean;
   groups: MuscleGroup[];
-  lines: Vec3[][];
+  lines: { name: string; points: Vec3[] }[];
 }
 
 export interface Replay {
@@ -101,10 +101,10 @@ const musclesOf = ({ time_s, few_points, groups, lines }: MuscleData): Muscles =
   timeS: time_s,
   fewPoints: few_points,
   groups: groups.map(({ sigma_left, sigma_right, ...group }) => ({ ...group, sigmaLeft: sigma_left, sigmaRight: sigma_right })),
-  lines: lines.map(({ points }) => points),
+  lines,
 });
 
-function facesOf(manifest: Manifest, block: Block): Face[] {
+function facesOf(manifest: MovingManifest, block: Block): Face[] {
   const itself: Face = {
     name: 'base',
     changes: [],
@@ -134,15 +134,15 @@ function facesOf(manifest: Manifest, block: Block): Face[] {
   return [itself, ...variants];
 }
 
-export function readReplay(): Replay {
-  const { manifest, block } = readPageData<Manifest>();
-  usePointWords(manifest.point_words);
-  const { float32, int32, uint8 } = block;
-  const { skin, motion } = manifest;
+/** What of a replay stands still: the skin, and what is part of it. */
+type StillPart = 'scanVertices' | 'points' | 'triangles' | 'colour' | 'texture' | 'mirror' | 'openings' | 'eyeballs';
+export type Moving = Omit<Replay, StillPart>;
+/** What a manifest must have for `movingOf`. */
+export type MovingManifest = Omit<Manifest, 'version' | 'scan_vertices' | 'skin' | 'mirror' | 'openings' | 'eyeballs'>;
+
+function stillOf(manifest: Manifest, { float32, int32, uint8 }: Block): Pick<Replay, StillPart> {
+  const { skin } = manifest;
   return {
-    title: manifest.title,
-    notes: manifest.notes,
-    summary: manifest.summary,
     scanVertices: manifest.scan_vertices,
     points: float32(skin.points),
     triangles: int32(skin.triangles),
@@ -155,21 +155,6 @@ export function readReplay(): Replay {
           triangles: int32(skin.texture.triangles),
         }
       : null,
-    timeS: motion.time_s,
-    peakFrame: motion.peak_frame,
-    modes: modesOf(motion.modes, block),
-    weights: float32(motion.weights),
-    maxErrorMm: motion.max_error_mm,
-    maxDisplacementMm: motion.max_displacement_mm,
-    landmarks: {
-      names: manifest.landmarks.names,
-      timeS: manifest.landmarks.time_s,
-      positions: float32(manifest.landmarks.positions),
-    },
-    driven: manifest.driven,
-    held: manifest.held,
-    lipCut: manifest.lip_cut,
-    symmetry: manifest.symmetry,
     mirror: manifest.mirror
       ? {
           normal: manifest.mirror.normal,
@@ -179,7 +164,36 @@ export function readReplay(): Replay {
       : null,
     openings: manifest.openings.map(({ loop, inward, depth_m }) => ({ loop: int32(loop), inward, depthM: depth_m })),
     eyeballs: manifest.eyeballs.map(({ centre, gaze, radius_m }) => ({ centre, gaze, radiusM: radius_m })),
+  };
+}
+
+/** All that can change while the skin at rest stays what it is. */
+export function movingOf(manifest: MovingManifest, block: Block): Moving {
+  usePointWords(manifest.point_words);
+  const { motion } = manifest;
+  return {
+    title: manifest.title,
+    notes: manifest.notes,
+    summary: manifest.summary,
+    timeS: motion.time_s,
+    peakFrame: motion.peak_frame,
+    modes: modesOf(motion.modes, block),
+    weights: block.float32(motion.weights),
+    maxErrorMm: motion.max_error_mm,
+    maxDisplacementMm: motion.max_displacement_mm,
+    landmarks: {
+      names: manifest.landmarks.names,
+      timeS: manifest.landmarks.time_s,
+      positions: block.float32(manifest.landmarks.positions),
+    },
+    driven: manifest.driven,
+    held: manifest.held,
+    lipCut: manifest.lip_cut,
+    symmetry: manifest.symmetry,
     muscles: manifest.muscles ? musclesOf(manifest.muscles) : null,
     faces: facesOf(manifest, block),
   };
 }
+
+export const replayOf = (manifest: Manifest, block: Block): Replay =>
+  ({ ...stillOf(manifest, block), ...movingOf(manifest, block) });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys for what the page's buttons do, and the list of them that is shown on "?".
 
+import { Undoing, type Undo } from '../page/listeners';
+
 export interface Key {
   /** As in the list: "1 to 9". */
   shown: string;
@@ -37,17 +39,19 @@ function listOf(keys: Key[]): HTMLElement {
   return list;
 }
 
-/** Listens on the whole page. `enabled`: a box with which readers whose software uses keys turn these off. */
-export function wireKeys(keys: Key[], help: HTMLDialogElement, open: HTMLButtonElement, enabled: HTMLInputElement): void {
+/** Listens on the whole page until undone. `enabled`: a box with which readers whose software uses keys turn these off. */
+export function wireKeys(keys: Key[], help: HTMLDialogElement, open: HTMLButtonElement, enabled: HTMLInputElement): Undo {
+  const undoing = new Undoing();
+  const { signal } = undoing;
   const all: Key[] = [
     ...keys,
     { shown: '?', does: 'this list', when: ['?'], act: () => help.showModal() },
   ];
   help.querySelector('.list')!.replaceChildren(listOf(all));
-  open.addEventListener('click', () => help.showModal());
+  open.addEventListener('click', () => help.showModal(), { signal });
   help.addEventListener('click', (event) => {
     if (event.target === help) help.close(); // beside it
-  });
+  }, { signal });
   document.addEventListener('keydown', (event) => {
     if (event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey || !enabled.checked || taken(event)) return;
     const named = event.key.length === 1 ? event.key.toLowerCase() : event.key;
@@ -55,5 +59,6 @@ export function wireKeys(keys: Key[], help: HTMLDialogElement, open: HTMLButtonE
     if (!key) return;
     event.preventDefault();
     key.act(event);
-  });
+  }, { signal });
+  return () => undoing.undo();
 }

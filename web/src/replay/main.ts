@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ties the parts together: data, clock, stage, plots, and the keyboard.
 import '../page/style.css';
-import { readReplay, type Replay } from './data';
+import type { Replay } from './data';
+import { pageSource } from './data_source';
 import { frameAt } from './face/deform';
 import { at, element, startPage } from '../page/dom';
 import { number } from '../page/format';
-import { wireKeys, type Key } from './keys';
+import { wireKeys } from './keys';
 import { Playback } from './playback';
 import { Plots } from './curves/plots';
 import { Shown } from './shown';
 import { Stage } from './face/stage';
+import { transportKeys, wireTransport } from './transport';
 import { fillNotes, fillSummary } from './summary';
 import { fillTables } from './tables/tables';
 
@@ -39,57 +41,9 @@ function fillPage(replay: Replay): void {
     `${number(Number(replay.maxErrorMm.toPrecision(2)))} mm. Made by Hyperex; needs no network.`;
 }
 
-function wireTransport(replay: Replay, playback: Playback): () => void {
-  const slider = at<HTMLInputElement>('frame');
-  const label = at<HTMLOutputElement>('frame-label');
-  const play = at<HTMLButtonElement>('play');
-  const speed = at<HTMLSelectElement>('speed');
-  const last = Math.max(replay.timeS.length - 1, 0);
-  slider.max = String(last);
-  slider.addEventListener('input', () => playback.seek(replay.timeS[Number(slider.value)]));
-  const toggle = () => (playback.playing ? playback.pause() : playback.play());
-  play.addEventListener('click', toggle);
-  speed.addEventListener('change', () => (playback.speed = Number(speed.value)));
-  at('to-peak').addEventListener('click', () => playback.seek(replay.timeS[replay.peakFrame]));
-  return () => {
-    const frame = Math.round(frameAt(replay.timeS, playback.timeS));
-    if (slider.value !== String(frame)) slider.value = String(frame);
-    const [where, when] = [`frame ${frame} / ${last}  ·  `, `${playback.timeS.toFixed(3)} s`];
-    if (label.textContent !== where + when) label.replaceChildren(element('span', where), when);
-    const text = where + when;
-    slider.setAttribute('aria-valuetext', text);
-    play.classList.toggle('playing', playback.playing);
-    play.setAttribute('aria-label', playback.playing ? 'Pause' : 'Play');
-  };
-}
-
-function transportKeys(replay: Replay, playback: Playback): Key[] {
-  const { timeS, peakFrame } = replay;
-  const last = timeS.length - 1;
-  const step = (by: number) => {
-    const frame = frameAt(timeS, playback.timeS) + by;
-    playback.seek(timeS[Math.min(Math.max(by > 0 ? Math.floor(frame + 1e-9) : Math.ceil(frame - 1e-9), 0), last)]);
-  };
-  const steps: Record<string, number> = { ArrowLeft: -1, ArrowRight: 1 };
-  return [
-    {
-      shown: 'Space', does: 'play, pause', when: [' '],
-      act: () => (playback.playing ? playback.pause() : playback.play()),
-    },
-    {
-      shown: '← or →', does: 'a frame back, on',
-      when: (event) => !event.shiftKey && event.key in steps, act: ({ key }) => step(steps[key]),
-    },
-    {
-      shown: 'Home or End', does: 'first, last frame',
-      when: ['Home', 'End'], act: ({ key }) => playback.seek(timeS[key === 'Home' ? 0 : last]),
-    },
-    { shown: 'p', does: 'where the driven points moved most', when: ['p'], act: () => playback.seek(timeS[peakFrame]) },
-  ];
-}
-
 function start(): void {
-  const replay = readReplay();
+  const source = pageSource();
+  const { replay } = source;
   fillPage(replay);
   const { timeS } = replay;
   const playback = new Playback(timeS[0] ?? 0, timeS[timeS.length - 1] ?? 0);
@@ -97,13 +51,13 @@ function start(): void {
   const stage = new Stage(replay, shown);
   const plots = new Plots(replay, shown, at('plots'), (t) => playback.seek(t));
   fillTables(replay, shown, at('tables'));
-  const showTransport = wireTransport(replay, playback);
+  const showTransport = wireTransport(source, playback);
   const show = () => {
     stage.moveTo(frameAt(timeS, playback.timeS), playback);
     plots.mark(playback.timeS);
     showTransport();
   };
-  const keys = [...transportKeys(replay, playback), ...stage.keys()];
+  const keys = [...transportKeys(source, playback), ...stage.keys()];
   wireKeys(keys, at<HTMLDialogElement>('help'), at<HTMLButtonElement>('open-help'), at<HTMLInputElement>('keys-on'));
   // What stands still shows most where most has moved.
   const still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clock: what time is shown, and whether it runs. Knows nothing of what is shown.
+import { Listeners, type Undo } from '../page/listeners';
 
 export class Playback {
   private t: number;
   private running = false;
   private last = 0;
-  private readonly listeners: (() => void)[] = [];
+  private readonly listeners = new Listeners();
   speed = 1;
+  /** At the end from the start again; else it stops there. */
+  loop = true;
 
-  constructor(private readonly startS: number, private readonly endS: number) {
+  constructor(private startS: number, private endS: number) {
     this.t = startS;
   }
 
@@ -19,12 +22,21 @@ export class Playback {
     return this.running;
   }
 
-  onChange(listener: () => void): void {
-    this.listeners.push(listener);
+  onChange(listener: () => void): Undo {
+    return this.listeners.add(listener);
+  }
+
+  /** Of another recording, or the same at other times: the time stays where it lies in both. */
+  setRange(startS: number, endS: number): void {
+    [this.startS, this.endS] = [startS, endS];
+    this.t = Math.min(Math.max(this.t, startS), endS);
+    if (!(endS > startS)) this.running = false;
+    this.tell();
   }
 
   play(): void {
     if (this.running || !(this.endS > this.startS)) return;
+    if (!this.loop && this.t >= this.endS) this.t = this.startS;
     this.running = true;
     this.last = performance.now();
     requestAnimationFrame(this.tick);
@@ -50,12 +62,15 @@ export class Playback {
     const step = Math.min(Math.max(now - this.last, 0) / 1e3, 0.25);
     this.last = now;
     this.t += step * this.speed;
-    if (this.t > this.endS) this.t = this.startS;
+    if (this.t > this.endS) {
+      this.t = this.loop ? this.startS : this.endS;
+      this.running = this.loop;
+    }
     this.tell();
-    requestAnimationFrame(this.tick);
+    if (this.running) requestAnimationFrame(this.tick);
   };
 
   private tell(): void {
-    for (const listener of this.listeners) listener();
+    this.listeners.tell();
   }
 }

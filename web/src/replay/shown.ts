@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which faces are looked at, and how. Whoever changes it, all views follow.
 
+import { Listeners, type Undo } from '../page/listeners';
+
 export type Mode = 'single' | 'side-by-side' | 'wipe';
 
 export interface Choice {
@@ -13,10 +15,10 @@ export interface Choice {
 
 export class Shown {
   private choice: Choice;
-  private readonly listeners: (() => void)[] = [];
+  private readonly listeners = new Listeners();
 
   /** Begins with base alone, and the first variant ready beside it. */
-  constructor(private readonly count: number) {
+  constructor(private count: number) {
     this.choice = { first: 0, second: count > 1 ? 1 : 0, mode: 'single' };
   }
 
@@ -35,8 +37,18 @@ export class Shown {
     return this.mode === 'single' ? [this.first] : [this.first, this.second];
   }
 
-  onChange(listener: () => void): void {
-    this.listeners.push(listener);
+  onChange(listener: () => void): Undo {
+    return this.listeners.add(listener);
+  }
+
+  /** Of so many faces now; those that are gone are left for the last, all are told. */
+  setCount(count: number): void {
+    this.count = count;
+    const inside = (face: number) => Math.min(face, count - 1);
+    this.choice = {
+      first: inside(this.first), second: inside(this.second || 1), mode: count > 1 ? this.mode : 'single',
+    };
+    this.listeners.tell();
   }
 
   /** Changes what is named; faces that do not exist are left out, and a single face has one mode. */
@@ -48,6 +60,6 @@ export class Shown {
     if (this.count < 2) next.mode = 'single';
     const same = next.first === this.first && next.second === this.second && next.mode === this.mode;
     this.choice = next;
-    if (!same) for (const listener of this.listeners) listener();
+    if (!same) this.listeners.tell();
   }
 }

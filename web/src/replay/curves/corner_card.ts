@@ -4,6 +4,7 @@ import type { Chart } from '../../charts/chart_options';
 import { cornersOf, differenceWords, mm, type Corners } from '../corners';
 import type { Replay } from '../data';
 import { button, element } from '../../page/dom';
+import type { Undo } from '../../page/listeners';
 import { faceColour, leftHue, rightHue } from '../../page/face_colour';
 import { faceWords, landmarkName } from '../../page/format';
 import { chooseFace } from '../face/face_chooser';
@@ -106,8 +107,8 @@ export function cornerCurves(replay: Replay, shown: Shown): Omit<Chart, 'title'>
   }];
 }
 
-/** Words above the chart, and below it what the variants do; they follow the face that is shown. */
-export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement): void {
+/** Words above the chart, and below it what the variants do; they follow the face that is shown until undone. */
+export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement): Undo {
   card.classList.add('corners');
   const said = element('div', '', 'said');
   const floor = element('p', '', 'floor');
@@ -119,8 +120,9 @@ export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement)
     floor.textContent = whose + floorWords(replay, corners);
   };
   show();
-  shown.onChange(show);
+  const unfollow = shown.onChange(show);
   card.querySelector('.plot-head')!.after(said, floor);
   const lines = variantLines(replay, shown, cornersOf(replay, 0)!);
   if (lines) card.append(lines);
+  return unfollow;
 }

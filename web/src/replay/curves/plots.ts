@@ -3,6 +3,7 @@
 import type { Chart } from '../../charts/chart_options';
 import type { Replay } from '../data';
 import { element } from '../../page/dom';
+import { Undoing } from '../../page/listeners';
 import type { Shown } from '../shown';
 import { cornerCurves, dressCornerCard } from './corner_card';
 import { addedCurves, stretchCurves, symmetryCurves } from './symmetry_charts';
@@ -14,20 +15,27 @@ import { TrackCurves, trackChooser } from './track_chart';
 
 export class Plots {
   private readonly plots: TimeChart[] = [];
+  private readonly undoing = new Undoing();
 
   constructor(
     replay: Replay, private readonly shown: Shown, private readonly into: HTMLElement,
     private readonly seek: (timeS: number) => void,
   ) {
     const corners = this.add('Corners of the mouth', () => cornerCurves(replay, shown));
-    if (corners) dressCornerCard(replay, shown, corners.card);
+    if (corners) this.undoing.add(dressCornerCard(replay, shown, corners.card));
     this.addExcursions(replay);
     this.add('Stretch of either side, ξ(t)', () => stretchCurves(replay, shown));
     this.add('Symmetry of motion, S(t)', () => symmetryCurves(replay, shown));
     this.add('What each variant adds, Δ(ξL − ξR)', () => addedCurves(replay, shown));
     this.addMuscles(replay);
     this.addTracks(replay);
-    dark.addEventListener('change', () => this.plots.forEach((plot) => plot.draw()));
+    dark.addEventListener('change', () => this.plots.forEach((plot) => plot.draw()), { signal: this.undoing.signal });
+  }
+
+  /** Takes all charts off the page. */
+  dispose(): void {
+    this.undoing.undo();
+    for (const plot of this.plots.splice(0)) plot.remove();
   }
 
   mark(timeS: number): void {
@@ -42,7 +50,7 @@ export class Plots {
     this.into.append(card);
     const plot = new TimeChart(card, { ...chart, title }, this.seek);
     this.plots.push(plot);
-    this.shown.onChange(() => plot.change(made()[0]));
+    this.undoing.add(this.shown.onChange(() => plot.change(made()[0])));
     return plot;
   }
 

@@ -64,6 +64,11 @@ export class SceneMotion {
     const { modes, weights, timeS } = this.replay;
     addModes(modes, weights, frame, timeS.length, this.displacement);
   }
+
+  /** The replay moves otherwise now. */
+  forget(): void {
+    this.frame = NaN;
+  }
 }
 
 /** Displacements of a face in a frame, metres, into `out`. */
@@ -86,10 +91,16 @@ export class FaceShape {
     this.normal = new Float32Array(replay.points.length);
   }
 
-  moveTo(frame: number): void {
+  /** `live`: displacements that stand for those of the motion; null: the motion's own. */
+  moveTo(frame: number, live: Float32Array | null = null): void {
     const { displacement, position } = this;
     const { points } = this.replay;
-    displace(this.replay, this.scene, this.face, frame, displacement);
+    if (live) {
+      this.scene.moveTo(frame);
+      displacement.set(live);
+    } else {
+      displace(this.replay, this.scene, this.face, frame, displacement);
+    }
     for (let i = 0; i < position.length; ++i) position[i] = points[i] + displacement[i];
     this.updateNormals();
   }

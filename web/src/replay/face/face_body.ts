@@ -9,7 +9,7 @@ import { linearOf, rampBytes, type RampName } from './colour';
 import type { Painting } from './colouring';
 import type { Face, Replay } from '../data';
 import { FaceShape, type SceneMotion } from './deform';
-import { overlaysOf, type Overlay, type OverlayName } from './overlays';
+import { disposeOverlay, litMuscles, overlaysOf, type Overlay, type OverlayName } from './overlays';
 
 const rampSize = 256;
 
@@ -52,7 +52,7 @@ export class FaceMaterials {
 
 export class FaceBody {
   readonly object = new Group();
-  readonly overlays: Overlay[];
+  overlays: Overlay[] = [];
   readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>;
   readonly shape: FaceShape;
   private readonly backing: Backing;
@@ -62,10 +62,11 @@ export class FaceBody {
   private readonly position: BufferAttribute;
   private readonly normal: BufferAttribute;
   private readonly ramp: BufferAttribute;
+  private readonly visible = new Set<OverlayName>();
+  private lit: Overlay | null = null;
 
-  constructor(replay: Replay, scene: SceneMotion, face: Face, private readonly materials: FaceMaterials) {
+  constructor(private readonly replay: Replay, scene: SceneMotion, face: Face, private readonly materials: FaceMaterials) {
     this.shape = new FaceShape(replay, scene, face);
-    this.overlays = overlaysOf(replay);
     this.split = replay.texture?.skinVertex ?? null;
     const skinCount = replay.points.length / 3;
     const count = this.split?.length ?? skinCount;
@@ -85,22 +86,41 @@ export class FaceBody {
     this.mesh = new Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>(geometry, materials.mapped);
     this.mesh.frustumCulled = false;
     this.backing = new Backing(replay);
-    this.object.add(this.mesh, this.backing.object, ...this.overlays.map((o) => o.object));
-    for (const overlay of this.overlays) overlay.object.visible = false;
+    this.object.add(this.mesh, this.backing.object);
+    this.makeOverlays();
+  }
+
+  /** Anew, after the replay moves otherwise. */
+  makeOverlays(): void {
+    for (const overlay of this.overlays) disposeOverlay(overlay);
+    this.overlays = overlaysOf(this.replay);
+    for (const { name, object } of this.overlays) object.visible = this.visible.has(name);
+    this.object.add(...this.overlays.map(({ object }) => object));
   }
 
   get face(): Face {
     return this.shape.face;
   }
 
-  moveTo(face: Face, frame: number): void {
+  /** `live`: displacements that stand for those of the motion. */
+  moveTo(face: Face, frame: number, live: Float32Array | null = null): void {
     this.shape.face = face;
-    this.shape.moveTo(frame);
+    this.shape.moveTo(frame, live);
     this.copyOut(this.shape.position, this.position);
     this.copyOut(this.shape.normal, this.normal);
     this.backing.follow(this.shape.position);
     for (const overlay of this.overlays)
       if (overlay.object.visible) overlay.follow(this.shape.displacement);
+    this.lit?.follow(this.shape.displacement);
+  }
+
+  /** Shows these muscles alone, brighter than the others. */
+  lightMuscles(names: ReadonlySet<string>): void {
+    if (this.lit) disposeOverlay(this.lit);
+    this.lit = litMuscles(this.replay, names);
+    if (!this.lit) return;
+    this.object.add(this.lit.object);
+    this.lit.follow(this.shape.displacement);
   }
 
   /** `other`: the other face of two. */
@@ -123,6 +143,8 @@ export class FaceBody {
   }
 
   showOverlay(name: OverlayName, visible: boolean): void {
+    if (visible) this.visible.add(name);
+    else this.visible.delete(name);
     for (const overlay of this.overlays) {
       if (overlay.name !== name) continue;
       overlay.object.visible = visible;

@@ -2,6 +2,7 @@
 // Which face is looked at, or which two: a button each in the face's colour, and their names over the picture.
 import type { Face, Replay } from '../data';
 import { at } from '../../page/dom';
+import type { Undoing } from '../../page/listeners';
 import { faceColour } from '../../page/face_colour';
 import { faceWords } from '../../page/format';
 import type { Mode, Shown } from '../shown';
@@ -14,6 +15,7 @@ const swatch = (i: number): HTMLElement => {
 };
 
 function fillChips(replay: Replay, group: HTMLElement, choose: (face: number) => void): HTMLButtonElement[] {
+  group.replaceChildren();
   return replay.faces.map((_face, i) => {
     const chip = document.createElement('button');
     chip.type = 'button';
@@ -41,7 +43,7 @@ class FaceLabel {
     this.select.addEventListener('change', () => choose(Number(this.select.value)));
     name.append(this.dot, this.select);
     this.words.className = 'words';
-    label.append(name, this.words);
+    label.replaceChildren(name, this.words);
   }
 
   show(i: number, side: string, note: string): void {
@@ -70,31 +72,39 @@ export function changeMode(shown: Shown, mode: Mode): void {
 export const chooseFace = (shown: Shown, face: number): void =>
   shown.set(shown.mode === 'single' ? { first: face } : { second: face });
 
-/** Wires the controls around the stage; without variants they stay hidden. Returns what says a word on each of
- *  the faces shown. */
-export function wireFaces(replay: Replay, shown: Shown): (note: (face: Face) => string) => void {
-  if (replay.faces.length < 2) return () => {};
-  for (const id of ['faces', 'modes', 'swap']) at(id).hidden = false;
-  const chips = fillChips(replay, at('chips'), (face) => chooseFace(shown, face));
+/** Wires the controls around the stage until `undoing`; without variants they stay hidden. A page may have no chips
+ *  and let the faces be chosen otherwise. Returns what says a word on each of the faces shown. */
+export function wireFaces(replay: Replay, shown: Shown, undoing: Undoing): (note: (face: Face) => string) => void {
+  const several = replay.faces.length > 1;
+  const row = document.getElementById('faces');
+  for (const part of [row, at('modes'), at('swap')]) if (part) part.hidden = !several;
+  at('canvas-host').dataset.mode = shown.mode;
+  if (!several) {
+    for (const id of ['first-label', 'second-label']) at(id).hidden = true;
+    return () => {};
+  }
+  const group = document.getElementById('chips');
+  const chips = group ? fillChips(replay, group, (face) => chooseFace(shown, face)) : [];
   const first = new FaceLabel(at('first-label'), replay, (face) => shown.set({ first: face }));
   const second = new FaceLabel(at('second-label'), replay, (face) => shown.set({ second: face }));
   const modes = [...at('modes').querySelectorAll('button')];
-  for (const button of modes) button.addEventListener('click', () => changeMode(shown, button.dataset.mode as Mode));
-  at('swap').addEventListener('click', () => shown.set({ first: shown.second, second: shown.first }));
+  const { signal } = undoing;
+  for (const button of modes) button.addEventListener('click', () => changeMode(shown, button.dataset.mode as Mode), { signal });
+  at('swap').addEventListener('click', () => shown.set({ first: shown.second, second: shown.first }), { signal });
 
   let note: (face: Face) => string = () => '';
   const show = () => {
     const two = shown.mode !== 'single';
     for (const button of modes) button.setAttribute('aria-pressed', String(button.dataset.mode === shown.mode));
     chips.forEach((chip, i) => chip.setAttribute('aria-pressed', String(i === (two ? shown.second : shown.first))));
-    at('chips').setAttribute('aria-label', two ? 'Face on the right' : 'Face');
+    group?.setAttribute('aria-label', two ? 'Face on the right' : 'Face');
     at<HTMLButtonElement>('swap').disabled = !two;
     at('canvas-host').dataset.mode = shown.mode;
     first.show(shown.first, two ? 'Face on the left' : 'Face', note(replay.faces[shown.first]));
     if (two) second.show(shown.second, 'Face on the right', note(replay.faces[shown.second]));
     else second.hide();
   };
-  shown.onChange(show);
+  undoing.add(shown.onChange(show));
   show();
   return (next) => {
     note = next;

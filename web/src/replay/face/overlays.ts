@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What can be shown over the skin: the cut along the lips, driven points, those on bone and border, muscles.
 import {
-  Color, Group, InstancedMesh, Matrix4, MeshBasicMaterial, Object3D, SphereGeometry,
+  Color, Group, InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, Object3D, SphereGeometry,
 } from 'three';
 import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
@@ -93,15 +93,14 @@ function cutOverlay(replay: Replay): Overlay {
 
 /** From origin to insertion; each point goes with the skin next to it, as deep muscles do less: where they run, not
  *  how they lengthen. */
-function muscleOverlay(replay: Replay, lines: Vec3[][]): Overlay {
-  const colour = '#b5179e';
+function muscleOverlay(replay: Replay, lines: Vec3[][], colour = '#b5179e', linewidth = 2.5): Overlay {
   const ends = lines.flatMap((line) => line.slice(1).flatMap((p, i) => [line[i], p]));
   const flat = new Float32Array(ends.flat());
   let vertex: number[] | null = null; // found when first shown
   const geometry = new LineSegmentsGeometry();
   geometry.setPositions(flat);
   const object = new LineSegments2(
-    geometry, new LineMaterial({ color: new Color(colour).getHex(), linewidth: 2.5, opacity: 0.85, ...drawnLast }));
+    geometry, new LineMaterial({ color: new Color(colour).getHex(), linewidth, opacity: 0.85, ...drawnLast }));
   object.frustumCulled = false;
   object.renderOrder = 2;
   const follow = (d: Float32Array) => {
@@ -114,11 +113,27 @@ function muscleOverlay(replay: Replay, lines: Vec3[][]): Overlay {
   return { name: 'muscles', label: 'Muscles', colour, object, follow };
 }
 
+/** Some muscles alone, to point at them; null where none has one of the names. */
+export function litMuscles(replay: Replay, names: ReadonlySet<string>): Overlay | null {
+  const lines = (replay.muscles?.lines ?? []).filter(({ name }) => names.has(name)).map(({ points }) => points);
+  return lines.length > 0 ? muscleOverlay(replay, lines, '#ffd60a', 6) : null;
+}
+
+/** Takes an overlay off for good. */
+export function disposeOverlay({ object }: Overlay): void {
+  object.removeFromParent();
+  object.traverse((part) => {
+    const { geometry, material } = part as Mesh;
+    geometry?.dispose();
+    for (const one of Array.isArray(material) ? material : [material]) one?.dispose();
+  });
+}
+
 export function overlaysOf(replay: Replay): Overlay[] {
   const overlays: Overlay[] = [];
   if (replay.lipCut.length > 1) overlays.push(cutOverlay(replay));
   if (replay.driven.points.length > 0) overlays.push(drivenOverlay(replay));
   if (replay.held.length > 0) overlays.push(heldOverlay(replay));
-  if (replay.muscles?.lines.length) overlays.push(muscleOverlay(replay, replay.muscles.lines));
+  if (replay.muscles?.lines.length) overlays.push(muscleOverlay(replay, replay.muscles.lines.map(({ points }) => points)));
   return overlays;
 }

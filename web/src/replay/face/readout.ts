@@ -48,6 +48,13 @@ export class Readout {
     return this.place !== null;
   }
 
+  /** Off the page for good. */
+  dispose(): void {
+    this.clear();
+    this.box.remove();
+    this.dot.remove();
+  }
+
   clear(): void {
     clearTimeout(this.rest);
     this.place = null;

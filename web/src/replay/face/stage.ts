@@ -4,6 +4,7 @@ import { drawColourBar } from './colour_bar';
 import { colouringsOf, type Colouring, type Painting } from './colouring';
 import type { Face, Replay } from '../data';
 import { at } from '../../page/dom';
+import { Undoing } from '../../page/listeners';
 import { changeMode, chooseFace, wireFaces } from './face_chooser';
 import { faceHue } from '../../page/face_colour';
 import { faceWords } from '../../page/format';
@@ -24,17 +25,20 @@ export class Stage {
   private viewer: FaceViewer | null = null;
   private wipe: WipeHandle | null = null;
   private readout: Readout | null = null;
-  private readonly colourings: Colouring[];
+  private colourings: Colouring[];
   private colouring: Colouring;
   private painting: Painting;
-  private readonly sayOfFaces: (note: (face: Face) => string) => void;
+  private sayOfFaces: (note: (face: Face) => string) => void;
   private timeS = 0;
+  /** Until the stage goes, and until the replay moves otherwise. */
+  private readonly undoing = new Undoing();
+  private facesUndoing = new Undoing();
 
   constructor(private readonly replay: Replay, private readonly shown: Shown) {
     this.colourings = colouringsOf(replay);
     this.colouring = this.colourings[0];
     this.painting = this.colouring.of(shown.visible);
-    this.sayOfFaces = wireFaces(replay, shown);
+    this.sayOfFaces = wireFaces(replay, shown, this.facesUndoing);
     try {
       this.viewer = new FaceViewer(at<HTMLCanvasElement>('face'), at('canvas-host'), replay, shown, this.painting);
     } catch {
@@ -42,15 +46,45 @@ export class Stage {
       return;
     }
     this.wireViews();
-    this.wireColourings();
-    this.wireOverlays();
+    this.fillColourings();
+    this.fillOverlays();
     this.wireWipe();
     this.wireReadout();
-    shown.onChange(() => {
+    this.undoing.add(shown.onChange(() => {
       this.paint();
       this.say();
-    });
-    at('save-picture').addEventListener('click', () => void this.savePicture());
+    }));
+    at('save-picture').addEventListener('click', () => void this.savePicture(), { signal: this.undoing.signal });
+  }
+
+  /** The face in 3D; null where the browser has no WebGL. */
+  get face(): FaceViewer | null {
+    return this.viewer;
+  }
+
+  /** The replay moves otherwise, or has other variants: colours and their ranges, names and overlays are made anew;
+   *  what was chosen and the camera stay. */
+  refresh(): void {
+    this.facesUndoing.undo();
+    this.facesUndoing = new Undoing();
+    this.sayOfFaces = wireFaces(this.replay, this.shown, this.facesUndoing);
+    this.colourings = colouringsOf(this.replay);
+    this.colouring = this.colourings.find(({ key }) => key === this.colouring.key) ?? this.colourings[0];
+    if (!this.viewer) return;
+    this.viewer.refresh();
+    this.fillColourings();
+    this.fillOverlays();
+  }
+
+  /** Off the page for good; leaves its elements as another stage wants them. */
+  dispose(): void {
+    this.facesUndoing.undo();
+    this.undoing.undo();
+    this.readout?.dispose();
+    this.viewer?.dispose();
+    // A canvas belongs to its first context.
+    const canvas = at('face');
+    canvas.replaceWith(canvas.cloneNode());
   }
 
   moveTo(frame: number, { timeS, playing }: Playback): void {
@@ -112,10 +146,11 @@ export class Stage {
       button.addEventListener('click', () => {
         for (const other of buttons) other.setAttribute('aria-pressed', String(other === button));
         this.viewer!.lookFrom(button.dataset.view as View);
-      });
+      }, { signal: this.undoing.signal });
   }
 
-  private wireColourings(): void {
+  private fillColourings(): void {
+    at('colouring').replaceChildren();
     for (const colouring of this.colourings) {
       const button = document.createElement('button');
       button.type = 'button';
@@ -157,12 +192,16 @@ export class Stage {
     at('said').textContent = `${faces.length > 1 ? 'left ' : ''}${named}${painting.scale?.title ?? colouring.label}`;
   }
 
-  private wireOverlays(): void {
+  private fillOverlays(): void {
+    const chosen = new Set([...at('overlays').querySelectorAll('input')].filter((box) => box.checked).map((box) => box.dataset.overlay));
+    at('overlays').replaceChildren();
     for (const overlay of this.viewer!.overlays) {
       const label = document.createElement('label');
       const box = document.createElement('input');
       box.type = 'checkbox';
       box.dataset.overlay = overlay.name;
+      box.checked = chosen.has(overlay.name);
+      if (box.checked) this.viewer!.showOverlay(overlay.name, true);
       box.addEventListener('change', () => this.viewer!.showOverlay(overlay.name, box.checked));
       const swatch = document.createElement('i');
       swatch.style.background = overlay.colour;
@@ -175,9 +214,9 @@ export class Stage {
     const { shown, replay, viewer } = this;
     const names = (): [string, string] =>
       [faceWords(replay.faces, shown.first), faceWords(replay.faces, shown.second)];
-    const wipe = new WipeHandle(at('wipe'), at('canvas-host'), names, (share) => viewer!.setWipe(share));
+    const wipe = new WipeHandle(at('wipe'), at('canvas-host'), names, (share) => viewer!.setWipe(share), this.undoing.signal);
     const show = () => wipe.show(shown.mode === 'wipe');
-    shown.onChange(show);
+    this.undoing.add(shown.onChange(show));
     show();
     this.wipe = wipe;
   }

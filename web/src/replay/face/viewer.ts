@@ -14,6 +14,7 @@ import { uprightFromScan } from './face_frame';
 import type { Overlay, OverlayName } from './overlays';
 import type { Shown } from '../shown';
 import { drawsInSoftware } from '../software_gl';
+import { Undoing } from '../../page/listeners';
 
 export type View = 'front' | 'three-quarter' | 'left' | 'right';
 
@@ -55,12 +56,17 @@ export class FaceViewer {
   private wipe = 0.5;
   private stale = true; // shapes are not those of `frame` and `shown`
   private queued = false;
+  private disposed = false;
   /** Then pictures in motion are drawn with as few pixels as do, and those at rest once more with all. */
   private readonly software = drawsInSoftware();
   private drawnAt = 0;
   private slow = 0; // pictures in a row that came late
   private rest = 0;
   private drawn = () => {};
+  private lit: ReadonlySet<string> = new Set();
+  /** What a face looks like at this instant, in the place of its motion. */
+  private live: { face: number; displacement: Float32Array } | null = null;
+  private readonly undoing = new Undoing();
 
   /** Throws where the browser has no WebGL. */
   constructor(
@@ -86,12 +92,48 @@ export class FaceViewer {
     this.controls.addEventListener('change', () => this.queue());
     this.paintAs(painting);
     this.lookFrom('front');
-    shown.onChange(() => {
+    const unfollow = shown.onChange(() => {
       this.refit();
       this.touch();
     });
-    new ResizeObserver(() => this.refit()).observe(host);
+    const sizes = new ResizeObserver(() => this.refit());
+    sizes.observe(host);
+    this.undoing.add(unfollow, () => sizes.disconnect());
     this.refit();
+  }
+
+  /** The replay moves otherwise now: what was made of it is made anew, the camera stays. */
+  refresh(): void {
+    this.motion.forget();
+    this.live = null;
+    for (const body of this.bodies) {
+      body.makeOverlays();
+      body.lightMuscles(this.lit);
+    }
+    this.touch();
+  }
+
+  /** Off the page for good; the canvas can draw nothing any more. */
+  dispose(): void {
+    this.undoing.undo();
+    this.disposed = true;
+    clearTimeout(this.rest);
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+
+  /** A face at this instant, in metres from rest, until the next motion or `null`. */
+  showLive(live: { face: number; displacement: Float32Array } | null): void {
+    if (!live && !this.live) return;
+    this.live = live;
+    this.touch();
+  }
+
+  lightMuscles(names: ReadonlySet<string>): void {
+    this.lit = names;
+    for (const body of this.bodies) body.lightMuscles(names);
+    this.queue();
   }
 
   get overlays(): Overlay[] {
@@ -100,6 +142,7 @@ export class FaceViewer {
 
   /** `playing`: another frame is to follow at once. */
   moveTo(frame: number, playing: boolean): void {
+    if (frame !== this.frame) this.live = null;
     this.frame = frame;
     this.playing = playing;
     this.touch();
@@ -216,6 +259,7 @@ export class FaceViewer {
       this.bodies[i] = body;
       this.upright.add(body.object);
       for (const name of this.visibleOverlays) body.showOverlay(name, true);
+      body.lightMuscles(this.lit);
     }
     return this.bodies[i];
   }
@@ -273,6 +317,7 @@ export class FaceViewer {
     if (!this.replay.texture) return;
     // Texture coordinates count from the picture's top, as in glTF: no flip.
     void createImageBitmap(this.replay.texture.image, { colorSpaceConversion: 'none' }).then((image) => {
+      if (this.disposed) return;
       const texture = new Texture(image);
       texture.flipY = false;
       texture.colorSpace = SRGBColorSpace;
@@ -306,7 +351,9 @@ export class FaceViewer {
       this.stale = false;
       const { faces } = this.replay;
       const bodies = passes.map(({ body }) => body);
-      this.shown.visible.forEach((face, i) => bodies[i].moveTo(faces[face], this.frame));
+      const { live } = this;
+      this.shown.visible.forEach((face, i) =>
+        bodies[i].moveTo(faces[face], this.frame, live?.face === face ? live.displacement : null));
       bodies.forEach((body, i) => body.paint(this.painting, bodies[1 - i] ?? null));
     }
     this.renderer.setScissorTest(false);
@@ -333,6 +380,7 @@ export class FaceViewer {
     this.canvas.dataset.atRest = 'false';
     requestAnimationFrame(() => {
       this.queued = false;
+      if (this.disposed) return;
       const before = performance.now();
       if (this.renderer.getPixelRatio() !== this.ratio) this.renderer.setPixelRatio(this.ratio);
       this.draw();

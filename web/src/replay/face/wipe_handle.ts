@@ -9,18 +9,19 @@ export class WipeHandle {
     private readonly host: HTMLElement,
     private readonly names: () => [string, string],
     private readonly moved: (share: number) => void,
+    signal: AbortSignal,
   ) {
     handle.addEventListener('pointerdown', (event) => {
       event.preventDefault();
       handle.focus();
       handle.setPointerCapture(event.pointerId);
-    });
+    }, { signal });
     handle.addEventListener('pointermove', (event) => {
       if (!handle.hasPointerCapture(event.pointerId)) return;
       const box = host.getBoundingClientRect();
       this.moveTo((event.clientX - box.left) / box.width);
-    });
-    handle.addEventListener('keydown', (event) => this.press(event));
+    }, { signal });
+    handle.addEventListener('keydown', (event) => this.press(event), { signal });
     this.moveTo(this.share);
   }
 

@@ -3,6 +3,7 @@
 // the words of docs/symmetry.md.
 import type { Replay } from '../data';
 import { button, element } from '../../page/dom';
+import type { Undoing } from '../../page/listeners';
 import { columnNotes, figureCard, figureCell, headCell, isNumber, type Column } from './figure_table';
 import { faceWords, landmarkName, upper } from '../../page/format';
 import type { Shown } from '../shown';
@@ -135,7 +136,7 @@ const csvRows = (pairs: Excursion[]): (string | number | null)[][] => [
 
 /** Null where the run measured none. Named points first, numbered ones on demand; of the face that is
  * shown, of two the second, which the first is compared with. */
-export function excursionTable(replay: Replay, shown: Shown): HTMLElement | null {
+export function excursionTable(replay: Replay, shown: Shown, undoing: Undoing): HTMLElement | null {
   if (excursionsOf(replay, 0).length === 0) return null;
   const table = element('table');
   headOf(table);
@@ -168,7 +169,7 @@ export function excursionTable(replay: Replay, shown: Shown): HTMLElement | null
     label();
   };
   fill();
-  shown.onChange(fill);
+  undoing.add(shown.onChange(fill));
   const { card, body: folding } = figureCard('Excursion of either side', [
     'Each point against that of the other side, those that move farthest first. The figures describe a motion and diagnose nothing.',
   ], table, () => csvRows(pairs));

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All tables of figures that a run has.
+import { Undoing, type Undo } from '../../page/listeners';
 import type { Replay } from '../data';
 import { excursionTable } from './excursion_table';
 import type { Shown } from '../shown';
 import { variantsTable } from './variants_table';
 
-/** `into` stays hidden where there are none. */
-export function fillTables(replay: Replay, shown: Shown, into: HTMLElement): void {
-  const tables = [variantsTable(replay, shown), excursionTable(replay, shown)].filter((card) => card !== null);
-  into.append(...tables);
+/** `into` stays hidden where there are none. The tables follow what is shown until undone. */
+export function fillTables(replay: Replay, shown: Shown, into: HTMLElement): Undo {
+  const undoing = new Undoing();
+  const tables = [variantsTable(replay, shown, undoing), excursionTable(replay, shown, undoing)].filter((card) => card !== null);
+  into.replaceChildren(...tables);
   into.hidden = tables.length === 0;
+  return () => {
+    undoing.undo();
+    into.replaceChildren();
+  };
 }

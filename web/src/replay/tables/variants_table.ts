@@ -2,6 +2,7 @@
 // The variants side by side in figures (summary.variants); pressing a name shows that face.
 import type { Replay } from '../data';
 import { button, element } from '../../page/dom';
+import type { Undoing } from '../../page/listeners';
 import { chooseFace } from '../face/face_chooser';
 import { faceColour } from '../../page/face_colour';
 import { columnNotes, figureCard, figureCell, figureText, headCell, isNumber, type Column } from './figure_table';
@@ -104,7 +105,7 @@ function nameCell(
 }
 
 /** Null without variants. */
-export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null {
+export function variantsTable(replay: Replay, shown: Shown, undoing: Undoing): HTMLElement | null {
   const variants = variantsOf(replay);
   if (!variants) return null;
   const rows: VariantRow[] = replay.faces.flatMap(({ name }, i) => {
@@ -147,7 +148,7 @@ export function variantsTable(replay: Replay, shown: Shown): HTMLElement | null 
     face.setAttribute('aria-pressed', String(visible));
     face.closest('tr')!.classList.toggle('shown', visible);
   });
-  shown.onChange(show);
+  undoing.add(shown.onChange(show));
   show();
   const { card, body: folding } = figureCard('Variants', linesOf(variants), table, () => [
     ['face', 'what differs', ...used.map(({ head: name, unit }) => `${name} (${unit})`), 'Floor of what is added to ξL − ξR (1)'],

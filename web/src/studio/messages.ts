@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What protocol.json calls "json", as the server writes it (apps/studio/session.cpp).
+import type { Vec3 } from '../replay/data';
+
+/** A key of a scene, as docs/scene.md lists them. */
+export interface SceneKey {
+  /** "tissue.young_kpa" */
+  name: string;
+  kind: string;
+  unit: string;
+  /** Absent where there is no range. */
+  low?: number;
+  high?: number;
+  above_low?: boolean;
+  or_zero?: boolean;
+  choices: string[];
+  default: unknown;
+  description: string;
+}
+
+export interface Preset {
+  name: string;
+  summary: string;
+  source: string;
+  assumed: string;
+}
+
+export interface Places {
+  started: string | null;
+  autosave: string | null;
+  /** Where "save" writes. */
+  folder: string;
+  /** Whether a face is open already, as after the page was loaded again. */
+  open: boolean;
+}
+
+export type Values = Record<string, unknown>;
+
+export interface SceneFace {
+  name: string;
+  preset?: string;
+  changes: Values;
+}
+
+/** The event "scene". */
+export interface SceneNow {
+  title: string;
+  /** Of each face: every key. */
+  values: Values[];
+  faces: SceneFace[];
+  drive: string;
+  drive_why: string;
+  can_undo: boolean;
+  can_redo: boolean;
+  saved: boolean;
+  text: string;
+}
+
+export interface MuscleInfo {
+  /** Without side: "zyg_major". */
+  name: string;
+  latin: string;
+  group: string;
+  branch: string;
+}
+
+export interface LandmarkInfo {
+  name: string;
+  position: Vec3;
+  found: boolean;
+}
+
+export const isRecord = (v: unknown): v is Record<string, unknown> => typeof v === 'object' && v !== null && !Array.isArray(v);
