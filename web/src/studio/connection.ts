@@ -70,7 +70,7 @@ export class Connection {
   on<K extends EventName>(name: K, listener: (told: Told<K>) => void): Undo {
     let listeners = this.heard.get(name);
     if (!listeners) this.heard.set(name, (listeners = new Listeners()));
-    return listeners.add(listener as (told: Told<EventName>) => void);
+    return listeners.add(listener as unknown as (told: Told<EventName>) => void);
   }
 
   connect(): void {
