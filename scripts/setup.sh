@@ -21,6 +21,7 @@ packages=(
   libsuitesparse-dev       # CHOLMOD: the sparse factorisation
   libopenblas-dev libmetis-dev
   libcgal-dev              # remeshing, subdivision, filling of holes
+  libboost-dev             # Beast: the server of the studio
   libembree-dev libtbb-dev # rays and closest points; threads
   libtinygltf-dev libtinyobjloader-dev libstb-dev zlib1g-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev

@@ -69,6 +69,7 @@ void log_to_standard_error() {
 void add_subcommands(CLI::App& program) {
   hyperex::cli::add_run(program);
   hyperex::cli::add_check(program);
+  hyperex::cli::add_studio(program);
   hyperex::cli::add_sweep(program);
   hyperex::cli::add_landmarks(program);
   hyperex::cli::add_mesh(program);

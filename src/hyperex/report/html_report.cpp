@@ -268,7 +268,7 @@ json muscle_section(const ReportInput& input) {
           {"lines", lines}};
 }
 
-json manifest_of(const ReportInput& input, BinaryBlock& block) {
+json manifest_of(const ReportInput& input, BinaryBlock& block, bool face) {
   const auto& performance = input.performance;
   json manifest = {{"version", 1},
                    {"title", input.title},
@@ -276,7 +276,6 @@ json manifest_of(const ReportInput& input, BinaryBlock& block) {
                    {"summary", input.summary.is_object() ? input.summary : json::object()},
                    {"point_words", point_words_of(input)},
                    {"scan_vertices", performance.scan_vertices},
-                   {"skin", skin_section(input, block)},
                    {"motion", motion_section(input, block)},
                    {"landmarks", landmark_section(performance.landmarks, block)},
                    {"driven",
@@ -287,8 +286,10 @@ json manifest_of(const ReportInput& input, BinaryBlock& block) {
                    {"symmetry", symmetry_section(input.symmetry)},
                    {"tissue", tissue_section(input.tissue, block)},
                    {"variants", variants_section(input, block)}};
-  add_backing(performance, block, manifest);
   if (!performance.muscles.names.empty()) manifest["muscles"] = muscle_section(input);
+  if (!face) return manifest;
+  manifest["skin"] = skin_section(input, block);
+  add_backing(performance, block, manifest);
   if (input.mirror) manifest["mirror"] = mirror_section(*input.mirror, block);
   return manifest;
 }
@@ -320,10 +321,17 @@ void check(const ReportInput& input) {
 
 }  // namespace
 
+nlohmann::json replay_manifest(const ReportInput& input, BinaryBlock& block, bool face) {
+  check(input);
+  json manifest = manifest_of(input, block, face);
+  manifest["palette"] = palette();
+  return manifest;
+}
+
 void write_html_report(const std::filesystem::path& file, const ReportInput& input) {
   check(input);
   BinaryBlock block;
-  const json manifest = manifest_of(input, block);
+  const json manifest = manifest_of(input, block, true);
   write_page(file, page_template(Page::replay), manifest, block);
 }
 

@@ -10,6 +10,7 @@
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/report/displacement_modes.hpp"
+#include "hyperex/report/page_data.hpp"
 
 namespace hyperex::report {
 
@@ -59,6 +60,10 @@ struct ReportInput {
   const metrics::RestAsymmetry* mirror = nullptr;
   std::vector<ReportMuscle> muscles = {};  ///< where performance.muscles drive
 };
+
+/// What the page reads, its arrays in `block`: all of it, or without `face`, the parts that stay
+/// the same however the face moves (skin, mirror, openings, eyeballs). Throws as write_html_report.
+nlohmann::json replay_manifest(const ReportInput& input, BinaryBlock& block, bool face = true);
 
 /// Writes one HTML file that replays the performance in a browser without any network: the page
 /// built from web/ with a JSON manifest (see web/src/replay/manifest.ts) and one base64 block of

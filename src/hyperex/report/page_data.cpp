@@ -48,9 +48,9 @@ std::string script_safe(const json& value) {
   return text;
 }
 
-/// Colours of categories on light and dark paper, and which of them are whose: pictures and pages
-/// have the same.
-json palette_json() {
+}  // namespace
+
+json palette() {
   const auto all = [](bool dark) {
     json list = json::array();
     for (std::size_t i = 0; i < render::category_count; ++i) {
@@ -70,11 +70,9 @@ json palette_json() {
           {"faces", faces}};
 }
 
-}  // namespace
-
 void write_page(const std::filesystem::path& file, std::string_view page, json manifest,
                 const BinaryBlock& block) {
-  manifest["palette"] = palette_json();
+  manifest["palette"] = palette();
   const std::string text = script_safe(manifest);
   const auto at = page.find(data_mark);
   if (at == std::string_view::npos)

@@ -35,11 +35,13 @@ class BinaryBlock {
   std::vector<std::uint8_t> bytes_;
 };
 
+/// "palette" of a manifest: colours of categories on light and dark paper (render/time_plot.hpp),
+/// the places of left and right in them, and those of base and its variants.
+nlohmann::json palette();
+
 /// Writes `page` (page_template.hpp) with its data put in: a JSON manifest in the element
 /// hyperex-manifest and the block as base64 in hyperex-binary. Text of the manifest cannot end the
-/// element. The palette of pictures (render/time_plot.hpp) is put in as "palette": light, dark, the
-/// places of left and right in them, and those of base and its variants. Throws InputError where
-/// the file cannot be written.
+/// element. palette() is put in. Throws InputError where the file cannot be written.
 void write_page(const std::filesystem::path& file, std::string_view page, nlohmann::json manifest,
                 const BinaryBlock& block);
 

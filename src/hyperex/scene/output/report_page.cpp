@@ -9,7 +9,6 @@
 #include "hyperex/core/printable.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
 #include "hyperex/reenact/held_load.hpp"
-#include "hyperex/report/html_report.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
 
 namespace hyperex::scene {
@@ -108,27 +107,27 @@ std::vector<std::string> change_texts(const json& changes) {
   return texts;
 }
 
-void write_report(const Results& r, const std::vector<VariantRun>& variants,
-                  const nlohmann::ordered_json& summary, const std::filesystem::path& directory) {
+ReplayPage::ReplayPage(const Results& r, const std::vector<VariantRun>& variants, json summary)
+    : input_{.performance = r.simulation.performance,
+             .scan = r.inputs.scan,
+             .modes = r.modes,
+             .symmetry = &r.symmetry.curve,
+             .summary = std::move(summary),
+             .notes = r.notes,
+             .title = title_of(r),
+             .tissue = {},
+             .variants = {},
+             .mirror = &*r.symmetry.map,
+             .muscles = muscles_of(r)} {
   const reenact::Performance& p = r.simulation.performance;
   auto tissue = tissue_maps(r, variants);
-  report::ReportInput input{.performance = p,
-                            .scan = r.inputs.scan,
-                            .modes = r.modes,
-                            .symmetry = &r.symmetry.curve,
-                            .summary = json(summary),
-                            .notes = r.notes,
-                            .title = title_of(r),
-                            .tissue = std::move(tissue.front()),
-                            .variants = {},
-                            .mirror = &*r.symmetry.map,
-                            .muscles = muscles_of(r)};
+  input_.tissue = std::move(tissue.front());
   std::vector<report::DisplacementModes> differences(variants.size());
   tbb::parallel_for(std::size_t(0), variants.size(), [&](std::size_t i) {
     differences[i] = difference_of(variants[i].simulation.performance, p);
   });
   for (std::size_t i = 0; i < variants.size(); ++i)
-    input.variants.push_back(
+    input_.variants.push_back(
         {.name = variants[i].scene.title,
          .changes = change_texts(echoed_changes(r.scene, r.scene.variants[i].changes)),
          .performance = variants[i].simulation.performance,
@@ -137,7 +136,12 @@ void write_report(const Results& r, const std::vector<VariantRun>& variants,
          .tissue = std::move(tissue[i + 1]),
          .group_activation = reenact::group_sums(variants[i].simulation.performance.muscles,
                                                  p.muscles.groups, r.scene.muscles.table())});
-  report::write_html_report(directory / "report.html", input);
+}
+
+void write_report(const Results& r, const std::vector<VariantRun>& variants,
+                  const nlohmann::ordered_json& summary, const std::filesystem::path& directory) {
+  report::write_html_report(directory / "report.html",
+                            ReplayPage(r, variants, json(summary)).input());
 }
 
 }  // namespace hyperex::scene

@@ -5,9 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/report/html_report.hpp"
 #include "hyperex/scene/output/variant_run.hpp"
 
 namespace hyperex::scene {
+
+/// What a page of a run and its variants shows. What is given must outlive it.
+class ReplayPage {
+ public:
+  ReplayPage(const Results& results, const std::vector<VariantRun>& variants,
+             nlohmann::json summary);
+  const report::ReportInput& input() const { return input_; }
+
+ private:
+  report::ReportInput input_;
+};
 
 /// Writes report.html: the face in motion, its variants, curves, and the summary as tables.
 void write_report(const Results& results, const std::vector<VariantRun>& variants,

@@ -115,50 +115,75 @@ std::vector<std::string> lips_that_pass(const std::vector<VariantRun>& runs, dou
   return notes;
 }
 
-Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
-                    const tissue::TissueMesh& mesh, const fs::path& directory) {
-  const metrics::ResponsePair pair = metrics::response_pair(
-      base.simulation.performance, base.inputs.motion.motion, 2 * base.scene.drive.patch_radius_m);
-  const metrics::ComparedInputs compared_inputs{base.inputs.landmarks, base.inputs.motion.motion};
+namespace {
+
+struct Compared {
+  metrics::ResponsePair pair;
+  metrics::VariantComparison own;
+  std::vector<metrics::VariantComparison> variants;
+};
+
+Compared compared_with(const Results& base, const std::vector<VariantRun>& runs) {
+  const metrics::ComparedInputs inputs{base.inputs.landmarks, base.inputs.motion.motion};
   const metrics::ComparedRun own_run{base.simulation.performance, base.symmetry};
-  Progress progress("writing variants", 0);
-  std::vector<metrics::VariantComparison> compared(runs.size());
+  Compared out;
+  out.pair = metrics::response_pair(base.simulation.performance, base.inputs.motion.motion,
+                                    2 * base.scene.drive.patch_radius_m);
+  out.variants.resize(runs.size());
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
-    compared[i] = metrics::compare_variant(runs[i].scene.title, own_run,
-                                           {runs[i].simulation.performance, runs[i].symmetry},
-                                           compared_inputs, pair);
+    out.variants[i] = metrics::compare_variant(runs[i].scene.title, own_run,
+                                               {runs[i].simulation.performance, runs[i].symmetry},
+                                               inputs, out.pair);
   });
-  const metrics::VariantComparison own =
-      metrics::compare_variant("base", own_run, own_run, compared_inputs, pair);
-  std::vector<std::optional<report::GlbReport>> glb(runs.size());
-  run_together({[&] { draw_variants(base, compared, runs, directory / "variants.png"); },
-                [&] { draw_variant_symmetry(base, runs, directory / "variants_symmetry.png"); },
-                [&] { write_tables(base, runs, own, compared, pair, directory); },
-                [&] {
-                  tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
-                    const VariantRun& run = runs[i];
-                    const Results results{
-                        run.scene,    run.inputs, mesh, run.simulation,
-                        run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
-                    const fs::path folder = directory / "variants" / run.folder;
-                    fs::create_directories(folder);
-                    glb[i] = write_outputs(results, folder, &base);
-                  });
-                }});
-  Json json;
-  json["driven_point"] = pair.driven;
-  json["response_point"] = pair.response;
-  json["table"] = Json::array({metrics::json_of(own)});
-  for (std::size_t i = 0; i < compared.size(); ++i) {
-    Json one = metrics::json_of(compared[i]);
+  out.own = metrics::compare_variant("base", own_run, own_run, inputs, out.pair);
+  return out;
+}
+
+Json table_of(const Results& base, const std::vector<VariantRun>& runs, const Compared& compared) {
+  Json table = Json::array({metrics::json_of(compared.own)});
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Json one = metrics::json_of(compared.variants[i]);
     one["folder"] = "variants/" + runs[i].folder;
     one["changes"] = echoed_changes(base.scene, base.scene.variants[i].changes);
     one["lip_overlap_mm"] = runs[i].simulation.report.lip_overlap_mm;
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
-    if (glb[i]) one["glb"] = glb_json(*glb[i]);
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");
-    json["table"].push_back(one);
+    table.push_back(one);
   }
+  return table;
+}
+
+}  // namespace
+
+Json variant_table(const Results& base, const std::vector<VariantRun>& runs) {
+  return table_of(base, runs, compared_with(base, runs));
+}
+
+Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
+                    const tissue::TissueMesh& mesh, const fs::path& directory) {
+  Progress progress("writing variants", 0);
+  const Compared compared = compared_with(base, runs);
+  std::vector<std::optional<report::GlbReport>> glb(runs.size());
+  run_together(
+      {[&] { draw_variants(base, compared.variants, runs, directory / "variants.png"); },
+       [&] { draw_variant_symmetry(base, runs, directory / "variants_symmetry.png"); },
+       [&] { write_tables(base, runs, compared.own, compared.variants, compared.pair, directory); },
+       [&] {
+         tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
+           const VariantRun& run = runs[i];
+           const Results results{run.scene,    run.inputs, mesh, run.simulation,
+                                 run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
+           const fs::path folder = directory / "variants" / run.folder;
+           fs::create_directories(folder);
+           glb[i] = write_outputs(results, folder, &base);
+         });
+       }});
+  Json json;
+  json["driven_point"] = compared.pair.driven;
+  json["response_point"] = compared.pair.response;
+  json["table"] = table_of(base, runs, compared);
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (glb[i]) json["table"][i + 1]["glb"] = glb_json(*glb[i]);
   return json;
 }
 

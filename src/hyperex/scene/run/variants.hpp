@@ -25,6 +25,10 @@ void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& 
 inline constexpr double kLipsPass_mm = 0.5;
 std::vector<std::string> lips_that_pass(const std::vector<VariantRun>& runs, double base_mm);
 
+/// Rows of base and its variants as "table" of "variants" in summary.json has them, without what is
+/// known only of written files: millimetres of the corners, what differs from base.
+nlohmann::ordered_json variant_table(const Results& base, const std::vector<VariantRun>& runs);
+
 /// Writes variants.csv, the pictures of variants_picture.hpp and a folder a variant under
 /// variants/, and returns what summary.json says of them.
 nlohmann::ordered_json write_variants(const Results& base, const std::vector<VariantRun>& runs,

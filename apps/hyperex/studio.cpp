@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../studio/studio.hpp"
+
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "hyperex/core/memory.hpp"
+#include "hyperex/core/progress.hpp"
+
+namespace hyperex::cli {
+
+void add_studio(CLI::App& program) {
+  auto options = std::make_shared<studio::StudioOptions>();
+  options->save_into = ".";
+  auto no_browser = std::make_shared<bool>(false), no_cache = std::make_shared<bool>(false);
+  CLI::App* command = program.add_subcommand(
+      "studio", "Open a face in the browser, change its tissue and muscles, and see what follows");
+  command->add_option("SCENE", options->started,
+                      "Scene file or scan; without one the face that comes with the program");
+  command->add_option("--save-into", options->save_into,
+                      "Folder that saved files go into; none is ever overwritten but those that "
+                      "the same studio wrote [default: the current folder]");
+  command->add_option("--port", options->port, "Port on this machine [default: one that is free]");
+  command->add_flag("--no-browser", *no_browser, "Print the address and open no browser");
+  command->add_flag("--no-cache", *no_cache, "Keep and take no results of earlier runs");
+  command->footer("Example: hyperex studio examples/what_if.toml");
+  command->callback([=] {
+    take_library_memory();
+    Progress::silence(true);
+    options->open_browser = !*no_browser;
+    options->version = HYPEREX_VERSION;
+    if (!*no_cache) options->kept = KeptResults(user_cache_folder());
+    studio::run_studio(*options);
+  });
+}
+
+}  // namespace hyperex::cli

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "open_face.hpp"
+
+#include <algorithm>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/metrics/symmetry_json.hpp"
+#include "hyperex/scene/output/report_page.hpp"
+#include "hyperex/scene/run/variants.hpp"
+#include "hyperex/scene/stages/drive_choice.hpp"
+#include "hyperex/scene/stages/driven_points.hpp"
+#include "hyperex/scene/stages/kept_order.hpp"
+#include "hyperex/scene/stages/simulation_options.hpp"
+
+namespace hyperex::studio {
+
+using nlohmann::json;
+
+namespace {
+
+/// Not known while one edits: it takes a run of the mirrored face.
+constexpr const char* kNoTwin = "the studio runs no mirrored twin while one edits";
+
+/// Whether one is read, meshed and aligned as the other.
+bool same_face(const scene::Scene& a, const scene::Scene& b) {
+  json one = values_of(a), other = values_of(b);
+  for (json* values : {&one, &other})
+    for (auto it = values->begin(); it != values->end();) {
+      const std::string& key = it.key();
+      const auto in = [&](const char* section) { return key.rfind(section, 0) == 0; };
+      const bool of_face =
+          in("scan.") || in("mesh.") || in("alignment.") || (in("motion.") && key != "motion.gain");
+      it = of_face ? std::next(it) : values->erase(it);
+    }
+  return one == other;
+}
+
+}  // namespace
+
+json values_of(const scene::Scene& scene) {
+  json out = json::object();
+  const json sections = scene::options_json(scene);
+  for (const auto& [section, keys] : sections.items()) {
+    if (!keys.is_object()) {
+      out[section] = keys;
+      continue;
+    }
+    for (const auto& [key, value] : keys.items()) out[section + "." + key] = value;
+  }
+  return out;
+}
+
+OpenFace::OpenFace(std::string text, std::filesystem::path file, KeptResults kept,
+                   const Stage& stage)
+    : text_(std::move(text)) {
+  scene::Scene scene = scene::read_scene_text(text_, file);
+  scene.kept = kept;
+  stage("reading scan and recording");
+  inputs_ = scene::read_inputs(scene);
+  own_notes_ = inputs_.notes.size();
+  stage("meshing the soft tissue");
+  face_ = scene::prepare_face(scene, inputs_, [] {});
+  fields_ = std::make_unique<scene::TissueFields>(inputs_, *face_.mesh);
+  stage("assembling and factoring");
+  take(std::move(scene));
+  scene::prepare_with_kept_order(scene_, inputs_, *simulator_);
+}
+
+reenact::SimulationOptions OpenFace::options_of(
+    const scene::Scene& scene, const scene::Inputs& inputs,
+    const std::optional<tissue::TissueField>& field) const {
+  reenact::SimulationOptions options = scene::simulation_options(scene, inputs);
+  if (field) options.tissue.element = field->element;
+  return options;
+}
+
+bool OpenFace::set_text(const std::string& text) {
+  scene::Scene next = scene::read_scene_text(text, scene_.file);
+  next.kept = scene_.kept;
+  if (!same_face(scene_, next)) return false;
+  take(std::move(next));
+  text_ = text;
+  return true;
+}
+
+/// Everything that may throw comes before anything is changed.
+void OpenFace::take(scene::Scene next) {
+  const scene::DriveChoice choice = scene::drive_choice(next, inputs_);
+  next.drive.by = choice.by;
+  const std::vector<std::string> driven = scene::driven_points(next, inputs_.motion.motion);
+  scene::Inputs& inputs = inputs_;
+  std::vector<std::string> before = std::exchange(inputs.driven, driven);
+  std::optional<tissue::TissueField> field;
+  std::vector<scene::VariantRun> runs;
+  reenact::SimulationOptions options;
+  std::vector<reenact::SimulationOptions> of_runs;
+  try {
+    field = fields_->of(next);
+    runs = scene::prepare_variants(next, inputs, *fields_);
+    options = options_of(next, inputs, field);
+    check(options);
+    for (const scene::VariantRun& run : runs) {
+      of_runs.push_back(options_of(run.scene, run.inputs, run.field));
+      check(of_runs.back());
+    }
+  } catch (...) {
+    inputs.driven = std::move(before);
+    throw;
+  }
+  drive_why_ = choice.why;
+  inputs.notes.resize(own_notes_);
+  inputs.notes.push_back(choice.why);
+  scene_ = std::move(next);
+  field_ = std::move(field);
+  const bool same_base = simulator_ && simulator_->options() == options;
+  if (!simulator_)
+    simulator_.emplace(face_.mesh, inputs.landmarks, inputs.motion, options);
+  else if (!same_base)
+    simulator_->set_options(options);
+  stale_ = stale_ || !same_base;
+  std::vector<Variant> old = std::exchange(variants_, {});
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Variant variant{.run = std::move(runs[i]), .simulator = {}, .stale = true};
+    const auto known = std::find_if(old.begin(), old.end(), [&](const Variant& one) {
+      return one.simulator && one.run.scene.title == variant.run.scene.title;
+    });
+    if (same_base && known != old.end()) {
+      variant.simulator = std::move(known->simulator);
+      known->simulator.reset();
+      variant.stale = known->stale || variant.simulator->options() != of_runs[i];
+      if (variant.stale) {
+        variant.simulator->set_options(of_runs[i]);
+      } else {
+        variant.run.simulation = std::move(known->run.simulation);
+        variant.run.symmetry = std::move(known->run.symmetry);
+      }
+    }
+    variants_.push_back(std::move(variant));
+  }
+}
+
+reenact::Simulator& OpenFace::simulator_of(std::size_t face) {
+  if (face == 0) return *simulator_;
+  Variant& variant = variants_.at(face - 1);
+  if (!variant.simulator) {
+    simulator_->still(0);  // finds the forces, where there are none yet
+    variant.simulator = *simulator_;
+    variant.simulator->hold_load();
+    variant.simulator->set_options(
+        options_of(variant.run.scene, variant.run.inputs, variant.run.field));
+  }
+  return *variant.simulator;
+}
+
+PointsF OpenFace::still(std::size_t face, double time_s) {
+  return simulator_of(face).still(time_s);
+}
+
+bool OpenFace::up_to_date() const {
+  return !stale_ && std::none_of(variants_.begin(), variants_.end(),
+                                 [](const Variant& variant) { return variant.stale; });
+}
+
+void OpenFace::run(const reenact::RunCallbacks& callbacks) {
+  const scene::MirroredTwin twin{
+      .why_not = kNoTwin, .landmarks = {}, .skin_displacement_m = {}, .simulator = {}};
+  if (stale_) {
+    simulation_ = simulator_->run(callbacks);
+    symmetry_ = symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, twin);
+    modes_ = report::displacement_modes(simulation_.performance.skin_displacement_m);
+    stale_ = false;
+  }
+  for (std::size_t i = 0; i < variants_.size(); ++i) {
+    Variant& variant = variants_[i];
+    if (!variant.stale) continue;
+    scene::VariantRun& run = variant.run;
+    run.simulation = simulator_of(i + 1).run(callbacks);
+    run.symmetry =
+        symmetry_measures(run.scene, run.inputs, face_.at_rest, run.simulation.performance, twin);
+    variant.stale = false;
+  }
+}
+
+scene::Results OpenFace::results() const {
+  scene::Results out{scene_,          inputs_,       *face_.mesh, simulation_,
+                     symmetry_,       inputs_.notes, modes_,      field_ ? &*field_ : nullptr,
+                     inputs_.warnings};
+  out.notes.insert(out.notes.end(), face_.mesh->notes.begin(), face_.mesh->notes.end());
+  out.notes.insert(out.notes.end(), inputs_.warnings.begin(), inputs_.warnings.end());
+  for (const std::string& note : simulation_.report.notes) {
+    out.notes.push_back(note);
+    out.warnings.push_back(note);
+  }
+  return out;
+}
+
+json OpenFace::replay(report::BinaryBlock& block, bool with_face) const {
+  const scene::Results all = results();
+  std::vector<scene::VariantRun> runs;
+  for (const Variant& variant : variants_) runs.push_back(variant.run);
+  json summary;
+  summary["symmetry"] = metrics::summary_of(symmetry_);
+  summary["warnings"] = all.warnings;
+  summary["peak_time_s"] =
+      simulation_.performance.frame_time_s[std::size_t(simulation_.performance.peak_frame)];
+  if (!runs.empty()) summary["variants"] = {{"table", scene::variant_table(all, runs)}};
+  const scene::ReplayPage page(all, runs, summary);
+  return report::replay_manifest(page.input(), block, with_face);
+}
+
+}  // namespace hyperex::studio

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/report/page_data.hpp"
+#include "hyperex/scene/output/outputs.hpp"
+#include "hyperex/scene/output/variant_run.hpp"
+#include "hyperex/scene/stages/prepared_face.hpp"
+#include "hyperex/scene/stages/tissue_fields.hpp"
+
+namespace hyperex::studio {
+
+/// The face that is open: a scene's text and what a run makes of it, kept so that a change costs no
+/// more than it must. Face 0 is base, 1, 2 ... its variants. One thread at a time.
+class OpenFace {
+ public:
+  using Stage = std::function<void(const std::string&)>;  ///< told as each begins
+
+  /// Reads and meshes; simulates nothing yet. `file`: where the scene's text belongs: relative
+  /// paths are taken from its folder, messages name it. Throws InputError.
+  OpenFace(std::string text, std::filesystem::path file, KeptResults kept, const Stage& stage);
+
+  const std::string& text() const { return text_; }
+  const std::filesystem::path& file() const { return scene_.file; }
+  const scene::Scene& scene() const { return scene_; }
+  const scene::Inputs& inputs() const { return inputs_; }
+  const tissue::TissueMesh& mesh() const { return *face_.mesh; }
+  std::size_t faces() const { return 1 + variants_.size(); }
+  /// Why the program picked what drives, a sentence.
+  const std::string& drive_why() const { return drive_why_; }
+
+  /// Another text. False, and nothing is changed, where it names another scan, recording or mesh:
+  /// that is another OpenFace. Throws InputError, and nothing is changed, for a text that is no
+  /// sound scene.
+  bool set_text(const std::string& text);
+
+  /// Of the skin, m, in static equilibrium at an instant.
+  PointsF still(std::size_t face, double time_s);
+
+  bool up_to_date() const;
+  /// Runs what is not up to date. Throws NumericalError, and reenact::Cancelled: what was done so
+  /// far stays.
+  void run(const reenact::RunCallbacks& callbacks);
+
+  /// Once all is up to date: what the page reads (report::replay_manifest).
+  nlohmann::json replay(report::BinaryBlock& block, bool with_face) const;
+
+ private:
+  struct Variant {
+    scene::VariantRun run;
+    std::optional<reenact::Simulator> simulator;  ///< with base's load held; none: not made yet
+    bool stale = true;
+  };
+  reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::Inputs& inputs,
+                                        const std::optional<tissue::TissueField>& field) const;
+  void take(scene::Scene next);
+  reenact::Simulator& simulator_of(std::size_t face);
+  scene::Results results() const;
+
+  std::string text_;
+  scene::Scene scene_;
+  scene::Inputs inputs_;
+  std::size_t own_notes_ = 0;  ///< of the inputs' notes, those of reading
+  std::string drive_why_;
+  scene::PreparedFace face_;
+  std::unique_ptr<scene::TissueFields> fields_;
+  std::optional<tissue::TissueField> field_;
+  std::optional<reenact::Simulator> simulator_;
+  bool stale_ = true;
+  reenact::SimulationResult simulation_;
+  metrics::SymmetryMeasures symmetry_;
+  report::DisplacementModes modes_;
+  std::vector<Variant> variants_;
+};
+
+/// Every key with its value, in the units of scene files: {"tissue.young_kpa": 150}.
+nlohmann::json values_of(const scene::Scene& scene);
+
+}  // namespace hyperex::studio

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "request_queue.hpp"
+
+namespace hyperex::studio {
+namespace {
+
+bool is_live(const Request& request) {
+  return request.name == "set" && request.fields.at("live").get<bool>();
+}
+
+/// Whether `later` leaves nothing of `request` to be seen.
+bool replaces(const Request& later, const Request& request) {
+  return is_live(request) && later.name == "set" &&
+         later.fields.at("face") == request.fields.at("face");
+}
+
+}  // namespace
+
+bool RequestQueue::push(Request request) {
+  const std::lock_guard lock(mutex_);
+  if (closed_ || waiting_.size() >= kMost) return false;
+  waiting_.push_back(std::move(request));
+  changed_.notify_one();
+  return true;
+}
+
+std::optional<Request> RequestQueue::pop(bool wait, std::vector<Request>& superseded) {
+  std::unique_lock lock(mutex_);
+  if (wait) changed_.wait(lock, [&] { return closed_ || !waiting_.empty(); });
+  if (closed_ || waiting_.empty()) return std::nullopt;
+  Request request = std::move(waiting_.front());
+  waiting_.pop_front();
+  while (!waiting_.empty() && replaces(waiting_.front(), request)) {
+    superseded.push_back(std::move(request));
+    request = std::move(waiting_.front());
+    waiting_.pop_front();
+  }
+  return request;
+}
+
+bool RequestQueue::empty() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_.empty();
+}
+
+void RequestQueue::close() {
+  const std::lock_guard lock(mutex_);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+bool RequestQueue::closed() const {
+  const std::lock_guard lock(mutex_);
+  return closed_;
+}
+
+}  // namespace hyperex::studio

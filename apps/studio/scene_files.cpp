@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_files.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/grammar/scene_text.hpp"
+#include "hyperex/scene/grammar/toml_values.hpp"
+
+__asm__(
+    ".pushsection .rodata\n"
+    ".global hyperex_studio_smile_begin\n"
+    ".global hyperex_studio_smile_end\n"
+    "hyperex_studio_smile_begin:\n"
+    ".incbin \"" HYPEREX_STUDIO_SMILE
+    "\"\n"
+    "hyperex_studio_smile_end:\n"
+    ".byte 0\n"
+    ".popsection\n");
+extern "C" const char hyperex_studio_smile_begin[], hyperex_studio_smile_end[];
+
+namespace hyperex::studio {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Paths in the values of a key, those in rows of tables too.
+void for_paths(const scene::KeyInfo& key, json& value, const std::function<void(json&)>& visit) {
+  if (key.kind == scene::Kind::path && value.is_string() && value != "embedded") visit(value);
+  if (key.kind != scene::Kind::rows || !value.is_array()) return;
+  for (json& row : value)
+    for (const scene::KeyInfo& column : key.columns)
+      if (row.is_object() && row.contains(column.name)) for_paths(column, row[column.name], visit);
+}
+
+void for_paths_of_tables(json& tables, const std::function<void(json&)>& visit) {
+  for (const scene::Key& key : scene::keys()) {
+    const std::string section = scene::section_of(key.name);
+    json* table = section.empty() ? &tables : tables.contains(section) ? &tables[section] : nullptr;
+    if (!table || !table->is_object()) continue;
+    const std::string name = section.empty() ? key.name : key.name.substr(section.size() + 1);
+    if (table->contains(name)) for_paths(key, (*table)[name], visit);
+  }
+}
+
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  if (folder.empty()) return false;
+  const fs::path way = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
+  return !way.empty() && *way.begin() != "..";
+}
+
+}  // namespace
+
+std::string embedded_scene() {
+  return "# A smile of the face that comes with Hyperex, made by its muscles.\n"
+         "title = \"A smile\"\n\n"
+         "[scan]\nfile = \"embedded\"\n\n"
+         "[motion]\narkit = \"smile_arkit.csv\"\n\n"
+         "[drive]\nby = \"muscles\"\n";
+}
+
+std::string_view embedded_smile() {
+  return {hyperex_studio_smile_begin, hyperex_studio_smile_end};
+}
+
+std::string recording_key(const fs::path& recording) {
+  std::string ending = recording.extension().string();
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".trc") return "motion.file";
+  if (ending != ".csv") return "motion.recording";
+  const std::string head = read_file(recording).substr(0, 65536);
+  if (head.find("mouthSmileLeft") != std::string::npos ||
+      head.find("MouthSmileLeft") != std::string::npos)
+    return "motion.arkit";
+  if (head.find("AU12_r") != std::string::npos) return "motion.openface";
+  return "motion.file";
+}
+
+void save_scene(const std::string& text, const fs::path& from, const fs::path& copied,
+                const fs::path& to) {
+  const fs::path folder = from.parent_path(), target = fs::absolute(to).parent_path();
+  const std::string files = to.stem().string() + "_files";
+  const auto moved = [&](json& value) {
+    fs::path file = value.get<std::string>();
+    const bool relative = file.is_relative();
+    if (relative) file = folder / file;
+    if (lies_in(file, copied)) {
+      fs::create_directories(target / files);
+      const fs::path copy = target / files / file.filename();
+      write_file_atomically(copy, [&](std::ostream& out) { out << read_file(file); });
+      value = (fs::path(files) / file.filename()).generic_string();
+    } else if (relative && fs::absolute(folder).lexically_normal() != target.lexically_normal()) {
+      value = fs::absolute(file).lexically_normal().lexically_proximate(target).generic_string();
+    }
+  };
+  const json before = scene::parse_toml(text).root;
+  json after = before;
+  for_paths_of_tables(after, moved);
+  std::string out = text;
+  for (const auto& [section, table] : after.items()) {
+    if (section == "variant" || table == before.at(section)) continue;
+    if (!table.is_object()) {
+      out = scene::with_value(out, section, table);
+      continue;
+    }
+    for (const auto& [key, value] : table.items())
+      if (value != before.at(section).at(key))
+        out = scene::with_value(out, section + "." + key, value);
+  }
+  std::vector<json> blocks = scene::variant_blocks(text);
+  for (json& block : blocks)
+    if (block.is_object()) for_paths_of_tables(block, moved);
+  if (blocks != scene::variant_blocks(text)) out = scene::with_variants(out, blocks);
+  write_file_atomically(to, [&](std::ostream& stream) { stream << out; });
+}
+
+}  // namespace hyperex::studio

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "access.hpp"
+#include "hyperex/core/error.hpp"
+#include "token.hpp"
+
+namespace hyperex::studio {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+constexpr std::size_t kLongestHead = 16384, kLongestHello = 4096;
+constexpr auto kHttpWithin = seconds(30), kHelloWithin = seconds(10);
+constexpr const char* kSocketPath = "/socket";
+constexpr std::string_view kUploadPath = "/upload/";
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
+    "blob:; connect-src 'self' ws://127.0.0.1:{0} ws://localhost:{0}; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'";
+
+std::string_view view(beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+/// "%20" as a space; nothing where that is no such text.
+std::optional<std::string> unescaped(std::string_view text) {
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+  };
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      out += text[i];
+      continue;
+    }
+    if (i + 2 >= text.size() || digit(text[i + 1]) < 0 || digit(text[i + 2]) < 0)
+      return std::nullopt;
+    out += static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2]));
+    i += 2;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_upload_name(std::string_view name) {
+  if (name.empty() || name.size() > 100 || name.front() == '.' || name.front() == ' ') return false;
+  return std::all_of(name.begin(), name.end(), [](char c) {
+    const auto u = static_cast<unsigned char>(c);
+    return u >= 0x80 || std::isalnum(u) || std::string_view(" -_.()").find(c) != std::string::npos;
+  });
+}
+
+struct Server::Impl {
+  class Socket;
+  class Connection;
+
+  ServerOptions options;
+  ServerEvents events;
+  asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  unsigned short port = 0;
+  std::string policy;
+  std::shared_ptr<Socket> client;  // that was let in
+  int connections = 0;
+  std::size_t uploaded = 0;  // bytes in all
+
+  void accept();
+};
+
+/// A page's socket, from its upgrade on.
+class Server::Impl::Socket : public std::enable_shared_from_this<Socket> {
+ public:
+  Socket(Impl& server, tcp::socket&& socket)
+      : server_(server), stream_(std::move(socket)), hello_timer_(server.io) {
+    ++server_.connections;
+  }
+  ~Socket() { --server_.connections; }
+
+  void start(const http::request<http::empty_body>& request) {
+    websocket::stream_base::timeout timeouts =
+        websocket::stream_base::timeout::suggested(beast::role_type::server);
+    timeouts.keep_alive_pings = true;
+    stream_.set_option(timeouts);
+    stream_.read_message_max(kLongestHello);
+    stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
+      if (error) return;
+      self->hello_timer_.expires_after(kHelloWithin);
+      self->hello_timer_.async_wait([weak = std::weak_ptr(self)](beast::error_code late) {
+        if (const auto one = weak.lock(); one && !late && !one->let_in_)
+          one->end(websocket::close_code::policy_error, "no hello came");
+      });
+      self->read();
+    });
+  }
+
+  void send(std::shared_ptr<const std::string> message, bool binary, const std::string& replaces) {
+    if (ended_) return;
+    if (!replaces.empty())
+      for (std::size_t i = writing_ ? 1 : 0; i < queue_.size(); ++i)
+        if (queue_[i].replaces == replaces) {
+          waiting_ -= queue_[i].message->size();
+          waiting_ += message->size();
+          queue_[i].message = std::move(message);
+          return;
+        }
+    waiting_ += message->size();
+    if (waiting_ > server_.options.most_waiting)
+      return end(websocket::close_code::policy_error, "too slow a reader");
+    queue_.push_back({std::move(message), binary, replaces});
+    if (!writing_) write();
+  }
+
+  void end(websocket::close_code code, const char* why) {
+    if (ended_) return;
+    ended_ = true;
+    hello_timer_.cancel();
+    if (server_.client.get() == this) server_.client.reset();
+    if (writing_) {  // a reader that takes nothing would never take the farewell
+      beast::get_lowest_layer(stream_).close();
+      return;
+    }
+    stream_.async_close({code, why}, [self = shared_from_this()](beast::error_code) {});
+  }
+
+ private:
+  struct Outgoing {
+    std::shared_ptr<const std::string> message;
+    bool binary;
+    std::string replaces;
+  };
+
+  void read() {
+    stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (error || self->ended_) return self->lost();
+      self->take(beast::buffers_to_string(self->buffer_.data()));
+      self->buffer_.consume(self->buffer_.size());
+      if (!self->ended_) self->read();
+    });
+  }
+
+  void take(std::string text) {
+    if (!let_in_) return knock(std::move(text));
+    const auto now = steady_clock::now();
+    const double rate = server_.options.messages_per_s;
+    allowance_ =
+        std::min(rate, allowance_ + rate * std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+    if (allowance_ < 1) return end(websocket::close_code::policy_error, "too many messages");
+    allowance_ -= 1;
+    server_.events.request(std::move(text));
+  }
+
+  void knock(std::string text) {
+    const auto message = nlohmann::json::parse(text, nullptr, false);
+    const bool right = stream_.got_text() && message.is_object() &&
+                       message.value("do", nlohmann::json()) == "hello" &&
+                       message.contains("token") && message["token"].is_string() &&
+                       same_token(message["token"].get<std::string>(), server_.options.token);
+    if (!right) return end(websocket::close_code::policy_error, "not the address that was printed");
+    let_in_ = true;
+    hello_timer_.cancel();
+    allowance_ = server_.options.messages_per_s;
+    last_ = steady_clock::now();
+    stream_.read_message_max(server_.options.longest_message);
+    if (const auto before = server_.client)
+      before->end(websocket::close_code::going_away, "another page took over");
+    server_.client = shared_from_this();
+    server_.events.request(std::move(text));
+  }
+
+  void write() {
+    writing_ = true;
+    stream_.binary(queue_.front().binary);
+    stream_.async_write(asio::buffer(*queue_.front().message),
+                        [self = shared_from_this()](beast::error_code error, std::size_t) {
+                          self->writing_ = false;
+                          if (error || self->ended_) return self->lost();
+                          self->waiting_ -= self->queue_.front().message->size();
+                          self->queue_.pop_front();
+                          if (!self->queue_.empty()) self->write();
+                        });
+  }
+
+  void lost() {
+    ended_ = true;
+    hello_timer_.cancel();
+    if (server_.client.get() == this) server_.client.reset();
+  }
+
+  Impl& server_;
+  websocket::stream<beast::tcp_stream> stream_;
+  asio::steady_timer hello_timer_;
+  beast::flat_buffer buffer_;
+  std::deque<Outgoing> queue_;
+  std::size_t waiting_ = 0;
+  bool let_in_ = false, writing_ = false, ended_ = false;
+  double allowance_ = 0;
+  steady_clock::time_point last_;
+};
+
+/// HTTP, until it asks for the socket.
+class Server::Impl::Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(Impl& server, tcp::socket&& socket) : server_(server), stream_(std::move(socket)) {
+    ++server_.connections;
+  }
+  ~Connection() { --server_.connections; }
+
+  void read() {
+    head_.emplace();
+    head_->header_limit(kLongestHead);
+    head_->body_limit(server_.options.longest_upload);
+    stream_.expires_after(kHttpWithin);
+    http::async_read_header(stream_, buffer_, *head_,
+                            [self = shared_from_this()](beast::error_code error, std::size_t) {
+                              if (!error) self->take();
+                            });
+  }
+
+ private:
+  void take() {
+    const http::request<http::empty_body>& request = head_->get();
+    const std::string_view target = view(request.target());
+    if (!own_host(view(request[http::field::host]), server_.port))
+      return answer(http::status::forbidden, "this is not the studio's address\n");
+    if (websocket::is_upgrade(request)) {
+      if (target != kSocketPath || !own_origin(view(request[http::field::origin]), server_.port))
+        return answer(http::status::forbidden, "the socket is for the studio's own page\n");
+      stream_.expires_never();
+      const auto socket = std::make_shared<Socket>(server_, stream_.release_socket());
+      return socket->start(request);
+    }
+    if (target.substr(0, kUploadPath.size()) == kUploadPath) return take_upload();
+    if (request.method() != http::verb::get && request.method() != http::verb::head)
+      return answer(http::status::method_not_allowed, "\n");
+    if (target != "/") return answer(http::status::not_found, "there is one page: /\n");
+    answer(http::status::ok, std::string(server_.options.page), "text/html; charset=utf-8");
+  }
+
+  void take_upload() {
+    const http::request<http::empty_body>& request = head_->get();
+    if (request.method() != http::verb::post) return answer(http::status::method_not_allowed, "\n");
+    const auto name = unescaped(view(request.target()).substr(kUploadPath.size()));
+    if (!own_origin(view(request[http::field::origin]), server_.port) ||
+        !same_token(view(request[http::field::authorization]), "Bearer " + server_.options.token))
+      return answer(http::status::forbidden, "uploads are for the studio's own page\n");
+    if (!name || !is_upload_name(*name))
+      return answer(http::status::bad_request, "expected a plain file name\n");
+    const auto length = head_->content_length();
+    if (!length || *length > server_.options.longest_upload ||
+        server_.uploaded + *length > 2 * server_.options.longest_upload)
+      return answer(http::status::payload_too_large,
+                    fmt::format("expected at most {} MB a file, {} MB in all\n",
+                                server_.options.longest_upload >> 20U,
+                                server_.options.longest_upload >> 19U));
+    server_.uploaded += *length;
+    name_ = *name;
+    upload_.emplace(std::move(*head_));
+    beast::error_code error;
+    // Under its own name only when it is whole.
+    const std::string part = (server_.options.uploads / (".part-" + name_)).string();
+    upload_->get().body().open(part.c_str(), beast::file_mode::write, error);
+    if (error) return answer(http::status::insufficient_storage, "the file cannot be written\n");
+    stream_.expires_after(seconds(600));
+    http::async_read(
+        stream_, buffer_, *upload_,
+        [self = shared_from_this(), part](beast::error_code failed, std::size_t) {
+          self->upload_->get().body().close();
+          std::error_code ignored;
+          if (failed) {
+            std::filesystem::remove(part, ignored);
+            return;
+          }
+          std::filesystem::rename(part, self->server_.options.uploads / self->name_, ignored);
+          if (ignored)
+            return self->answer(http::status::insufficient_storage, "the file cannot be written\n");
+          self->server_.events.uploaded(self->name_);
+          self->answer(http::status::ok, nlohmann::json{{"name", self->name_}}.dump(),
+                       "application/json");
+        });
+  }
+
+  void answer(http::status status, std::string body, const char* type = "text/plain") {
+    answer_.version(11);
+    answer_.result(status);
+    answer_.set(http::field::content_type, type);
+    answer_.set("Content-Security-Policy", server_.policy);
+    answer_.set("X-Content-Type-Options", "nosniff");
+    answer_.set("X-Frame-Options", "DENY");
+    answer_.set("Cross-Origin-Opener-Policy", "same-origin");
+    answer_.set("Cross-Origin-Resource-Policy", "same-origin");
+    answer_.set("Referrer-Policy", "no-referrer");
+    answer_.set(http::field::cache_control, "no-store");
+    answer_.keep_alive(false);
+    answer_.body() = std::move(body);
+    answer_.prepare_payload();
+    stream_.expires_after(kHttpWithin);
+    http::async_write(stream_, answer_,
+                      [self = shared_from_this()](beast::error_code, std::size_t) {
+                        beast::error_code ignored;
+                        self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+                      });
+  }
+
+  Impl& server_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{65536};
+  std::optional<http::request_parser<http::empty_body>> head_;
+  std::optional<http::request_parser<http::file_body>> upload_;
+  http::response<http::string_body> answer_;
+  std::string name_;
+};
+
+void Server::Impl::accept() {
+  acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+    if (error == asio::error::operation_aborted) return;
+    if (!error && connections < options.most_connections)
+      std::make_shared<Connection>(*this, std::move(socket))->read();
+    accept();
+  });
+}
+
+Server::Server(ServerOptions options, ServerEvents events) : impl_(std::make_unique<Impl>()) {
+  Impl& m = *impl_;
+  m.options = std::move(options);
+  m.events = std::move(events);
+  beast::error_code error;
+  const tcp::endpoint at(asio::ip::address_v4::loopback(), m.options.port);
+  m.acceptor.open(at.protocol(), error);
+  if (!error) m.acceptor.set_option(asio::socket_base::reuse_address(true), error);
+  if (!error) m.acceptor.bind(at, error);
+  if (!error) m.acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error)
+    throw InputError("--port", fmt::format("{}: this port cannot be taken ({}); expected a free "
+                                           "one, or none to have one chosen",
+                                           m.options.port, error.message()));
+  m.port = m.acceptor.local_endpoint().port();
+  m.policy = fmt::format(fmt::runtime(kPolicy), m.port);
+}
+Server::~Server() = default;
+
+unsigned short Server::port() const {
+  return impl_->port;
+}
+std::string Server::address() const {
+  return fmt::format("http://127.0.0.1:{}/#{}", impl_->port, impl_->options.token);
+}
+
+void Server::run() {
+  impl_->accept();
+  impl_->io.run();
+}
+
+void Server::stop() {
+  asio::post(impl_->io, [this] {
+    impl_->acceptor.close();
+    impl_->client.reset();
+    impl_->io.stop();
+  });
+}
+
+void Server::send(std::string message, bool binary, const std::string& replaces) {
+  auto shared = std::make_shared<const std::string>(std::move(message));
+  asio::post(impl_->io, [this, shared = std::move(shared), binary, replaces] {
+    if (const auto client = impl_->client) client->send(shared, binary, replaces);
+  });
+}
+
+}  // namespace hyperex::studio

@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/stopwatch.hpp"
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/grammar/scene_text.hpp"
+#include "hyperex/scene/grammar/toml_values.hpp"
+#include "hyperex/scene/grammar/variant_presets.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
+#include "scene_files.hpp"
+#include "server.hpp"
+
+namespace hyperex::studio {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostSteps = 500;
+
+const char* kind_name(scene::Kind kind) {
+  using enum scene::Kind;
+  switch (kind) {
+    case flag:
+      return "flag";
+    case integer:
+      return "integer";
+    case number:
+      return "number";
+    case numbers:
+      return "numbers";
+    case text:
+      return "text";
+    case choice:
+      return "choice";
+    case path:
+      return "path";
+    case names:
+      return "names";
+    case places:
+      return "places";
+    case factors:
+      return "factors";
+    case rows:
+      return "rows";
+  }
+  return "";
+}
+
+json keys_json() {
+  const scene::Scene defaults;
+  json out = json::array();
+  for (const scene::Key& key : scene::keys()) {
+    json one = {{"name", key.name},
+                {"kind", kind_name(key.kind)},
+                {"unit", key.unit},
+                {"choices", key.choices},
+                {"description", key.description},
+                {"default", key.get ? key.get(defaults) : json()}};
+    if (key.range.low < key.range.high) {
+      one["low"] = key.range.low;
+      one["high"] = key.range.high;
+      one["above_low"] = key.range.above_low;
+      one["or_zero"] = key.range.or_zero;
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+json presets_json() {
+  json out = json::array();
+  for (const scene::VariantPreset& preset : scene::variant_presets())
+    out.push_back({{"name", preset.name},
+                   {"summary", preset.summary},
+                   {"source", preset.source},
+                   {"assumed", preset.assumed}});
+  return out;
+}
+
+json muscles_json(const muscles::MuscleTable& table) {
+  json out = json::array();
+  for (const muscles::TemplateMuscle& muscle : table)
+    out.push_back({{"name", muscle.name},
+                   {"latin", muscle.latin},
+                   {"group", muscle.group},
+                   {"branch", muscle.branch}});
+  return {{"muscles", out}, {"names", muscles::gain_names(table)}};
+}
+
+bool changes_muscles(const json& changes) {
+  for (const auto& [key, value] : changes.items())
+    if (key.rfind("muscles.", 0) == 0 && !value.is_null()) return true;
+  return false;
+}
+
+/// A name for a file or folder in the folder that the studio writes to.
+void check_name(const std::string& name) {
+  if (!is_upload_name(name))
+    throw InputError("name: expected letters, digits, spaces and any of -_.(), the first no dot");
+}
+
+}  // namespace
+
+Session::Session(SessionOptions options, Send send)
+    : options_(std::move(options)), send_(std::move(send)) {}
+
+void Session::answer(const Request& request) {
+  json out;
+  const std::string& name = request.name;
+  const json& fields = request.fields;
+  try {
+    if (name == "hello")
+      out = hello();
+    else if (name == "open")
+      out = open(fields);
+    else if (name == "set")
+      out = set(fields);
+    else if (name == "add_variant")
+      out = add_variant(fields);
+    else if (name == "remove_variant")
+      out = remove_variant(fields);
+    else if (name == "rename_variant")
+      out = rename_variant(fields);
+    else if (name == "undo")
+      out = undo_or_redo(undo_, redo_);
+    else if (name == "redo")
+      out = undo_or_redo(redo_, undo_);
+    else if (name == "save")
+      out = save(fields);
+    else
+      throw InputError(name + ": this studio does not know how to do that yet");
+  } catch (const std::exception& error) {
+    tell("");
+    out = {{"error", error.what()}};
+  }
+  out["answer"] = request.id;
+  send_(out.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
+  if (name == "hello" && face_) send_scene();
+}
+
+json Session::hello() {
+  face_sent_ = false;
+  motion_due_ = face_ != nullptr;
+  // A slider that was held when the page went is let go.
+  if (face_ && face_->text() != now_.text) apply(now_.text);
+  return {{"program", options_.program},
+          {"keys", keys_json()},
+          {"presets", presets_json()},
+          {"places",
+           {{"started", options_.started.empty() ? json() : json(options_.started.filename())},
+            {"autosave", options_.rescued.empty() ? json() : json("unsaved work")},
+            {"folder", options_.save_into},
+            {"save_into", options_.save_into},
+            {"open", face_ != nullptr}}}};
+}
+
+OpenFace& Session::need_face() {
+  if (!face_) throw InputError("no face is open: open one first");
+  return *face_;
+}
+
+json Session::open(const json& fields) {
+  const std::string what = fields.at("what");
+  const std::string recording = fields.value("recording", "");
+  for (const std::string& name : {what, recording})
+    if (!name.empty() && !is_upload_name(name)) throw InputError(name + ": no such upload");
+  const auto uploaded = [&](const std::string& name) {
+    if (name.empty()) return fs::path();
+    const fs::path file = options_.folder / name;
+    if (!fs::is_regular_file(file)) throw InputError(name + ": no such upload");
+    return file;
+  };
+  if (what == "embedded") {
+    write_file_atomically(options_.folder / "smile_arkit.csv",
+                          [](std::ostream& out) { out << embedded_smile(); });
+    open_text(embedded_scene(), options_.folder / "scene.toml");
+  } else if (what == "started" && !options_.started.empty()) {
+    const fs::path& file = options_.started;
+    if (file.extension() == ".toml")
+      open_text(read_file(file), file);
+    else
+      open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");
+  } else if (what == "autosave" && !options_.rescued.empty()) {
+    const fs::path file = options_.rescued / "scene.toml";
+    open_text(read_file(file), file);
+    saved_ = false;
+    send_scene();
+  } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
+    open_text(read_file(file), file);
+  } else {
+    open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");
+  }
+  return json::object();
+}
+
+/// A scene of a scan, moved by a recording or, without one, by the smile that the program carries.
+std::string Session::scan_scene(const fs::path& scan, const fs::path& recording) {
+  std::string text = scene::with_value("", "scan.file", fs::absolute(scan).string());
+  if (recording.empty()) {
+    write_file_atomically(options_.folder / "smile_arkit.csv",
+                          [](std::ostream& out) { out << embedded_smile(); });
+    text = scene::with_value(text, "motion.arkit", "smile_arkit.csv");
+    return scene::with_value(text, "drive.by", "muscles");
+  }
+  return scene::with_value(text, recording_key(recording), fs::absolute(recording).string());
+}
+
+void Session::open_text(const std::string& text, const fs::path& file) {
+  auto next = std::make_unique<OpenFace>(text, file, options_.kept,
+                                         [this](const std::string& stage) { tell(stage); });
+  face_ = std::move(next);
+  now_ = {text, file};
+  undo_.clear();
+  redo_.clear();
+  face_sent_ = false;
+  motion_due_ = true;
+  saved_ = true;
+  send_scene();
+}
+
+void Session::apply(const std::string& text) {
+  if (need_face().set_text(text)) return;
+  auto next = std::make_unique<OpenFace>(text, face_->file(), options_.kept,
+                                         [this](const std::string& stage) { tell(stage); });
+  face_ = std::move(next);
+  face_sent_ = false;
+}
+
+void Session::commit(const std::string& text) {
+  apply(text);
+  motion_due_ = true;
+  if (text == now_.text) return;
+  undo_.push_back(now_);
+  if (undo_.size() > kMostSteps) undo_.erase(undo_.begin());
+  redo_.clear();
+  now_.text = text;
+  saved_ = false;
+  keep();
+  send_scene();
+}
+
+std::string Session::changed(const json& changes, int face) {
+  if (!changes.is_object()) throw InputError("changes: expected keys and values");
+  std::string text = now_.text;
+  for (const auto& [key, value] : changes.items())
+    if (!scene::find_key(key)) throw InputError(key + ": no key of a scene");
+  if (changes_muscles(changes) && need_face().scene().drive.by != reenact::DriveBy::muscles)
+    text = scene::with_value(text, "drive.by", "muscles");
+  if (face == 0) {
+    for (const auto& [key, value] : changes.items()) text = scene::with_value(text, key, value);
+    return text;
+  }
+  std::vector<json> blocks = scene::variant_blocks(text);
+  if (std::size_t(face) > blocks.size())
+    throw InputError(fmt::format("face {}: there are {}", face, blocks.size() + 1));
+  json& block = blocks[std::size_t(face) - 1];
+  for (const auto& [key, value] : changes.items()) {
+    const std::string section = scene::section_of(key);
+    const std::string name = section.empty() ? key : key.substr(section.size() + 1);
+    json& table = section.empty() ? block : block[section];
+    if (value.is_null())
+      table.erase(name);
+    else
+      table[name] = value;
+    if (!section.empty() && table.empty()) block.erase(section);
+  }
+  // A variant that changes nothing yet: what it will change is to come.
+  if (block.size() == 1) block["motion"]["gain"] = values_of(need_face().scene())["motion.gain"];
+  return scene::with_variants(text, blocks);
+}
+
+json Session::set(const json& fields) {
+  const int face = fields.at("face");
+  const std::string text = changed(fields.at("changes"), face);
+  if (!fields.at("live").get<bool>()) {
+    commit(text);
+    return {{"superseded", false}};
+  }
+  if (!need_face().set_text(text)) return {{"superseded", false}};  // not while one drags
+  send_shape(std::size_t(face), fields.at("time_s"));
+  return {{"superseded", false}};
+}
+
+json Session::add_variant(const json& fields) {
+  std::vector<json> blocks = scene::variant_blocks(now_.text);
+  const std::size_t like = fields.at("like");
+  if (like > blocks.size()) throw InputError("like: no such face");
+  json block = like > 0 ? blocks[like - 1] : json::object();
+  block["name"] = fields.at("name");
+  if (const std::string preset = fields.value("preset", ""); !preset.empty())
+    block["preset"] = preset;
+  if (block.size() == 1) block["motion"]["gain"] = values_of(need_face().scene())["motion.gain"];
+  blocks.push_back(block);
+  commit(scene::with_variants(now_.text, blocks));
+  return {{"face", blocks.size()}};
+}
+
+json Session::remove_variant(const json& fields) {
+  std::vector<json> blocks = scene::variant_blocks(now_.text);
+  const std::size_t face = fields.at("face");
+  if (face > blocks.size()) throw InputError("face: no such variant");
+  blocks.erase(blocks.begin() + std::ptrdiff_t(face) - 1);
+  commit(scene::with_variants(now_.text, blocks));
+  return json::object();
+}
+
+json Session::rename_variant(const json& fields) {
+  std::vector<json> blocks = scene::variant_blocks(now_.text);
+  const std::size_t face = fields.at("face");
+  if (face > blocks.size()) throw InputError("face: no such variant");
+  blocks[face - 1]["name"] = fields.at("name");
+  commit(scene::with_variants(now_.text, blocks));
+  return json::object();
+}
+
+json Session::undo_or_redo(std::vector<Step>& from, std::vector<Step>& to) {
+  if (from.empty()) return json::object();
+  const Step step = from.back();
+  apply(step.text);
+  from.pop_back();
+  to.push_back(now_);
+  now_ = step;
+  motion_due_ = true;
+  saved_ = false;
+  keep();
+  send_scene();
+  return json::object();
+}
+
+json Session::save(const json& fields) {
+  need_face();
+  const std::string what = fields.at("what"), name = fields.at("name");
+  check_name(name);
+  const auto free = [&](const fs::path& path) {
+    if (fs::exists(fs::symlink_status(path)) &&
+        std::find(written_.begin(), written_.end(), path) == written_.end())
+      throw InputError(path,
+                       "is there already, and the studio did not write it: expected another "
+                       "name");
+    return path;
+  };
+  const auto done = [&](const fs::path& path) {
+    written_.push_back(path);
+    return json{{"path", path}};
+  };
+  const fs::path into = options_.save_into;
+  if (what == "scene") {
+    const fs::path file = free(into / (name + ".toml"));
+    save_scene(now_.text, now_.file, options_.folder, file);
+    saved_ = true;
+    send_scene();
+    return done(file);
+  }
+  if (what == "landmarks") {
+    const fs::path file = free(into / (name + ".mrk.json"));
+    io::write_landmarks(file, face_->inputs().landmarks, face_->inputs().scan.unit);
+    return done(file);
+  }
+  scene::Scene scene = scene::read_scene_text(now_.text, now_.file);
+  scene.kept = options_.kept;
+  tell(what == "run" ? "running and writing" : "running for the report");
+  if (what == "run") {
+    const fs::path folder = free(into / name);
+    run_scene(scene, folder);
+    tell("");
+    return done(folder);
+  }
+  const fs::path file = free(into / (name + ".html"));
+  scene.output.vtu = scene.output.glb = false;
+  const fs::path folder = options_.folder / "report";
+  run_scene(scene, folder);
+  write_file_atomically(file, [&](std::ostream& out) { out << read_file(folder / "report.html"); });
+  tell("");
+  return done(file);
+}
+
+bool Session::has_work() const {
+  return face_ && motion_due_;
+}
+
+void Session::work(const std::function<bool()>& cancelled) {
+  Stopwatch watch;
+  reenact::RunCallbacks callbacks;
+  callbacks.cancelled = cancelled;
+  callbacks.progress = [&](double share) { tell("simulating", share); };
+  try {
+    face_->run(callbacks);
+  } catch (const reenact::Cancelled&) {
+    return;
+  } catch (const std::exception& error) {
+    motion_due_ = false;
+    tell("");
+    say("error", error.what());
+    return;
+  }
+  motion_due_ = false;
+  report::BinaryBlock block;
+  json head = {{"event", face_sent_ ? "motion" : "face"}};
+  head["replay"] = face_->replay(block, !face_sent_);
+  if (face_sent_) {
+    head["table"] = head["replay"]["summary"].contains("variants")
+                        ? head["replay"]["summary"]["variants"]["table"]
+                        : json::array();
+    head["seconds"] = watch.lap();
+  } else {
+    json landmarks = json::array();
+    for (const auto& [name, place] : face_->inputs().landmarks)
+      landmarks.push_back(
+          {{"name", name}, {"position", {place.x(), place.y(), place.z()}}, {"found", true}});
+    head["landmarks"] = landmarks;
+    head["muscles"] = muscles_json(face_->scene().muscles.table());
+  }
+  send_(binary_message(head, block), true, "");
+  face_sent_ = true;
+  tell("");
+}
+
+void Session::send_scene() {
+  const scene::Scene& scene = face_->scene();
+  json values = json::array({values_of(scene)});
+  json faces = json::array({{{"name", "base"}, {"changes", json::object()}}});
+  for (const scene::Variant& variant : scene.variants) {
+    values.push_back(values_of(variant.scene));
+    faces.push_back({{"name", variant.name}, {"changes", variant.changes}});
+  }
+  const std::vector<json> blocks = scene::variant_blocks(face_->text());
+  for (std::size_t i = 0; i < blocks.size() && i + 1 < faces.size(); ++i)
+    if (blocks[i].contains("preset")) faces[i + 1]["preset"] = blocks[i]["preset"];
+  const json event = {{"event", "scene"},
+                      {"title", scene.title},
+                      {"values", values},
+                      {"faces", faces},
+                      {"drive", values[0]["drive.by"]},
+                      {"drive_why", face_->drive_why()},
+                      {"can_undo", !undo_.empty()},
+                      {"can_redo", !redo_.empty()},
+                      {"saved", saved_},
+                      {"text", now_.text}};
+  send_(event.dump(-1, ' ', false, json::error_handler_t::replace), false, "scene");
+}
+
+void Session::send_shape(std::size_t face, double time_s) {
+  Stopwatch watch;
+  if (face >= face_->faces()) throw InputError("face: there is none of this number");
+  const PointsF shape = face_->still(face, time_s);
+  const float largest = shape.size() > 0 ? shape.cwiseAbs().maxCoeff() : 0;
+  const float step_m = largest > 0 ? largest / 32767 : 1;
+  std::vector<std::int16_t> steps(static_cast<std::size_t>(shape.size()));
+  std::transform(shape.data(), shape.data() + shape.size(), steps.begin(), [&](float value) {
+    return static_cast<std::int16_t>(std::lround(value / step_m));
+  });
+  report::BinaryBlock block;
+  const json head = {{"event", "shape"},           {"face", face},
+                     {"time_s", time_s},           {"step_m", step_m},
+                     {"values", block.add(steps)}, {"seconds", watch.lap()}};
+  send_(binary_message(head, block), true, "shape");
+}
+
+void Session::tell(const std::string& stage, double share) {
+  const json event = {{"event", "progress"}, {"stage", stage}, {"share", share}};
+  send_(event.dump(), false, "progress");
+}
+
+void Session::say(const char* level, const std::string& text) {
+  const json event = {{"event", "said"}, {"level", level}, {"text", text}};
+  send_(event.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
+}
+
+void Session::keep() {
+  save_scene(now_.text, now_.file, {}, options_.folder / "scene.toml");
+}
+
+}  // namespace hyperex::studio

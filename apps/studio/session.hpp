@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "hyperex/core/kept_results.hpp"
+#include "open_face.hpp"
+#include "protocol.hpp"
+
+namespace hyperex::studio {
+
+struct SessionOptions {
+  std::filesystem::path started;    ///< the scene or scan that the command named; empty: none
+  std::filesystem::path save_into;  ///< the folder that "save" writes to
+  std::filesystem::path folder;     ///< the session's own: uploads, what is kept against a crash
+  std::filesystem::path rescued;    ///< the folder of a session that died, its scene.toml in it
+  std::string program;              ///< "hyperex 1.0.0"
+  KeptResults kept;
+};
+
+/// What one user does: a scene's text, its history, and the face that is open. Answers requests in
+/// the order they come, on one thread; messages go out through `send`.
+class Session {
+ public:
+  using Send = std::function<void(std::string message, bool binary, const std::string& replaces)>;
+  Session(SessionOptions options, Send send);
+
+  /// Answers; errors are answers too.
+  void answer(const Request& request);
+  /// Whether files of the user hold all that was done.
+  bool saved() const { return saved_; }
+  /// Something to do when no request waits: a motion that is not up to date.
+  bool has_work() const;
+  /// Does it; ended early where `cancelled` says so, to be begun again.
+  void work(const std::function<bool()>& cancelled);
+
+ private:
+  struct Step {
+    std::string text;
+    std::filesystem::path file;
+  };
+  nlohmann::json hello();
+  nlohmann::json open(const nlohmann::json& fields);
+  nlohmann::json set(const nlohmann::json& fields);
+  nlohmann::json add_variant(const nlohmann::json& fields);
+  nlohmann::json remove_variant(const nlohmann::json& fields);
+  nlohmann::json rename_variant(const nlohmann::json& fields);
+  nlohmann::json undo_or_redo(std::vector<Step>& from, std::vector<Step>& to);
+  nlohmann::json save(const nlohmann::json& fields);
+
+  OpenFace& need_face();
+  void open_text(const std::string& text, const std::filesystem::path& file);
+  /// The text becomes the scene; one step of the history.
+  void commit(const std::string& text);
+  void apply(const std::string& text);
+  /// The scene's text with the changes of a face.
+  std::string changed(const nlohmann::json& changes, int face);
+  std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
+  void send_scene();
+  void send_shape(std::size_t face, double time_s);
+  void send_motion();
+  void tell(const std::string& stage, double share = -1);
+  void say(const char* level, const std::string& text);
+  void keep();
+
+  SessionOptions options_;
+  Send send_;
+  std::unique_ptr<OpenFace> face_;
+  Step now_;  // what was committed last; the face may be ahead of it while a slider is dragged
+  std::vector<Step> undo_, redo_;
+  bool face_sent_ = false, motion_due_ = false, saved_ = true;
+  std::vector<std::filesystem::path> written_;
+};
+
+}  // namespace hyperex::studio

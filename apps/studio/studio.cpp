@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studio.hpp"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/interrupt.hpp"
+#include "hyperex/report/page_template.hpp"
+#include "request_queue.hpp"
+#include "server.hpp"
+#include "session.hpp"
+#include "session_folder.hpp"
+#include "token.hpp"
+
+extern char** environ;
+
+namespace hyperex::studio {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// By the desktop's own opener, which may not be there.
+void open_browser(std::string address) {
+  std::string program = "xdg-open";
+  char* arguments[] = {program.data(), address.data(), nullptr};
+  pid_t child = 0;
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", 1, 0);
+  posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", 1, 0);
+  if (posix_spawnp(&child, program.c_str(), &quiet, nullptr, arguments, environ) != 0)
+    spdlog::info("no browser could be opened: open the address yourself");
+  posix_spawn_file_actions_destroy(&quiet);
+}
+
+/// Takes requests out of the queue and works while none waits.
+void answer_all(RequestQueue& queue, Session& session, Server& server) {
+  while (!queue.closed()) {
+    std::vector<Request> superseded;
+    const auto request = queue.pop(!session.has_work(), superseded);
+    for (const Request& old : superseded)
+      server.send(json{{"answer", old.id}, {"superseded", true}}.dump(), false);
+    if (request)
+      session.answer(*request);
+    else if (session.has_work())
+      session.work([&] { return !queue.empty() || queue.closed(); });
+  }
+}
+
+}  // namespace
+
+void run_studio(const StudioOptions& options) {
+  if (!options.started.empty() && !fs::is_regular_file(options.started))
+    throw InputError(options.started, "no such file: expected a scene (.toml) or a scan");
+  if (!fs::is_directory(options.save_into))
+    throw InputError(options.save_into, "no such folder: expected one that saved files go into");
+  const StopOnRequest stop;
+  SessionFolder folder;
+  RequestQueue queue;
+  std::unique_ptr<Server> server;
+  ServerOptions how;
+  how.page = report::page_template(report::Page::studio);
+  how.token = new_token();
+  how.port = options.port;
+  how.uploads = folder.path();
+  ServerEvents events;
+  events.request = [&](const std::string& text) {
+    std::int64_t id = -1;
+    try {
+      if (!queue.push(read_request(text, id))) throw InputError("too many requests wait");
+    } catch (const InputError& error) {
+      server->send(json{{"answer", id}, {"error", error.what()}}.dump(
+                       -1, ' ', false, json::error_handler_t::replace),
+                   false);
+    }
+  };
+  events.uploaded = [](const std::string& name) { spdlog::info("uploaded: {}", name); };
+  server = std::make_unique<Server>(std::move(how), std::move(events));
+  Session session({.started = options.started,
+                   .save_into = fs::absolute(options.save_into),
+                   .folder = folder.path(),
+                   .rescued = folder.rescued(),
+                   .program = "Hyperex " + options.version,
+                   .kept = options.kept},
+                  [&](std::string message, bool binary, const std::string& replaces) {
+                    server->send(std::move(message), binary, replaces);
+                  });
+  std::thread network([&] { server->run(); });
+  std::thread worker([&] { answer_all(queue, session, *server); });
+  std::cout << server->address() << std::endl;
+  std::cerr << "The studio is open at this address on this machine alone; Ctrl+C ends it.\n";
+  if (options.open_browser) open_browser(server->address());
+  while (!stop.requested()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  queue.close();
+  worker.join();
+  server->stop();
+  network.join();
+  if (!session.saved()) {
+    folder.leave();
+    std::cerr << "What was not saved is kept: the next studio offers it.\n";
+  }
+}
+
+}  // namespace hyperex::studio
