@@ -340,6 +340,8 @@ class Server::Impl::Connection : public std::enable_shared_from_this<Connection>
 void Server::Impl::accept() {
   acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
+    // Small answers go at once: held back for others they would come 40 ms late.
+    if (!error) socket.set_option(tcp::no_delay(true), error);
     if (!error && connections < options.most_connections)
       std::make_shared<Connection>(*this, std::move(socket))->read();
     accept();

@@ -104,6 +104,14 @@ bool changes_muscles(const json& changes) {
   return false;
 }
 
+/// Files of the session's own folder by their names alone: nobody knows where it lies.
+std::string without_folder(std::string text, const fs::path& folder) {
+  const std::string path = folder.string() + "/";
+  for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at))
+    text.erase(at, path.size());
+  return text;
+}
+
 /// A name for a file or folder in the folder that the studio writes to.
 void check_name(const std::string& name) {
   if (!is_upload_name(name))
@@ -142,7 +150,7 @@ void Session::answer(const Request& request) {
       throw InputError(name + ": this studio does not know how to do that yet");
   } catch (const std::exception& error) {
     tell("");
-    out = {{"error", error.what()}};
+    out = {{"error", without_folder(error.what(), options_.folder)}};
   }
   out["answer"] = request.id;
   send_(out.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
@@ -401,7 +409,7 @@ void Session::work(const std::function<bool()>& cancelled) {
   } catch (const std::exception& error) {
     motion_due_ = false;
     tell("");
-    say("error", error.what());
+    say("error", without_folder(error.what(), options_.folder));
     return;
   }
   motion_due_ = false;

@@ -86,7 +86,7 @@ void run_studio(const StudioOptions& options) {
   events.uploaded = [](const std::string& name) { spdlog::info("uploaded: {}", name); };
   server = std::make_unique<Server>(std::move(how), std::move(events));
   Session session({.started = options.started,
-                   .save_into = fs::absolute(options.save_into),
+                   .save_into = fs::absolute(options.save_into).lexically_normal(),
                    .folder = folder.path(),
                    .rescued = folder.rescued(),
                    .program = "Hyperex " + options.version,
