@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -11,6 +13,7 @@
 #include "hyperex/scene/grammar/keys.hpp"
 #include "hyperex/scene/grammar/scene_text.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
+#include "server.hpp"
 
 __asm__(
     ".pushsection .rodata\n"
@@ -50,6 +53,29 @@ void for_paths_of_tables(json& tables, const std::function<void(json&)>& visit) 
   }
 }
 
+/// A scene's text with the paths in it visited.
+std::string with_paths(const std::string& text, const std::function<void(json&)>& visit) {
+  const json before = scene::parse_toml(text).root;
+  json after = before;
+  for_paths_of_tables(after, visit);
+  std::string out = text;
+  for (const auto& [section, table] : after.items()) {
+    if (section == "variant" || table == before.at(section)) continue;
+    if (!table.is_object()) {
+      out = scene::with_value(out, section, table);
+      continue;
+    }
+    for (const auto& [key, value] : table.items())
+      if (value != before.at(section).at(key))
+        out = scene::with_value(out, section + "." + key, value);
+  }
+  std::vector<json> blocks = scene::variant_blocks(text);
+  for (json& block : blocks)
+    if (block.is_object()) for_paths_of_tables(block, visit);
+  if (blocks != scene::variant_blocks(text)) out = scene::with_variants(out, blocks);
+  return out;
+}
+
 bool lies_in(const fs::path& file, const fs::path& folder) {
   if (folder.empty()) return false;
   const fs::path way = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
@@ -83,6 +109,37 @@ std::string recording_key(const fs::path& recording) {
   return "motion.file";
 }
 
+json with_uploads(const std::string& key, json value, const fs::path& uploads,
+                  const std::vector<std::string>& known) {
+  const scene::Key* info = scene::find_key(key);
+  if (!info) return value;
+  for_paths(*info, value, [&](json& path) {
+    const std::string name = path.get<std::string>();
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    if (!is_upload_name(name) || !fs::is_regular_file(uploads / name))
+      throw InputError(key + ": expected the name of a file that was uploaded");
+    path = (uploads / name).string();
+  });
+  return value;
+}
+
+std::string with_uploads(const std::string& text, const fs::path& uploads) {
+  const auto taken = [&](json& path) {
+    const std::string name = path.get<std::string>();
+    if (!is_upload_name(name) || !fs::is_regular_file(uploads / name))
+      throw InputError(fmt::format("the scene names {}: open that file together with it", name));
+    path = (uploads / name).string();
+  };
+  return with_paths(text, taken);
+}
+
+std::vector<std::string> paths_of(const json& options) {
+  std::vector<std::string> out;
+  json copy = options;
+  for_paths_of_tables(copy, [&](json& path) { out.push_back(path.get<std::string>()); });
+  return out;
+}
+
 void save_scene(const std::string& text, const fs::path& from, const fs::path& copied,
                 const fs::path& to) {
   const fs::path folder = from.parent_path(), target = fs::absolute(to).parent_path();
@@ -100,24 +157,7 @@ void save_scene(const std::string& text, const fs::path& from, const fs::path& c
       value = fs::absolute(file).lexically_normal().lexically_proximate(target).generic_string();
     }
   };
-  const json before = scene::parse_toml(text).root;
-  json after = before;
-  for_paths_of_tables(after, moved);
-  std::string out = text;
-  for (const auto& [section, table] : after.items()) {
-    if (section == "variant" || table == before.at(section)) continue;
-    if (!table.is_object()) {
-      out = scene::with_value(out, section, table);
-      continue;
-    }
-    for (const auto& [key, value] : table.items())
-      if (value != before.at(section).at(key))
-        out = scene::with_value(out, section + "." + key, value);
-  }
-  std::vector<json> blocks = scene::variant_blocks(text);
-  for (json& block : blocks)
-    if (block.is_object()) for_paths_of_tables(block, moved);
-  if (blocks != scene::variant_blocks(text)) out = scene::with_variants(out, blocks);
+  const std::string out = with_paths(text, moved);
   write_file_atomically(to, [&](std::ostream& stream) { stream << out; });
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 // Scenes that the studio makes, and the files that a scene names when it moves to another folder.
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hyperex::studio {
 
@@ -15,6 +17,17 @@ std::string_view embedded_smile();
 
 /// The key of a scene that a recording of this name belongs to: "motion.file", "motion.recording".
 std::string recording_key(const std::filesystem::path& recording);
+
+/// No path of a page reaches the file system: where `value` of the key holds paths (those in rows
+/// of tables too) each becomes that of the file of this name in `uploads`; "embedded" and those in
+/// `known` stay. Throws InputError for any other.
+nlohmann::json with_uploads(const std::string& key, nlohmann::json value,
+                            const std::filesystem::path& uploads,
+                            const std::vector<std::string>& known);
+/// The same for all that a scene that was uploaded names.
+std::string with_uploads(const std::string& text, const std::filesystem::path& uploads);
+/// Every path that a scene's values hold (options_json()).
+std::vector<std::string> paths_of(const nlohmann::json& options);
 
 /// Writes the scene `text`, which stands in `from`, to `to`. Files that it names are named from
 /// there; those that lie in `copied` (a folder; empty: none) are copied into a folder beside it.

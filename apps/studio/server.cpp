@@ -13,6 +13,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -32,7 +33,7 @@ using std::chrono::seconds;
 using std::chrono::steady_clock;
 
 constexpr std::size_t kLongestHead = 16384, kLongestHello = 4096;
-constexpr auto kHttpWithin = seconds(30), kHelloWithin = seconds(10);
+constexpr auto kHttpWithin = seconds(30), kHelloWithin = seconds(10), kFarewell = seconds(5);
 constexpr const char* kSocketPath = "/socket";
 constexpr std::string_view kUploadPath = "/upload/";
 constexpr const char* kPolicy =
@@ -235,7 +236,8 @@ class Server::Impl::Connection : public std::enable_shared_from_this<Connection>
   void read() {
     head_.emplace();
     head_->header_limit(kLongestHead);
-    head_->body_limit(server_.options.longest_upload);
+    // take_upload() looks at the length itself, and says so.
+    head_->body_limit(std::numeric_limits<std::uint64_t>::max());
     stream_.expires_after(kHttpWithin);
     http::async_read_header(stream_, buffer_, *head_,
                             [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -282,6 +284,7 @@ class Server::Impl::Connection : public std::enable_shared_from_this<Connection>
     server_.uploaded += *length;
     name_ = *name;
     upload_.emplace(std::move(*head_));
+    upload_->body_limit(server_.options.longest_upload);
     beast::error_code error;
     // Under its own name only when it is whole.
     const std::string part = (server_.options.uploads / (".part-" + name_)).string();
@@ -325,7 +328,18 @@ class Server::Impl::Connection : public std::enable_shared_from_this<Connection>
                       [self = shared_from_this()](beast::error_code, std::size_t) {
                         beast::error_code ignored;
                         self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+                        self->stream_.expires_after(kFarewell);
+                        self->let_talk();
                       });
+  }
+
+  /// Reads on for a moment: a connection that is closed while it has unread bytes loses the answer.
+  void let_talk() {
+    buffer_.clear();
+    stream_.async_read_some(buffer_.prepare(65536),
+                            [self = shared_from_this()](beast::error_code error, std::size_t) {
+                              if (!error) self->let_talk();
+                            });
   }
 
   Impl& server_;

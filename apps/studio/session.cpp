@@ -205,7 +205,7 @@ json Session::open(const json& fields) {
     saved_ = false;
     send_scene();
   } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
-    open_text(read_file(file), file);
+    open_text(with_uploads(read_file(file), options_.folder), file);
   } else {
     open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");
   }
@@ -258,11 +258,15 @@ void Session::commit(const std::string& text) {
   send_scene();
 }
 
-std::string Session::changed(const json& changes, int face) {
-  if (!changes.is_object()) throw InputError("changes: expected keys and values");
+std::string Session::changed(const json& wanted, int face) {
+  if (!wanted.is_object()) throw InputError("changes: expected keys and values");
   std::string text = now_.text;
-  for (const auto& [key, value] : changes.items())
+  json changes = json::object();
+  const std::vector<std::string> known = paths_of(options_json(need_face().scene()));
+  for (const auto& [key, value] : wanted.items()) {
     if (!scene::find_key(key)) throw InputError(key + ": no key of a scene");
+    changes[key] = with_uploads(key, value, options_.folder, known);
+  }
   if (changes_muscles(changes) && need_face().scene().drive.by != reenact::DriveBy::muscles)
     text = scene::with_value(text, "drive.by", "muscles");
   if (face == 0) {

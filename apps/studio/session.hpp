@@ -59,7 +59,7 @@ class Session {
   void commit(const std::string& text);
   void apply(const std::string& text);
   /// The scene's text with the changes of a face.
-  std::string changed(const nlohmann::json& changes, int face);
+  std::string changed(const nlohmann::json& wanted, int face);
   std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
   void send_scene();
   void send_shape(std::size_t face, double time_s);

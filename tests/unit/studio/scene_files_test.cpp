@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_files.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/scene/grammar/scene.hpp"
+#include "unit/studio/own_folder.hpp"
+
+namespace hyperex::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(SceneFiles, TheSceneWithTheSmileIsSound) {
+  const test::OwnFolder folder;
+  std::ofstream(folder.path() / "smile_arkit.csv") << embedded_smile();
+  const scene::Scene scene = scene::read_scene_text(embedded_scene(), folder.path() / "scene.toml");
+  EXPECT_EQ(scene.drive.by, reenact::DriveBy::muscles);
+  EXPECT_EQ(scene.motion.arkit, folder.path() / "smile_arkit.csv");
+}
+
+TEST(SceneFiles, WhatASceneNamesIsFoundFromItsNewPlace) {
+  const test::OwnFolder folder;
+  const fs::path from = folder.path() / "from", to = folder.path() / "to",
+                 own = folder.path() / "own";
+  for (const fs::path& one : {from, to, own}) fs::create_directory(one);
+  std::ofstream(from / "smile_arkit.csv") << embedded_smile();
+  std::ofstream(own / "me.csv") << embedded_smile();
+  const std::string text =
+      "[scan]\nfile = \"embedded\"\n\n[motion]\narkit = \"smile_arkit.csv\"  # here\n";
+  save_scene(text, from / "a.toml", own, to / "b.toml");
+  const std::string saved = read_file(to / "b.toml");
+  EXPECT_THAT(saved, HasSubstr("arkit = \"../from/smile_arkit.csv\"  # here"));
+  EXPECT_TRUE(
+      fs::equivalent(scene::read_scene(to / "b.toml").motion.arkit, from / "smile_arkit.csv"));
+  // What lies in a session's own folder goes along.
+  save_scene("[scan]\nfile = \"embedded\"\n[motion]\narkit = '" + (own / "me.csv").string() + "'\n",
+             own / "scene.toml", own, to / "c.toml");
+  fs::remove_all(own);
+  EXPECT_EQ(read_file(scene::read_scene(to / "c.toml").motion.arkit), embedded_smile());
+}
+
+TEST(SceneFiles, ARecordingIsKnownByItsEndingAndItsHead) {
+  const test::OwnFolder folder;
+  const auto key = [&](const char* name, const char* head) {
+    std::ofstream(folder.path() / name) << head;
+    return recording_key(folder.path() / name);
+  };
+  EXPECT_EQ(key("a.csv", "time_s,mouthSmileLeft\n"), "motion.arkit");
+  EXPECT_EQ(key("b.csv", "frame, AU12_r\n"), "motion.openface");
+  EXPECT_EQ(key("c.csv", "time_s,name,x_mm\n"), "motion.file");
+  EXPECT_EQ(key("d.TRC", ""), "motion.file");
+  EXPECT_EQ(key("e.mp4", ""), "motion.recording");
+}
+
+}  // namespace
+}  // namespace hyperex::studio

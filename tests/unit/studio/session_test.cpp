@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a user does, without a network: the messages that a page would get.
+#include "session.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/scene/run/pipeline.hpp"
+#include "unit/studio/own_folder.hpp"
+
+namespace hyperex::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+struct Message {
+  json head;
+  std::string block;
+};
+
+class StudioSession : public testing::Test {
+ protected:
+  StudioSession() {
+    SessionOptions options;
+    options.save_into = folder_.path() / "mine";
+    options.folder = folder_.path() / "own";
+    options.program = "Hyperex test";
+    fs::create_directory(options.save_into);
+    fs::create_directory(options.folder);
+    session_ = std::make_unique<Session>(
+        options, [this](const std::string& message, bool binary, const std::string&) {
+          if (!binary) return messages_.push_back({json::parse(message), ""});
+          std::uint32_t length = 0;
+          std::memcpy(&length, message.data(), 4);
+          messages_.push_back(
+              {json::parse(message.substr(4, length)), message.substr((4 + length + 7) / 8 * 8)});
+        });
+  }
+  json ask(const std::string& name, json fields = json::object()) {
+    messages_.clear();
+    session_->answer({++id_, name, std::move(fields)});
+    for (const Message& message : messages_)
+      if (message.head.value("answer", 0) == id_) return message.head;
+    return nullptr;
+  }
+  void work() {
+    while (session_->has_work()) session_->work([] { return false; });
+  }
+  const Message* event(const std::string& name) const {
+    for (auto message = messages_.rbegin(); message != messages_.rend(); ++message)
+      if (message->head.value("event", "") == name) return &*message;
+    return nullptr;
+  }
+  json set(const json& changes, int face, bool live = false) {
+    return ask("set", {{"changes", changes}, {"face", face}, {"live", live}, {"time_s", peak_s_}});
+  }
+  void open() {
+    EXPECT_FALSE(ask("open", {{"what", "embedded"}}).contains("error"));
+    work();
+    ASSERT_NE(event("face"), nullptr);
+    const json& motion = event("face")->head["replay"]["motion"];
+    peak_s_ = motion["time_s"][motion["peak_frame"].get<std::size_t>()];
+  }
+  /// The right corner's way in a face, of the last motion, mm.
+  double right_mm(std::size_t face) const {
+    return event("motion")->head["table"][face]["commissure_R_mm"];
+  }
+  double greatest_mm(const Message& shape) const {
+    const json& at = shape.head["values"];
+    std::vector<std::int16_t> values(at["count"].get<std::size_t>());
+    std::memcpy(values.data(), shape.block.data() + at["offset"].get<std::size_t>(),
+                2 * values.size());
+    double most = 0;
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+      most = std::max(most,
+                      std::hypot(double(values[i]), double(values[i + 1]), double(values[i + 2])));
+    return 1e3 * most * shape.head["step_m"].get<double>();
+  }
+
+  const test::OwnFolder folder_;
+  std::vector<Message> messages_;
+  std::unique_ptr<Session> session_;
+  std::int64_t id_ = 0;
+  double peak_s_ = 0;
+};
+
+TEST_F(StudioSession, TellsWhatThereIsToSetBeforeAFaceIsOpen) {
+  const json hello = ask("hello");
+  EXPECT_GT(hello["keys"].size(), 80U);
+  EXPECT_EQ(hello["places"]["open"], false);
+  for (const char* request : {"undo", "redo"}) EXPECT_FALSE(ask(request).contains("error"));
+  EXPECT_THAT(set({{"tissue.young_kpa", 100}}, 0)["error"].get<std::string>(),
+              HasSubstr("no face is open"));
+  EXPECT_THAT(ask("open", {{"what", "../x"}})["error"].get<std::string>(),
+              HasSubstr("no such upload"));
+  EXPECT_THAT(ask("open", {{"what", "started"}})["error"].get<std::string>(),
+              HasSubstr("no such upload"));
+}
+
+TEST_F(StudioSession, WeakensAMuscleLiveAndRunsItAgainFromTheSavedScene) {
+  open();
+  EXPECT_EQ(ask("add_variant", {{"name", "weak"}, {"like", 0}})["face"], 1);
+  work();
+  const double whole_mm = right_mm(1);
+  EXPECT_NEAR(whole_mm, right_mm(0), 1e-9);
+  set({{"muscles.gain", {{"side_R", 0.7}}}}, 1, true);
+  ASSERT_NE(event("shape"), nullptr);
+  EXPECT_EQ(event("shape")->head["face"], 1);
+  const double live_mm = greatest_mm(*event("shape"));
+  EXPECT_EQ(event("scene"), nullptr) << "nothing is done while one drags";
+  set({{"muscles.gain", {{"side_R", 0.7}}}}, 1);
+  ASSERT_NE(event("scene"), nullptr);
+  EXPECT_EQ(event("scene")->head["values"][1]["muscles.gain"], json({{"side_R", 0.7}}));
+  work();
+  EXPECT_LT(right_mm(1), 0.85 * whole_mm);
+  EXPECT_NEAR(live_mm,
+              event("motion")->head["replay"]["variants"][0]["max_displacement_mm"].get<double>(),
+              0.1);
+
+  const json saved = ask("save", {{"what", "scene"}, {"name", "my scene"}});
+  const fs::path file = saved["path"].get<std::string>();
+  EXPECT_EQ(file, folder_.path() / "mine" / "my scene.toml");
+  EXPECT_EQ(event("scene")->head["saved"], true);
+  const scene::Scene scene = scene::read_scene(file, {"output.vtu=false", "output.glb=false"});
+  const auto summary = scene::run_scene(scene, folder_.path() / "run");
+  set({{"muscles.gain", {{"side_R", 0.7}}}}, 1);
+  work();
+  ASSERT_NE(event("motion"), nullptr);
+  for (const char* corner : {"commissure_L_mm", "commissure_R_mm"})
+    for (const std::size_t face : {0, 1})
+      EXPECT_NEAR(summary["variants"]["table"][face][corner].get<double>(),
+                  event("motion")->head["table"][face][corner].get<double>(), 1e-6);
+}
+
+TEST_F(StudioSession, UndoesAndRedoesEachStep) {
+  open();
+  ask("add_variant", {{"name", "a"}, {"like", 0}, {"preset", "palsy_complete_R"}});
+  work();
+  EXPECT_LT(right_mm(1), 0.5 * right_mm(0));
+  set({{"tissue.young_kpa", 300}}, 1);
+  ask("rename_variant", {{"face", 1}, {"name", "b"}});
+  EXPECT_EQ(event("scene")->head["faces"][1]["name"], "b");
+  ask("undo");
+  EXPECT_EQ(event("scene")->head["faces"][1]["name"], "a");
+  ask("undo");
+  EXPECT_NE(event("scene")->head["values"][1]["tissue.young_kpa"], 300);
+  ask("undo");
+  EXPECT_EQ(event("scene")->head["faces"].size(), 1U);
+  EXPECT_EQ(event("scene")->head["can_undo"], false);
+  work();
+  for (int i = 0; i < 3; ++i) ask("redo");
+  EXPECT_EQ(event("scene")->head["faces"][1]["name"], "b");
+  EXPECT_EQ(event("scene")->head["values"][1]["tissue.young_kpa"], 300);
+  EXPECT_EQ(event("scene")->head["can_redo"], false);
+  ask("remove_variant", {{"face", 1}});
+  EXPECT_EQ(event("scene")->head["faces"].size(), 1U);
+  work();
+}
+
+TEST_F(StudioSession, AWrongValueChangesNothingAndSaysOneSentence) {
+  open();
+  const json before = ask("hello");
+  const std::string text = event("scene")->head["text"];
+  const std::vector<std::pair<json, int>> wrong = {
+      {{{"tissue.young_kpa", -3}}, 0},     {{{"tissue.young_kpa", "soft"}}, 0},
+      {{{"tissue.yung_kpa", 3}}, 0},       {{{"muscles.gain", {{"nose_R", 1}}}}, 0},
+      {{{"scan.file", "/etc/passwd"}}, 0}, {{{"tissue.young_kpa", 100}}, 3}};
+  for (const auto& [changes, face] : wrong)
+    for (const bool live : {true, false}) {
+      const json answer = set(changes, face, live);
+      ASSERT_TRUE(answer.contains("error")) << changes;
+      EXPECT_EQ(answer["error"].get<std::string>().find('\n'), std::string::npos);
+    }
+  ask("hello");
+  EXPECT_EQ(event("scene")->head["text"], text);
+  work();
+  EXPECT_NE(event("face"), nullptr);
+}
+
+TEST_F(StudioSession, WritesOverNothingThatItDidNotWrite) {
+  open();
+  std::ofstream(folder_.path() / "mine" / "theirs.toml") << "mine";
+  EXPECT_THAT(ask("save", {{"what", "scene"}, {"name", "theirs"}})["error"].get<std::string>(),
+              HasSubstr("is there already"));
+  EXPECT_EQ(read_file(folder_.path() / "mine" / "theirs.toml"), "mine");
+  for (const char* name : {"../x", "a/b", ".x", ""})
+    EXPECT_TRUE(ask("save", {{"what", "scene"}, {"name", name}}).contains("error")) << name;
+  for (int i = 0; i < 2; ++i)
+    EXPECT_FALSE(ask("save", {{"what", "scene"}, {"name", "ours"}}).contains("error"));
+  EXPECT_FALSE(ask("save", {{"what", "landmarks"}, {"name", "marks"}}).contains("error"));
+  EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "marks.mrk.json"));
+}
+
+TEST_F(StudioSession, AMotionIsBrokenOffForARequestAndBegunAgain) {
+  open();
+  set({{"tissue.young_kpa", 150}}, 0);
+  session_->work([] { return true; });
+  EXPECT_EQ(event("motion"), nullptr);
+  EXPECT_TRUE(session_->has_work());
+  work();
+  EXPECT_NE(event("motion"), nullptr);
+}
+
+TEST_F(StudioSession, WhatIsDoneLiesInItsFolderAtOnce) {
+  open();
+  set({{"tissue.young_kpa", 151}}, 0);
+  EXPECT_THAT(read_file(folder_.path() / "own" / "scene.toml"), HasSubstr("young_kpa = 151"));
+}
+
+}  // namespace
+}  // namespace hyperex::studio
