@@ -342,7 +342,8 @@ describe('figures that are rare', () => {
     const place = 'differs most near corner of the mouth (cheilion), right, which moves 16.00 instead of 20.00 mm';
     assert.deepEqual(told.slice(0, 4), [
       ['the scene without a variant'],
-      ['Young’s modulus 1,000 instead of 192.4 kPa', 'Solver: method direct instead of reduced', place],
+      ['Young’s modulus 1,000 instead of 192.4 kPa', 'Solver: method direct instead of reduced',
+        'Muscles of the right side at 30 %', 'Left muscles of the zygomatic branch at 0 %', 'Right zyg major at 125.5 %', place],
       ['Scar corner of the mouth (cheilion), right to alare R: width 8 mm, Young’s modulus × 20', 'Lips: viscosity 900 Pa s', place],
       ['Cheek L: Young’s modulus 80 kPa', 'Motion: gain 0.5 instead of 1', place],
     ]);

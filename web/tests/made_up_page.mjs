@@ -19,7 +19,10 @@ export async function rarePage() {
   const { html, data } = await readPage(fixture('variants.html'));
   for (const { symmetry } of [data, ...data.variants]) Object.assign(symmetry, { noise: [], jitter_mm: 0 });
   const { table } = data.summary.variants;
-  Object.assign(table[1], { lag_ms: null, changes: { 'tissue.young_kpa': 1000, 'solver.method': 'direct' } });
+  Object.assign(table[1], { lag_ms: null, changes: {
+    'tissue.young_kpa': 1000, 'solver.method': 'direct', 'muscles.gain': { side_R: 0.3, zygomatic_L: 0, zyg_major_R: 1.255 },
+    'time.step_s': 0.005,
+  } });
   Object.assign(table[2], {
     hysteresis: 3.2e-6,
     changes: { 'tissue.region': [{ scar: ['cheilion_R', 'alare_R'], width_mm: 8, young_factor: 20 }, { name: 'lips', viscosity_pa_s: 900 }] },

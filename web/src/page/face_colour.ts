@@ -37,7 +37,8 @@ export function defineColours(given: Palette): void {
   const rule = (list: string[]) =>
     `:root { ${list.map((colour, i) => `--hue-${i}: ${colour};`).join(' ')} ` +
     `--left: ${list[palette.left]}; --right: ${list[palette.right]}; }`;
-  const style = document.createElement('style');
+  const style = document.getElementById('palette') ?? document.createElement('style');
+  style.id = 'palette';
   style.textContent =
     `${rule(palette.light)} @media screen and (prefers-color-scheme: dark) { ${rule(palette.dark)} }`;
   document.head.append(style);

@@ -40,6 +40,17 @@ function placeWords(entry: Json): string {
   return [upper(place), what.join(', ')].filter(Boolean).join(': ');
 }
 
+const branches = new Set(['temporal', 'zygomatic', 'buccal', 'mandibular', 'cervical']);
+
+/** What a gain of muscles names: {"side_R": 0.3} is "muscles of the right side at 30 %". */
+function gainWords([name, gain]: [string, unknown]): string {
+  const [, stem, side] = /^(\w+)_([LR])$/.exec(name) ?? [null, name, ''];
+  const of = side === 'R' ? 'right' : side === 'L' ? 'left' : '';
+  const what = stem === 'side' ? `muscles of the ${of} side`
+    : branches.has(stem) ? `${of} muscles of the ${stem} branch` : `${of} ${landmarkName(stem)}`;
+  return upper(`${what} at ${typeof gain === 'number' ? number(Number((100 * gain).toPrecision(4))) : String(gain)} %`.trim());
+}
+
 function baseValue(options: unknown, path: string[]): unknown {
   return path.reduce<unknown>((at, key) => (isObject(at) ? at[key] : undefined), options);
 }
@@ -50,10 +61,12 @@ export function changeWords(changes: Json, options: unknown): string[] {
     const parts = path.split('.');
     const last = parts.pop()!;
     if (Array.isArray(value) && value.some(isObject)) return value.filter(isObject).map(placeWords);
+    if (path === 'muscles.gain' && isObject(value)) return Object.entries(value).map(gainWords);
     const { name, unit } = keyWords(last);
     // The tissue's own parameters speak for themselves.
     const room = parts[0] === 'tissue' ? '' : `${parts.join(' ')}: `;
     const before = baseValue(options, [...parts, last]);
+    if (before === value) return []; // changes nothing
     const instead = before === undefined || Array.isArray(before) ? '' : ` instead of ${valueWords(before)}`;
     return [upper(`${room}${name} ${withUnit(valueWords(value) + instead, unit)}`)];
   });

@@ -1,8 +1,219 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The studio: a face that answers while its parameters are changed.
+// The studio: a face that answers while its parameters are changed. Ties the server's messages to state and views.
 import '../page/style.css';
-import { at, startPage } from '../page/dom';
+import './studio.css';
+import { at, button, element, startPage } from '../page/dom';
+import { defineColours, type Palette } from '../page/face_colour';
+import type { Undo } from '../page/listeners';
+import { movingOf, replayOf, type MovingManifest } from '../replay/data';
+import { frameAt } from '../replay/face/deform';
+import { Stage } from '../replay/face/stage';
+import { wireKeys, type Key } from '../replay/keys';
+import type { Manifest } from '../replay/manifest';
+import { transportKeys, wireTransport } from '../replay/transport';
+import { Connection, takeToken, type LineState } from './connection';
+import { Edits } from './edits';
+import { FiguresPanel } from './figures_panel';
+import { isRecord, type MuscleInfo, type Places, type Preset, type SceneKey, type SceneNow } from './messages';
+import { MessagesPanel } from './messages_panel';
+import { MusclesPanel } from './muscles_panel';
+import { OpenPanel } from './open_panel';
+import { Panels } from './panels';
+import { Progress } from './progress';
+import { SaveMenu } from './save_menu';
+import { ScenePanel } from './scene_panel';
+import { StudioState } from './studio_state';
+import { Tabs } from './tabs';
+import { TissuePanel } from './tissue_panel';
+import { fillWords, words } from './words';
+
+class Studio {
+  private readonly state = new StudioState();
+  private readonly connection = new Connection(takeToken(), (answer) => this.greeted(answer as unknown as Greeting));
+  private readonly edits = new Edits(this.state, this.connection, (text) => this.problem(text));
+  private readonly muscles = new MusclesPanel(this.state, this.edits, (names) => this.stage?.face?.lightMuscles(names));
+  private readonly tissue = new TissuePanel(this.state, this.edits);
+  private readonly scene = new ScenePanel(this.state);
+  private readonly figures = new FiguresPanel(this.state, at('figures-body'));
+  private readonly tabs = new Tabs(this.state, this.connection, this.edits);
+  private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'));
+  private readonly messages = new MessagesPanel(at('messages-panel'));
+  private readonly progress = new Progress(at('progress'));
+  private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.say('note', text));
+  private stage: Stage | null = null;
+  private unwireKeys: Undo = () => {};
+  private readonly showTransport = wireTransport(this.state.source, this.state.playback);
+
+  constructor() {
+    new Panels(this.state, [
+      { key: 'muscles', title: words.muscles, element: this.muscles.element },
+      { key: 'tissue', title: words.tissue, element: this.tissue.element },
+      { key: 'scene', title: words.scene, element: this.scene.element },
+    ]);
+    this.wireBar();
+    this.wireServer();
+    const { source, playback } = this.state;
+    source.onChange((change) => {
+      if (change === 'face') this.showFace();
+      else this.showMotion();
+    });
+    playback.onChange(() => this.showTime());
+    const loop = at<HTMLInputElement>('loop');
+    loop.addEventListener('change', () => (playback.loop = loop.checked));
+    this.connection.onState((line) => this.showLine(line));
+    this.connection.connect();
+  }
+
+  private wireServer(): void {
+    const { connection, state } = this;
+    connection.on('scene', (told) => {
+      state.setScene(told as unknown as SceneNow);
+      const { title, can_undo, can_redo, saved } = state.scene!;
+      at('scene-title').textContent = title;
+      document.title = title ? `${title} – ${words.title}` : words.title;
+      at<HTMLButtonElement>('undo').disabled = !can_undo;
+      at<HTMLButtonElement>('redo').disabled = !can_redo;
+      at<HTMLButtonElement>('save-menu').disabled = false;
+      at('unsaved').hidden = saved;
+    });
+    connection.on('face', ({ replay, muscles, block }) => {
+      const manifest = replay as Manifest & { palette?: Palette };
+      if (manifest.palette) defineColours(manifest.palette);
+      state.muscles = isRecord(muscles) ? (muscles.muscles as MuscleInfo[]) : [];
+      state.source.setFace(replayOf(manifest, block));
+    });
+    connection.on('motion', ({ replay, block, seconds }) => {
+      if (!state.source.open) return;
+      state.source.setMotion(movingOf(replay as MovingManifest, block));
+      document.documentElement.dataset.computedS = seconds.toFixed(3);
+      document.documentElement.dataset.motions = String(Number(document.documentElement.dataset.motions ?? 0) + 1);
+    });
+    connection.on('shape', ({ face, time_s, step_m, values, block }) => {
+      if (!state.source.open || Math.abs(time_s - state.playback.timeS) > 1e-6 || state.playback.playing) return;
+      const displacement = new Float32Array(block.int16(values));
+      for (let i = 0; i < displacement.length; ++i) displacement[i] *= step_m;
+      if (displacement.length !== state.source.replay.points.length) return;
+      this.stage?.face?.showLive({ face, displacement });
+      this.figures.showLive(face, displacement);
+      document.documentElement.dataset.shapes = String(Number(document.documentElement.dataset.shapes ?? 0) + 1);
+    });
+    connection.on('progress', ({ stage, share }) => this.progress.tell(stage, share));
+    connection.on('said', ({ level, text }) => this.messages.say(level, text));
+  }
+
+  private greeted({ program, keys, presets, places }: Greeting): void {
+    this.state.keys = new Map(keys.map((key) => [key.name, key]));
+    this.tabs.presets = presets;
+    this.saving.folder = places.folder;
+    at('title').title = program;
+    this.tissue.build();
+    if (this.state.muscles.length > 0) this.muscles.build();
+    at<HTMLButtonElement>('what-if').disabled = false;
+    this.opening.greet(places);
+  }
+
+  /** Another skin: all views are made anew. */
+  private showFace(): void {
+    const { source, shown, playback } = this.state;
+    const { replay } = source;
+    shown.setCount(replay.faces.length);
+    this.setRange();
+    this.stage?.dispose();
+    this.stage = new Stage(replay, shown);
+    this.muscles.build();
+    this.figures.build();
+    this.rewireKeys();
+    const still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+    if (still) playback.seek(replay.timeS[replay.peakFrame] ?? 0);
+    this.showTime();
+    document.documentElement.dataset.ready = 'true';
+    if (!still) playback.play();
+  }
+
+  /** The same skin moves otherwise, or there are other variants. */
+  private showMotion(): void {
+    const { source, shown } = this.state;
+    this.setRange();
+    shown.setCount(source.replay.faces.length);
+    this.stage?.refresh();
+    this.figures.refresh();
+    this.rewireKeys();
+    this.showTime();
+  }
+
+  private setRange(): void {
+    const { source, playback } = this.state;
+    const { timeS } = source.replay;
+    playback.setRange(timeS[0] ?? 0, timeS[timeS.length - 1] ?? 0);
+  }
+
+  private showTime(): void {
+    const { source, playback } = this.state;
+    if (!source.open) return;
+    this.stage?.moveTo(frameAt(source.replay.timeS, playback.timeS), playback);
+    this.figures.mark();
+    this.showTransport();
+  }
+
+  private rewireKeys(): void {
+    this.unwireKeys();
+    const never = { when: () => false, act: () => {} };
+    const keys: Key[] = [
+      ...transportKeys(this.state.source, this.state.playback), ...(this.stage?.keys() ?? []),
+      { shown: 'n', does: words.keyWhatIf, when: ['n'], act: () => this.tabs.whatIf.open() },
+      { shown: 'Ctrl+Z', does: words.keyUndo, ...never },
+      { shown: 'Ctrl+Shift+Z', does: words.keyRedo, ...never },
+      { shown: 'Ctrl+S', does: words.keySave, ...never },
+    ];
+    this.unwireKeys = wireKeys(keys, at<HTMLDialogElement>('help'), at<HTMLButtonElement>('open-help'), at<HTMLInputElement>('keys-on'));
+  }
+
+  private wireBar(): void {
+    const step = (which: 'undo' | 'redo') => {
+      this.connection.ask(which, {}).catch((error: unknown) => this.problem(String(error)));
+    };
+    at('undo').addEventListener('click', () => step('undo'));
+    at('redo').addEventListener('click', () => step('redo'));
+    document.addEventListener('keydown', (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+      const inText = event.target instanceof HTMLInputElement && ['text', 'number'].includes(event.target.type);
+      const key = event.key.toLowerCase();
+      if (key === 's') this.saving.menu.open();
+      else if (inText) return;
+      else if (key === 'z') step(event.shiftKey ? 'redo' : 'undo');
+      else if (key === 'y') step('redo');
+      else return;
+      event.preventDefault();
+    });
+  }
+
+  private showLine({ state }: LineState): void {
+    const banner = at('banner');
+    banner.hidden = state === 'open' || state === 'opening';
+    document.documentElement.dataset.line = state;
+    if (banner.hidden) return;
+    this.progress.tell('', 0);
+    const text = { lost: words.lost, refused: words.refused, taken: words.taken, open: '', opening: '' }[state];
+    banner.replaceChildren(element('p', text));
+    if (state === 'taken') banner.append(button(words.takeOver, 'quiet', () => this.connection.takeOver()));
+  }
+
+  /** Next to the panels that caused it. */
+  private problem(text: string): void {
+    const line = at('edit-problem');
+    line.textContent = text;
+    line.hidden = text === '';
+  }
+}
+
+interface Greeting {
+  program: string;
+  keys: SceneKey[];
+  presets: Preset[];
+  places: Places;
+}
 
 startPage(() => {
-  at('title').textContent = document.title;
+  fillWords(document);
+  new Studio();
 });

@@ -116,7 +116,7 @@ function muscleOverlay(replay: Replay, lines: Vec3[][], colour = '#b5179e', line
 /** Some muscles alone, to point at them; null where none has one of the names. */
 export function litMuscles(replay: Replay, names: ReadonlySet<string>): Overlay | null {
   const lines = (replay.muscles?.lines ?? []).filter(({ name }) => names.has(name)).map(({ points }) => points);
-  return lines.length > 0 ? muscleOverlay(replay, lines, '#ffd60a', 6) : null;
+  return lines.length > 0 ? muscleOverlay(replay, lines, '#ffd60a', 4) : null;
 }
 
 /** Takes an overlay off for good. */

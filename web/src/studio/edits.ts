@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Changes on their way to the server: while something is pulled one request at a time, of those that wait the
+// last; then the change itself, a step that can be undone. What is changed while base is shown changes another
+// face beside it, made at the first change.
+import { Refused, type Connection } from './connection';
+import type { Values } from './messages';
+import type { StudioState } from './studio_state';
+import { words } from './words';
+
+export class Edits {
+  private target: Promise<number> | null = null;
+  private underWay = false;
+  private waiting: Values | null = null;
+  /** Counts what was let go: what was pulled before it does not matter any more. */
+  private turn = 0;
+  /** Changes of the edited face that the server has not confirmed. */
+  private readonly drafts = new Map<string, unknown>();
+  private wasPlaying = false;
+
+  constructor(
+    private readonly state: StudioState, private readonly connection: Connection, private readonly problem: (text: string) => void,
+  ) {
+    state.sceneChanged.add(() => this.drafts.clear());
+    connection.on('motion', () => this.resume());
+  }
+
+  /** The value that a key of the edited face has, or will have. */
+  value(key: string): unknown {
+    return this.drafts.has(key) ? this.drafts.get(key) : this.state.valuesOf(this.state.edited)[key];
+  }
+
+  /** While it is pulled. */
+  live(changes: Values): void {
+    this.draft(changes);
+    const { playback } = this.state;
+    if (playback.playing) {
+      this.wasPlaying = true;
+      playback.pause();
+    }
+    this.waiting = changes;
+    if (!this.underWay) void this.sendWaiting();
+  }
+
+  /** Let go. */
+  async commit(changes: Values): Promise<void> {
+    this.draft(changes);
+    this.waiting = null;
+    ++this.turn;
+    this.problem('');
+    try {
+      const face = await this.face();
+      await this.send(face, changes, false);
+    } catch (error) {
+      this.tell(error);
+    } finally {
+      this.target = null;
+    }
+  }
+
+  private draft(changes: Values): void {
+    for (const [key, value] of Object.entries(changes)) this.drafts.set(key, value);
+  }
+
+  private async sendWaiting(): Promise<void> {
+    this.underWay = true;
+    try {
+      while (this.waiting) {
+        const face = await this.face();
+        const changes: Values | null = this.waiting;
+        this.waiting = null;
+        const { turn } = this;
+        if (changes && turn === this.turn) await this.send(face, changes, true);
+      }
+    } catch (error) {
+      this.tell(error);
+    } finally {
+      this.underWay = false;
+    }
+  }
+
+  private send(face: number, changes: Values, live: boolean): Promise<unknown> {
+    return this.connection.ask('set', { changes, face, live, time_s: this.state.playback.timeS });
+  }
+
+  private face(): Promise<number> {
+    const { state } = this;
+    if (state.edited !== 0 || state.changeBase) return Promise.resolve(state.edited);
+    this.target ??= this.addFace(words.newVariant, 0);
+    return this.target;
+  }
+
+  /** Makes a face and shows it beside base. */
+  async addFace(wanted: string, like: number, preset?: string): Promise<number> {
+    const { state } = this;
+    const name = state.freeName(wanted);
+    const { face } = await this.connection.ask('add_variant', { name, like, ...(preset && { preset }) });
+    if (state.source.replay.faces.length <= face) state.addLike(like, name);
+    const first = state.shown.mode === 'single' ? 0 : state.shown.first;
+    state.shown.set({ mode: state.shown.mode === 'wipe' ? 'wipe' : 'side-by-side', first, second: face });
+    return face;
+  }
+
+  /** A change by itself, of a face that is there. */
+  async change(face: number, changes: Values): Promise<void> {
+    await this.send(face, changes, false);
+  }
+
+  private resume(): void {
+    if (!this.wasPlaying || this.underWay) return;
+    this.wasPlaying = false;
+    this.state.playback.play();
+  }
+
+  private tell(error: unknown): void {
+    this.waiting = null;
+    this.drafts.clear();
+    this.wasPlaying = false;
+    if (error instanceof Refused) this.problem(error.message);
+    this.state.sceneChanged.tell(); // sliders go back to what holds
+  }
+}

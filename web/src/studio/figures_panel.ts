@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far both corners of the mouth go, now and at most, in each face, and what is changed against base; the curves.
+import type { Chart } from '../charts/chart_options';
+import { TimeChart } from '../charts/time_chart';
+import { element } from '../page/dom';
+import { faceColour } from '../page/face_colour';
+import { landmarkName, signed } from '../page/format';
+import { cornersOf, mm, type Corners } from '../replay/corners';
+import { cornerCurves } from '../replay/curves/corner_card';
+import { symmetryCurves } from '../replay/curves/symmetry_charts';
+import { chooseFace } from '../replay/face/face_chooser';
+import { frameAt, nearestVertex } from '../replay/face/deform';
+import { isNumber } from '../replay/tables/figure_table';
+import { variantsOf } from '../replay/variants';
+import { dark } from '../page/theme';
+import type { StudioState } from './studio_state';
+import { words } from './words';
+
+/** A change below this is none, mm: half of what a figure here shows. */
+const sameMm = 0.05;
+const sides = ['right', 'left'] as const; // as one sees the face
+type SideName = (typeof sides)[number];
+
+/** The value at time t between samples; null where unknown. */
+function valueAt(timeS: number[], values: (number | null)[], t: number): number | null {
+  const at = frameAt(timeS, t);
+  const [i, share] = [Math.floor(at), at - Math.floor(at)];
+  const [a, b] = [values[i], values[Math.min(i + 1, values.length - 1)]];
+  return a === null || b === null ? null : a + share * (b - a);
+}
+
+const plus = (value: number): string => signed(`${value > 0 ? '+' : ''}${value.toFixed(1)} mm`);
+
+export class FiguresPanel {
+  private readonly table = element('table', '', 'corner-table');
+  private readonly remark = element('p', '', 'remark');
+  private readonly charts = element('div', '', 'charts');
+  private plots: { chart: TimeChart; made: () => Omit<Chart, 'title'>[] }[] = [];
+  private corners: (Corners | null)[] = [];
+  private now: { cells: Record<SideName, HTMLElement>; corners: Corners; face: number }[] = [];
+  private live: { face: number; mm: Record<SideName, number> } | null = null;
+  private cornerVertex: Record<SideName, number> | null = null;
+
+  constructor(private readonly state: StudioState, into: HTMLElement) {
+    into.append(this.table, this.remark, this.charts);
+    state.shown.onChange(() => this.change());
+    dark.addEventListener('change', () => this.plots.forEach(({ chart }) => chart.draw()));
+  }
+
+  /** Of a new face: the charts are made anew. */
+  build(): void {
+    for (const { chart } of this.plots.splice(0)) chart.remove();
+    this.cornerVertex = null;
+    this.refresh();
+    const { state } = this;
+    const { replay } = state.source;
+    const add = (title: string, heightPx: number, made: () => Omit<Chart, 'title'>[]) => {
+      const compact = () => made().map((chart) => ({ ...chart, caption: '', heightPx }));
+      const [first] = compact();
+      if (!first) return;
+      const card = element('article', '', 'plot-card');
+      this.charts.append(card);
+      this.plots.push({ chart: new TimeChart(card, { ...first, title }, (t) => state.playback.seek(t)), made: compact });
+    };
+    add(words.corners, 130, () => cornerCurves(replay, state.shown));
+    add(words.symmetry, 140, () => symmetryCurves(replay, state.shown));
+  }
+
+  /** After the replay moves otherwise. */
+  refresh(): void {
+    const { replay } = this.state.source;
+    this.live = null;
+    this.corners = replay.faces.map((_, i) => cornersOf(replay, i));
+    this.fill();
+    this.change();
+  }
+
+  /** At the time shown. */
+  mark(): void {
+    const { timeS } = this.state.playback;
+    for (const { chart } of this.plots) chart.mark(timeS);
+    for (const { cells, corners, face } of this.now)
+      for (const side of sides) {
+        const value = this.live?.face === face ? this.live.mm[side] : valueAt(corners.timeS, corners[side], timeS);
+        const text = value === null ? '' : words.nowIs(mm(value));
+        if (cells[side].textContent !== text) cells[side].textContent = text;
+      }
+  }
+
+  /** A face's shape while a slider is pulled: displacements in metres; null: none any more. */
+  showLive(face: number, displacement: Float32Array | null): void {
+    this.live = null;
+    const at = displacement && (this.cornerVertex ??= this.findCorners());
+    if (displacement && at) {
+      const length = (v: number) => 1e3 * Math.hypot(...displacement.subarray(3 * v, 3 * v + 3));
+      this.live = { face, mm: { left: length(at.left), right: length(at.right) } };
+    }
+    this.mark();
+  }
+
+  private findCorners(): Record<SideName, number> | null {
+    const { points, landmarks } = this.state.source.replay;
+    const vertex = (...names: string[]): number => {
+      const i = landmarks.names.findIndex((name) => names.includes(name));
+      return i < 0 ? -1 : nearestVertex(points, landmarks.positions.subarray(3 * i, 3 * i + 3)).vertex;
+    };
+    const found = { left: vertex('cheilion_L', 'ibug68_54'), right: vertex('cheilion_R', 'ibug68_48') };
+    return found.left >= 0 && found.right >= 0 ? found : null;
+  }
+
+  private change(): void {
+    const edited = this.state.edited;
+    for (const row of this.table.querySelectorAll<HTMLElement>('tbody tr')) row.classList.toggle('shown', Number(row.dataset.face) === edited);
+    for (const { chart, made } of this.plots) {
+      const [next] = made();
+      if (next) chart.change(next);
+    }
+    this.tellRemark();
+    this.mark();
+  }
+
+  private fill(): void {
+    const { table, corners } = this;
+    const [base] = corners;
+    table.replaceChildren();
+    this.now = [];
+    if (!base) return;
+    table.createCaption().textContent = words.cornersTitle;
+    const head = table.createTHead().insertRow();
+    const heads = [words.face, words.sideNames.R, words.sideNames.L].map((text, i) => {
+      const cell = element('th', text, ['', 'right', 'left'][i]);
+      cell.scope = 'col';
+      return cell;
+    });
+    head.append(...heads);
+    const body = table.createTBody();
+    this.state.source.replay.faces.forEach(({ name }, i) => {
+      const own = corners[i];
+      if (!own) return;
+      const row = body.insertRow();
+      row.dataset.face = String(i);
+      row.style.setProperty('--face', faceColour(i));
+      const title = element('th');
+      title.scope = 'row';
+      const choose = element('button', '', 'face-name');
+      choose.type = 'button';
+      choose.append(element('i'), i === 0 ? words.base : name);
+      choose.addEventListener('click', () => chooseFace(this.state.shown, i));
+      title.append(choose);
+      row.append(title);
+      const cells = {} as Record<SideName, HTMLElement>;
+      for (const side of sides) cells[side] = this.cell(row, own, base, side, i);
+      this.now.push({ cells, corners: own, face: i });
+      const differs = this.differsMost(i);
+      if (!differs) return;
+      const below = body.insertRow();
+      below.className = 'differs';
+      below.dataset.face = String(i);
+      below.style.setProperty('--face', faceColour(i));
+      const cell = below.insertCell();
+      cell.colSpan = 3;
+      cell.title = words.mostHint;
+      cell.textContent = differs;
+    });
+  }
+
+  /** The largest in large, what it is against base, and where the corner is now. */
+  private cell(row: HTMLTableRowElement, own: Corners, base: Corners, side: SideName, i: number): HTMLElement {
+    const cell = row.insertCell();
+    const of = (corners: Corners) => (side === 'left' ? corners.leftMm : corners.rightMm);
+    cell.append(element('b', mm(of(own))));
+    cell.dataset.side = side;
+    cell.dataset.mm = String(of(own));
+    if (i > 0) {
+      const change = of(own) - of(base);
+      const same = Math.abs(change) < sameMm;
+      cell.append(element('small', same ? words.asBase : words.againstBase(plus(change)), same ? 'same' : 'change'));
+    }
+    const now = element('small', '', 'now-is');
+    cell.append(now);
+    return now;
+  }
+
+  private differsMost(i: number): string {
+    const { replay } = this.state.source;
+    const most = replay.faces[i].maxDifferenceMm;
+    if (i === 0 || !(most >= sameMm)) return '';
+    const near = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[i].name)?.farthest_near;
+    const place = typeof near === 'string' && near ? ` ${words.nearPoint(landmarkName(near))}` : '';
+    return `${words.most}: ${mm(most)}${place}`;
+  }
+
+  private tellRemark(): void {
+    const own = this.corners[this.state.edited];
+    if (!this.corners[0]) this.remark.textContent = words.noCorners;
+    else this.remark.textContent = own?.undecided && isNumber(own.floorMm) && own.floorMm > 0 ? words.undecided(mm(own.floorMm)) : '';
+    this.remark.hidden = this.remark.textContent === '';
+  }
+}

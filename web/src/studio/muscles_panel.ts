@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Strengths of the muscles, of either side, branch and muscle, as the key muscles.gain has them; the muscle's line
+// lights up on the face while its slider is in hand.
+import { button, element } from '../page/dom';
+import { upper } from '../page/format';
+import type { Edits } from './edits';
+import { isRecord, type MuscleInfo } from './messages';
+import { linear, Slider } from './slider';
+import type { StudioState } from './studio_state';
+import { words } from './words';
+
+type Gains = Record<string, number>;
+type Side = 'R' | 'L';
+/** As one sees the face: its right side is on the left. */
+const sides: Side[] = ['R', 'L'];
+const key = 'muscles.gain';
+const motionGain = 'motion.gain';
+
+const percent = linear(0, 200);
+
+/** One name that gains may have: "side_R", "zygomatic_L", "zyg_major_R". */
+interface Handle {
+  slider: Slider;
+  mute?: HTMLButtonElement;
+  solo?: HTMLButtonElement;
+}
+
+export class MusclesPanel {
+  readonly element = element('div', '', 'panel muscles-panel');
+  private readonly handles = new Map<string, Handle>();
+  private gain: Slider | null = null;
+  private readonly resetAll = button(words.resetMuscles, 'quiet', () => this.set({}));
+  private readonly note = element('p', '', 'why');
+  /** What a muted muscle had, and what all had before one of them was alone. */
+  private readonly before = new Map<string, number>();
+  private beforeSolo: Gains = {};
+  private alone = '';
+
+  /** `light`: the muscles with these names, with their sides. */
+  constructor(
+    private readonly state: StudioState, private readonly edits: Edits, private readonly light: (names: ReadonlySet<string>) => void,
+  ) {
+    state.sceneChanged.add(() => this.update());
+    state.shown.onChange(() => {
+      this.alone = '';
+      this.update();
+    });
+  }
+
+  /** Once the muscles of the face are known. */
+  build(): void {
+    this.handles.clear();
+    this.element.replaceChildren();
+    const known = this.state.keys.get(motionGain);
+    if (known) {
+      this.gain = new Slider({
+        name: words.keyNames[motionGain], unit: '%', hint: known.description, course: percent, round: Math.round,
+        low: 0, high: 100 * (known.high ?? 5),
+        live: (value) => this.edits.live({ [motionGain]: value / 100 }),
+        done: (value) => void this.edits.commit({ [motionGain]: value === null ? null : value / 100 }),
+      });
+      this.gain.element.dataset.key = motionGain;
+      this.element.append(this.gain.element);
+    }
+    const { muscles } = this.state;
+    this.element.append(this.note, this.head());
+    this.element.append(this.row(words.wholeSide, 'side', muscles, { palsy: true }));
+    const branches = [...new Set(muscles.map(({ branch }) => branch))];
+    this.element.append(this.group(words.branches, true,
+      branches.map((branch) => this.row(
+        words.branchNames[branch] ?? upper(branch), branch, muscles.filter((muscle) => muscle.branch === branch), { palsy: true }))));
+    for (const name of [...new Set(muscles.map(({ group }) => group))]) {
+      const own = muscles.filter(({ group }) => group === name);
+      this.element.append(this.group(upper(name), false, own.map((muscle) =>
+        this.row(upper(muscle.latin), muscle.name, [muscle], { mute: true }))));
+    }
+    this.element.append(this.resetAll);
+    this.update();
+  }
+
+  private head(): HTMLElement {
+    const head = element('div', '', 'strength-head');
+    head.append(element('span', words.strengths));
+    for (const side of sides) head.append(element('b', words.sideNames[side], `side-${side}`));
+    return head;
+  }
+
+  private group(title: string, open: boolean, rows: HTMLElement[]): HTMLElement {
+    const details = element('details', '', 'muscle-group');
+    details.open = open;
+    details.append(element('summary', title), ...rows);
+    return details;
+  }
+
+  /** Both sides of what gains may name; `moves`: the muscles that it moves. */
+  private row(title: string, name: string, moves: MuscleInfo[], { mute = false, palsy = false }): HTMLElement {
+    const row = element('div', '', 'strength');
+    const groupId = `muscle-${name}`;
+    row.setAttribute('role', 'group');
+    row.setAttribute('aria-labelledby', groupId);
+    const label = element('span', title, 'strength-name');
+    label.id = groupId;
+    label.title = moves.map(({ latin }) => upper(latin)).join('\n');
+    const head = element('div', '', 'strength-title');
+    head.append(label);
+    row.append(head);
+    for (const side of sides) row.append(this.side(title, `${name}_${side}`, side, moves, head, { mute, palsy }));
+    return row;
+  }
+
+  /** Its slider; what switches it goes into `head`. */
+  private side(
+    title: string, name: string, side: Side, moves: MuscleInfo[], head: HTMLElement, { mute = false, palsy = false },
+  ): HTMLElement {
+    const said = words.ofSide(title, words.sideNames[side]);
+    const slider = new Slider({
+      name: said, unit: '%', hint: said, course: percent, round: Math.round, low: 0, high: 200, bare: true,
+      live: (value) => this.edits.live({ [key]: this.with(name, value / 100) }),
+      done: (value) => this.set(this.with(name, value === null ? 1 : value / 100)),
+    });
+    slider.range.dataset.gain = name;
+    const handle: Handle = { slider };
+    const box = element('div', '', `strength-side side-${side}`);
+    box.append(slider.element);
+    const lines = new Set(moves.map((muscle) => `${muscle.name}_${side}`));
+    const lit = () => this.light(lines);
+    const dark = () => {
+      if (!box.contains(document.activeElement) && !box.matches(':hover')) this.light(new Set());
+    };
+    const toggle = (text: string, hint: string, press: () => void) => {
+      const made = button(`${side} ${text}`, `small-toggle side-${side}`, press);
+      made.title = hint;
+      made.setAttribute('aria-label', hint);
+      made.setAttribute('aria-pressed', 'false');
+      made.addEventListener('pointerenter', lit);
+      made.addEventListener('pointerleave', dark);
+      head.append(made);
+      return made;
+    };
+    if (mute || palsy) handle.mute = toggle(palsy ? words.palsyShort : words.mute, palsy ? `${words.palsy}: ${said}` : words.muteHint(said), () => this.mute(name));
+    if (mute) handle.solo = toggle(words.solo, words.soloHint(said), () => this.solo(name));
+    box.addEventListener('pointerenter', lit);
+    box.addEventListener('pointerleave', dark);
+    box.addEventListener('focusin', lit);
+    box.addEventListener('focusout', () => requestAnimationFrame(dark));
+    this.handles.set(name, handle);
+    return box;
+  }
+
+  private get gains(): Gains {
+    const value = this.edits.value(key);
+    return isRecord(value) ? (value as Gains) : {};
+  }
+
+  private with(name: string, gain: number): Gains {
+    const next = { ...this.gains, [name]: gain };
+    if (gain === 1) delete next[name];
+    return next;
+  }
+
+  private set(gains: Gains): void {
+    void this.edits.commit({ [key]: gains });
+  }
+
+  private mute(name: string): void {
+    const now = this.gains[name] ?? 1;
+    if (now === 0) {
+      this.set(this.with(name, this.before.get(name) ?? 1));
+      return;
+    }
+    this.before.set(name, now);
+    this.set(this.with(name, 0));
+  }
+
+  private solo(name: string): void {
+    if (this.alone === name) {
+      this.alone = '';
+      this.set(this.beforeSolo);
+      return;
+    }
+    if (this.alone === '') this.beforeSolo = this.gains;
+    this.alone = name;
+    const all: Gains = {};
+    for (const muscle of this.state.muscles)
+      for (const side of sides) if (`${muscle.name}_${side}` !== name) all[`${muscle.name}_${side}`] = 0;
+    const own = this.beforeSolo[name];
+    this.set(own === undefined ? all : { ...all, [name]: own });
+  }
+
+  private update(): void {
+    const { state } = this;
+    if (!state.scene) return;
+    const gainsOf = (face: number): Gains => {
+      const value = state.valuesOf(face)[key];
+      return isRecord(value) ? (value as Gains) : {};
+    };
+    const gains = gainsOf(state.edited);
+    const base = state.edited === 0 ? {} : gainsOf(0);
+    for (const [name, { slider, mute, solo }] of this.handles) {
+      const value = gains[name] ?? 1;
+      slider.set(100 * value, 100 * (base[name] ?? 1));
+      mute?.setAttribute('aria-pressed', String(value === 0 && this.alone === ''));
+      solo?.setAttribute('aria-pressed', String(this.alone === name));
+    }
+    const gainBefore = state.edited === 0 ? 1 : Number(state.valuesOf(0)[motionGain] ?? 1);
+    this.gain?.set(100 * Number(state.valuesOf(state.edited)[motionGain] ?? 1), 100 * gainBefore);
+    this.resetAll.disabled = Object.keys(gains).length === 0;
+    this.note.textContent = state.scene.drive === 'muscles' ? '' : words.noMuscles;
+    this.note.hidden = this.note.textContent === '';
+  }
+}

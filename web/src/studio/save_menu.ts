@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What can be saved, under which name, and where it then lies.
+import { at, button, element } from '../page/dom';
+import { fileName } from '../page/save';
+import { Refused, type Connection } from './connection';
+import { menuOf, type Menu } from './menu';
+import type { SaveRequest } from './protocol';
+import type { StudioState } from './studio_state';
+import { words } from './words';
+
+const kinds: { what: SaveRequest['what']; name: string; hint: string }[] = [
+  { what: 'scene', name: words.saveScene, hint: words.saveSceneHint },
+  { what: 'report', name: words.saveReport, hint: words.saveReportHint },
+  { what: 'run', name: words.saveRun, hint: words.saveRunHint },
+  { what: 'landmarks', name: words.saveLandmarks, hint: words.saveLandmarksHint },
+];
+
+export class SaveMenu {
+  readonly menu: Menu;
+  folder = '';
+  private name = '';
+
+  constructor(private readonly state: StudioState, private readonly connection: Connection, private readonly done: (text: string) => void) {
+    this.menu = menuOf(at('save-menu'), words.save, (sheet) => this.fill(sheet));
+  }
+
+  private fill(sheet: HTMLElement): void {
+    sheet.classList.add('save-sheet');
+    this.name ||= fileName(this.state.scene?.title || 'hyperex', '').replace(/\.$/, '');
+    const field = element('input');
+    Object.assign(field, { type: 'text', value: this.name, maxLength: 60, id: 'save-name' });
+    field.addEventListener('input', () => (this.name = field.value));
+    const label = element('label', '', 'save-name');
+    label.append(element('span', words.saveName), field);
+    const told = element('p', '', 'told');
+    told.setAttribute('role', 'status');
+    const problem = element('p', '', 'problem');
+    problem.setAttribute('role', 'alert');
+    problem.hidden = true;
+    const buttons = kinds.map(({ what, name, hint }) => {
+      const made = button('', 'entry', () => void this.save(what, buttons, told, problem));
+      made.append(element('b', name), element('small', hint));
+      made.dataset.save = what;
+      return made;
+    });
+    sheet.append(label, element('p', words.saveInto(this.folder), 'why'), ...buttons, told, problem);
+  }
+
+  private async save(what: SaveRequest['what'], buttons: HTMLButtonElement[], told: HTMLElement, problem: HTMLElement): Promise<void> {
+    for (const one of buttons) one.disabled = true;
+    problem.hidden = true;
+    told.textContent = words.saving;
+    try {
+      const { path } = await this.connection.ask('save', { what, name: this.name.trim() });
+      told.textContent = words.saved(path);
+      this.done(words.saved(path));
+    } catch (error) {
+      told.textContent = '';
+      problem.hidden = false;
+      problem.textContent = error instanceof Refused ? error.message : words.lost;
+    } finally {
+      for (const one of buttons) one.disabled = false;
+    }
+  }
+}

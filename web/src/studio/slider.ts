@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A value that is pulled: a slider, the number in digits where there is room, and a way back.
+import { element } from '../page/dom';
+import { number } from '../page/format';
+import { words } from './words';
+
+/** From a place on the slider, 0 to 1, to the value and back. */
+export interface Course {
+  at(share: number): number;
+  of(value: number): number;
+}
+
+export const linear = (low: number, high: number): Course => ({
+  at: (share) => low + share * (high - low),
+  of: (value) => (value - low) / (high - low),
+});
+
+/** Each decade as long as the next; both above 0. */
+export const logarithmic = (low: number, high: number): Course => ({
+  at: (share) => low * (high / low) ** share,
+  of: (value) => Math.log(Math.max(value, low) / low) / Math.log(high / low),
+});
+
+export interface SliderOptions {
+  /** Read aloud; shown elsewhere where `bare`. */
+  name: string;
+  unit: string;
+  hint: string;
+  course: Course;
+  /** Rounds what the slider gives. */
+  round(value: number): number;
+  /** Allowed for the digits. */
+  low: number;
+  high: number;
+  /** Of the digits' steps. */
+  step?: number;
+  /** Only the slider, with its value behind it. */
+  bare?: boolean;
+  /** While it is pulled, and where it was let go; null: back to what it was. */
+  live(value: number): void;
+  done(value: number | null): void;
+}
+
+const steps = 1000;
+/** After this long without a key what keys moved counts as let go. */
+const keysRestMs = 500;
+
+let count = 0;
+
+export class Slider {
+  readonly element = element('div', '', 'slider');
+  readonly range = element('input');
+  private readonly digits = element('input');
+  private readonly shownValue = element('output');
+  private readonly inBase = element('span', '', 'in-base');
+  private readonly back = element('button', '↺', 'back');
+  private value = 0;
+  private held = false;
+  private moved = false;
+  private rest = 0;
+  private queued = 0;
+
+  constructor(private readonly options: SliderOptions) {
+    const { name, unit, hint, bare } = options;
+    const id = `slider-${++count}`;
+    Object.assign(this.range, { type: 'range', id, min: '0', max: String(steps), step: '1', title: hint });
+    Object.assign(this.digits, { type: 'number', min: String(options.low), max: String(options.high), step: 'any' });
+    this.digits.setAttribute('aria-label', words.number(name, unit));
+    Object.assign(this.back, { type: 'button', title: words.reset(name) });
+    this.back.setAttribute('aria-label', words.reset(name));
+    this.element.title = hint;
+    if (bare) {
+      this.element.classList.add('bare');
+      this.range.setAttribute('aria-label', name);
+      this.shownValue.setAttribute('for', id);
+      this.element.append(this.range, this.shownValue);
+    } else {
+      const label = element('label', name);
+      label.htmlFor = id;
+      const digits = element('span', '', 'digits');
+      digits.append(this.digits, element('span', unit, 'unit'), this.back);
+      this.element.append(label, digits, this.range, this.inBase);
+    }
+    this.listen();
+  }
+
+  /** Whether the user has it in hand; then nobody else moves it. */
+  get busy(): boolean {
+    return this.held || this.rest !== 0 || document.activeElement === this.digits;
+  }
+
+  get current(): number {
+    return this.value;
+  }
+
+  /** `base`: what base has, where this is another face. */
+  set(value: number, base: number | null, enabled = true): void {
+    this.range.disabled = this.digits.disabled = !enabled;
+    const changed = base !== null && Math.abs(value - base) > 1e-9 * Math.max(Math.abs(value), Math.abs(base));
+    this.inBase.textContent = changed ? words.inBase(`${number(base)} ${this.options.unit}`.trim()) : '';
+    this.back.hidden = !changed || !enabled;
+    this.element.classList.toggle('changed', changed);
+    if (!this.busy) this.show(value);
+  }
+
+  private show(value: number): void {
+    this.value = value;
+    const share = Math.min(Math.max(this.options.course.of(value), 0), 1);
+    this.range.value = String(Math.round(share * steps));
+    this.tell();
+    this.digits.value = String(Number(value.toPrecision(6)));
+  }
+
+  private tell(): void {
+    const { unit } = this.options;
+    const text = `${number(this.value)} ${unit}`.trim();
+    this.shownValue.textContent = text;
+    this.range.setAttribute('aria-valuetext', text);
+    this.element.style.setProperty('--share', String(Number(this.range.value) / steps));
+  }
+
+  private listen(): void {
+    const { range, digits, options } = this;
+    range.addEventListener('pointerdown', () => (this.held = true));
+    range.addEventListener('input', () => {
+      this.value = options.round(options.course.at(Number(range.value) / steps));
+      this.moved = true;
+      digits.value = String(Number(this.value.toPrecision(6)));
+      this.tell();
+      if (!this.held) this.restKeys();
+      this.queued ||= requestAnimationFrame(() => {
+        this.queued = 0;
+        if (this.moved) options.live(this.value);
+      });
+    });
+    const letGo = () => {
+      this.held = false;
+      if (this.rest === 0) this.finish();
+    };
+    range.addEventListener('pointerup', () => requestAnimationFrame(letGo)); // after its last input
+    range.addEventListener('pointercancel', letGo);
+    range.addEventListener('blur', () => {
+      clearTimeout(this.rest);
+      this.rest = 0;
+      letGo();
+    });
+    range.addEventListener('dblclick', () => this.back.click());
+    digits.addEventListener('change', () => {
+      const value = Number(digits.value);
+      if (digits.value === '' || !(value >= options.low && value <= options.high)) {
+        this.refuse(value);
+        return;
+      }
+      digits.setCustomValidity('');
+      this.value = value;
+      options.done(value);
+    });
+    this.back.addEventListener('click', () => options.done(null));
+  }
+
+  private refuse(value: number): void {
+    const { low, high } = this.options;
+    this.digits.setCustomValidity(`${number(value)}: ${number(low)} – ${number(high)}`);
+    this.digits.reportValidity();
+  }
+
+  private restKeys(): void {
+    clearTimeout(this.rest);
+    this.rest = window.setTimeout(() => {
+      this.rest = 0;
+      if (!this.held) this.finish();
+    }, keysRestMs);
+  }
+
+  private finish(): void {
+    cancelAnimationFrame(this.queued);
+    this.queued = 0;
+    if (!this.moved) return;
+    this.moved = false;
+    this.options.done(this.value);
+  }
+}

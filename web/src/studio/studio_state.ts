@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the page knows: the scene as the server has it, the face's data, which face is looked at and changed.
+import { Listeners } from '../page/listeners';
+import { ChangingSource } from '../replay/data_source';
+import type { Face } from '../replay/data';
+import { Playback } from '../replay/playback';
+import { Shown } from '../replay/shown';
+import type { MuscleInfo, SceneKey, SceneNow, Values } from './messages';
+
+export class StudioState {
+  readonly source = new ChangingSource();
+  readonly shown = new Shown(1);
+  readonly playback = new Playback(0, 0);
+  readonly sceneChanged = new Listeners();
+  keys = new Map<string, SceneKey>();
+  muscles: MuscleInfo[] = [];
+  scene: SceneNow | null = null;
+  /** The base itself may be changed, not only another face beside it. */
+  changeBase = false;
+
+  /** Of two the right one. */
+  get edited(): number {
+    const { visible } = this.shown;
+    return visible[visible.length - 1];
+  }
+
+  valuesOf(face: number): Values {
+    return this.scene?.values[face] ?? this.scene?.values[0] ?? {};
+  }
+
+  nameOf(face: number): string {
+    return this.scene?.faces[face]?.name ?? '';
+  }
+
+  /** A name that no face has yet. */
+  freeName(wanted: string): string {
+    const taken = new Set(this.scene?.faces.map(({ name }) => name));
+    for (let n = 1; ; ++n) {
+      const name = n === 1 ? wanted : `${wanted} ${n}`;
+      if (!taken.has(name)) return name;
+    }
+  }
+
+  setScene(scene: SceneNow): void {
+    this.scene = scene;
+    this.sceneChanged.tell();
+  }
+
+  /** A face that moves like another until the server has computed its own motion. */
+  addLike(like: number, name: string): void {
+    const { replay } = this.source;
+    const face: Face = { ...replay.faces[like], name, changes: [], maxDifferenceMm: replay.faces[like].maxDifferenceMm };
+    face.difference ??= { modes: [], weights: new Float32Array(0), maxErrorMm: 0 };
+    this.source.setMotion({ ...replay, faces: [...replay.faces, face] });
+  }
+
+  without(face: number): void {
+    const { replay } = this.source;
+    this.source.setMotion({ ...replay, faces: replay.faces.filter((_, i) => i !== face) });
+  }
+}

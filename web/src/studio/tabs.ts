@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Base and its variants, a tab each; of the one in hand a menu; "What if…" makes others.
+import { at, button, element } from '../page/dom';
+import { faceColour } from '../page/face_colour';
+import { chooseFace } from '../replay/face/face_chooser';
+import { Refused, type Connection } from './connection';
+import type { Edits } from './edits';
+import { menuOf, type Menu } from './menu';
+import type { Preset } from './messages';
+import type { StudioState } from './studio_state';
+import { words } from './words';
+
+export class Tabs {
+  presets: Preset[] = [];
+  readonly whatIf: Menu;
+  private faceMenus: Menu[] = [];
+  private built = '';
+
+  constructor(private readonly state: StudioState, private readonly connection: Connection, private readonly edits: Edits) {
+    state.sceneChanged.add(() => this.build());
+    state.shown.onChange(() => this.show());
+    // Colours come with the first face.
+    state.source.onChange((change) => {
+      if (change === 'face') this.built = '';
+      this.build();
+    });
+    this.whatIf = menuOf(at('what-if'), words.whatIf, (sheet, close) => this.fillWhatIf(sheet, close));
+  }
+
+  private build(): void {
+    const faces = this.state.scene?.faces ?? [];
+    const built = JSON.stringify(faces.map(({ name }) => name));
+    if (built !== this.built) {
+      this.built = built;
+      for (const { sheet } of this.faceMenus) sheet.remove();
+      this.faceMenus = [];
+      at('tabs').replaceChildren(...faces.map(({ name }, i) => this.tab(name, i)));
+    }
+    this.show();
+  }
+
+  private tab(name: string, i: number): HTMLElement {
+    const tab = element('div', '', 'tab');
+    tab.style.setProperty('--face', faceColour(i));
+    const choose = button('', 'tab-name', () => chooseFace(this.state.shown, i));
+    choose.dataset.face = String(i);
+    choose.append(element('i'), i === 0 ? words.base : name);
+    tab.append(choose);
+    if (i === 0) return tab;
+    choose.addEventListener('dblclick', () => this.rename(tab, name, i));
+    const more = button('⋯', 'tab-more', () => {});
+    more.title = words.faceMenu(name);
+    more.setAttribute('aria-label', words.faceMenu(name));
+    tab.append(more);
+    this.faceMenus.push(menuOf(more, words.faceMenu(name), (sheet, close) => {
+      const entry = (text: string, act: () => void) => sheet.append(button(text, 'entry', () => {
+        close();
+        act();
+      }));
+      entry(words.rename, () => this.rename(tab, name, i));
+      entry(words.duplicate, () => this.try(() => this.edits.addFace(words.copyOf(name), i)));
+      entry(words.remove, () => this.try(() => this.remove(i)));
+    }));
+    return tab;
+  }
+
+  private show(): void {
+    const { shown } = this.state;
+    const two = shown.mode !== 'single';
+    for (const choose of at('tabs').querySelectorAll<HTMLButtonElement>('.tab-name')) {
+      const i = Number(choose.dataset.face);
+      choose.setAttribute('aria-pressed', String(i === this.state.edited));
+      choose.parentElement!.classList.toggle('chosen', i === this.state.edited);
+      choose.parentElement!.classList.toggle('beside', two && i === shown.first && i !== this.state.edited);
+    }
+  }
+
+  private rename(tab: HTMLElement, name: string, i: number): void {
+    const field = element('input', '', 'tab-rename');
+    Object.assign(field, { type: 'text', value: name, maxLength: 60 });
+    field.setAttribute('aria-label', words.renameTo);
+    let done = false;
+    const finish = (take: boolean) => {
+      if (done) return;
+      done = true;
+      this.built = '';
+      const next = field.value.trim();
+      if (take && next && next !== name) this.try(() => this.connection.ask('rename_variant', { face: i, name: next }));
+      this.build();
+    };
+    field.addEventListener('keydown', ({ key }) => {
+      if (key === 'Enter' || key === 'Escape') finish(key === 'Enter');
+    });
+    field.addEventListener('blur', () => finish(true));
+    tab.replaceChildren(element('i'), field);
+    field.focus();
+    field.select();
+  }
+
+  private async remove(i: number): Promise<void> {
+    await this.connection.ask('remove_variant', { face: i });
+    if (this.state.source.replay.faces.length > (this.state.scene?.faces.length ?? 0)) this.state.without(i);
+  }
+
+  private fillWhatIf(sheet: HTMLElement, close: () => void): void {
+    sheet.classList.add('what-if-sheet');
+    sheet.append(element('h3', words.weakerTitle), this.weaker(close));
+    sheet.append(element('h3', words.presetsTitle));
+    const list = element('div', '', 'entries');
+    for (const preset of this.presets) {
+      const entry = button('', 'entry', () => {
+        close();
+        this.try(() => this.edits.addFace(preset.name.replaceAll('_', ' '), this.state.edited, preset.name));
+      });
+      entry.append(element('b', preset.name.replaceAll('_', ' ')), element('small', preset.summary));
+      entry.title = words.presetSource(preset.source, preset.assumed);
+      entry.dataset.preset = preset.name;
+      list.append(entry);
+    }
+    sheet.append(list, element('h3', words.emptyTitle), button(words.emptyAdd, 'entry', () => {
+      close();
+      this.try(() => this.edits.addFace(words.newVariant, this.state.edited));
+    }));
+  }
+
+  /** The question that is asked most. */
+  private weaker(close: () => void): HTMLElement {
+    const form = element('form', '', 'weaker');
+    const side = element('select');
+    for (const name of ['R', 'L'] as const) side.add(new Option(words.sideNames[name], name));
+    const by = element('input');
+    Object.assign(by, { type: 'number', min: '0', max: '100', step: '5', value: '30', required: true });
+    const field = (text: string, control: HTMLElement, unit = '') => {
+      const label = element('label');
+      label.append(element('span', text), control, unit);
+      return label;
+    };
+    const add = element('button', words.weakerAdd, 'primary');
+    add.type = 'submit';
+    form.append(field(words.weakerSide, side), field(words.weakerBy, by, ' %'), add);
+    form.addEventListener('submit', (event) => {
+      event.preventDefault();
+      close();
+      const chosen = side.value as 'L' | 'R';
+      const percent = Number(by.value);
+      this.try(async () => {
+        const name = words.weakerName(words.sideNames[chosen], percent);
+        const face = await this.edits.addFace(name, 0);
+        await this.edits.change(face, { 'muscles.gain': { [`side_${chosen}`]: Number((1 - percent / 100).toFixed(3)) } });
+      });
+    });
+    return form;
+  }
+
+  /** What the server refuses is told beside the tabs. */
+  private try(act: () => Promise<unknown>): void {
+    const problem = at('tabs-problem');
+    problem.hidden = true;
+    act().catch((error: unknown) => {
+      if (!(error instanceof Refused)) return;
+      problem.textContent = error.message;
+      problem.hidden = false;
+    });
+  }
+}
