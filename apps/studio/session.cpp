@@ -9,6 +9,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/face/same_place.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
@@ -16,6 +17,7 @@
 #include "hyperex/scene/grammar/toml_values.hpp"
 #include "hyperex/scene/grammar/variant_presets.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/tissue/landmark_doubts.hpp"
 #include "scene_files.hpp"
 #include "server.hpp"
 
@@ -144,6 +146,10 @@ void Session::answer(const Request& request) {
       out = undo_or_redo(undo_, redo_);
     else if (name == "redo")
       out = undo_or_redo(redo_, undo_);
+    else if (name == "move_landmark")
+      out = move_landmark(fields);
+    else if (name == "landmarks_done")
+      out = landmarks_done();
     else if (name == "save")
       out = save(fields);
     else
@@ -228,6 +234,8 @@ void Session::open_text(const std::string& text, const fs::path& file) {
   auto next = std::make_unique<OpenFace>(text, file, options_.kept,
                                          [this](const std::string& stage) { tell(stage); });
   face_ = std::move(next);
+  scan_.reset();
+  moved_.clear();
   now_ = {text, file};
   undo_.clear();
   redo_.clear();
@@ -242,6 +250,8 @@ void Session::apply(const std::string& text) {
   auto next = std::make_unique<OpenFace>(text, face_->file(), options_.kept,
                                          [this](const std::string& stage) { tell(stage); });
   face_ = std::move(next);
+  scan_.reset();
+  moved_.clear();
   face_sent_ = false;
 }
 
@@ -350,6 +360,46 @@ json Session::undo_or_redo(std::vector<Step>& from, std::vector<Step>& to) {
   return json::object();
 }
 
+json Session::move_landmark(const json& fields) {
+  const io::Landmarks& known = need_face().inputs().landmarks;
+  const std::string name = fields.at("name");
+  if (!known.count(name)) throw InputError(name + ": no landmark of this face");
+  const io::Scan& scan = face_->inputs().scan;
+  if (!scan_) scan_.emplace(scan.mesh);
+  std::vector<std::string> names{name};
+  if (const std::string other = face::other_name(name); known.count(other)) names.push_back(other);
+  for (const std::string& one : names) moved_.erase(one);
+  if (fields.contains("position")) {
+    const json& at = fields.at("position");
+    const bool sound =
+        at.is_array() && at.size() == 3 && std::all_of(at.begin(), at.end(), [](const json& x) {
+          return x.is_number() && std::abs(x.get<double>()) < 1e3;
+        });
+    if (!sound) throw InputError("position: expected [x, y, z] in metres");
+    const Vec3 place(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
+    for (const std::string& one : names) moved_[one] = scan_->query(place).point;
+  }
+  io::Landmarks all = known;
+  for (const auto& [one, place] : moved_) all[one] = place;
+  const Vec3 now = all.at(name);
+  if (names.size() > 1) all.erase(names[1]);  // said once, by the name that was asked for
+  return {{"position", {now.x(), now.y(), now.z()}},
+          {"warnings", tissue::landmark_doubts(all, scan.mesh)}};
+}
+
+json Session::landmarks_done() {
+  io::Landmarks all = need_face().inputs().landmarks;
+  for (const auto& [name, place] : moved_) all[name] = place;
+  // A name of its own each time: undo goes back to the one before.
+  const fs::path file = options_.folder / fmt::format("landmarks-{}.mrk.json", ++landmark_files_);
+  io::write_landmarks(file, all, face_->inputs().scan.unit);
+  std::string text = scene::with_value(now_.text, "scan.landmarks", file.string());
+  text = scene::with_value(text, "scan.landmarks_unit", nullptr);
+  commit(text);
+  moved_.clear();
+  return json::object();
+}
+
 json Session::save(const json& fields) {
   need_face();
   const std::string what = fields.at("what"), name = fields.at("name");
@@ -427,9 +477,13 @@ void Session::work(const std::function<bool()>& cancelled) {
     head["seconds"] = watch.lap();
   } else {
     json landmarks = json::array();
+    const std::vector<std::string>& placed = face_->inputs().placed;
+    const fs::path& given = face_->scene().scan.landmarks;
     for (const auto& [name, place] : face_->inputs().landmarks)
       landmarks.push_back(
-          {{"name", name}, {"position", {place.x(), place.y(), place.z()}}, {"found", true}});
+          {{"name", name},
+           {"position", {place.x(), place.y(), place.z()}},
+           {"found", given.empty() || std::count(placed.begin(), placed.end(), name) > 0}});
     head["landmarks"] = landmarks;
     head["muscles"] = muscles_json(face_->scene().muscles.table());
   }

@@ -5,10 +5,13 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hyperex/core/kept_results.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/io/landmarks.hpp"
 #include "open_face.hpp"
 #include "protocol.hpp"
 
@@ -51,6 +54,8 @@ class Session {
   nlohmann::json remove_variant(const nlohmann::json& fields);
   nlohmann::json rename_variant(const nlohmann::json& fields);
   nlohmann::json undo_or_redo(std::vector<Step>& from, std::vector<Step>& to);
+  nlohmann::json move_landmark(const nlohmann::json& fields);
+  nlohmann::json landmarks_done();
   nlohmann::json save(const nlohmann::json& fields);
 
   OpenFace& need_face();
@@ -75,6 +80,9 @@ class Session {
   std::vector<Step> undo_, redo_;
   bool face_sent_ = false, motion_due_ = false, saved_ = true;
   std::vector<std::filesystem::path> written_;
+  std::optional<SurfaceTree> scan_;  ///< of the face that is open, once a landmark was moved
+  io::Landmarks moved_;              ///< since the last landmarks_done()
+  int landmark_files_ = 0;
 };
 
 }  // namespace hyperex::studio

@@ -197,6 +197,46 @@ TEST_F(StudioSession, WritesOverNothingThatItDidNotWrite) {
   EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "marks.mrk.json"));
 }
 
+TEST_F(StudioSession, MovesLandmarksOnTheSkinAndMakesTheFaceAnew) {
+  open();
+  const json& marks = event("face")->head["landmarks"];
+  const auto mark = std::find_if(marks.begin(), marks.end(),
+                                 [](const json& one) { return one["name"] == "ibug68_54"; });
+  ASSERT_NE(mark, marks.end());
+  std::vector<double> at = (*mark)["position"];
+  const std::vector<double> before = at;
+  at[0] += 0.002;
+  at[2] += 0.01;  // in the air before the face
+  json answer = ask("move_landmark", {{"name", "ibug68_54"}, {"position", at}});
+  EXPECT_EQ(answer["warnings"], json::array());
+  EXPECT_LT(std::abs(answer["position"][2].get<double>() - before[2]), 0.03) << "on the skin";
+  answer = ask("move_landmark",
+               {{"name", "ibug68_54"}, {"position", {before[0] - 0.04, before[1], before[2]}}});
+  ASSERT_FALSE(answer["warnings"].empty());
+  EXPECT_THAT(answer["warnings"][0].get<std::string>(), HasSubstr("ibug68_54"));
+  answer = ask("move_landmark", {{"name", "ibug68_54"}});
+  EXPECT_EQ(answer["position"].get<std::vector<double>>(), before);
+  EXPECT_THAT(ask("move_landmark", {{"name", "nose"}})["error"].get<std::string>(),
+              HasSubstr("no landmark"));
+  EXPECT_TRUE(
+      ask("move_landmark", {{"name", "ibug68_54"}, {"position", {1, 2}}}).contains("error"));
+  at[2] = before[2];
+  const std::vector<double> moved =
+      ask("move_landmark", {{"name", "ibug68_54"}, {"position", at}})["position"];
+  EXPECT_FALSE(ask("landmarks_done").contains("error"));
+  work();
+  ASSERT_NE(event("face"), nullptr);
+  const auto position = [&] {
+    for (const json& one : event("face")->head["landmarks"])
+      if (one["name"] == "ibug68_54") return one["position"].get<std::vector<double>>();
+    return std::vector<double>();
+  };
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(position()[k], moved[k], 1e-6);
+  ask("undo");
+  work();
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(position()[k], before[k], 1e-6);
+}
+
 TEST_F(StudioSession, AMotionIsBrokenOffForARequestAndBegunAgain) {
   open();
   set({{"tissue.young_kpa", 150}}, 0);
