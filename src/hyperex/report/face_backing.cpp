@@ -18,6 +18,7 @@ using Eigen::Index;
 
 struct Corners {
   std::array<std::optional<Vec3>, 2> outer, inner;  ///< of the eyes, right and left
+  Vec3 mouth_r, mouth_l;
   Vec3 forward;
 };
 
@@ -34,7 +35,8 @@ std::optional<Corners> corners_of(const io::Landmarks& landmarks) {
   const Vec3 x = (*outer_l - *outer_r).normalized();
   const Eigen::AngleAxisd lean(12 * std::numbers::pi / 180, x);
   const Vec3 up = lean * (*outer_l + *outer_r - *mouth_l - *mouth_r);
-  return Corners{{outer_r, outer_l}, {inner_r, inner_l}, x.cross(up).normalized()};
+  return Corners{
+      {outer_r, outer_l}, {inner_r, inner_l}, *mouth_r, *mouth_l, x.cross(up).normalized()};
 }
 
 double length_of(const std::vector<int>& loop, const Points& points) {
@@ -44,10 +46,28 @@ double length_of(const std::vector<int>& loop, const Points& points) {
   return sum;
 }
 
-/// Between the outer corners of the eyes, seen from the front: not where a scan is torn at its rim.
-bool in_the_face(const std::vector<int>& loop, const Points& points, const Corners& corners) {
+Vec3 centre_of(const std::vector<int>& loop, const Points& points) {
   Vec3 centre = Vec3::Zero();
   for (const int v : loop) centre += points.row(v).transpose() / double(loop.size());
+  return centre;
+}
+
+/// About the middle between the corners of the mouth, and as wide.
+bool is_mouth(const std::vector<int>& loop, const Points& points, const Corners& corners) {
+  const Vec3 across = corners.mouth_l - corners.mouth_r;
+  const Vec3 off = centre_of(loop, points) - (corners.mouth_l + corners.mouth_r) / 2;
+  double least = 0, most = 0;
+  for (const int v : loop) {
+    const double at = (points.row(v).transpose() - corners.mouth_r).dot(across);
+    least = v == loop.front() ? at : std::min(least, at);
+    most = v == loop.front() ? at : std::max(most, at);
+  }
+  return off.norm() < 0.4 * across.norm() && most - least > 0.6 * across.squaredNorm();
+}
+
+/// Between the outer corners of the eyes, seen from the front: not where a scan is torn at its rim.
+bool in_the_face(const std::vector<int>& loop, const Points& points, const Corners& corners) {
+  const Vec3 centre = centre_of(loop, points);
   const Vec3 across = *corners.outer[1] - *corners.outer[0];
   const double share = (centre - *corners.outer[0]).dot(across) / across.squaredNorm();
   return share > 0 && share < 1;
@@ -71,6 +91,11 @@ std::vector<Opening> openings_of(const TriMesh& skin, const Corners& corners) {
     // The edge of a lip is rolled in; the face's own direction keeps the pocket behind it.
     openings.push_back({loops[i], -(corners.forward + 0.5 * outward).normalized(),
                         std::min(0.03, 0.25 * length_m[i])});
+    if (is_mouth(loops[i], skin.points, corners)) {
+      // As deep as a row of teeth, and wide enough for it between the cheeks.
+      openings.back().depth_m = 0.5 * length_m[i];
+      openings.back().rings = {{{0.22, 1.35}, {0.95, 1.3}}};
+    }
   }
   return openings;
 }
@@ -127,6 +152,7 @@ FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks) {
   FaceBacking backing;
   const auto corners = corners_of(landmarks);
   if (!corners) return backing;
+  backing.forward = corners->forward;
   backing.openings = openings_of(skin, *corners);
   for (std::size_t side = 0; side < 2; ++side)
     if (corners->inner[0] && corners->inner[1])
@@ -135,10 +161,18 @@ FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks) {
   return backing;
 }
 
+Eigen::VectorXd light_in_mouth(const TriMesh& part, const TriMesh& row, const Vec3& forward) {
+  constexpr double dark_m = 0.035, least = 0.35;
+  if (part.points.rows() == 0 || row.points.rows() == 0)
+    return Eigen::VectorXd::Ones(part.points.rows());
+  const double front = (row.points * forward).maxCoeff();
+  const Eigen::ArrayXd behind = (front - (part.points * forward).array()) / dark_m;
+  return 1 - (1 - least) * behind.max(0).min(1);
+}
+
 TriMesh pocket(const Opening& opening, const Points& points) {
   const auto n = Index(opening.loop.size());
-  Vec3 centre = Vec3::Zero();
-  for (const int v : opening.loop) centre += points.row(v).transpose() / double(n);
+  const Vec3 centre = centre_of(opening.loop, points);
   TriMesh mesh;
   mesh.points.resize(3 * n + 1, 3);
   const auto ring = [&](Index which, double depth, double width) {
@@ -149,8 +183,8 @@ TriMesh pocket(const Opening& opening, const Points& points) {
     }
   };
   ring(0, 0, 1);
-  ring(1, 0.35, 1.05);
-  ring(2, 0.9, 0.8);
+  ring(1, opening.rings[0].depth, opening.rings[0].width);
+  ring(2, opening.rings[1].depth, opening.rings[1].width);
   mesh.points.row(3 * n) = (centre + opening.depth_m * opening.inward).transpose();
   mesh.triangles.resize(5 * n, 3);
   Index row = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
@@ -11,11 +12,18 @@ namespace hyperex::report {
 // mask: dark pockets behind mouth, eyes and nostrils, and plain eyeballs. For the eye alone: no
 // part of the model, and of no figure.
 
+/// A ring of a pocket as shares: of the pocket's depth, and of the width of the hole's edge.
+struct PocketRing {
+  double depth, width;
+};
+
 /// A hole of the skin. Its pocket hangs on its edge and goes along with the skin.
 struct Opening {
   std::vector<int> loop;  ///< vertices of the skin around it, in the direction of its triangles
   Vec3 inward;            ///< unit length, into the head
   double depth_m = 0;
+  /// Behind the edge. That of the mouth widens behind the lips, to hold the teeth.
+  std::array<PocketRing, 2> rings = {{{0.35, 1.05}, {0.9, 0.8}}};
 };
 
 /// A sphere that looks along `gaze` (unit length).
@@ -27,6 +35,7 @@ struct Eyeball {
 struct FaceBacking {
   std::vector<Opening> openings;
   std::vector<Eyeball> eyeballs;  ///< right and left; none where landmarks are missing
+  Vec3 forward = Vec3::Zero();    ///< out of the face, unit length; 0 where landmarks are missing
 };
 
 /// `skin`: at rest, metres. `landmarks`: positions on it, the iBUG points or their anatomical
@@ -37,6 +46,10 @@ struct FaceBacking {
 /// opening of some 30 mm). It lies as far forward as lets no vertex of the lids into it: at most a
 /// sixth of that distance before the line between the corners, at least 8 mm behind that place.
 FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks);
+
+/// How much of the light that falls on the lips reaches vertices of teeth and gum behind them, 0 to
+/// 1: all of it in front, 0.35 from 35 mm behind there on. `row`: the jaw's, for what is in front.
+Eigen::VectorXd light_in_mouth(const TriMesh& part, const TriMesh& row, const Vec3& forward);
 
 /// The pocket of an opening for vertices at `points`: two rings behind the edge and a point.
 TriMesh pocket(const Opening& opening, const Points& points);

@@ -9,6 +9,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/report/gltf_parts.hpp"
+#include "hyperex/report/jaw_turns.hpp"
 #include "hyperex/report/skin_view.hpp"
 
 namespace hyperex::report {
@@ -52,10 +53,65 @@ int add_texture(tinygltf::Model& model, GltfArrays& arrays, const io::Image& pic
   return 0;
 }
 
-void check(const reenact::Performance& performance) {
+tinygltf::Material plain_material(const char* name, std::vector<double> colour, double roughness) {
+  tinygltf::Material material;
+  material.name = name;
+  material.pbrMetallicRoughness.metallicFactor = 0;
+  material.pbrMetallicRoughness.roughnessFactor = roughness;
+  material.pbrMetallicRoughness.baseColorFactor = std::move(colour);
+  return material;
+}
+
+/// Adds a node with crowns and gum of one jaw; its number, -1 where there are none.
+int add_teeth(tinygltf::Model& model, GltfArrays& arrays, const tissue::JawTeeth& jaw,
+              const std::string& name, int first_material) {
+  tinygltf::Mesh mesh;
+  mesh.name = name;
+  for (const TriMesh* part : {&jaw.crowns, &jaw.gum}) {
+    if (part->triangles.rows() == 0) continue;
+    const PointsF points = part->points.cast<float>();
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.attributes["POSITION"] = arrays.vectors(points, true);
+    primitive.attributes["NORMAL"] = arrays.vectors(vertex_normals(points, part->triangles), false);
+    primitive.indices = arrays.triangles(part->triangles);
+    primitive.material = first_material + (part == &jaw.gum ? 1 : 0);
+    mesh.primitives.push_back(std::move(primitive));
+  }
+  if (mesh.primitives.empty()) return -1;
+  model.meshes.push_back(std::move(mesh));
+  tinygltf::Node node;
+  node.name = name;
+  node.mesh = static_cast<int>(model.meshes.size()) - 1;
+  model.nodes.push_back(node);
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+/// Rotation and translation of a node as the jaw's in each frame.
+void animate_jaw(tinygltf::Model& model, GltfArrays& arrays, int node,
+                 const reenact::Performance& performance, tinygltf::Animation& animation) {
+  const auto frames = static_cast<Index>(performance.jaw_now_from_rest.size());
+  Eigen::MatrixXf turns(frames, 4), shifts(frames, 3);
+  Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
+  for (Index f = 0; f < frames; ++f) {
+    const Eigen::Isometry3d& jaw = performance.jaw_now_from_rest[std::size_t(f)];
+    before = near_to(before, jaw.linear());
+    turns.row(f) = before.coeffs().cast<float>().transpose();  // x y z w
+    shifts.row(f) = jaw.translation().cast<float>().transpose();
+  }
+  const int times = arrays.times(performance.frame_time_s, performance.frame_time_s.front());
+  animate(animation, node, "rotation", times, arrays.rows_as_vectors(turns));
+  animate(animation, node, "translation", times, arrays.rows_as_vectors(shifts));
+  for (int k = 0; k < 4; ++k) model.nodes[std::size_t(node)].rotation.push_back(turns(0, k));
+  for (int k = 0; k < 3; ++k) model.nodes[std::size_t(node)].translation.push_back(shifts(0, k));
+}
+
+void check(const reenact::Performance& performance, const GlbOptions& options) {
   bool whole = performance.skin_displacement_m.size() == performance.frame_time_s.size();
   for (const PointsF& frame : performance.skin_displacement_m)
     whole = whole && frame.rows() == performance.skin_rest.points.rows();
+  if (options.teeth)
+    whole = whole && performance.jaw_now_from_rest.size() == performance.frame_time_s.size();
   if (!whole) throw std::invalid_argument("write_glb: frames that are not the performance's");
 }
 
@@ -87,6 +143,18 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
   skin.material = 0;
   model.materials.push_back(skin_material(texture >= 0 || colours >= 0, texture));
 
+  model.nodes.emplace_back();
+  model.nodes[0].name = "face";
+  model.nodes[0].mesh = 0;
+  model.meshes.emplace_back();
+  int lower_teeth = -1;
+  if (options.teeth) {  // before the poses, which fill what the others leave of the file
+    model.materials.push_back(plain_material("teeth", {0.82, 0.74, 0.58, 1}, 0.35));
+    model.materials.push_back(plain_material("gum", {0.48, 0.11, 0.11, 1}, 0.45));
+    add_teeth(model, arrays, options.teeth->upper, "upper_teeth", 1);
+    lower_teeth = add_teeth(model, arrays, options.teeth->lower, "lower_teeth", 1);
+  }
+
   tinygltf::Mesh mesh;
   mesh.name = "skin";
   mesh.primitives.push_back(skin);
@@ -106,15 +174,12 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
     const double start_s = performance.frame_time_s.front();
     const int times = arrays.times(performance.frame_time_s, start_s);
     animate(animation, 0, "weights", times, arrays.rows_as_scalars(targets.keys.weights));
+    if (lower_teeth >= 0) animate_jaw(model, arrays, lower_teeth, performance, animation);
     model.animations.push_back(animation);
   }
-  model.meshes.push_back(mesh);
-  tinygltf::Node node;
-  node.name = "face";
-  node.mesh = 0;
-  model.nodes.push_back(node);
+  model.meshes[0] = std::move(mesh);
   tinygltf::Scene scene;
-  scene.nodes.push_back(0);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) scene.nodes.push_back(int(n));
   model.scenes.push_back(scene);
   model.defaultScene = 0;
   return model;
@@ -124,7 +189,7 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
 
 GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options) {
-  check(performance);
+  check(performance, options);
   GlbReport report;
   const tinygltf::Model model = model_of(performance, scan, options, report);
   write_file_atomically(file, [&](std::ostream& stream) {

@@ -4,12 +4,14 @@
 
 #include "hyperex/io/scan.hpp"
 #include "hyperex/reenact/performance.hpp"
+#include "hyperex/tissue/teeth/teeth.hpp"
 
 namespace hyperex::report {
 
 struct GlbOptions {
-  double tolerance_m = 1e-4;  ///< of any vertex in any frame
-  double max_bytes = 20e6;    ///< of the file
+  double tolerance_m = 1e-4;             ///< of any vertex in any frame
+  double max_bytes = 20e6;               ///< of the file
+  const tissue::Teeth* teeth = nullptr;  ///< at rest, scan frame; null: none
 };
 
 /// What was written.
@@ -25,7 +27,9 @@ struct GlbReport {
 /// options.tolerance_m allows; where they would take more than options.max_bytes fewer, and the
 /// report tells the error that remains, but always one. Normals move too. With the scan's texture
 /// (vertices split at seams, the skin's order kept by extras.skin_vertices otherwise) or its vertex
-/// colours, else a plain skin tone. A performance without motion is written as a still mesh. Throws
+/// colours, else a plain skin tone. A performance without motion is written as a still mesh. Teeth
+/// are nodes of their own, upper_teeth and lower_teeth; the lower ones move by rotation and
+/// translation, as performance.jaw_now_from_rest has them. Throws
 /// InputError where the file cannot be written, std::invalid_argument where the performance and the
 /// scan do not belong together.
 GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,

@@ -10,6 +10,7 @@
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/reenact/muscle_load.hpp"
 #include "hyperex/report/face_backing.hpp"
+#include "hyperex/report/jaw_turns.hpp"
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
 #include "hyperex/report/skin_view.hpp"
@@ -225,8 +226,67 @@ json triple(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// "openings" and "eyeballs" of the skin at rest.
-void add_backing(const reenact::Performance& performance, BinaryBlock& block, json& manifest) {
+/// {"points": ..., "triangles": ...} of a mesh that does not change its shape: points in steps of a
+/// 32767th of its extent, from a middle.
+json rigid_mesh(const TriMesh& mesh, BinaryBlock& block) {
+  const Vec3 low = mesh.points.colwise().minCoeff(), high = mesh.points.colwise().maxCoeff();
+  const Vec3 middle = (low + high) / 2;
+  const PointsF about = (mesh.points.rowwise() - middle.transpose()).cast<float>();
+  const bool few = mesh.points.rows() <= std::numeric_limits<std::int16_t>::max();
+  json out = {
+      {"middle", triple(middle)},
+      {"points", quantised<std::int16_t>(about, about.cwiseAbs().maxCoeff(), "int16", block)}};
+  if (few) {
+    std::vector<std::int16_t> corners(mesh.triangles.data(),
+                                      mesh.triangles.data() + mesh.triangles.size());
+    out["triangles"] = block.add(corners);
+  } else {
+    out["triangles"] =
+        block.add("int32", mesh.triangles.data(), std::size_t(mesh.triangles.size()));
+  }
+  return out;
+}
+
+/// A list of {"jaw": "upper" or "lower", "part": "crowns" or "gum"} with their meshes and the
+/// light on each vertex, a byte.
+json teeth_section(const tissue::Teeth& teeth, const Vec3& forward, BinaryBlock& block) {
+  json section = json::array();
+  const auto add = [&](const char* jaw, const char* part, const TriMesh& mesh,
+                       const TriMesh& crowns) {
+    if (mesh.triangles.rows() == 0) return;
+    json one = rigid_mesh(mesh, block);
+    const Eigen::VectorXd light = light_in_mouth(mesh, crowns, forward);
+    std::vector<std::uint8_t> bytes;
+    for (const double share : light)
+      bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * share)));
+    one["light"] = block.add(bytes);
+    one["jaw"] = jaw;
+    one["part"] = part;
+    section.push_back(std::move(one));
+  };
+  add("upper", "crowns", teeth.upper.crowns, teeth.upper.crowns);
+  add("upper", "gum", teeth.upper.gum, teeth.upper.crowns);
+  add("lower", "crowns", teeth.lower.crowns, teeth.lower.crowns);
+  add("lower", "gum", teeth.lower.gum, teeth.lower.crowns);
+  return section;
+}
+
+/// Frames x 7: a quaternion x y z w and a translation, now_from_rest.
+json jaw_section(const reenact::Performance& performance, BinaryBlock& block) {
+  std::vector<float> values;
+  Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
+  for (const Eigen::Isometry3d& jaw : performance.jaw_now_from_rest) {
+    const Eigen::Quaterniond turn = near_to(before, jaw.linear());
+    before = turn;
+    for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()})
+      values.push_back(static_cast<float>(value));
+    for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(jaw.translation()[k]));
+  }
+  return block.add(values);
+}
+
+/// "openings" and "eyeballs" of the skin at rest. Returns what is forward in it.
+Vec3 add_backing(const reenact::Performance& performance, BinaryBlock& block, json& manifest) {
   std::map<std::string, Vec3> landmarks;
   const motion::Motion& tracks = performance.landmarks;
   if (!tracks.positions.empty())
@@ -237,12 +297,16 @@ void add_backing(const reenact::Performance& performance, BinaryBlock& block, js
   for (const Opening& opening : backing.openings)
     manifest["openings"].push_back({{"loop", block.add(opening.loop)},
                                     {"inward", triple(opening.inward)},
-                                    {"depth_m", opening.depth_m}});
+                                    {"depth_m", opening.depth_m},
+                                    {"rings",
+                                     {{opening.rings[0].depth, opening.rings[0].width},
+                                      {opening.rings[1].depth, opening.rings[1].width}}}});
   manifest["eyeballs"] = json::array();
   for (const Eyeball& eyeball : backing.eyeballs)
     manifest["eyeballs"].push_back({{"centre", triple(eyeball.centre)},
                                     {"gaze", triple(eyeball.gaze)},
                                     {"radius_m", eyeball.radius_m}});
+  return backing.forward;
 }
 
 /// What people call each point that the page names: landmarks, and pairs of the excursions.
@@ -287,10 +351,16 @@ json manifest_of(const ReportInput& input, BinaryBlock& block, bool face) {
                    {"tissue", tissue_section(input.tissue, block)},
                    {"variants", variants_section(input, block)}};
   if (!performance.muscles.names.empty()) manifest["muscles"] = muscle_section(input);
+  if (input.teeth) {
+    manifest["motion"]["jaw"] = jaw_section(performance, block);
+    for (std::size_t i = 0; i < input.variants.size(); ++i)
+      manifest["variants"][i]["jaw"] = jaw_section(input.variants[i].performance, block);
+  }
   if (!face) return manifest;
   manifest["skin"] = skin_section(input, block);
-  add_backing(performance, block, manifest);
+  const Vec3 forward = add_backing(performance, block, manifest);
   if (input.mirror) manifest["mirror"] = mirror_section(*input.mirror, block);
+  if (input.teeth) manifest["teeth"] = teeth_section(*input.teeth, forward, block);
   return manifest;
 }
 
@@ -302,6 +372,7 @@ void check(const ReportInput& input) {
     return of.skin_displacement_m.size() == frames &&
            static_cast<std::size_t>(modes.weights.rows()) == frames &&
            (modes.modes.empty() || modes.modes[0].rows() == vertices) &&
+           (!input.teeth || of.jaw_now_from_rest.size() == frames) &&
            of.landmarks.names == performance.landmarks.names &&
            of.landmarks.time_s.size() == performance.landmarks.time_s.size();
   };

@@ -11,6 +11,7 @@
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/page_data.hpp"
+#include "hyperex/tissue/teeth/teeth.hpp"
 
 namespace hyperex::report {
 
@@ -59,10 +60,12 @@ struct ReportInput {
   /// Where each vertex has its counterpart on the other side; no asymmetry is shown where null.
   const metrics::RestAsymmetry* mirror = nullptr;
   std::vector<ReportMuscle> muscles = {};  ///< where performance.muscles drive
+  const tissue::Teeth* teeth = nullptr;    ///< at rest, scan frame; null: none
 };
 
 /// What the page reads, its arrays in `block`: all of it, or without `face`, the parts that stay
-/// the same however the face moves (skin, mirror, openings, eyeballs). Throws as write_html_report.
+/// the same however the face moves (skin, mirror, openings, eyeballs, teeth). Throws as
+/// write_html_report.
 nlohmann::json replay_manifest(const ReportInput& input, BinaryBlock& block, bool face = true);
 
 /// Writes one HTML file that replays the performance in a browser without any network: the page

@@ -32,6 +32,12 @@ TEST(FaceBacking, FindsEyesAndMouthOfTheEmbeddedFaceAndNotItsBorder) {
   for (const Opening& opening : backing.openings) {
     EXPECT_NEAR(opening.inward.norm(), 1, 1e-12);
     EXPECT_LT(opening.inward.z(), -0.8) << "+z looks forward";
+    // The mouth's pocket alone widens, for the teeth.
+    Vec3 centre = Vec3::Zero();
+    for (const int v : opening.loop)
+      centre += face.mesh.points.row(v).transpose() / double(opening.loop.size());
+    EXPECT_EQ(opening.rings[0].width > 1.2, centre.y() < face.landmarks.at("ibug68_33").y());
+    EXPECT_EQ(opening.depth_m > 0.035, centre.y() < face.landmarks.at("ibug68_33").y());
   }
 }
 
@@ -78,10 +84,22 @@ TEST(FaceBacking, APocketIsClosedButForItsEdgeAndLiesBehindIt) {
   for (Eigen::Index i = 0; i < n; ++i) {
     EXPECT_EQ(mesh.points.row(i), moved.row(opening.loop[std::size_t(i)])) << "hangs on the edge";
     EXPECT_GT((mesh.points.row(n + i) - mesh.points.row(i)).dot(opening.inward),
-              0.2 * opening.depth_m);
+              0.15 * opening.depth_m);
   }
   landmarks.erase("cheilion_L");
   EXPECT_TRUE(face_backing(skin, landmarks).openings.empty());
+}
+
+TEST(FaceBacking, LightFallsOffBehindTheLips) {
+  TriMesh row;
+  row.points.resize(3, 3);
+  row.points << 0, 0, 0.05, 0.01, 0, 0.0325, 0.02, 0, -0.1;
+  const Eigen::VectorXd light = light_in_mouth(row, row, Vec3::UnitZ());
+  EXPECT_DOUBLE_EQ(light[0], 1);
+  EXPECT_NEAR(light[1], 0.675, 1e-12);
+  EXPECT_DOUBLE_EQ(light[2], 0.35);
+  EXPECT_EQ(light_in_mouth(TriMesh{}, row, Vec3::UnitZ()).size(), 0);
+  EXPECT_EQ(light_in_mouth(row, TriMesh{}, Vec3::UnitZ()).minCoeff(), 1);
 }
 
 TEST(FaceBacking, AnEyeballsPartsLieOnItsSphereAndCoverIt) {

@@ -174,6 +174,49 @@ TEST(Glb, KeepsVertexColoursAlsoOnTheCut) {
   EXPECT_TRUE(colour.row(face.performance.scan_vertices + 2) == colour.row(cut));
 }
 
+TEST(Glb, TeethAreNodesOfWhichTheLowerMoveWithTheJaw) {
+  const auto face = made_up_face(Surface::plain);
+  const auto teeth = testing::made_up_teeth();
+  const auto file = scratch("teeth.glb");
+  const GlbReport with = write_glb(file, face.performance, face.scan, {.teeth = &teeth});
+  const auto model = read_back(file);
+  ASSERT_EQ(model.nodes.size(), 3u);
+  EXPECT_EQ(model.scenes[0].nodes.size(), 3u);
+  EXPECT_EQ(model.nodes[0].name, "face");
+  EXPECT_EQ(model.nodes[1].name, "upper_teeth");
+  EXPECT_EQ(model.nodes[2].name, "lower_teeth");
+  const auto& lower = model.meshes[std::size_t(model.nodes[2].mesh)];
+  ASSERT_EQ(lower.primitives.size(), 2u) << "crowns and gum";
+  EXPECT_EQ(model.materials[std::size_t(lower.primitives[0].material)].name, "teeth");
+  EXPECT_EQ(model.materials[std::size_t(lower.primitives[1].material)].name, "gum");
+  const auto crowns = rows_of<float, 3>(model, lower.primitives[0].attributes.at("POSITION"));
+  EXPECT_EQ(crowns, teeth.lower.crowns.points.cast<float>());
+  int moving = 0;
+  for (const auto& channel : model.animations.at(0).channels) {
+    if (channel.target_node == 0) continue;
+    ++moving;
+    ASSERT_EQ(channel.target_node, 2) << "the upper teeth stand";
+    const auto& sampler = model.animations[0].samplers[std::size_t(channel.sampler)];
+    for (const int f : {0, 7, 15}) {
+      const Eigen::Isometry3d& jaw = face.performance.jaw_now_from_rest[std::size_t(f)];
+      if (channel.target_path == "rotation") {
+        const auto turns = rows_of<float, 4>(model, sampler.output);
+        ASSERT_EQ(turns.rows(), 31);
+        const Eigen::Quaternionf turn(turns(f, 3), turns(f, 0), turns(f, 1), turns(f, 2));
+        EXPECT_LT((turn.toRotationMatrix() - jaw.linear().cast<float>()).norm(), 1e-6) << f;
+      } else {
+        EXPECT_EQ(channel.target_path, "translation");
+        const Eigen::RowVector3f shift = rows_of<float, 3>(model, sampler.output).row(f);
+        EXPECT_LT((shift.transpose() - jaw.translation().cast<float>()).norm(), 1e-7) << f;
+      }
+    }
+  }
+  EXPECT_EQ(moving, 2);
+  const GlbReport without = write_glb(scratch("no_teeth.glb"), face.performance, face.scan);
+  EXPECT_EQ(with.keys, without.keys);
+  EXPECT_GT(with.bytes, without.bytes + 1e5);
+}
+
 TEST(Glb, StillSkinHasNoAnimation) {
   auto face = made_up_face(Surface::plain);
   for (auto& frame : face.performance.skin_displacement_m) frame.setZero();

@@ -189,6 +189,53 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   EXPECT_EQ(manifest().at("muscles").at("few_points"), false);
 }
 
+TEST(HtmlReport, HoldsTeethAndTheJawsPlaces) {
+  const auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const auto teeth = testing::made_up_teeth();
+  const auto variant = made_up_variant(face, 0);
+  ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  input.tissue = testing::made_up_tissue(face);
+  input.variants.push_back(reported(face, variant));
+  input.teeth = &teeth;
+  const auto file = test_file("report_teeth_test.html");
+  write_html_report(file, input);
+  const std::string page = read_file(file);
+  const json manifest = json::parse(element(page, "hyperex-manifest"));
+  const auto bytes = from_base64(element(page, "hyperex-binary"));
+  ASSERT_EQ(manifest.at("teeth").size(), 4u);
+  const json& row = manifest["teeth"][2];
+  EXPECT_EQ(row.at("jaw"), "lower");
+  EXPECT_EQ(row.at("part"), "crowns");
+  const auto steps = stretch<std::int16_t>(bytes, row.at("points").at("values"));
+  const Points& points = teeth.lower.crowns.points;
+  ASSERT_EQ(steps.size(), std::size_t(points.size()));
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    EXPECT_NEAR(
+        row["middle"][i % 3].get<double>() + row["points"]["step_m"].get<double>() * steps[i],
+        points.data()[i], 1e-6);
+  const auto corners = stretch<std::int16_t>(bytes, row.at("triangles"));
+  EXPECT_TRUE(std::equal(corners.begin(), corners.end(), teeth.lower.crowns.triangles.data(),
+                         teeth.lower.crowns.triangles.data() + corners.size()));
+  for (const json* jaw : {&manifest["motion"]["jaw"], &manifest["variants"][0]["jaw"]}) {
+    const auto values = stretch<float>(bytes, *jaw);
+    ASSERT_EQ(values.size(), 31u * 7);
+    const float* peak = values.data() + 7 * 15;
+    const Eigen::Quaternionf turn(peak[3], peak[0], peak[1], peak[2]);
+    const Eigen::Isometry3d& wanted = face.performance.jaw_now_from_rest[15];
+    EXPECT_LT((turn.toRotationMatrix() - wanted.linear().cast<float>()).norm(), 1e-6);
+    EXPECT_NEAR(peak[6], wanted.translation().z(), 1e-7);
+  }
+  const json without = json::parse(element(written(face, modes), "hyperex-manifest"));
+  EXPECT_FALSE(without.contains("teeth"));
+  EXPECT_FALSE(without.at("motion").contains("jaw"));
+  auto torn = face.performance;
+  torn.jaw_now_from_rest.pop_back();
+  ReportInput bad{torn, face.scan, modes, &face.symmetry};
+  bad.teeth = &teeth;
+  EXPECT_THROW(write_html_report(file, bad), std::invalid_argument);
+}
+
 TEST(HtmlReport, CarriesPictureAndColours) {
   const auto textured = made_up_face(Surface::textured);
   auto modes = displacement_modes(textured.performance.skin_displacement_m);

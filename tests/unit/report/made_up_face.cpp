@@ -13,6 +13,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "hyperex/tissue/teeth/dental_arch.hpp"
+
 namespace hyperex::report::testing {
 namespace {
 
@@ -84,6 +86,11 @@ void move_skin(int side, int frames, reenact::Performance& out) {
       const bool jaw = p.y() < cut_y - 1e-9 || v >= out.scan_vertices;
       displacement.row(v) = displaced(p, jaw, phase).cast<float>();
     }
+    const Vec3 hinge(0, 0.02, -0.05);
+    Eigen::Isometry3d jaw_now = Eigen::Isometry3d::Identity();
+    jaw_now.linear() = Eigen::AngleAxisd(0.25 * phase, Vec3::UnitX()).toRotationMatrix();
+    jaw_now.translation() = hinge - jaw_now.linear() * hinge;
+    out.jaw_now_from_rest.push_back(jaw_now);
     out.frame_time_s.push_back(t);
     out.skin_displacement_m.push_back(displacement);
   }
@@ -177,6 +184,14 @@ MadeUpFace made_up_face(Surface surface, int side, int frames) {
     face.symmetry.noise.push_back(0.002 + 0.002 * t);
   }
   return face;
+}
+
+tissue::Teeth made_up_teeth() {
+  tissue::Teeth teeth = tissue::dental_arches();
+  for (tissue::JawTeeth* jaw : {&teeth.upper, &teeth.lower})
+    for (TriMesh* part : {&jaw->crowns, &jaw->gum})
+      part->points.rowwise() += Eigen::RowVector3d(0, -0.037, 0.045);
+  return teeth;
 }
 
 std::vector<TissueMap> made_up_tissue(const MadeUpFace& face) {

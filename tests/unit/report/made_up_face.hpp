@@ -7,6 +7,7 @@
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/report/html_report.hpp"
+#include "hyperex/tissue/teeth/teeth.hpp"
 
 namespace hyperex::report::testing {
 
@@ -20,6 +21,9 @@ struct MadeUpFace {
   metrics::SymmetryCurve symmetry;
 };
 MadeUpFace made_up_face(Surface surface, int side = 41, int frames = 31);
+
+/// Average teeth behind the cut, the lower ones to be moved by performance.jaw_now_from_rest.
+tissue::Teeth made_up_teeth();
 
 /// The face with other tissue: 0 moves less on its right side, 1 less on its left, 2 half as much
 /// and wider, 3 somewhat more, 4 as the face itself. Young's modulus differs in 0 and 1.

@@ -75,21 +75,20 @@ int main(int argc, char** argv) {
                                       {"textured", Surface::textured}}) {
     const auto face = testing::made_up_face(surface);
     const auto modes = displacement_modes(face.performance.skin_displacement_m);
-    write_glb(folder / (std::string(name) + ".glb"), face.performance, face.scan);
+    const auto teeth = testing::made_up_teeth();
+    const auto* shown = surface == Surface::coloured ? &teeth : nullptr;
+    write_glb(folder / (std::string(name) + ".glb"), face.performance, face.scan, {.teeth = shown});
     const nlohmann::json summary = {
         {"title", "made-up face"},
         {"dt_s", 0.002},
         {"frames", face.performance.frame_time_s.size()},
         {"seconds", {{"mesh", 1.25}, {"simulate", 12.5}}},
         {"mesh_quality", {{"dihedral_deg", {{"least", 8.1}, {"most", 163.2}}}}}};
-    write_html_report(folder / (std::string(name) + ".html"),
-                      {face.performance,
-                       face.scan,
-                       modes,
-                       &face.symmetry,
-                       summary,
-                       {"The lips of the scan were joined and were cut along the line shown."},
-                       std::string("A made-up face, ") + name});
+    ReportInput input{face.performance, face.scan, modes, &face.symmetry, summary};
+    input.notes = {"The lips of the scan were joined and were cut along the line shown."};
+    input.title = std::string("A made-up face, ") + name;
+    input.teeth = shown;
+    write_html_report(folder / (std::string(name) + ".html"), input);
   }
   for (const auto& [name, frames, with_depth] :
        {std::tuple{"tracking", 2000, true}, std::tuple{"tracking_colour_only", 90, false}})

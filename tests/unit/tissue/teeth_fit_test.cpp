@@ -72,12 +72,17 @@ TEST(FitTeeth, StandsUprightInTheMiddle) {
   const Points lower = frame.local_points(fit.teeth.lower.crowns.points);
   EXPECT_NEAR(upper.col(0).maxCoeff() + upper.col(0).minCoeff(), 0, 0.002);
   EXPECT_GT(upper.col(1).mean(), lower.col(1).mean() + 0.004);
-  // The upper incisors' edges: 2.5 mm below the upper lip's.
+  // The upper incisors' edges: 3 mm below the upper lip's; the lower ones' above the lower lip's.
   double edge = 1;
   for (Eigen::Index f = 0; f < fit.teeth.upper.crowns.triangles.rows(); ++f)
     if (fit.teeth.upper.tooth[std::size_t(f)] == 11)
       edge = std::min(edge, upper(fit.teeth.upper.crowns.triangles(f, 0), 1));
-  EXPECT_NEAR(edge, frame.local(landmarks.at(face::ibug(62))).y() - 0.0025, 6e-4);
+  EXPECT_NEAR(edge, frame.local(landmarks.at(face::ibug(62))).y() - 0.003, 6e-4);
+  double lower_edge = -1;
+  for (Eigen::Index f = 0; f < fit.teeth.lower.crowns.triangles.rows(); ++f)
+    if (fit.teeth.lower.tooth[std::size_t(f)] == 31)
+      lower_edge = std::max(lower_edge, lower(fit.teeth.lower.crowns.triangles(f, 0), 1));
+  EXPECT_NEAR(lower_edge, frame.local(landmarks.at(face::ibug(66))).y() + 0.0005, 1e-3);
 }
 
 TEST(FitTeeth, FollowsTheFace) {

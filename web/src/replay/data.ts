@@ -37,6 +37,8 @@ export interface Face {
   tissue: TissueMap[];
   /** Activations over time, as in `Muscles.groups`; [] where not known. */
   muscles: { left: number[]; right: number[] }[];
+  /** Frames x 7: the jaw's quaternion x y z w and its translation since rest; null without teeth. */
+  jaw: Float32Array | null;
 }
 
 export interface MuscleGroup {
@@ -80,8 +82,10 @@ export interface Replay {
    *  their weights of about 255 in all. */
   mirror: { normal: Vec3; vertices: Int32Array; weights: Uint8Array } | null;
   /** Holes of the skin: vertices around each, and the way into the head. */
-  openings: { loop: Int32Array; inward: Vec3; depthM: number }[];
+  openings: { loop: Int32Array; inward: Vec3; depthM: number; rings: [number, number][] }[];
   eyeballs: { centre: Vec3; gaze: Vec3; radiusM: number }[];
+  /** At rest. */
+  teeth: { jaw: 'upper' | 'lower'; part: 'crowns' | 'gum'; points: Float32Array; triangles: Uint32Array; light: Uint8Array }[];
   muscles: Muscles | null;
   /** Base first, then its variants in their order. */
   faces: Face[];
@@ -104,6 +108,18 @@ const musclesOf = ({ time_s, few_points, groups, lines }: MuscleData): Muscles =
   lines,
 });
 
+function teethOf(row: NonNullable<Manifest['teeth']>[number], block: Block): Replay['teeth'][number] {
+  const { jaw, part, middle, points } = row;
+  const corners = row.triangles.type === 'int16' ? block.int16(row.triangles) : block.int32(row.triangles);
+  return {
+    jaw,
+    part,
+    points: Float32Array.from(stepsOf(points.values, block), (step, i) => middle[i % 3] + points.step_m * step),
+    triangles: new Uint32Array(corners),
+    light: block.uint8(row.light),
+  };
+}
+
 function facesOf(manifest: MovingManifest, block: Block): Face[] {
   const itself: Face = {
     name: 'base',
@@ -115,6 +131,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     landmarkPositions: block.float32(manifest.landmarks.positions),
     tissue: tissueOf(manifest.tissue, block),
     muscles: manifest.muscles?.groups ?? [],
+    jaw: manifest.motion.jaw ? block.float32(manifest.motion.jaw) : null,
   };
   const variants = (manifest.variants ?? []).map((variant) => ({
     name: variant.name,
@@ -130,17 +147,19 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     landmarkPositions: block.float32(variant.landmarks),
     tissue: tissueOf(variant.tissue, block),
     muscles: variant.muscles ?? [],
+    jaw: variant.jaw ? block.float32(variant.jaw) : null,
   }));
   return [itself, ...variants];
 }
 
 /** What of a replay stands still: the skin, and what is part of it. */
-type StillPart = 'scanVertices' | 'points' | 'triangles' | 'colour' | 'texture' | 'mirror' | 'openings' | 'eyeballs';
+type StillPart = 'scanVertices' | 'points' | 'triangles' | 'colour' | 'texture' | 'mirror' | 'openings' | 'eyeballs' | 'teeth';
 export type Moving = Omit<Replay, StillPart>;
 /** What a manifest must have for `movingOf`. */
-export type MovingManifest = Omit<Manifest, 'version' | 'scan_vertices' | 'skin' | 'mirror' | 'openings' | 'eyeballs'>;
+export type MovingManifest = Omit<Manifest, 'version' | 'scan_vertices' | 'skin' | 'mirror' | 'openings' | 'eyeballs' | 'teeth'>;
 
-function stillOf(manifest: Manifest, { float32, int32, uint8 }: Block): Pick<Replay, StillPart> {
+function stillOf(manifest: Manifest, block: Block): Pick<Replay, StillPart> {
+  const { float32, int32, uint8 } = block;
   const { skin } = manifest;
   return {
     scanVertices: manifest.scan_vertices,
@@ -162,8 +181,9 @@ function stillOf(manifest: Manifest, { float32, int32, uint8 }: Block): Pick<Rep
           weights: uint8(manifest.mirror.weights),
         }
       : null,
-    openings: manifest.openings.map(({ loop, inward, depth_m }) => ({ loop: int32(loop), inward, depthM: depth_m })),
+    openings: manifest.openings.map(({ loop, inward, depth_m, rings }) => ({ loop: int32(loop), inward, depthM: depth_m, rings })),
     eyeballs: manifest.eyeballs.map(({ centre, gaze, radius_m }) => ({ centre, gaze, radiusM: radius_m })),
+    teeth: (manifest.teeth ?? []).map((row) => teethOf(row, block)),
   };
 }
 

@@ -65,6 +65,8 @@ export interface VariantData {
   tissue: TissueMapData[];
   /** Activations, a group each as in the scene's own muscles; [] where not known. */
   muscles?: { left: number[]; right: number[] }[];
+  /** As motion.jaw. */
+  jaw?: Stretch;
 }
 
 export interface Manifest {
@@ -91,6 +93,8 @@ export interface Manifest {
     weights: Stretch;
     max_error_mm: number;
     max_displacement_mm: number;
+    /** Where there are teeth: frames x 7, the jaw's quaternion x y z w and translation since rest. */
+    jaw?: Stretch;
   };
   /** Positions: samples x names x 3; NaN where a point has none. */
   landmarks: { names: string[]; time_s: number[]; positions: Stretch };
@@ -104,8 +108,24 @@ export interface Manifest {
   /** Names of points as people say them. */
   point_words: Record<string, string>;
   /** Holes of the skin, with the way into the head; what is put behind them hangs on their edge. */
-  openings: { loop: Stretch; inward: [number, number, number]; depth_m: number }[];
+  openings: {
+    loop: Stretch;
+    inward: [number, number, number];
+    depth_m: number;
+    /** Two, as shares: of the depth, and of the edge's width. */
+    rings: [number, number][];
+  }[];
   eyeballs: { centre: [number, number, number]; gaze: [number, number, number]; radius_m: number }[];
+  /** Teeth and gums at rest: points are middle + step_m * values. */
+  teeth?: {
+    jaw: 'upper' | 'lower';
+    part: 'crowns' | 'gum';
+    middle: [number, number, number];
+    points: ModeData;
+    triangles: Stretch;
+    /** A byte a vertex: how much light reaches it behind the lips. */
+    light: Stretch;
+  }[];
   variants?: VariantData[];
   muscles?: MuscleData;
   /** What differs from place to place in the scene or a variant: the same keys for all of them. */

@@ -403,6 +403,19 @@ std::vector<Key> run_keys() {
           "facial nerve moves on one side, or of a side; 0 is a palsy. Several multiply."),
       flag<Scene>("muscles.mirrored", AT(muscles.mirrored),
                   "Each muscle takes the activation of its counterpart on the other side."),
+      choice<Scene, TeethShape>(
+          "teeth.shape", AT(teeth.shape), {{"arch", TeethShape::arch}, {"none", TeethShape::none}},
+          "What stands in a jaw of which no scan is given: average teeth, laid behind lips and "
+          "cheeks (docs/teeth.md), or nothing."),
+      path<Scene>("teeth.upper", AT(teeth.upper),
+                  "A scan of the upper teeth with their gum, in the frame of the face's scan: PLY, "
+                  "OBJ, STL, glTF or GLB. Borders are filled."),
+      path<Scene>("teeth.lower", AT(teeth.lower),
+                  "The same of the lower teeth, where they are at rest: they go along with the "
+                  "jaw."),
+      choice<Scene, MaybeUnit>("teeth.unit", AT(teeth.unit), units_or("scan"),
+                               "The unit of length of these scans, where it is not that of the "
+                               "face's."),
       flag<Scene>(
           "contact.lips", AT(contact.lips),
           "The lips may touch but not pass through each other, without friction. Each frame "
@@ -512,6 +525,7 @@ const std::vector<Section>& sections() {
       {"support", "What holds the tissue from within and at its border."},
       {"drive", "What moves it."},
       {"muscles", "Muscles, where they are what moves it (`drive.by`)."},
+      {"teeth", "What stands behind the lips. It is drawn, and changes no motion."},
       {"contact", "What may not pass through each other."},
       {"solver", "How the equations of motion are solved."},
       {"time", "Steps and frames."},

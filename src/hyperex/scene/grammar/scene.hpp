@@ -54,6 +54,14 @@ struct AlignmentOptions {
   reenact::AlignmentMethod method = reenact::AlignmentMethod::nonrigid;
 };
 
+enum class TeethShape { arch, none };
+
+struct TeethOptions {
+  TeethShape shape = TeethShape::arch;  ///< of a jaw of which no file is given
+  std::filesystem::path upper, lower;   ///< scans of teeth, in the frame of the scan
+  std::optional<io::LengthUnit> unit;   ///< of both; none: the scan's ("scan")
+};
+
 struct OutputOptions {
   bool vtu = true, glb = true, report = true;
   int vtu_every = 1;              ///< every so many frames; 1 to 10000
@@ -90,6 +98,7 @@ struct Scene {
   std::vector<std::string> muscles_without;
   reenact::DriveOptions drive;  ///< gain: of the key motion.gain
   reenact::ContactOptions contact;
+  TeethOptions teeth;
   reenact::SolverOptions solver;
   /// peak_time_s, still_times_s (up to 12; none: spread_frames()): of the section output.
   reenact::TimeOptions time;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/report/face_backing.hpp"
+#include "hyperex/tissue/teeth/teeth.hpp"
 
 namespace hyperex::scene {
 
@@ -13,14 +15,15 @@ namespace hyperex::scene {
 report::FaceBacking backing_in_frame(const TriMesh& skin_rest, const io::Landmarks& landmarks,
                                      const face::FaceFrame& frame);
 
-/// What stands behind the holes of a skin in one shape, in the face's frame: eyeballs, and pockets
-/// behind mouth and nostrils, so that nobody looks through the head.
+/// What stands behind the holes of a skin in one shape, in the face's frame: eyeballs, pockets
+/// behind mouth and nostrils, so that nobody looks through the head, and teeth with their gums.
 class BackingSurfaces {
  public:
   /// `backing`: as backing_in_frame() has it. `skin`: the vertices in that shape in the face's
-  /// frame; pockets hang on them.
+  /// frame; pockets hang on them. `teeth`: at rest, scan frame; null: none. `jaw`: of the lower
+  /// ones, now_from_rest.
   BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame,
-                  const Points& skin);
+                  const Points& skin, const tissue::Teeth* teeth, const Eigen::Isometry3d& jaw);
 
   /// The skin's surface with all that stands behind it; refers to this.
   std::vector<render::Surface> with(const render::Surface& skin) const;
@@ -29,6 +32,8 @@ class BackingSurfaces {
   struct Part {
     TriMesh mesh;
     render::Colour colour;
+    bool smooth = false;
+    render::VertexColours colours = {};  ///< in the place of `colour`
   };
   std::vector<Part> parts_;
 };

@@ -86,6 +86,7 @@ std::vector<render::Marker> markers(const Performance& p, const face::FaceFrame&
 struct Still {
   double time_s;
   const PointsF* displacement;
+  const Eigen::Isometry3d* jaw;  ///< now_from_rest
 };
 
 /// The shapes wanted, each with the time that it shows: what is wanted after the end of the run is
@@ -95,11 +96,12 @@ std::vector<Still> stills_of(const Results& r) {
   const Performance& p = r.simulation.performance;
   if (r.scene.time.still_times_s.empty())
     for (const std::size_t f : spread_frames(p.frame_time_s.size(), std::size_t(p.peak_frame)))
-      stills.push_back({p.frame_time_s[f], &p.skin_displacement_m[f]});
+      stills.push_back({p.frame_time_s[f], &p.skin_displacement_m[f], &p.jaw_now_from_rest[f]});
   const std::vector<double> shown =
       shown_times_s(r.scene.time.still_times_s, run_end_s(r.scene, r.inputs));
   for (std::size_t s = 0; s < shown.size(); ++s)
-    stills.push_back({shown[s], &r.simulation.still_displacement_m[s]});
+    stills.push_back({shown[s], &r.simulation.still_displacement_m[s],
+                      &r.simulation.still_jaw_now_from_rest[s]});
   return stills;
 }
 
@@ -207,7 +209,8 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   const auto draw = [&](const render::Camera& camera, const Still* still) -> render::SheetPicture {
     const Points shape = still ? moved(p, *still->displacement) : p.skin_rest.points;
     const TriMesh mesh{frame.local_points(shape), p.skin_rest.triangles};
-    const BackingSurfaces behind(backing, frame, mesh.points);
+    const BackingSurfaces behind(backing, frame, mesh.points, r.teeth,
+                                 still ? *still->jaw : Eigen::Isometry3d::Identity());
     if (!still)
       return {
           render::render(behind.with({.mesh = mesh}), camera, options, markers(p, frame), lines),
@@ -254,9 +257,9 @@ std::optional<report::GlbReport> write_outputs(const Results& r,
        [&] { write_contact_sheet(r, directory / "contact_sheet.png"); },
        [&] {
          if (r.scene.output.glb)
-           glb =
-               report::write_glb(directory / "performance.glb", p, r.inputs.scan,
-                                 {r.scene.output.glb_tolerance_m, 1e6 * r.scene.output.glb_max_mb});
+           glb = report::write_glb(
+               directory / "performance.glb", p, r.inputs.scan,
+               {r.scene.output.glb_tolerance_m, 1e6 * r.scene.output.glb_max_mb, r.teeth});
        },
        [&] {
          write_peak(r, directory);

@@ -12,6 +12,7 @@
 #include "hyperex/scene/stages/inputs.hpp"
 #include "hyperex/scene/stages/mirrored_twin.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
+#include "hyperex/tissue/teeth/teeth.hpp"
 
 namespace hyperex::scene {
 
@@ -26,6 +27,7 @@ struct Results {
   report::DisplacementModes modes;              ///< of the skin; empty where no page is wanted
   const tissue::TissueField* tissue = nullptr;  ///< where the tissue differs from place to place
   std::vector<std::string> warnings = {};       ///< those of `notes` that nobody should overlook
+  const tissue::Teeth* teeth = nullptr;         ///< null: none
 };
 
 /// Writes all files but summary.json and report.html into `directory`, and tells of

@@ -118,7 +118,8 @@ ReplayPage::ReplayPage(const Results& r, const std::vector<VariantRun>& variants
              .tissue = {},
              .variants = {},
              .mirror = &*r.symmetry.map,
-             .muscles = muscles_of(r)} {
+             .muscles = muscles_of(r),
+             .teeth = r.teeth} {
   const reenact::Performance& p = r.simulation.performance;
   auto tissue = tissue_maps(r, variants);
   input_.tissue = std::move(tissue.front());

@@ -78,9 +78,11 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
     lean += one.difference.greatest_m.cwiseAbs2().cast<double>().dot(own.points.col(0));
   if (lean < 0) oblique.x() *= -1;  // most of the difference is on the right
   const report::FaceBacking backing = backing_in_frame(p.skin_rest, base.inputs.landmarks, frame);
-  const auto drawn = [&](const render::Surface& skin, const render::Camera& camera) {
-    return render::render(BackingSurfaces(backing, frame, skin.mesh.points).with(skin), camera,
-                          size);
+  const auto drawn = [&](const render::Surface& skin, const reenact::Performance& own_run,
+                         const render::Camera& camera) {
+    const BackingSurfaces behind(backing, frame, skin.mesh.points, base.teeth,
+                                 own_run.jaw_now_from_rest[std::size_t(p.peak_frame)]);
+    return render::render(behind.with(skin), camera, size);
   };
   std::array<render::Camera, 2> cameras;
   for (std::size_t v = 0; v < cameras.size(); ++v) {
@@ -92,7 +94,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t at) {
     const render::Camera& camera = cameras[at / columns];
     if (at % columns == 0) {
-      sheet.pictures[at] = {drawn({.mesh = own}, camera), "base"};
+      sheet.pictures[at] = {drawn({.mesh = own}, p, camera), "base"};
       return;
     }
     const std::size_t i = at % columns - 1;
@@ -100,7 +102,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
     const render::Surface surface{.mesh = skin,
                                   .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
                                   .range = {0, top}};
-    sheet.pictures[at] = {drawn(surface, camera), compared[i].name};
+    sheet.pictures[at] = {drawn(surface, runs[i].simulation.performance, camera), compared[i].name};
   });
   render::write_png(file, render::contact_sheet(sheet));
 }

@@ -29,6 +29,7 @@
 #include "hyperex/scene/stages/plausible.hpp"
 #include "hyperex/scene/stages/prepared_face.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
+#include "hyperex/scene/stages/teeth.hpp"
 #include "hyperex/scene/stages/tissue_fields.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
@@ -240,10 +241,14 @@ Json run_into(Scene scene, const std::filesystem::path& directory) {
   seconds["tissue"] = stage.lap();
 
   reenact::Simulator simulator(face.mesh, inputs.landmarks, inputs.motion, std::move(options));
+  std::vector<std::string> teeth_notes;
+  std::shared_ptr<const tissue::Teeth> teeth;
   {
     Progress progress("assembling and factoring", 0);
-    prepare_with_kept_order(scene, inputs, simulator);
+    run_together({[&] { prepare_with_kept_order(scene, inputs, simulator); },
+                  [&] { teeth = teeth_of(scene, inputs, mesh, teeth_notes); }});
   }
+  for (const auto& note : teeth_notes) spdlog::info("{}", note);
   const reenact::Simulator before_run = simulator;
   reenact::SimulationResult simulation;
   MirroredTwin twin;
@@ -276,8 +281,11 @@ Json run_into(Scene scene, const std::filesystem::path& directory) {
                   std::move(symmetry),
                   inputs.notes,
                   {},
-                  field ? &*field : nullptr};
+                  field ? &*field : nullptr,
+                  {},
+                  teeth.get()};
   results.notes.insert(results.notes.end(), mesh.notes.begin(), mesh.notes.end());
+  results.notes.insert(results.notes.end(), teeth_notes.begin(), teeth_notes.end());
   results.notes.insert(results.notes.end(), inputs.warnings.begin(), inputs.warnings.end());
   results.warnings = inputs.warnings;
   if (const auto warning = skin_warning(off); !warning.empty()) warn({warning}, results);

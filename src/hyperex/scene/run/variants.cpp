@@ -172,7 +172,8 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
          tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
            const VariantRun& run = runs[i];
            const Results results{run.scene,    run.inputs, mesh, run.simulation,
-                                 run.symmetry, {},         {},   run.field ? &*run.field : nullptr};
+                                 run.symmetry, {},         {},   run.field ? &*run.field : nullptr,
+                                 {},           base.teeth};
            const fs::path folder = directory / "variants" / run.folder;
            fs::create_directories(folder);
            glb[i] = write_outputs(results, folder, &base);

@@ -24,6 +24,7 @@
 #include "hyperex/scene/stages/kept.hpp"
 #include "hyperex/scene/stages/plausible.hpp"
 #include "hyperex/scene/stages/recording_jitter.hpp"
+#include "hyperex/scene/stages/teeth.hpp"
 #include "hyperex/scene/stages/unknown_names.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -471,6 +472,8 @@ Inputs read_inputs(const Scene& scene, Look look) {
       steadied = steady(scene, opening, look, in);
     });
   if (steadied) problems.attempt([&] { exaggerate(scene, look, steadied->motion, in); });
+  if (scan_read)
+    problems.attempt([&] { in.teeth = read_teeth(scene, in.scan.unit, in.landmarks, in.notes); });
   problems.throw_if_any();
   if (given.empty()) {
     in.notes.push_back(

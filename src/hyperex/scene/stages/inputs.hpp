@@ -7,6 +7,7 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/reenact/alignment.hpp"
 #include "hyperex/scene/grammar/scene.hpp"
+#include "hyperex/tissue/teeth/teeth.hpp"
 
 namespace hyperex::scene {
 
@@ -15,6 +16,7 @@ struct Inputs {
   io::Scan scan;
   io::Landmarks landmarks;          ///< completed: the 68 iBUG points and the anatomical ones
   std::vector<std::string> placed;  ///< landmarks that were not given
+  tissue::Teeth teeth;              ///< the user's own scans of them; often none
   reenact::AlignedMotion motion;    ///< gaps filled, head pose out, in the scan's frame
   /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;

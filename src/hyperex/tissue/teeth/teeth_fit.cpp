@@ -19,7 +19,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kMeanBreadth_m = 0.0895, kIncisorShow_m = 0.0025, kJawsApart_m = 0.002;
+constexpr double kMeanBreadth_m = 0.0895, kIncisorShow_m = 0.003, kLowerShow_m = 0.0005,
+                 kLeastApart_m = 0.0005;
 constexpr double kOcclusionFalls_deg = 7, kFarthestBehind_m = 0.025;
 
 /// The frame of the arches in the scan: x is left in it, y up, z forward.
@@ -175,7 +176,9 @@ TeethFit fit_teeth(const TissueMesh& mesh, const io::Landmarks& landmarks) {
     Teeth teeth = dental_arches(size);
     // In occlusion the lower edges stand above the upper ones by the overbite.
     const Vec3 edge = size.scale * Vec3(0, kOverbite_m, -kOverjet_m);
-    open_jaw(teeth.lower, frame.hinge, edge, kJawsApart_m + frame.lips_apart_m);
+    const double of_lips =
+        frame.lips_apart_m + kOverbite_m * size.scale - kIncisorShow_m - kLowerShow_m;
+    open_jaw(teeth.lower, frame.hinge, edge, std::max(kLeastApart_m, of_lips));
     const Placed placed = place(outer_places(teeth), frame, tissue);
     if (placed.clearance_m < 0) continue;
     const double narrowed_m = (1 - breadth) * 0.056 * size.scale;

@@ -26,13 +26,14 @@ inline constexpr double kTeethClearance_m = 5e-4;
 ///    and women (Farkas, Anthropometry of the Head and Face, 1994), from 0.7 to 1.3: that teeth
 ///    grow with the face so is assumed.
 ///  * Mid-line: the mean over landmarks on it and pairs of landmarks beside it.
-///  * Height: the upper incisors' edges 2.5 mm below the edge of the resting upper lip (2 to 3 mm:
-///    Vig and Brundo, J. Prosthet. Dent. 39, 1978, 502, for young adults).
+///  * Height: the upper incisors' edges 3 mm below the edge of the upper lip, where that shows 3.4
+///    mm of them in adults below thirty and 1.6 mm below forty (Vig and Brundo, The kinetics of
+///    anterior tooth display, J. Prosthet. Dent. 39, 1978, 502).
 ///  * The plane of occlusion falls by 7 degrees to the front against the normal of the line from
 ///    nasion to chin: 9.3 degrees against the Frankfort plane, that line being 87.8 degrees against
 ///    it (Downs, Am. J. Orthod. 34, 1948, 812).
-///  * The lower arch is opened about the axis through the condyles (between ibug68_1 and 15) by the
-///    2 mm at the incisors that jaws at rest are apart, and by as much as the lips are at rest.
+///  * The lower arch is opened about the axis through the condyles (between ibug68_1 and 15) until
+///    its incisors' edges stand 0.5 mm above the lower lip's (the same source), by 0.5 mm at least.
 ///  * As far forward as leaves kTeethClearance_m to the tissue; where cheeks are in the way, the
 ///    arch is made narrower if that lets it come forward by more than half of what it loses in
 ///    breadth.

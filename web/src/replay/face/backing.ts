@@ -8,26 +8,26 @@ import {
 } from 'three';
 import type { Replay } from '../data';
 
-/** Rings behind the edge: depth and width as shares of the pocket's own, and colour. */
-const rings = [
-  { depth: 0, width: 1, colour: '#5e3029' },
-  { depth: 0.35, width: 1.05, colour: '#32130f' },
-  { depth: 0.9, width: 0.8, colour: '#180806' },
-];
+/** Of the edge and the two rings behind it. */
+const colours = ['#5e3029', '#32130f', '#180806'];
 
 class Pocket {
   readonly mesh: Mesh;
   private readonly position: Float32Array;
+  /** Depth and width of the edge and the rings behind it, as shares. */
+  private readonly rings: [number, number][];
 
   constructor(private readonly opening: Replay['openings'][number]) {
     const n = opening.loop.length;
+    const rings: [number, number][] = [[0, 1], ...opening.rings];
+    this.rings = rings;
     const count = rings.length * n + 1;
     this.position = new Float32Array(3 * count);
     const colour = new Float32Array(3 * count);
-    rings.forEach((ring, r) => {
-      for (let i = 0; i < n; ++i) new Color(ring.colour).toArray(colour, 3 * (r * n + i));
+    rings.forEach((_ring, r) => {
+      for (let i = 0; i < n; ++i) new Color(colours[r]).toArray(colour, 3 * (r * n + i));
     });
-    new Color(rings.at(-1)!.colour).toArray(colour, 3 * (count - 1));
+    new Color(colours.at(-1)!).toArray(colour, 3 * (count - 1));
     const index: number[] = [];
     for (let i = 0; i < n; ++i) {
       const next = (i + 1) % n;
@@ -50,11 +50,11 @@ class Pocket {
   follow(points: Float32Array): void {
     const { loop, inward, depthM } = this.opening;
     const n = loop.length;
-    const { position } = this;
+    const { position, rings } = this;
     for (let k = 0; k < 3; ++k) {
       let centre = 0;
       for (const v of loop) centre += points[3 * v + k] / n;
-      rings.forEach(({ depth, width }, r) => {
+      rings.forEach(([depth, width], r) => {
         for (let i = 0; i < n; ++i)
           position[3 * (r * n + i) + k] = centre + width * (points[3 * loop[i] + k] - centre) + depth * depthM * inward[k];
       });

@@ -10,6 +10,7 @@ import type { Painting } from './colouring';
 import type { Face, Replay } from '../data';
 import { FaceShape, type SceneMotion } from './deform';
 import { disposeOverlay, litMuscles, overlaysOf, type Overlay, type OverlayName } from './overlays';
+import { Teeth } from './teeth';
 
 const rampSize = 256;
 
@@ -56,6 +57,7 @@ export class FaceBody {
   readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>;
   readonly shape: FaceShape;
   private readonly backing: Backing;
+  private readonly teeth: Teeth;
   private readonly shares: Float32Array;
   /** Vertices drawn, where the picture's seams split those of the skin. */
   private readonly split: Int32Array | null;
@@ -86,7 +88,8 @@ export class FaceBody {
     this.mesh = new Mesh<BufferGeometry, MeshLambertMaterial | MeshStandardMaterial>(geometry, materials.mapped);
     this.mesh.frustumCulled = false;
     this.backing = new Backing(replay);
-    this.object.add(this.mesh, this.backing.object);
+    this.teeth = new Teeth(replay);
+    this.object.add(this.mesh, this.backing.object, this.teeth.object);
     this.makeOverlays();
   }
 
@@ -109,6 +112,7 @@ export class FaceBody {
     this.copyOut(this.shape.position, this.position);
     this.copyOut(this.shape.normal, this.normal);
     this.backing.follow(this.shape.position);
+    this.teeth.moveTo(face, frame);
     for (const overlay of this.overlays)
       if (overlay.object.visible) overlay.follow(this.shape.displacement);
     this.lit?.follow(this.shape.displacement);
