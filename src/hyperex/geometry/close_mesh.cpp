@@ -30,6 +30,48 @@ double length_of(const std::vector<int>& loop, const Points& points) {
   return sum;
 }
 
+/// Continues the surface over a border by a ring of triangles, whose outer border is returned: no
+/// edge among its vertices is there already.
+std::vector<int> add_collar(TriMesh& mesh, const std::vector<int>& loop, double width) {
+  const auto n = static_cast<Index>(loop.size());
+  const auto first = static_cast<int>(mesh.points.rows());
+  std::vector<std::vector<int>> around = vertex_triangles(mesh.triangles, mesh.points.rows());
+  Points ring(n, 3);
+  for (Index i = 0; i < n; ++i) {
+    const int v = loop[std::size_t(i)];
+    const Vec3 at = mesh.points.row(v);
+    const Vec3 along = mesh.points.row(loop[std::size_t((i + 1) % n)]) -
+                       mesh.points.row(loop[std::size_t((i + n - 1) % n)]);
+    Vec3 out = Vec3::Zero();
+    for (const int f : around[std::size_t(v)])
+      for (int k = 0; k < 3; ++k) out += at - mesh.points.row(mesh.triangles(f, k)).transpose();
+    if (along.squaredNorm() > 0) out -= along * (out.dot(along) / along.squaredNorm());
+    ring.row(i) = at + width * out.normalized();
+  }
+  mesh.points.conservativeResize(first + n, 3);
+  mesh.points.bottomRows(n) = ring;
+  const Index old = mesh.triangles.rows();
+  mesh.triangles.conservativeResize(old + 2 * n, 3);
+  std::vector<int> outer;
+  for (Index i = 0; i < n; ++i) {
+    const int a = loop[std::size_t(i)], b = loop[std::size_t((i + 1) % n)];
+    const int c = first + int(i), d = first + int((i + 1) % n);
+    mesh.triangles.row(old + 2 * i) << b, a, c;
+    mesh.triangles.row(old + 2 * i + 1) << b, c, d;
+    outer.push_back(c);
+  }
+  return outer;
+}
+
+/// As fill_hole(), whose triangles may lie over edges that are there; then behind a collar.
+bool fill(TriMesh& mesh, const std::vector<int>& loop, double length) {
+  const TriMesh before = mesh;
+  if (fill_hole(mesh, loop) && oriented(mesh.triangles)) return true;
+  mesh = before;
+  const double width = 0.5 * length / double(loop.size());
+  return fill_hole(mesh, add_collar(mesh, loop, width)) && oriented(mesh.triangles);
+}
+
 double enclosed(const TriMesh& mesh) {
   const Eigen::RowVector3d middle = mesh.points.colwise().mean();
   double sum = 0;
@@ -53,7 +95,7 @@ Closing close_mesh(TriMesh& mesh) {
   if (!oriented(mesh.triangles)) mesh = clean_mesh(mesh).mesh;
   for (const std::vector<int>& loop : boundary_loops(mesh.triangles)) {
     const double length = length_of(loop, mesh.points);
-    if (!fill_hole(mesh, loop)) {
+    if (!fill(mesh, loop, length)) {
       out.why_not = "it has a border that cannot be filled";
       return out;
     }
