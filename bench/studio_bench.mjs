@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How soon the studio answers, and whether its memory, threads and files stay as they are:
+//   node bench/studio_bench.mjs build/release/bin/hyperex [SCENE.toml] [--soak MINUTES]
+// Times are from sending a request to having its event, over the loopback interface.
+import { readdirSync, readFileSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { resolve } from 'node:path';
+import { connect, startStudio } from '../web/tests/studio_client.mjs';
+
+const [program, ...rest] = process.argv.slice(2);
+const soakAt = rest.indexOf('--soak');
+const soakMinutes = soakAt < 0 ? 0 : Number(rest.splice(soakAt, 2)[1]);
+const folder = mkdtempSync(join(tmpdir(), 'hyperex-studio-'));
+const begun = performance.now();
+const studio = await startStudio(resolve(program), rest.map((file) => resolve(file)), {
+  cwd: folder, env: { ...process.env, XDG_STATE_HOME: folder },
+});
+const client = await connect(studio.address);
+const face = client.event('face');
+await client.ask('open', { what: client.hello.places.started ? 'started' : 'embedded' });
+const { replay } = await face;
+console.log(`first motion ${((performance.now() - begun) / 1e3).toFixed(2)} s after the command, ` +
+  `${replay.skin.points.count / 3} vertices, ${replay.motion.time_s.length} frames`);
+
+const quantile = (values, share) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
+const timeS = replay.motion.time_s[replay.motion.peak_frame];
+async function timed(fields, event) {
+  const from = performance.now();
+  const came = client.event(event);
+  const answer = await client.ask('set', { face: 1, time_s: timeS, ...fields });
+  if (answer.error) throw new Error(answer.error);
+  await came;
+  return performance.now() - from;
+}
+async function series(what, count, fields, event) {
+  const times = [];
+  for (let i = 0; i < count; ++i) times.push(await timed(fields(i), event));
+  console.log(`${what}: median ${quantile(times, 0.5).toFixed(0)} ms, 95 % ${quantile(times, 0.95).toFixed(0)} ms (${count})`);
+}
+const motion = client.event('motion');
+await client.ask('add_variant', { name: 'other', like: 0, preset: 'palsy_complete_R' });
+await motion;
+const gain = (i) => ({ changes: { 'muscles.gain': { side_R: 0.2 + 0.01 * (i % 60) } } });
+const young = (i) => ({ changes: { 'tissue.young_kpa': 100 + (i % 60) } });
+await series('strength of a muscle, one frame', 40, (i) => ({ ...gain(i), live: true }), 'shape');
+await series('tissue, one frame', 40, (i) => ({ ...young(i), live: true }), 'shape');
+await series('strength of a muscle, whole motion', 10, (i) => ({ ...gain(i), live: false }), 'motion');
+await series('tissue, whole motion', 10, (i) => ({ ...young(i), live: false }), 'motion');
+
+/** Of the server's process. */
+function state() {
+  const of = (name) => Number(new RegExp(`${name}:\\s+(\\d+)`).exec(readFileSync(`/proc/${studio.server.pid}/status`, 'utf8'))[1]);
+  return { mb: of('VmRSS') / 1024, threads: of('Threads'), files: readdirSync(`/proc/${studio.server.pid}/fd`).length };
+}
+if (soakMinutes > 0) {
+  const until = performance.now() + 6e4 * soakMinutes;
+  let told = 0;
+  for (let i = 0; performance.now() < until; ++i) {
+    for (let k = 0; k < 5; ++k) await timed({ ...(i % 2 ? gain(5 * i + k) : young(5 * i + k)), live: true }, 'shape');
+    await timed({ ...(i % 2 ? gain(i) : young(i)), live: false }, 'motion');
+    if (i % 5 === 0) {
+      const undone = client.event('motion');
+      await client.ask('undo');
+      await undone;
+    }
+    if (i % 20 === 0) {
+      const more = client.event('motion');
+      await client.ask('add_variant', { name: `v${i}`, like: 1 });
+      await more;
+      const fewer = client.event('motion');
+      await client.ask('remove_variant', { face: 2 });
+      await fewer;
+    }
+    if (performance.now() > told + 3e4) {
+      told = performance.now();
+      const { mb, threads, files } = state();
+      console.log(`${((told - begun) / 6e4).toFixed(1)} min, cycle ${i}: ${mb.toFixed(0)} MB, ${threads} threads, ${files} files`);
+    }
+  }
+}
+client.close();
+await studio.stop();
+rmSync(folder, { recursive: true, force: true });
