@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/roughness.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "hyperex/geometry/surface_topology.hpp"
+
+namespace hyperex::metrics {
+namespace {
+
+/// Fewer neighbours tell nothing of a dent.
+constexpr std::size_t kFewest = 8;
+
+/// Vertices within the reach of one, along edges; kept between calls to allocate nothing.
+class Around {
+ public:
+  Around(const Points& points, const std::vector<std::vector<int>>& neighbours)
+      : points_(points), neighbours_(neighbours), seen_(neighbours.size(), -1) {}
+
+  const std::vector<int>& of(int v) {
+    found_.assign(1, v);
+    seen_[std::size_t(v)] = v;
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      for (const int w : neighbours_[std::size_t(found_[i])]) {
+        if (seen_[std::size_t(w)] == v ||
+            (points_.row(w) - points_.row(v)).norm() > kRoughnessReach_m)
+          continue;
+        seen_[std::size_t(w)] = v;
+        found_.push_back(w);
+      }
+    return found_;
+  }
+
+ private:
+  const Points& points_;
+  const std::vector<std::vector<int>>& neighbours_;
+  std::vector<int> seen_, found_;
+};
+
+}  // namespace
+
+Roughness roughness(const TriMesh& skin, const PointsF& displacement) {
+  const auto count = std::size_t(skin.points.rows());
+  const auto neighbours = vertex_neighbours(skin.triangles, skin.points.rows());
+  const Points normals = vertex_normals(skin);
+  std::vector<char> border(count, 0);
+  for (const auto& loop : boundary_loops(skin.triangles))
+    for (const int v : loop) border[std::size_t(v)] = 1;
+  std::vector<double> rough_m(count, -1);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 512), [&](const auto& range) {
+    Around around(skin.points, neighbours);
+    for (std::size_t v = range.begin(); v < range.end(); ++v) {
+      const std::vector<int>& all = around.of(int(v));
+      if (all.size() <= kFewest) continue;
+      if (std::any_of(all.begin(), all.end(), [&](int w) { return border[std::size_t(w)]; }))
+        continue;
+      const Vec3 normal = normals.row(Eigen::Index(v)).transpose();
+      const Vec3 along = normal.unitOrthogonal(), across = normal.cross(along);
+      Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+      Vec3 b = Vec3::Zero();
+      for (const int w : all) {
+        const Vec3 way = (skin.points.row(w) - skin.points.row(Eigen::Index(v))).transpose();
+        const Vec3 row(1, way.dot(along) / kRoughnessReach_m, way.dot(across) / kRoughnessReach_m);
+        a += row * row.transpose();
+        b += row * normal.dot(displacement.row(w).cast<double>().transpose());
+      }
+      const double smooth = a.ldlt().solve(b)[0];
+      const double own = normal.dot(displacement.row(Eigen::Index(v)).cast<double>().transpose());
+      if (std::isfinite(smooth)) rough_m[v] = std::abs(own - smooth);
+    }
+  });
+  Roughness out;
+  std::vector<double> judged;
+  double squares = 0;
+  for (std::size_t v = 0; v < count; ++v) {
+    if (rough_m[v] < 0) continue;
+    judged.push_back(rough_m[v]);
+    squares += rough_m[v] * rough_m[v];
+    if (out.roughest < 0 || rough_m[v] > rough_m[std::size_t(out.roughest)]) out.roughest = int(v);
+  }
+  out.judged = Eigen::Index(judged.size());
+  if (judged.empty()) return out;
+  out.rms_mm = 1e3 * std::sqrt(squares / double(judged.size()));
+  const auto at = judged.begin() + std::ptrdiff_t(0.99 * double(judged.size() - 1));
+  std::nth_element(judged.begin(), at, judged.end());
+  out.p99_mm = 1e3 * *at;
+  return out;
+}
+
+}  // namespace hyperex::metrics
