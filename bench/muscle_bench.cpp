@@ -21,6 +21,7 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/baseline.hpp"
 #include "hyperex/metrics/regions.hpp"
+#include "hyperex/metrics/roughness.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 #include "hyperex/reenact/lip_surfaces.hpp"
 #include "hyperex/reenact/simulator.hpp"
@@ -154,6 +155,10 @@ Score score_scan(const std::string& name, const std::string& scene_file,
   PointsF true_motion = PointsF::Zero(mesh->skin.points.rows(), 3);
   true_motion.topRows(mesh->scan_vertices) =
       (truth.points.topRows(mesh->scan_vertices) - rest).cast<float>();
+  fmt::print(
+      "  rough {:.3f} (truth {:.3f})",
+      metrics::roughness(mesh->skin, p.skin_displacement_m[std::size_t(p.peak_frame)]).rms_mm,
+      metrics::roughness(mesh->skin, true_motion).rms_mm);
   fmt::print("  truth overlaps {:.2f}", 1e3 * lips.depth(true_motion));
   fmt::print("  overlap {:.2f} -> {:.3f} ({:.3f}), residual {:.4f}, {} frames, {:.2f} s\n",
              result.report.contact.overlap_mm, result.report.contact.left_mm,

@@ -11,6 +11,7 @@
 #include "hyperex/scene/stages/driven_points.hpp"
 #include "hyperex/scene/stages/kept_order.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
+#include "hyperex/scene/stages/teeth.hpp"
 
 namespace hyperex::studio {
 
@@ -28,8 +29,8 @@ bool same_face(const scene::Scene& a, const scene::Scene& b) {
     for (auto it = values->begin(); it != values->end();) {
       const std::string& key = it.key();
       const auto in = [&](const char* section) { return key.rfind(section, 0) == 0; };
-      const bool of_face =
-          in("scan.") || in("mesh.") || in("alignment.") || (in("motion.") && key != "motion.gain");
+      const bool of_face = in("scan.") || in("mesh.") || in("alignment.") || in("teeth.") ||
+                           (in("motion.") && key != "motion.gain");
       it = of_face ? std::next(it) : values->erase(it);
     }
   return one == other;
@@ -61,6 +62,7 @@ OpenFace::OpenFace(std::string text, std::filesystem::path file, KeptResults kep
   stage("meshing the soft tissue");
   face_ = scene::prepare_face(scene, inputs_, [] {});
   fields_ = std::make_unique<scene::TissueFields>(inputs_, *face_.mesh);
+  teeth_ = scene::teeth_of(scene, inputs_, *face_.mesh, teeth_notes_);
   stage("assembling and factoring");
   take(std::move(scene));
   scene::prepare_with_kept_order(scene_, inputs_, *simulator_);
@@ -185,6 +187,8 @@ scene::Results OpenFace::results() const {
   scene::Results out{scene_,          inputs_,       *face_.mesh, simulation_,
                      symmetry_,       inputs_.notes, modes_,      field_ ? &*field_ : nullptr,
                      inputs_.warnings};
+  out.teeth = teeth_.get();
+  out.notes.insert(out.notes.end(), teeth_notes_.begin(), teeth_notes_.end());
   out.notes.insert(out.notes.end(), face_.mesh->notes.begin(), face_.mesh->notes.end());
   out.notes.insert(out.notes.end(), inputs_.warnings.begin(), inputs_.warnings.end());
   for (const std::string& note : simulation_.report.notes) {

@@ -69,6 +69,8 @@ class OpenFace {
   std::size_t own_notes_ = 0;  ///< of the inputs' notes, those of reading
   std::string drive_why_;
   scene::PreparedFace face_;
+  std::shared_ptr<const tissue::Teeth> teeth_;  ///< null: none
+  std::vector<std::string> teeth_notes_;
   std::unique_ptr<scene::TissueFields> fields_;
   std::optional<tissue::TissueField> field_;
   std::optional<reenact::Simulator> simulator_;

@@ -85,6 +85,7 @@ Roughness roughness(const TriMesh& skin, const PointsF& displacement) {
   }
   out.judged = Eigen::Index(judged.size());
   if (judged.empty()) return out;
+  out.greatest_mm = 1e3 * rough_m[std::size_t(out.roughest)];
   out.rms_mm = 1e3 * std::sqrt(squares / double(judged.size()));
   const auto at = judged.begin() + std::ptrdiff_t(0.99 * double(judged.size() - 1));
   std::nth_element(judged.begin(), at, judged.end());

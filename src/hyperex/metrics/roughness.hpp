@@ -11,8 +11,9 @@ namespace hyperex::metrics {
 /// over longer ways count little; dents as wide as the reach, patch by patch, count whole. The
 /// surface at rest does not enter: a rough scan that moves smoothly has none.
 struct Roughness {
-  double rms_mm = 0;        ///< over all vertices that are judged
-  double p99_mm = 0;        ///< 99th percentile
+  double rms_mm = 0;  ///< over all vertices that are judged
+  double p99_mm = 0;  ///< 99th percentile
+  double greatest_mm = 0;
   int roughest = -1;        ///< the vertex; -1 where none is judged
   Eigen::Index judged = 0;  ///< those that have neighbours on all sides: none near a border
 };

@@ -14,6 +14,7 @@
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/metrics/mouth_outline.hpp"
+#include "hyperex/metrics/roughness.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
@@ -107,6 +108,10 @@ Json summary_of(const Results& r, const SkinOff& off) {
                                  p.skin_displacement_m[std::size_t(p.peak_frame)]))
     s["mouth_outline_at_peak"] = {{"turning_deg", outline->turning_deg},
                                   {"largest_jump_mm", outline->largest_jump_mm}};
+  const metrics::Roughness rough =
+      metrics::roughness(p.skin_rest, p.skin_displacement_m[std::size_t(p.peak_frame)]);
+  if (rough.judged > 0)
+    s["roughness_at_peak"] = {{"rms_mm", rough.rms_mm}, {"p99_mm", rough.p99_mm}};
   s["jaw_opening_deg"] = report.greatest_opening_deg;
   s["inverted_tets"] = report.inverted_tets;
   s["at_peak"] = stress_summary(p);
