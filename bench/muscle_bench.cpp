@@ -3,7 +3,7 @@
 // the command line: what docs/muscles.md says of choosing them.
 //   muscle_bench CASES.txt [key=value ...]
 // today=1: driven by displacement; show=1: activations; finite=1: finite strain; contact=1: lips
-// keep apart.
+// keep apart; teeth=1, eyes=1: tissue touches teeth (fitted as none are scanned), lids eyeballs.
 // CASES: lines "name scene truth 7|all", or "name scene - markers" for the recording of markers.
 // The share of the warp's error over parts of the face, at the peak. Truths for other expressions
 // of a rig: bench/rig_cases.py.
@@ -27,6 +27,7 @@
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/scene/stages/inputs.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
+#include "hyperex/tissue/teeth/teeth_fit.hpp"
 
 namespace hyperex {
 namespace {
@@ -48,6 +49,8 @@ reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::In
   if (has("finite")) o.model.strain = reenact::Strain::finite;
   take("finite_step", o.solver.finite_step_s);
   o.contact.lips = has("contact");
+  o.contact.teeth = has("teeth");
+  o.contact.eyes = has("eyes");
   take("give", o.contact.point_give);
   take("patch_spring", o.contact.patch_pa_per_m, kpa_per_mm);
   if (has("today")) return o;
@@ -103,8 +106,34 @@ std::shared_ptr<const tissue::TissueMesh> mesh_of(const scene::Scene& scene,
 
 struct Score {
   std::string name;
-  std::vector<double> share;  ///< of the warp's error
+  std::vector<double> share;    ///< of the warp's error
+  double apart = std::nan("");  ///< the same of the lips, where the truth's own are apart
 };
+
+/// Teeth and eyeballs of a face.
+std::shared_ptr<const std::vector<reenact::Obstacle>> obstacles_of(const tissue::TissueMesh& mesh,
+                                                                   const io::Landmarks& landmarks) {
+  auto out = std::make_shared<std::vector<reenact::Obstacle>>();
+  if (has("teeth")) *out = reenact::teeth_to_touch(tissue::fit_teeth(mesh, landmarks).teeth);
+  if (has("eyes"))
+    for (const reenact::Obstacle& eye : reenact::eyes_to_touch(mesh.skin.points, landmarks))
+      out->push_back(eye);
+  return out;
+}
+
+/// Vertices of the lips that pass through each other in a motion of the skin: of such a truth no
+/// face with contact can come near there.
+std::vector<char> overlapping(const reenact::LipSurfaces& lips, const PointsF& motion) {
+  constexpr double kDeep_m = 1e-4;
+  std::vector<char> out(std::size_t(motion.rows()), 0);
+  for (const reenact::LipPair& pair :
+       lips.pairs(motion(lips.lower(), Eigen::all).cast<double>(),
+                  motion(lips.upper(), Eigen::all).cast<double>(), -kDeep_m)) {
+    out[std::size_t(lips.lower()[std::size_t(pair.point)])] = 1;
+    for (const int v : pair.on) out[std::size_t(lips.upper()[std::size_t(v)])] = 1;
+  }
+  return out;
+}
 
 void show(const reenact::MuscleCourse& muscles) {
   std::string line;
@@ -115,11 +144,14 @@ void show(const reenact::MuscleCourse& muscles) {
   fmt::print("   jaw {:.1f} deg;{}\n", muscles.jaw_opening_deg[last], line);
 }
 
-double mean_mm(const Eigen::VectorXd& distance_m, const metrics::Region* region) {
+double mean_mm(const Eigen::VectorXd& distance_m, const metrics::Region* region,
+               const std::vector<char>& without = {}) {
   if (region == nullptr) return std::nan("");
   double sum = 0;
-  for (const int v : region->vertices) sum += distance_m[v];
-  return 1e3 * sum / double(region->vertices.size());
+  int count = 0;
+  for (const int v : region->vertices)
+    if (without.empty() || !without[std::size_t(v)]) sum += distance_m[v], ++count;
+  return 1e3 * sum / count;
 }
 
 Score score_scan(const std::string& name, const std::string& scene_file,
@@ -127,8 +159,9 @@ Score score_scan(const std::string& name, const std::string& scene_file,
   const scene::Scene scene = scene::read_scene(scene_file);
   const scene::Inputs inputs = scene::read_inputs(scene);
   const auto mesh = mesh_of(scene, inputs);
-  const auto result =
-      reenact::Simulator(mesh, inputs.landmarks, inputs.motion, options_of(scene, inputs)).run();
+  reenact::Simulator simulator(mesh, inputs.landmarks, inputs.motion, options_of(scene, inputs));
+  simulator.set_obstacles(obstacles_of(*mesh, inputs.landmarks));
+  const auto result = simulator.run();
   const reenact::Performance& p = result.performance;
   const Points rest = mesh->skin.points.topRows(mesh->scan_vertices);
   const Points moved =
@@ -159,11 +192,19 @@ Score score_scan(const std::string& name, const std::string& scene_file,
       "  rough {:.3f} (truth {:.3f})",
       metrics::roughness(mesh->skin, p.skin_displacement_m[std::size_t(p.peak_frame)]).rms_mm,
       metrics::roughness(mesh->skin, true_motion).rms_mm);
-  fmt::print("  truth overlaps {:.2f}", 1e3 * lips.depth(true_motion));
-  fmt::print("  overlap {:.2f} -> {:.3f} ({:.3f}), residual {:.4f}, {} frames, {:.2f} s\n",
-             result.report.contact.overlap_mm, result.report.contact.left_mm,
-             result.report.lip_overlap_mm, result.report.contact.residual_mm,
-             result.report.contact.frames, result.report.contact.seconds);
+  const std::vector<char> mask = overlapping(lips, true_motion);
+  const metrics::Region* both = regions.find("lips");
+  const double a = mean_mm(ours, both, mask), b = mean_mm(warps, both, mask);
+  score.apart = a / b;
+  fmt::print("  lips apart in the truth {:.2f} of {:.2f} ({:.2f})  truth overlaps {:.2f}", a, b,
+             score.apart, 1e3 * lips.depth(true_motion));
+  const auto& c = result.report.contact;
+  fmt::print("  overlap {:.2f} -> {:.3f}",
+             c.overlap_mm > 0 ? c.overlap_mm : result.report.lip_overlap_mm,
+             result.report.lip_overlap_mm);
+  if (has("teeth")) fmt::print("  teeth {:.2f} -> {:.3f}", c.teeth_mm, c.teeth_left_mm);
+  if (has("eyes")) fmt::print("  eyes {:.2f} -> {:.3f}", c.eyes_mm, c.eyes_left_mm);
+  fmt::print("  residual {:.4f}, {} frames, {:.2f} s\n", c.residual_mm, c.frames, c.seconds);
   if (has("show") && !p.muscles.names.empty()) show(p.muscles);
   return score;
 }
@@ -263,18 +304,19 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
 /// Geometric means and the worst over the rig's cases, and the real faces once more.
 void summarise(const std::vector<Score>& scores) {
   for (const char* kind : {"/7", "/all"}) {
-    double sum[3] = {0, 0, 0}, worst[2] = {0, 0};
+    double sum[3] = {0, 0, 0}, worst[2] = {0, 0}, apart = 0;
     int count = 0;
     for (const Score& s : scores) {
       if (!s.name.ends_with(kind) || s.name.starts_with("real")) continue;
+      apart += std::log(s.apart);
       for (int k = 0; k < 3; ++k) sum[k] += std::log(s.share[std::size_t(k)]);
       for (int k = 0; k < 2; ++k) worst[k] = std::max(worst[k], s.share[std::size_t(k)]);
       ++count;
     }
     if (count > 0)
-      fmt::print("rig {}: {:.3f} / {:.3f} / {:.3f}; worst {:.2f} / {:.2f}\n", kind,
-                 std::exp(sum[0] / count), std::exp(sum[1] / count), std::exp(sum[2] / count),
-                 worst[0], worst[1]);
+      fmt::print("rig {}: {:.3f} / {:.3f} / {:.3f}; worst {:.2f} / {:.2f}; lips apart {:.3f}\n",
+                 kind, std::exp(sum[0] / count), std::exp(sum[1] / count), std::exp(sum[2] / count),
+                 worst[0], worst[1], std::exp(apart / count));
   }
   for (const Score& s : scores)
     if (s.name.starts_with("real") || s.name == "markers")

@@ -17,6 +17,7 @@ namespace {
 using Eigen::Index;
 using Box = Eigen::AlignedBox3d;
 constexpr double kOnEdge = 1e-6;      // a foot's weight: it lies on the edge opposite
+constexpr double kPlain_m = 1e-3;     // deeper, skin crumpled at the rim could be taken for a lip
 constexpr double kTouching_m = 1e-6;  // nearer, the direction to the foot is rounding
 
 Box grown(const Box& box, double by) {
@@ -67,7 +68,8 @@ LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& la
   follows_.resize(upper_.size());
   for (std::size_t i = 0; i < follows_.size(); ++i) follows_[i] = int(i);
   // The rim: edges that one triangle of the whole skin has, not of this part of it alone.
-  const Vec3 inward = -kInward_m * face::face_frame(landmarks).z;
+  forward_ = face::face_frame(landmarks).z;
+  const Vec3 inward = -kInward_m * forward_;
   std::vector<Index> about;  // all triangles that share an edge with this part
   for (Index f = 0; f < mesh.skin.triangles.rows(); ++f) {
     const auto corners = mesh.skin.triangles.row(f);
@@ -83,6 +85,7 @@ LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& la
     return at->second;
   };
   const std::size_t own = faces.size();
+  own_triangles_ = Index(own);
   for (std::size_t f = 0; f < own; ++f)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = faces[f][k], b = faces[f][(k + 1) % 3];
@@ -96,15 +99,17 @@ LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& la
     triangles_.row(Index(f)) << faces[f][0], faces[f][1], faces[f][2];
   offset_.setZero(Index(follows_.size()), 3);
   for (const auto& [v, in] : behind) offset_.row(in) = inward.transpose();
-  const auto uses_here = uses_of_edges(triangles_);
+  around_ = vertex_triangles(triangles_, Index(follows_.size()));
   end_.assign(follows_.size(), 0);
-  open_edge_.assign(faces.size(), {});
+  across_.assign(faces.size(), {-1, -1, -1});
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = faces[f][(k + 1) % 3], b = faces[f][(k + 2) % 3];
-      if (uses_here.at(std::minmax(a, b)) > 1) continue;
-      open_edge_[f][k] = 1;
-      end_[std::size_t(a)] = end_[std::size_t(b)] = 1;
+      for (const int other : around_[std::size_t(a)])
+        if (const auto& o = faces[std::size_t(other)];
+            other != int(f) && std::find(o.begin(), o.end(), b) != o.end())
+          across_[f][k] = other;
+      if (across_[f][k] < 0) end_[std::size_t(a)] = end_[std::size_t(b)] = 1;
     }
   lower_rest_ = skin(lower_, Eigen::all);
   upper_rest_ = skin(upper_, Eigen::all);
@@ -126,6 +131,62 @@ double LipSurfaces::depth(const PointsF& skin_displacement) const {
                                    skin_displacement(upper_, Eigen::all).cast<double>(), 0))
     deepest = std::max(deepest, -pair.gap_m);
   return deepest;
+}
+
+/// Inside and outside are told right by the normal of a triangle, by the sum of both at an edge and
+/// by that of all around at a vertex, each by its angle there (Baerentzen and Aanaes, IEEE TVCG 11,
+/// 2005, 243). Nothing where the surface ends: nobody can tell.
+std::optional<Vec3> LipSurfaces::outward_at(const Points& points, std::size_t triangle,
+                                            const Vec3& weights) const {
+  const auto corner = [&](int f, int k) -> Vec3 { return points.row(triangles_(f, k)); };
+  const auto normal = [&](int f) {
+    return (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0)).normalized().eval();
+  };
+  const int f = int(triangle);
+  for (int k = 0; k < 3; ++k) {
+    if (weights[k] < 1 - kOnEdge) continue;
+    const int v = triangles_(f, k);
+    if (end_[std::size_t(v)]) return std::nullopt;
+    Vec3 sum = Vec3::Zero();
+    for (const int other : around_[std::size_t(v)])
+      for (int c = 0; c < 3; ++c)
+        if (triangles_(other, c) == v) {
+          const Vec3 a = corner(other, (c + 1) % 3) - corner(other, c);
+          const Vec3 b = corner(other, (c + 2) % 3) - corner(other, c);
+          sum += std::atan2(a.cross(b).norm(), a.dot(b)) * normal(other);
+        }
+    return sum;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (weights[Index(k)] > kOnEdge) continue;
+    if (across_[triangle][k] < 0) return std::nullopt;
+    return normal(f) + normal(across_[triangle][k]);
+  }
+  return normal(f);
+}
+
+/// Whether who looks forward from `p` sees the upper lip's skin from behind. What goes inwards from
+/// the rim lies along that way and is never seen.
+bool LipSurfaces::is_behind(const Points& points, const Vec3& p) const {
+  const Vec3 x = forward_.unitOrthogonal(), y = forward_.cross(x);
+  for (Index f = 0; f < own_triangles_; ++f) {
+    Eigen::Matrix<double, 3, 2> flat;  // the corners as seen from p
+    Vec3 ahead;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 to = points.row(triangles_(f, k)).transpose() - p;
+      flat.row(k) << to.dot(x), to.dot(y);
+      ahead[k] = to.dot(forward_);
+    }
+    if (ahead.maxCoeff() < 0) continue;
+    Vec3 weight;  // of the corner opposite each edge, times twice the area
+    for (int k = 0; k < 3; ++k) {
+      const auto a = flat.row((k + 1) % 3), b = flat.row((k + 2) % 3);
+      weight[k] = a[0] * b[1] - a[1] * b[0];
+    }
+    if (weight.minCoeff() < 0 && weight.maxCoeff() > 0) continue;
+    if (const double area = weight.sum(); area != 0 && weight.dot(ahead) / area > 0) return true;
+  }
+  return false;
 }
 
 std::vector<LipPair> LipSurfaces::raw_pairs(const Points& lower, const Points& upper,
@@ -151,7 +212,6 @@ std::vector<LipPair> LipSurfaces::raw_pairs(const Points& lower, const Points& u
     if (of_near.intersects(own)) kept.push_back(f);
   }
   if (kept.empty()) return {};
-  const Points normals = vertex_normals({surface.points, triangles_});
   surface.triangles = triangles_(kept, Eigen::all);
   const SurfaceTree tree(surface);
   std::vector<LipPair> found;
@@ -160,25 +220,13 @@ std::vector<LipPair> LipSurfaces::raw_pairs(const Points& lower, const Points& u
     const ClosestPoint foot = tree.query(p, look_m);
     if (foot.triangle < 0) continue;
     const auto f = std::size_t(kept[std::size_t(foot.triangle)]);
-    bool at_end = false;
-    Vec3 outward = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const int v = triangles_(Index(f), k);
-      at_end |= foot.weights[k] < kOnEdge && open_edge_[f][std::size_t(k)];
-      at_end |= foot.weights[k] > 1 - kOnEdge && end_[std::size_t(v)];
-      outward += foot.weights[k] * normals.row(v).transpose();
-    }
-    // Where the surface ends, nobody can tell inside from outside.
-    if (at_end) continue;
-    if (foot.weights.minCoeff() > kOnEdge) {
-      const auto corner = [&](int k) -> Vec3 {
-        return surface.points.row(triangles_(Index(f), k));
-      };
-      outward = (corner(1) - corner(0)).cross(corner(2) - corner(0));
-    }
+    const auto outward_there = outward_at(surface.points, f, foot.weights);
+    if (!outward_there) continue;
+    const Vec3 outward = *outward_there;
     const Vec3 to = p - foot.point;
     const double distance = to.norm();
     const bool outside = to.dot(outward) >= 0;
+    if (!outside && distance > kPlain_m && !is_behind(surface.points, p)) continue;
     LipPair pair;
     pair.gap_m =
         (outside ? distance : -distance) - (allowed_m_.empty() ? 0 : allowed_m_[std::size_t(i)]);

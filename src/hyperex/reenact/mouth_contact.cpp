@@ -6,7 +6,6 @@
 #include <map>
 
 #include "hyperex/fem/solve/complementarity.hpp"
-#include "hyperex/fem/solve/condensed_inverse.hpp"
 
 namespace hyperex::reenact {
 namespace {
@@ -20,16 +19,17 @@ constexpr double kSolved_m = 1e-6;
 /// not matter.
 constexpr double kRidge = 1e-6;
 
-/// The derivative of a gap: what each node's motion, along the pair's normal, adds to it.
-using Row = std::vector<std::pair<int, double>>;
+/// The derivative of a gap: what the motion of each node adds to it.
+using Row = std::vector<std::pair<int, Vec3>>;
 
-void add(const SkinCarrier& from, double factor, Row& to) {
-  for (const auto& [node, weight] : from) to.emplace_back(node, factor * weight);
+void add(const SkinCarrier& from, const Vec3& along, Row& to) {
+  for (const auto& [node, weight] : from) to.emplace_back(node, weight * along);
 }
 
 /// One entry a node.
 void gather(Row& row) {
-  std::sort(row.begin(), row.end());
+  std::stable_sort(row.begin(), row.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::size_t last = 0;
   for (std::size_t i = 1; i < row.size(); ++i)
     if (row[i].first == row[last].first)
@@ -39,17 +39,32 @@ void gather(Row& row) {
   if (!row.empty()) row.resize(last + 1);
 }
 
-Points followed(const std::vector<SkinCarrier>& carriers, const Eigen::VectorXd& nodes) {
-  Points out = Points::Zero(Index(carriers.size()), 3);
-  for (std::size_t i = 0; i < carriers.size(); ++i)
-    for (const auto& [node, weight] : carriers[i])
-      out.row(Index(i)) += weight * nodes.segment<3>(3 * node).transpose();
+Vec3 followed(const SkinCarrier& carrier, const Eigen::VectorXd& nodes) {
+  Vec3 out = Vec3::Zero();
+  for (const auto& [node, weight] : carrier) out += weight * nodes.segment<3>(3 * node);
   return out;
 }
 
-double depth_of(const std::vector<LipPair>& pairs) {
+Points followed(const std::vector<SkinCarrier>& carriers, const Eigen::VectorXd& nodes) {
+  Points out(Index(carriers.size()), 3);
+  for (std::size_t i = 0; i < carriers.size(); ++i)
+    out.row(Index(i)) = followed(carriers[i], nodes).transpose();
+  return out;
+}
+
+}  // namespace
+
+struct MouthContact::Pair {
+  double gap_m;
+  Row row;
+};
+
+namespace {
+
+template <class Pairs>
+double depth_of(const Pairs& pairs) {
   double deepest = 0;
-  for (const LipPair& pair : pairs) deepest = std::max(deepest, -pair.gap_m);
+  for (const auto& pair : pairs) deepest = std::max(deepest, -pair.gap_m);
   return deepest;
 }
 
@@ -57,21 +72,26 @@ double depth_of(const std::vector<LipPair>& pairs) {
 
 MouthContact::MouthContact(std::shared_ptr<const LipSurfaces> surfaces,
                            std::vector<SkinCarrier> lower, std::vector<SkinCarrier> upper,
-                           std::vector<SkinCarrier> held, double give,
-                           fem::PartitionedFactor& factor)
-    : surfaces_(std::move(surfaces)), lower_(std::move(lower)), upper_(std::move(upper)) {
+                           std::vector<ObstacleSide> sides, std::vector<SkinCarrier> held,
+                           double give, const Compliance& compliance)
+    : surfaces_(std::move(surfaces)),
+      lower_(std::move(lower)),
+      upper_(std::move(upper)),
+      sides_(std::move(sides)) {
+  std::vector<std::vector<SkinCarrier>*> all{&lower_, &upper_, &held};
+  for (ObstacleSide& side : sides_) all.push_back(&side.carriers);
   std::map<int, int> place;
-  for (const auto* lip : {&lower_, &upper_, &held})
-    for (const SkinCarrier& carrier : *lip)
+  for (const auto* carriers : all)
+    for (const SkinCarrier& carrier : *carriers)
       for (const auto& [node, weight] : carrier) place.emplace(node, 0);
   for (auto& [node, at] : place) {
     at = int(nodes_.size());
     nodes_.push_back(node);
   }
-  for (auto* lip : {&lower_, &upper_, &held})
-    for (SkinCarrier& carrier : *lip)
+  for (auto* carriers : all)
+    for (SkinCarrier& carrier : *carriers)
       for (auto& [node, weight] : carrier) node = place.at(node);
-  compliance_ = fem::condensed_inverse(factor, nodes_);
+  compliance_ = compliance(nodes_);
   if (held.empty()) return;
   Eigen::MatrixXd at = Eigen::MatrixXd::Zero(3 * Index(held.size()), compliance_.rows());
   for (std::size_t p = 0; p < held.size(); ++p)
@@ -86,52 +106,75 @@ MouthContact::MouthContact(std::shared_ptr<const LipSurfaces> surfaces,
   compliance_ = 0.5 * (compliance_ + compliance_.transpose()).eval();
 }
 
-MouthContact::Correction MouthContact::correct(const PointsF& skin) const {
+/// As near as kWithin_m to touching, where what is carried by nodes_ has moved besides.
+std::vector<MouthContact::Pair> MouthContact::pairs_at(const FreeFrame& frame, const Points& lower,
+                                                       const Points& upper,
+                                                       const Eigen::VectorXd& moved) const {
+  std::vector<Pair> out;
+  if (!lower_.empty())
+    for (const LipPair& pair : surfaces_->pairs(lower + followed(lower_, moved),
+                                                upper + followed(upper_, moved), kWithin_m)) {
+      Row& row = out.emplace_back(Pair{pair.gap_m, {}}).row;
+      add(lower_[std::size_t(pair.point)], pair.normal, row);
+      for (std::size_t k = 0; k < 3; ++k)
+        add(upper_[std::size_t(pair.on[k])], -pair.weight[Index(k)] * pair.normal, row);
+    }
+  const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+  for (std::size_t s = 0; s < sides_.size(); ++s) {
+    const ObstaclePlaces& places = *sides_[s].places;
+    const Eigen::Isometry3d& pose = places.obstacle().with_jaw ? frame.jaw_now_from_rest : still;
+    for (Index i = 0; i < places.count(); ++i) {
+      const SkinCarrier& carrier = sides_[s].carriers[std::size_t(i)];
+      if (carrier.empty()) continue;
+      Vec3 outward;
+      const Vec3 at = frame.at_sides[s].row(i).transpose() + followed(carrier, moved);
+      const double gap_m = places.gap_m(i, at, pose, outward);
+      if (gap_m > kWithin_m) continue;
+      add(carrier, outward, out.emplace_back(Pair{gap_m, {}}).row);
+    }
+  }
+  for (Pair& pair : out) gather(pair.row);
+  return out;
+}
+
+MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
   Correction out;
-  const Points lower_free = skin(surfaces_->lower(), Eigen::all).cast<double>();
-  const Points upper_free = skin(surfaces_->upper(), Eigen::all).cast<double>();
-  std::vector<LipPair> pairs = surfaces_->pairs(lower_free, upper_free, kWithin_m);
+  const Points lower = frame.skin(surfaces_->lower(), Eigen::all).cast<double>();
+  const Points upper = frame.skin(surfaces_->upper(), Eigen::all).cast<double>();
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(compliance_.rows());
+  std::vector<Pair> pairs = pairs_at(frame, lower, upper, moved);
   out.before_m = out.after_m = depth_of(pairs);
   out.force.setZero(compliance_.rows());
   if (out.before_m < kFelt_m) return out;
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(compliance_.rows());
-  std::vector<Row> rows;
   Eigen::MatrixXd response, between;
   Eigen::VectorXd gap, lambda;
   while (out.rounds < kMostRounds && !pairs.empty()) {
     const auto count = Index(pairs.size());
-    rows.assign(pairs.size(), {});
     gap.resize(count);
     response.setZero(compliance_.rows(), count);
     for (Index i = 0; i < count; ++i) {
-      const LipPair& pair = pairs[std::size_t(i)];
-      Row& row = rows[std::size_t(i)];
-      add(lower_[std::size_t(pair.point)], 1, row);
-      for (int k = 0; k < 3; ++k)
-        add(upper_[std::size_t(pair.on[std::size_t(k)])], -pair.weight[k], row);
-      gather(row);
+      const Pair& pair = pairs[std::size_t(i)];
       gap[i] = pair.gap_m;
-      for (const auto& [node, weight] : row) {
-        gap[i] -= weight * pair.normal.dot(moved.segment<3>(3 * node));
-        response.col(i).noalias() +=
-            compliance_.middleCols<3>(3 * Index(node)) * (weight * pair.normal);
+      for (const auto& [node, along] : pair.row) {
+        gap[i] -= along.dot(moved.segment<3>(3 * node));
+        response.col(i).noalias() += compliance_.middleCols<3>(3 * Index(node)) * along;
       }
     }
     between.resize(count, count);
     for (Index i = 0; i < count; ++i)
       for (Index k = 0; k <= i; ++k) {
         double sum = 0;
-        for (const auto& [node, weight] : rows[std::size_t(i)])
-          sum += weight * pairs[std::size_t(i)].normal.dot(response.col(k).segment<3>(3 * node));
+        for (const auto& [node, along] : pairs[std::size_t(i)].row)
+          sum += along.dot(response.col(k).segment<3>(3 * node));
         between(i, k) = between(k, i) = sum;
       }
     // Pairs that nothing can move (skin that follows the recording, held nodes) are left as they
     // are.
-    std::vector<LipPair> movable;
+    std::vector<Pair> movable;
     for (Index i = 0; i < count; ++i)
       if (between(i, i) > 0) movable.push_back(pairs[std::size_t(i)]);
     if (movable.size() < pairs.size()) {
-      pairs = movable;
+      pairs = std::move(movable);
       continue;
     }
     between.diagonal().array() += kRidge * between.diagonal().maxCoeff();
@@ -140,8 +183,7 @@ MouthContact::Correction MouthContact::correct(const PointsF& skin) const {
         fem::solve_complementarity(between, gap, kSolved_m, kMostSweeps, lambda);
     moved.noalias() = response * lambda;
     ++out.rounds;
-    const std::vector<LipPair> now = surfaces_->pairs(
-        lower_free + followed(lower_, moved), upper_free + followed(upper_, moved), kWithin_m);
+    std::vector<Pair> now = pairs_at(frame, lower, upper, moved);
     const double depth = depth_of(now);
     if (depth < out.after_m) {
       out.after_m = depth;
@@ -151,12 +193,12 @@ MouthContact::Correction MouthContact::correct(const PointsF& skin) const {
       for (Index i = 0; i < count; ++i) {
         if (lambda[i] <= 0) continue;
         ++out.pairs;
-        for (const auto& [node, weight] : rows[std::size_t(i)])
-          out.force.segment<3>(3 * node) += lambda[i] * weight * pairs[std::size_t(i)].normal;
+        for (const auto& [node, along] : pairs[std::size_t(i)].row)
+          out.force.segment<3>(3 * node) += lambda[i] * along;
       }
     }
     if (depth < kSettled_m) break;
-    pairs = now;
+    pairs = std::move(now);
   }
   if (holding_.rows() > 0) out.force += (holding_ * out.force).eval();
   return out;

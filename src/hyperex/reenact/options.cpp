@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
@@ -55,8 +56,11 @@ void check_finite(const SimulationOptions& o, std::vector<InputProblem>& problem
     wrong("model.viscous_form", "printed", "isotropic where strain is finite");
   if (o.drive.by == DriveBy::reactions)
     wrong("drive.by", "reactions", "displacement or muscles where strain is finite");
-  if (o.contact.lips)
-    wrong("contact.lips", "true", "false where strain is finite: its correction is linear");
+  const std::pair<const char*, bool> touching[] = {{"contact.lips", o.contact.lips},
+                                                   {"contact.teeth", o.contact.teeth},
+                                                   {"contact.eyes", o.contact.eyes}};
+  for (const auto& [name, on] : touching)
+    if (on) wrong(name, "true", "false where strain is finite: its correction is linear");
 }
 
 }  // namespace

@@ -185,9 +185,12 @@ struct SolverOptions {
   bool operator==(const SolverOptions&) const = default;
 };
 
-/// What the mouth's skin may not pass through (mouth_contact.hpp). Streams know no contact.
+/// What tissue may not pass through (mouth_contact.hpp). Streams know no contact.
 struct ContactOptions {
-  bool lips = false;  ///< the lips each other
+  bool lips = false;   ///< the lips each other
+  bool teeth = false;  ///< the mouth's side of the tissue those of Simulator::set_obstacles()
+  bool eyes = false;   ///< the lids the eyeballs, likewise
+  bool any() const { return lips || teeth || eyes; }
   /// Patches of skin that are carried to where points are recorded (DriveBy::displacement) give way
   /// to contact as springs per area of this stiffness; without contact they end where they are
   /// driven.

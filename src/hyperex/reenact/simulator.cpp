@@ -36,6 +36,8 @@ Simulator::Simulator(const Simulator& other) : impl_(std::make_unique<Impl>()) {
   impl_->load_held = from.load_held;
   impl_->load_lost = from.load_lost;
   impl_->input = from.input;
+  impl_->obstacles = from.obstacles;
+  impl_->touchable = from.touchable;
 }
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator other) noexcept {
@@ -68,6 +70,11 @@ void Simulator::set_support(SupportOptions support) {
 }
 void Simulator::set_drive(DriveOptions drive) {
   impl_->set_part(&SimulationOptions::drive, std::move(drive));
+}
+void Simulator::set_obstacles(std::shared_ptr<const std::vector<Obstacle>> obstacles) {
+  impl_->obstacles = std::move(obstacles);
+  impl_->touchable.reset();
+  impl_->drop_contact();
 }
 void Simulator::set_motion(AlignedMotion motion) {
   impl_->set(std::move(motion));

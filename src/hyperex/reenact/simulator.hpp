@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hyperex/reenact/alignment.hpp"
+#include "hyperex/reenact/obstacles.hpp"
 #include "hyperex/reenact/options.hpp"
 #include "hyperex/reenact/performance.hpp"
 #include "hyperex/tissue/tissue_mesh.hpp"
@@ -48,13 +49,15 @@ struct SimulationReport {
   double driven_off_mm = 0;   ///< greatest distance of any driven point from where it is driven
   double lip_overlap_mm = 0;  ///< greatest depth of LipSurfaces: the lips in each other, over rest
   double lip_gap_mm = 0;      ///< greatest distance between the lips (ibug68_62, 66), over rest
-  /// Of ContactOptions; all 0 where it is off. Depths are those of LipSurfaces: beyond rest, each
-  /// vertex by itself, the lips going on inwards from their rims.
+  /// Of ContactOptions; all 0 where it is off. Depths are beyond rest, each vertex by itself:
+  /// those of LipSurfaces, the lips going on inwards from their rims, and of ObstaclePlaces.
   struct Contact {
-    int frames = 0;          ///< in which something touches that would pass without contact
-    double overlap_mm = 0;   ///< greatest depth of the lips in each other, without contact
-    double left_mm = 0;      ///< and with it
-    double residual_mm = 0;  ///< greatest of the complementarity problems
+    int frames = 0;         ///< in which something touches that would pass without contact
+    double overlap_mm = 0;  ///< greatest depth of the lips in each other, without contact
+    double left_mm = 0;     ///< and with it
+    double teeth_mm = 0, teeth_left_mm = 0;  ///< of tissue in teeth, likewise
+    double eyes_mm = 0, eyes_left_mm = 0;    ///< of lids in eyeballs, likewise
+    double residual_mm = 0;                  ///< greatest of the complementarity problems
     double seconds = 0;
   } contact;
   std::vector<std::string> notes;
@@ -107,7 +110,8 @@ struct EliminationOrder {
 ///   input                    boundary or load, motion, drive.gain, muscles, time.step_s, end_s,
 ///                            solver.tolerance
 ///   reduced motion           factor, input, solver
-///   compliance of the lips   factor, driven points, contact
+///   compliance of what       values of the factor, driven points, contact, obstacles, which of
+///     touches                their places come near
 ///   frames of the skin       reduced motion, time, contact
 ///   stream                   factor, boundary; begins anew with another order
 ///
@@ -136,6 +140,8 @@ class Simulator {
   void set_support(SupportOptions support);
   void set_drive(DriveOptions drive);
   void set_motion(AlignedMotion motion);
+  /// What ContactOptions::teeth and eyes let tissue touch; null: nothing.
+  void set_obstacles(std::shared_ptr<const std::vector<Obstacle>> obstacles);
 
   /// Where forces drive (DriveBy::muscles, reactions): the forces found by the next run, or by the
   /// last, are kept whatever tissue and support are set from now on. Copies keep them too, so that

@@ -19,9 +19,14 @@ bool same_but_gains(const MuscleOptions& a, const MuscleOptions& b) {
 
 }  // namespace
 
+void Simulator::Impl::drop_contact() {
+  contact.reset();
+  contact_factor.reset();
+}
+
 void Simulator::Impl::drop_values() {
   reduced_current = full_current = false, response.reset();
-  contact.reset();
+  drop_contact();
   stream_current = false;
 }
 
@@ -55,7 +60,7 @@ void Simulator::Impl::drop_boundary() {
 void Simulator::Impl::drop_driven() {
   driven.reset();
   driven_points.reset();
-  contact.reset();
+  drop_contact();
   load.reset();
   load_lost = false;  // another question: other forces are no surprise
   drop_boundary();
@@ -95,7 +100,10 @@ void Simulator::Impl::set(SimulationOptions next) {
     drop_load();
   }
   if (options.model.strain != before.model.strain) drop_input();
-  if (options.contact != before.contact) contact.reset();
+  if (options.contact != before.contact) {
+    touchable.reset();
+    drop_contact();
+  }
   if (options.solver.linear != before.solver.linear) drop_factors();
   if (options.solver.newmark_beta != before.solver.newmark_beta ||
       options.solver.newmark_gamma != before.solver.newmark_gamma ||

@@ -4,13 +4,15 @@
 #include <utility>
 
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/fem/solve/condensed_inverse.hpp"
 #include "hyperex/reenact/simulator_impl.hpp"
 #include "hyperex/reenact/support.hpp"
 
 namespace hyperex::reenact {
 namespace {
 
-constexpr double kHeldNear_m = 0.015;  // of the lips: farther points need not be held
+constexpr double kHeldNear_m = 0.015;   // of what touches: farther points need not be held
+constexpr double kMayTouch_m = 0.0015;  // places never as near to an obstacle do without contact
 
 /// Springs that hold driven nodes where they are driven, as contact feels them.
 void add_patches(const tissue::TissueMesh& mesh, const std::vector<int>& nodes,
@@ -21,16 +23,15 @@ void add_patches(const tissue::TissueMesh& mesh, const std::vector<int>& nodes,
       stiffness.coeffRef(3 * node + axis, 3 * node + axis) += areas[node] * stiffness_pa_per_m;
 }
 
-/// Of the driven points near the lips.
+/// Of the driven points near what may touch.
 std::vector<SkinCarrier> carriers_near(const tissue::TissueMesh& mesh, const DrivenPoints& points,
-                                       const LipSurfaces& lips) {
+                                       const Points& touching) {
   const CarrierMatrix all = carriers(mesh, points.places);
   std::vector<SkinCarrier> near;
+  if (touching.rows() == 0) return near;
   for (Eigen::Index p = 0; p < all.rows(); ++p) {
-    const auto distance = [&](const Points& skin) {
-      return (skin.rowwise() - points.rest.row(p)).rowwise().norm().minCoeff();
-    };
-    if (std::min(distance(lips.lower_rest()), distance(lips.upper_rest())) > kHeldNear_m) continue;
+    if ((touching.rowwise() - points.rest.row(p)).rowwise().norm().minCoeff() > kHeldNear_m)
+      continue;
     SkinCarrier& one = near.emplace_back();
     for (CarrierMatrix::InnerIterator it(all, p); it; ++it)
       one.emplace_back(int(it.col()), it.value());
@@ -49,83 +50,178 @@ Eigen::MatrixXd on_free(const fem::PartitionedFactor& factor, Eigen::Index unkno
 
 }  // namespace
 
-fem::PartitionedFactor& Simulator::Impl::contact_factor(
-    std::optional<fem::PartitionedFactor>& own) {
-  if (by_forces() && reduced && reduced_current) return reduced->static_factor();
+/// The stiffness that contact works against, in an order that ends with the nodes that may touch:
+/// what they feel can then be read off the factor.
+void Simulator::Impl::make_contact_factor(const std::vector<int>& nodes) {
   fem::System system;
   assembler->assemble(material(), system);
   boundary->add_springs(system.stiffness);
-  if (by_forces()) {
-    own.emplace(std::move(system.stiffness), boundary->prescribed(), "contact", mesh->volume.nodes,
-                options.solver.linear, known_order());
-  } else {
+  std::vector<int> prescribed = boundary->prescribed();
+  if (!by_forces()) {
     add_patches(*mesh, boundary->driven_nodes(), options.contact.patch_pa_per_m, system.stiffness);
-    own.emplace(std::move(system.stiffness), boundary->released().prescribed(), "contact",
-                mesh->volume.nodes, options.solver.linear);
+    prescribed = boundary->released().prescribed();
   }
-  return *own;
+  std::shared_ptr<const fem::NodeOrder> last;
+  if (order)
+    last = std::make_shared<const fem::NodeOrder>(fem::order_with_last(
+        *order->nodes, order->prescribed, prescribed, int(3 * mesh->volume.nodes.rows()), nodes));
+  contact_factor.emplace(std::move(system.stiffness), std::move(prescribed), "contact",
+                         mesh->volume.nodes, options.solver.linear, std::move(last));
 }
 
-void Simulator::Impl::need_contact(fem::PartitionedFactor& factor) {
-  if (contact) return;
-  const auto of = [&](const std::vector<int>& vertices) {
+void Simulator::Impl::need_contact(std::vector<std::vector<char>> coming_near) {
+  if (contact && contact_near == coming_near) return;
+  drop_contact();
+  const auto of_skin = [&](const std::vector<int>& vertices) {
     return skin_carriers(*mesh, driven_points->rim, *region, vertices);
   };
   const std::shared_ptr<const LipSurfaces>& lips = readout->lip_surfaces();
+  std::vector<SkinCarrier> lower, upper;
+  std::vector<Vec3> touching;
+  if (options.contact.lips) {
+    lower = of_skin(lips->lower());
+    upper = of_skin(lips->upper());
+    for (const Points* rest : {&lips->lower_rest(), &lips->upper_rest()})
+      for (const Vec3& p : rest->rowwise()) touching.push_back(p);
+  }
+  std::vector<ObstacleSide> sides;
+  for (std::size_t s = 0; s < touchable->size(); ++s) {
+    const std::shared_ptr<const ObstaclePlaces>& all = (*touchable)[s];
+    std::vector<SkinCarrier> carriers = of_skin(all->skin());
+    for (const int node : all->nodes()) carriers.push_back({{node, 1.0}});
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+      if (!coming_near[s][i])
+        carriers[i].clear();
+      else
+        touching.push_back(all->rest().row(Eigen::Index(i)));
+    sides.push_back({all, std::move(carriers)});
+  }
+  Points about(Eigen::Index(touching.size()), 3);
+  for (std::size_t i = 0; i < touching.size(); ++i)
+    about.row(Eigen::Index(i)) = touching[i].transpose();
   contact.emplace(
-      lips, of(lips->lower()), of(lips->upper()),
-      by_forces() ? carriers_near(*mesh, *driven_points, *lips) : std::vector<SkinCarrier>(),
-      options.contact.point_give, factor);
+      lips, std::move(lower), std::move(upper), std::move(sides),
+      by_forces() ? carriers_near(*mesh, *driven_points, about) : std::vector<SkinCarrier>(),
+      options.contact.point_give, [&](const std::vector<int>& nodes) {
+        make_contact_factor(nodes);
+        ask();
+        return fem::condensed_inverse(*contact_factor, nodes);
+      });
+  contact_near = std::move(coming_near);
+}
+
+void Simulator::Impl::need_places() {
+  if (touchable) return;
+  auto found = std::make_shared<std::vector<std::shared_ptr<const ObstaclePlaces>>>();
+  if (obstacles)
+    for (const Obstacle& obstacle : *obstacles)
+      if (obstacle.kind == Obstacle::Kind::teeth ? options.contact.teeth : options.contact.eyes)
+        found->push_back(std::make_shared<const ObstaclePlaces>(*mesh, *landmarks, obstacle));
+  touchable = std::move(found);
 }
 
 void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& points,
                             Solution& solution, SimulationResult& result) {
   Stopwatch watch;
   report.contact = {};
+  need_places();
   const LipSurfaces& lips = *readout->lip_surfaces();
-  if (lips.empty()) return;
+  const bool lips_touch = options.contact.lips && !lips.empty();
   const auto skin_of = [&](std::size_t shot) -> const PointsF& {
     const int frame = shots[shot].frame;
     return frame < 0 ? result.still_displacement_m[std::size_t(-1 - frame)]
                      : result.performance.skin_displacement_m[std::size_t(frame)];
   };
-  std::vector<double> depth_m(shots.size());
-  const auto measure = [&] {
-    for_frames(shots.size(), [&](std::size_t i) { depth_m[i] = lips.depth(skin_of(i)); });
-    return 1e3 * *std::max_element(depth_m.begin(), depth_m.end());
+  const auto nodes_of = [&](std::size_t shot) {
+    return Eigen::Map<const Points>(solution.displacement.col(Eigen::Index(shot)).data(),
+                                    mesh->volume.nodes.rows(), 3);
   };
-  report.contact.overlap_mm = report.contact.left_mm = measure();
+  const auto jaw_of = [&](std::size_t shot) -> const Eigen::Isometry3d& {
+    const int frame = shots[shot].frame;
+    return frame < 0 ? result.still_jaw_now_from_rest[std::size_t(-1 - frame)]
+                     : result.performance.jaw_now_from_rest[std::size_t(frame)];
+  };
+  const Eigen::Isometry3d skull = Eigen::Isometry3d::Identity();
+  const auto pose_of = [&](const ObstaclePlaces& side,
+                           std::size_t shot) -> const Eigen::Isometry3d& {
+    return side.obstacle().with_jaw ? jaw_of(shot) : skull;
+  };
+  std::vector<std::vector<Points>> at_sides(shots.size());
+  std::vector<double> depth_m(shots.size());
+  struct Depths {
+    double lips = 0, teeth = 0, eyes = 0;
+  };
+  std::vector<Depths> each(shots.size());
+  const auto measure = [&] {
+    for_frames(shots.size(), [&](std::size_t i) {
+      each[i] = {};
+      if (lips_touch) each[i].lips = lips.depth(skin_of(i));
+      at_sides[i].resize(touchable->size());
+      for (std::size_t s = 0; s < touchable->size(); ++s) {
+        const ObstaclePlaces& side = *(*touchable)[s];
+        at_sides[i][s] = side.moved(skin_of(i), nodes_of(i));
+        const double depth = side.depth(at_sides[i][s], pose_of(side, i));
+        double& most = side.obstacle().kind == Obstacle::Kind::teeth ? each[i].teeth : each[i].eyes;
+        most = std::max(most, depth);
+      }
+      depth_m[i] = std::max({each[i].lips, each[i].teeth, each[i].eyes});
+    });
+    Depths most;
+    for (const Depths& one : each) {
+      most.lips = std::max(most.lips, 1e3 * one.lips);
+      most.teeth = std::max(most.teeth, 1e3 * one.teeth);
+      most.eyes = std::max(most.eyes, 1e3 * one.eyes);
+    }
+    return most;
+  };
+  SimulationReport::Contact& told_of = report.contact;
+  const Depths before = measure();
+  told_of.overlap_mm = told_of.left_mm = before.lips;
+  told_of.teeth_mm = told_of.teeth_left_mm = before.teeth;
+  told_of.eyes_mm = told_of.eyes_left_mm = before.eyes;
   std::vector<std::size_t> touching;
   for (std::size_t i = 0; i < shots.size(); ++i)
     if (depth_m[i] >= MouthContact::kFelt_m) touching.push_back(i);
   if (!touching.empty()) {
-    std::optional<fem::PartitionedFactor> own;
-    fem::PartitionedFactor& factor = contact_factor(own);
+    std::vector<std::vector<char>> near(touchable->size());
+    for (std::size_t s = 0; s < touchable->size(); ++s) {
+      const ObstaclePlaces& side = *(*touchable)[s];
+      near[s].assign(std::size_t(side.count()), 0);
+      Vec3 outward;
+      for (const std::size_t i : touching)
+        for (Eigen::Index k = 0; k < side.count(); ++k)
+          near[s][std::size_t(k)] |=
+              side.gap_m(k, at_sides[i][s].row(k), pose_of(side, i), outward) < kMayTouch_m;
+    }
     ask();
-    need_contact(factor);
+    need_contact(std::move(near));
     ask();
     std::vector<MouthContact::Correction> corrections(touching.size());
-    for_frames(touching.size(),
-               [&](std::size_t i) { corrections[i] = contact->correct(skin_of(touching[i])); });
+    for_frames(touching.size(), [&](std::size_t i) {
+      const std::size_t shot = touching[i];
+      corrections[i] = contact->correct({skin_of(shot), at_sides[shot], jaw_of(shot)});
+    });
     Eigen::MatrixXd force(3 * Eigen::Index(contact->nodes().size()), Eigen::Index(touching.size()));
     for (std::size_t i = 0; i < touching.size(); ++i) {
       force.col(Eigen::Index(i)) = corrections[i].force;
-      report.contact.frames += shots[touching[i]].frame >= 0;
-      report.contact.residual_mm =
-          std::max(report.contact.residual_mm, 1e3 * corrections[i].residual_m);
+      told_of.frames += shots[touching[i]].frame >= 0;
+      told_of.residual_mm = std::max(told_of.residual_mm, 1e3 * corrections[i].residual_m);
     }
+    fem::PartitionedFactor& factor = *contact_factor;
     Eigen::MatrixXd moved = on_free(factor, solution.displacement.rows(), contact->nodes(), force);
     factor.solve(moved);
     for_frames(touching.size(), [&](std::size_t i) {
       auto column = solution.displacement.col(Eigen::Index(touching[i]));
       for (std::size_t u = 0; u < factor.free().size(); ++u)
         column[factor.free()[u]] += moved(Eigen::Index(u), Eigen::Index(i));
-      const Eigen::Map<const Points> nodal(column.data(), mesh->volume.nodes.rows(), 3);
-      store(shots[touching[i]], nodal, points, result);
+      store(shots[touching[i]], nodes_of(touching[i]), points, result);
     });
-    report.contact.left_mm = measure();
+    const Depths after = measure();
+    told_of.left_mm = after.lips;
+    told_of.teeth_left_mm = after.teeth;
+    told_of.eyes_left_mm = after.eyes;
   }
-  report.contact.seconds = watch.lap();
+  told_of.seconds = watch.lap();
 }
 
 }  // namespace hyperex::reenact

@@ -57,6 +57,8 @@ struct Simulator::Impl {
   bool load_held = false;
   bool load_lost = false;  // there was one, for the tissue or support before
   std::shared_ptr<const InputShapes> input;
+  std::shared_ptr<const std::vector<Obstacle>> obstacles;  // given
+  std::shared_ptr<const std::vector<std::shared_ptr<const ObstaclePlaces>>> touchable;
   // Of this simulator alone.
   std::optional<fem::ReducedModel> reduced;
   std::optional<fem::Newmark> full;
@@ -72,7 +74,10 @@ struct Simulator::Impl {
   };
   std::optional<Values> reduced_values;  // that the factor was made of
   std::optional<fem::Response> response;
-  std::optional<MouthContact> contact;  // of the values, the driven points and the options
+  // Of the values, the driven points, the options and which places come near.
+  std::optional<MouthContact> contact;
+  std::optional<fem::PartitionedFactor> contact_factor;
+  std::vector<std::vector<char>> contact_near;
 
   std::optional<Stream> stream;
   bool stream_current = false, stream_fits = false;  // with the values; with the pattern and order
@@ -84,6 +89,7 @@ struct Simulator::Impl {
 
   // ----- what is left when something is set
 
+  void drop_contact();
   void drop_values();
   void drop_factors();
   void drop_input();
@@ -138,10 +144,10 @@ struct Simulator::Impl {
 
   // ----- a run
 
-  /// The stiffness that contact works against, made ready for solving; the reduced model's own
-  /// where that has it.
-  fem::PartitionedFactor& contact_factor(std::optional<fem::PartitionedFactor>& own);
-  void need_contact(fem::PartitionedFactor& factor);
+  void make_contact_factor(const std::vector<int>& nodes);
+  /// Per obstacle and place: whether it ever comes near.
+  void need_contact(std::vector<std::vector<char>> coming_near);
+  void need_places();
   /// What contact changes in the frames that were stored.
   void touch(const std::vector<Shot>& shots, const PointCurve& points, Solution& solution,
              SimulationResult& result);
@@ -155,6 +161,8 @@ struct Simulator::Impl {
   Solution solved_finite(const std::vector<double>& times);
   void integrate(const std::vector<Shot>& shots, const PointCurve& points,
                  SimulationResult& result);
+  /// The jaw in each frame and still.
+  void place_jaw(const PointCurve& points, SimulationResult& result) const;
   void store(const Shot& shot, const Points& nodes, const PointCurve& points,
              SimulationResult& result) const;
   void describe_tissue(Performance& p);

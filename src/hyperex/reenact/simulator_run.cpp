@@ -200,7 +200,8 @@ void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve
                                          mesh->volume.nodes.rows(), 3);
     store(shots[i], nodes, points, result);
   });
-  if (options.contact.lips) touch(shots, points, solution, result);
+  place_jaw(points, result);
+  if (options.contact.any()) touch(shots, points, solution, result);
   report.greatest_opening_deg = input->greatest_opening_deg;
   report.input_shapes = static_cast<int>(input->drive.shapes());
   report.free_dofs = solution.free_dofs;
@@ -218,6 +219,16 @@ void Simulator::Impl::integrate(const std::vector<Shot>& shots, const PointCurve
                     "direct method) has no such error.",
                     solution.basis_size, solution.estimated_error, options.solver.tolerance));
   describe_tissue(result.performance);
+}
+
+void Simulator::Impl::place_jaw(const PointCurve& points, SimulationResult& result) const {
+  std::vector<double> times_s = result.performance.frame_time_s;
+  for (const double t : options.time.still_times_s) times_s.push_back(std::min(t, end_s()));
+  auto jaw = jaw_now_from_rest(times_s, points);
+  const auto stills = jaw.begin() + std::ptrdiff_t(result.performance.frame_time_s.size());
+  result.still_jaw_now_from_rest.assign(stills, jaw.end());
+  jaw.erase(stills, jaw.end());
+  result.performance.jaw_now_from_rest = std::move(jaw);
 }
 
 void Simulator::Impl::store(const Shot& shot, const Points& nodes, const PointCurve& points,
@@ -301,17 +312,11 @@ SimulationResult Simulator::Impl::run() {
   if (options.region.measured == Measured::all) {
     const Points none = Points::Zero(mesh->volume.nodes.rows(), 3);
     for_frames(shots.size(), [&](std::size_t i) { store(shots[i], none, points, result); });
+    place_jaw(points, result);
   } else {
     integrate(shots, points, result);
   }
   Stopwatch watch;
-  std::vector<double> times_s = result.performance.frame_time_s;
-  for (const double t : options.time.still_times_s) times_s.push_back(std::min(t, end_s()));
-  auto jaw = jaw_now_from_rest(times_s, points);
-  const auto stills = jaw.begin() + std::ptrdiff_t(result.performance.frame_time_s.size());
-  result.still_jaw_now_from_rest.assign(stills, jaw.end());
-  jaw.erase(stills, jaw.end());
-  result.performance.jaw_now_from_rest = std::move(jaw);
   describe(points, result.performance);
   report.skin_s = watch.lap();
   tell(1);

@@ -2,42 +2,16 @@
 #include "hyperex/report/face_backing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
-#include "hyperex/face/ibug.hpp"
-#include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 
 namespace hyperex::report {
 namespace {
 
 using Eigen::Index;
-
-struct Corners {
-  std::array<std::optional<Vec3>, 2> outer, inner;  ///< of the eyes, right and left
-  Vec3 mouth_r, mouth_l;
-  Vec3 forward;
-};
-
-/// Axes as the page has them (web/src/replay/face/face_frame.ts): a head held upright has its mouth
-/// corners before its outer eye corners, by some 12 degrees.
-std::optional<Corners> corners_of(const io::Landmarks& landmarks) {
-  const auto outer_r = face::find_place(landmarks, face::ibug(36));
-  const auto outer_l = face::find_place(landmarks, face::ibug(45));
-  const auto inner_r = face::find_place(landmarks, face::ibug(39));
-  const auto inner_l = face::find_place(landmarks, face::ibug(42));
-  const auto mouth_r = face::find_place(landmarks, face::ibug(48));
-  const auto mouth_l = face::find_place(landmarks, face::ibug(54));
-  if (!outer_r || !outer_l || !mouth_r || !mouth_l) return std::nullopt;
-  const Vec3 x = (*outer_l - *outer_r).normalized();
-  const Eigen::AngleAxisd lean(12 * std::numbers::pi / 180, x);
-  const Vec3 up = lean * (*outer_l + *outer_r - *mouth_l - *mouth_r);
-  return Corners{
-      {outer_r, outer_l}, {inner_r, inner_l}, *mouth_r, *mouth_l, x.cross(up).normalized()};
-}
+using tissue::FaceCorners;
 
 double length_of(const std::vector<int>& loop, const Points& points) {
   double sum = 0;
@@ -53,12 +27,12 @@ Vec3 centre_of(const std::vector<int>& loop, const Points& points) {
 }
 
 /// About the middle between the corners of the mouth, and as wide.
-bool is_mouth(const std::vector<int>& loop, const Points& points, const Corners& corners) {
-  const Vec3 across = corners.mouth_l - corners.mouth_r;
-  const Vec3 off = centre_of(loop, points) - (corners.mouth_l + corners.mouth_r) / 2;
+bool is_mouth(const std::vector<int>& loop, const Points& points, const FaceCorners& corners) {
+  const Vec3 across = corners.mouth[1] - corners.mouth[0];
+  const Vec3 off = centre_of(loop, points) - (corners.mouth[1] + corners.mouth[0]) / 2;
   double least = 0, most = 0;
   for (const int v : loop) {
-    const double at = (points.row(v).transpose() - corners.mouth_r).dot(across);
+    const double at = (points.row(v).transpose() - corners.mouth[0]).dot(across);
     least = v == loop.front() ? at : std::min(least, at);
     most = v == loop.front() ? at : std::max(most, at);
   }
@@ -66,14 +40,14 @@ bool is_mouth(const std::vector<int>& loop, const Points& points, const Corners&
 }
 
 /// Between the outer corners of the eyes, seen from the front: not where a scan is torn at its rim.
-bool in_the_face(const std::vector<int>& loop, const Points& points, const Corners& corners) {
+bool in_the_face(const std::vector<int>& loop, const Points& points, const FaceCorners& corners) {
   const Vec3 centre = centre_of(loop, points);
-  const Vec3 across = *corners.outer[1] - *corners.outer[0];
-  const double share = (centre - *corners.outer[0]).dot(across) / across.squaredNorm();
+  const Vec3 across = corners.outer[1] - corners.outer[0];
+  const double share = (centre - corners.outer[0]).dot(across) / across.squaredNorm();
   return share > 0 && share < 1;
 }
 
-std::vector<Opening> openings_of(const TriMesh& skin, const Corners& corners) {
+std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners) {
   constexpr double longest_m = 0.25;
   const std::vector<std::vector<int>> loops = boundary_loops(skin.triangles);
   std::vector<double> length_m;
@@ -98,27 +72,6 @@ std::vector<Opening> openings_of(const TriMesh& skin, const Corners& corners) {
     }
   }
   return openings;
-}
-
-Eyeball eyeball_between(const Vec3& outer, const Vec3& inner, const Vec3& forward,
-                        const Points& skin) {
-  constexpr double radius_per_width = 0.4, clearance_m = 4e-4, farthest_back_m = 8e-3;
-  const Vec3 middle = (outer + inner) / 2;
-  const double width_m = (outer - inner).norm();
-  Eyeball eye{Vec3::Zero(), forward, radius_per_width * width_m};
-  // The ball's front bulges before the line of the corners by a sixth of the width.
-  const Vec3 start = middle - (eye.radius_m - width_m / 6) * forward;
-  double back_m = 0;
-  for (Index v = 0; v < skin.rows(); ++v) {
-    const Vec3 off = skin.row(v).transpose() - start;
-    const double along = off.dot(forward), across = (off - along * forward).norm();
-    const double reach = eye.radius_m + clearance_m;
-    // Only what lies before the ball: the wall of an eye's socket may be as near as it will.
-    if (across >= reach || along < 0.35 * eye.radius_m) continue;
-    back_m = std::max(back_m, std::sqrt(reach * reach - across * across) - along);
-  }
-  eye.centre = start - std::min(back_m, farthest_back_m) * forward;
-  return eye;
 }
 
 /// The part of a sphere between two angles from its gaze, radians.
@@ -150,14 +103,11 @@ TriMesh zone(const Eyeball& eye, double from, double to, int rings) {
 
 FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks) {
   FaceBacking backing;
-  const auto corners = corners_of(landmarks);
+  const auto corners = tissue::face_corners(landmarks);
   if (!corners) return backing;
   backing.forward = corners->forward;
   backing.openings = openings_of(skin, *corners);
-  for (std::size_t side = 0; side < 2; ++side)
-    if (corners->inner[0] && corners->inner[1])
-      backing.eyeballs.push_back(eyeball_between(*corners->outer[side], *corners->inner[side],
-                                                 corners->forward, skin.points));
+  backing.eyeballs = tissue::eyeballs_behind(skin.points, *corners);
   return backing;
 }
 

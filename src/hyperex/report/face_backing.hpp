@@ -5,12 +5,13 @@
 
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/tissue/eyeballs.hpp"
 
 namespace hyperex::report {
 
 // What pictures put behind the holes of a scanned skin, so that it looks like a face and not like a
-// mask: dark pockets behind mouth, eyes and nostrils, and plain eyeballs. For the eye alone: no
-// part of the model, and of no figure.
+// mask: dark pockets behind mouth, eyes and nostrils, and plain eyeballs. For the eye alone, and of
+// no figure; lids may touch the same eyeballs (reenact/obstacles.hpp).
 
 /// A ring of a pocket as shares: of the pocket's depth, and of the width of the hole's edge.
 struct PocketRing {
@@ -26,11 +27,7 @@ struct Opening {
   std::array<PocketRing, 2> rings = {{{0.35, 1.05}, {0.9, 0.8}}};
 };
 
-/// A sphere that looks along `gaze` (unit length).
-struct Eyeball {
-  Vec3 centre, gaze;
-  double radius_m = 0;
-};
+using tissue::Eyeball;
 
 struct FaceBacking {
   std::vector<Opening> openings;
@@ -41,10 +38,8 @@ struct FaceBacking {
 /// `skin`: at rest, metres. `landmarks`: positions on it, the iBUG points or their anatomical
 /// names; without the outer corners of the eyes and those of the mouth nothing is put behind the
 /// skin, without the inner corners no eyeballs. Openings are all closed borders of at most 250 mm
-/// whose middle lies between the outer corners of the eyes, but the longest, the skin's own end. An
-/// eyeball's radius is 0.4 of the distance of the eye's corners (an adult's is 12 mm, behind an
-/// opening of some 30 mm). It lies as far forward as lets no vertex of the lids into it: at most a
-/// sixth of that distance before the line between the corners, at least 8 mm behind that place.
+/// whose middle lies between the outer corners of the eyes, but the longest, the skin's own end.
+/// Eyeballs: tissue::eyeballs_behind().
 FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks);
 
 /// How much of the light that falls on the lips reaches vertices of teeth and gum behind them, 0 to

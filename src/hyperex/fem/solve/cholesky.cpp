@@ -16,6 +16,8 @@
 #include "hyperex/fem/solve/multifrontal.hpp"
 #include "hyperex/fem/solve/triangular.hpp"
 
+extern "C" void dpotri_(const char* part, const int* n, double* a, const int* stride, int* info);
+
 namespace hyperex::fem {
 namespace {
 
@@ -173,6 +175,41 @@ void Cholesky::solve(Eigen::MatrixXd& x) {
                          m.solve(m.block[1], x.data() + half * x.rows(),
                                  static_cast<std::size_t>(x.cols()) - half);
                        });
+}
+
+Eigen::MatrixXd Cholesky::inverse_of_last(const std::vector<int>& columns) const {
+  const Impl& m = *impl_;
+  const int n = static_cast<int>(columns.size()), before = size() - n;
+  HX_ASSERT(n <= size());
+  if (n == 0) return {};
+  const auto* perm = static_cast<const int*>(m.factor->Perm);
+  std::vector<int> last(perm + before, perm + size());
+  std::sort(last.begin(), last.end());
+  if (last != columns) return {};
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(n, n);
+  const Supernodes l = m.supernodes();
+  for (int s = l.count - 1; s >= 0 && l.first[s + 1] > before; --s) {
+    const std::ptrdiff_t height = l.row_start[s + 1] - l.row_start[s];
+    for (int c = std::max(before, l.first[s]); c < l.first[s + 1]; ++c) {
+      const std::ptrdiff_t k = c - l.first[s];
+      for (std::ptrdiff_t r = k; r < height; ++r)
+        inverse(l.row[l.row_start[s] + r] - before, c - before) =
+            l.value[l.value_start[s] + k * height + r];
+    }
+  }
+  int info = 0;
+  dpotri_("L", &n, inverse.data(), &n, &info);
+  if (info != 0) throw NumericalError(m.purpose + ": a pivot of the factor is 0");
+  std::vector<int> place(static_cast<std::size_t>(n));  // of the k-th of the last among `columns`
+  for (int k = 0; k < n; ++k)
+    place[static_cast<std::size_t>(k)] = static_cast<int>(
+        std::lower_bound(columns.begin(), columns.end(), perm[before + k]) - columns.begin());
+  Eigen::MatrixXd out(n, n);
+  for (int c = 0; c < n; ++c)
+    for (int r = c; r < n; ++r)
+      out(place[std::size_t(r)], place[std::size_t(c)]) =
+          out(place[std::size_t(c)], place[std::size_t(r)]) = inverse(r, c);
+  return out;
 }
 
 int Cholesky::size() const {

@@ -33,6 +33,12 @@ class Cholesky {
   /// X := A^-1 X, the columns together: several times quicker than one after the other.
   void solve(Eigen::MatrixXd& x);
 
+  /// Of the columns eliminated last, `columns` of them in rising order: the rows and columns of
+  /// A^-1 that belong to them. What is left of the factor for them alone is inverted: no solution
+  /// is needed. No rows where others are among the last (the order given is changed within
+  /// branches of the elimination tree alone).
+  Eigen::MatrixXd inverse_of_last(const std::vector<int>& columns) const;
+
   int size() const;
   double entries() const;         ///< of L, the zeros that supernodes store included
   double entries_needed() const;  ///< of L as analysed, without them

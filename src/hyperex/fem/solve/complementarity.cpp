@@ -10,7 +10,8 @@
 namespace hyperex::fem {
 namespace {
 constexpr int kPolishEvery = 10;  // sweeps
-}
+constexpr int kMostNewton = 20;
+}  // namespace
 
 Complementarity solve_complementarity(const Eigen::MatrixXd& a, const Eigen::VectorXd& q,
                                       double tolerance, int most_sweeps, Eigen::VectorXd& z) {
@@ -30,26 +31,34 @@ Complementarity solve_complementarity(const Eigen::MatrixXd& a, const Eigen::Vec
   const auto residual = [&] {
     return n == 0 ? 0 : w.cwiseMin(a.diagonal().cwiseProduct(z)).cwiseAbs().maxCoeff();
   };
-  // As if the pairs that press now were those of the answer: exact once they are.
-  Eigen::VectorXd tried(n), kept_w(n);
-  std::vector<Eigen::Index> active;
+  // Newton's method for min(w, a_ii z) = 0: solves exactly as if the pairs with a_ii z > w pressed,
+  // until those are the same twice. Kept where it comes nearer.
+  Eigen::VectorXd before_z(n), before_w(n);
+  std::vector<Eigen::Index> active, were;
   const auto polish = [&] {
-    active.clear();
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (z[i] > 0) active.push_back(i);
-    if (active.empty()) return;
-    const Eigen::VectorXd exact = -a(active, active).ldlt().solve(q(active));
-    if (!exact.allFinite()) return;
-    tried.setZero();
-    tried(active) = exact.cwiseMax(0);
     const double before = residual();
-    z.swap(tried);
-    kept_w = w;
-    w = q + a * z;
+    before_z = z;
+    before_w = w;
+    were.clear();
+    for (int k = 0; k < kMostNewton; ++k) {
+      active.clear();
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (a(i, i) * z[i] > w[i]) active.push_back(i);
+      if (active.empty() || active == were) break;
+      const Eigen::VectorXd exact = -a(active, active).ldlt().solve(q(active));
+      if (!exact.allFinite()) break;
+      z.setZero();
+      z(active) = exact;
+      w.noalias() = q + a * z;
+      were = active;
+    }
+    z = z.cwiseMax(0);
+    w.noalias() = q + a * z;
     if (residual() < before) return;
-    z.swap(tried);
-    w = kept_w;
+    z = before_z;
+    w = before_w;
   };
+  if (residual() > tolerance) polish();
   for (out.residual = residual(); out.residual > tolerance && out.sweeps < most_sweeps;
        out.residual = residual()) {
     if (out.sweeps++ % 2 == 0)

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "hyperex/core/assert.hpp"
+#include "hyperex/fem/solve/partition.hpp"
+
 namespace hyperex::fem {
 namespace {
 constexpr Eigen::Index kTogether = 96;  // columns solved at a time
@@ -22,6 +25,21 @@ Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<i
   const auto count = Eigen::Index(row.size());
   const auto all = 3 * Eigen::Index(nodes.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(all, all);
+  if (factor.solver() == LinearSolver::cholesky) {
+    std::vector<int> last(row.begin(), row.end());
+    std::sort(last.begin(), last.end());
+    if (const Eigen::MatrixXd inverse = factor.cholesky().inverse_of_last(last);
+        inverse.rows() == count) {
+      std::vector<Eigen::Index> among;  // of each in `row`, its place in `last`
+      for (const Eigen::Index r : row)
+        among.push_back(std::lower_bound(last.begin(), last.end(), r) - last.begin());
+      for (Eigen::Index c = 0; c < count; ++c)
+        for (Eigen::Index r = 0; r < count; ++r)
+          out(place[std::size_t(r)], place[std::size_t(c)]) =
+              inverse(among[std::size_t(r)], among[std::size_t(c)]);
+      return out;
+    }
+  }
   Eigen::MatrixXd columns;
   for (Eigen::Index from = 0; from < count; from += kTogether) {
     const Eigen::Index width = std::min(kTogether, count - from);
@@ -33,6 +51,28 @@ Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<i
         out(place[std::size_t(r)], place[std::size_t(from + c)]) = columns(row[std::size_t(r)], c);
   }
   return 0.5 * (out + out.transpose());
+}
+
+NodeOrder order_with_last(const NodeOrder& known, const std::vector<int>& known_prescribed,
+                          const std::vector<int>& prescribed, int unknowns,
+                          const std::vector<int>& nodes) {
+  const Partition before(unknowns, known_prescribed), now(unknowns, prescribed);
+  HX_ASSERT(known.unknowns.size() == before.free.size());
+  enum : char { in_place, late, last };
+  std::vector<char> when(std::size_t(unknowns), in_place);
+  for (const int unknown : before.prescribed) when[std::size_t(unknown)] = late;
+  for (const int node : nodes)
+    for (int axis = 0; axis < 3; ++axis) when[std::size_t(3 * node + axis)] = last;
+  NodeOrder out{{}, known.entries, known.flops};
+  out.unknowns.reserve(now.free.size());
+  const auto add = [&](int unknown, char wanted) {
+    if (when[std::size_t(unknown)] == wanted && now.free_index[std::size_t(unknown)] >= 0)
+      out.unknowns.push_back(now.free_index[std::size_t(unknown)]);
+  };
+  for (const int k : known.unknowns) add(before.free[std::size_t(k)], in_place);
+  for (const char wanted : {late, last})
+    for (const int unknown : now.free) add(unknown, wanted);
+  return out;
 }
 
 }  // namespace hyperex::fem

@@ -421,6 +421,12 @@ std::vector<Key> run_keys() {
           "The lips may touch but not pass through each other, without friction. Each frame "
           "is corrected by itself, in static equilibrium. Recorded points then end where "
           "they are recorded only as far as no lip is in their way. Of small strain alone."),
+      flag<Scene>("contact.teeth", AT(contact.teeth),
+                  "The mouth's side of lips and cheeks may touch the teeth of both jaws, the lower "
+                  "ones going along with the jaw, but not pass through them, in the same way."),
+      flag<Scene>("contact.eyes", AT(contact.eyes),
+                  "The lids may touch eyeballs, which are fitted behind them, but not pass through "
+                  "them, in the same way."),
       choice<Scene, SolverMethod>(
           "solver.method", AT(solver.method),
           {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},
@@ -525,7 +531,7 @@ const std::vector<Section>& sections() {
       {"support", "What holds the tissue from within and at its border."},
       {"drive", "What moves it."},
       {"muscles", "Muscles, where they are what moves it (`drive.by`)."},
-      {"teeth", "What stands behind the lips. It is drawn, and changes no motion."},
+      {"teeth", "What stands behind the lips. It is drawn; with contact.teeth tissue touches it."},
       {"contact", "What may not pass through each other."},
       {"solver", "How the equations of motion are solved."},
       {"time", "Steps and frames."},

@@ -27,6 +27,7 @@
 #include "hyperex/scene/stages/drive_choice.hpp"
 #include "hyperex/scene/stages/kept_order.hpp"
 #include "hyperex/scene/stages/landmark_search.hpp"
+#include "hyperex/scene/stages/obstacles.hpp"
 #include "hyperex/scene/stages/plausible.hpp"
 #include "hyperex/scene/stages/prepared_face.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
@@ -98,11 +99,18 @@ Json summary_of(const Results& r, const SkinOff& off) {
   s["max_displacement_mm"] = 1e3 * metrics::greatest_displacement_m(p.skin_displacement_m);
   s["lip_opening_mm"] = report.lip_gap_mm;
   s["lip_overlap_mm"] = report.lip_overlap_mm;
-  if (r.scene.contact.lips)
-    s["contact"] = {{"frames", report.contact.frames},
-                    {"lip_overlap_without_mm", report.contact.overlap_mm},
-                    {"lip_overlap_mm", report.contact.left_mm},
-                    {"residual_mm", report.contact.residual_mm}};
+  if (const auto& c = r.scene.contact; c.any()) {
+    const reenact::SimulationReport::Contact& told = report.contact;
+    Json& contact = s["contact"] = {{"frames", told.frames}, {"residual_mm", told.residual_mm}};
+    const auto add = [&](bool on, const char* what, double without_mm, double mm) {
+      if (!on) return;
+      contact[fmt::format("{}_without_mm", what)] = without_mm;
+      contact[fmt::format("{}_mm", what)] = mm;
+    };
+    add(c.lips, "lip_overlap", told.overlap_mm, told.left_mm);
+    add(c.teeth, "in_teeth", told.teeth_mm, told.teeth_left_mm);
+    add(c.eyes, "in_eyes", told.eyes_mm, told.eyes_left_mm);
+  }
   if (const auto outline =
           metrics::mouth_outline(p.skin_rest, metrics::mouth_rim(p.skin_rest, r.inputs.landmarks),
                                  p.skin_displacement_m[std::size_t(p.peak_frame)]))
@@ -254,6 +262,7 @@ Json run_into(Scene scene, const std::filesystem::path& directory) {
                   [&] { teeth = teeth_of(scene, inputs, mesh, teeth_notes); }});
   }
   for (const auto& note : teeth_notes) spdlog::info("{}", note);
+  simulator.set_obstacles(obstacles_of(scene, inputs, mesh, teeth.get()));
   const reenact::Simulator before_run = simulator;
   reenact::SimulationResult simulation;
   MirroredTwin twin;
