@@ -47,10 +47,17 @@ export class FiguresPanel {
     dark.addEventListener('change', () => this.plots.forEach(({ chart }) => chart.draw()));
   }
 
-  /** Of a new face: the charts are made anew. */
-  build(): void {
+  /** Before another face. */
+  clear(): void {
     for (const { chart } of this.plots.splice(0)) chart.remove();
     this.cornerVertex = null;
+    this.corners = [];
+    this.now = [];
+  }
+
+  /** Of a new face: the charts are made anew. */
+  build(): void {
+    this.clear();
     this.refresh();
     const { state } = this;
     const { replay } = state.source;

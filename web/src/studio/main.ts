@@ -41,6 +41,8 @@ class Studio {
   private readonly progress = new Progress(at('progress'));
   private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.say('note', text));
   private stage: Stage | null = null;
+  /** The scene that the motion shown is of. */
+  private movedText: string | null = null;
   private unwireKeys: Undo = () => {};
   private readonly showTransport = wireTransport(this.state.source, this.state.playback);
 
@@ -75,16 +77,24 @@ class Studio {
       at<HTMLButtonElement>('redo').disabled = !can_redo;
       at<HTMLButtonElement>('save-menu').disabled = false;
       at('unsaved').hidden = saved;
+      this.compareTexts();
     });
     connection.on('face', ({ replay, muscles, block }) => {
       const manifest = replay as Manifest & { palette?: Palette };
       if (manifest.palette) defineColours(manifest.palette);
+      this.withOptions(manifest.summary);
       state.muscles = isRecord(muscles) ? (muscles.muscles as MuscleInfo[]) : [];
       state.source.setFace(replayOf(manifest, block));
+      this.movedText = state.scene?.text ?? null;
+      this.compareTexts();
     });
     connection.on('motion', ({ replay, block, seconds }) => {
       if (!state.source.open) return;
-      state.source.setMotion(movingOf(replay as MovingManifest, block));
+      const manifest = replay as MovingManifest;
+      this.withOptions(manifest.summary);
+      state.source.setMotion(movingOf(manifest, block));
+      this.movedText = state.scene?.text ?? null;
+      this.compareTexts();
       document.documentElement.dataset.computedS = seconds.toFixed(3);
       document.documentElement.dataset.motions = String(Number(document.documentElement.dataset.motions ?? 0) + 1);
     });
@@ -99,6 +109,26 @@ class Studio {
     });
     connection.on('progress', ({ stage, share }) => this.progress.tell(stage, share));
     connection.on('said', ({ level, text }) => this.messages.say(level, text));
+  }
+
+  /** Whether what moves is the scene as it is; until then its figures are of before. */
+  private compareTexts(): void {
+    const current = this.movedText === (this.state.scene?.text ?? null);
+    document.documentElement.dataset.current = String(current);
+    at('figures').classList.toggle('stale', !current);
+  }
+
+  /** What a report's summary says of base: from which its variants differ. */
+  private withOptions(summary: Record<string, unknown>): void {
+    const options: Record<string, unknown> = {};
+    for (const [path, value] of Object.entries(this.state.valuesOf(0))) {
+      const parts = path.split('.');
+      const last = parts.pop()!;
+      let inner = options;
+      for (const part of parts) inner = (inner[part] ??= {}) as Record<string, unknown>;
+      inner[last] = value;
+    }
+    summary.options = options;
   }
 
   private greeted({ program, keys, presets, places }: Greeting): void {
@@ -116,9 +146,12 @@ class Studio {
   private showFace(): void {
     const { source, shown, playback } = this.state;
     const { replay } = source;
-    shown.setCount(replay.faces.length);
-    this.setRange();
+    // What shows the face that was must not hear of the other's.
     this.stage?.dispose();
+    this.stage = null;
+    this.figures.clear();
+    this.setRange();
+    shown.setCount(replay.faces.length);
     this.stage = new Stage(replay, shown);
     this.muscles.build();
     this.figures.build();

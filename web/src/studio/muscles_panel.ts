@@ -130,7 +130,7 @@ export class MusclesPanel {
     const toggle = (text: string, hint: string, press: () => void) => {
       const made = button(`${side} ${text}`, `small-toggle side-${side}`, press);
       made.title = hint;
-      made.setAttribute('aria-label', hint);
+      made.setAttribute('aria-label', `${side} ${text}: ${hint}`);
       made.setAttribute('aria-pressed', 'false');
       made.addEventListener('pointerenter', lit);
       made.addEventListener('pointerleave', dark);

@@ -20,7 +20,7 @@ export class ScenePanel {
       void navigator.clipboard.writeText(text.textContent ?? '').then(() => (copied.textContent = words.copied));
     });
     const head = element('div', '', 'scene-head');
-    head.append(element('h3', words.sceneText), copied, copy);
+    head.append(element('h2', words.sceneText), copied, copy);
     this.element.append(drive, head, text);
     state.sceneChanged.add(() => {
       const { scene } = state;

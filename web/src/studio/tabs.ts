@@ -2,6 +2,7 @@
 // Base and its variants, a tab each; of the one in hand a menu; "What if…" makes others.
 import { at, button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
+import { upper } from '../page/format';
 import { chooseFace } from '../replay/face/face_chooser';
 import { Refused, type Connection } from './connection';
 import type { Edits } from './edits';
@@ -9,6 +10,9 @@ import { menuOf, type Menu } from './menu';
 import type { Preset } from './messages';
 import type { StudioState } from './studio_state';
 import { words } from './words';
+
+/** "palsy_complete_R" is "palsy_complete". */
+const stemOf = (preset: string): string => preset.replace(/_[LR]$/, '');
 
 export class Tabs {
   presets: Preset[] = [];
@@ -107,20 +111,33 @@ export class Tabs {
     sheet.append(element('h3', words.weakerTitle), this.weaker(close));
     sheet.append(element('h3', words.presetsTitle));
     const list = element('div', '', 'entries');
-    for (const preset of this.presets) {
-      const entry = button('', 'entry', () => {
-        close();
-        this.try(() => this.edits.addFace(preset.name.replaceAll('_', ' '), this.state.edited, preset.name));
-      });
-      entry.append(element('b', preset.name.replaceAll('_', ' ')), element('small', preset.summary));
-      entry.title = words.presetSource(preset.source, preset.assumed);
-      entry.dataset.preset = preset.name;
-      list.append(entry);
+    // Those of a side in one row for both.
+    for (const stem of new Set(this.presets.map(({ name }) => stemOf(name)))) {
+      const own = this.presets.filter(({ name }) => stemOf(name) === stem);
+      const row = element('div', '', 'preset');
+      const title = element('div');
+      title.append(element('b', upper(stem.replaceAll('_', ' '))), element('small', own[0].summary));
+      row.title = words.presetSource(own[0].source, own[0].assumed);
+      row.append(title, ...own.map((preset) => this.presetButton(preset, close)));
+      list.append(row);
     }
     sheet.append(list, element('h3', words.emptyTitle), button(words.emptyAdd, 'entry', () => {
       close();
       this.try(() => this.edits.addFace(words.newVariant, this.state.edited));
     }));
+  }
+
+  private presetButton({ name }: Preset, close: () => void): HTMLButtonElement {
+    const stem = stemOf(name);
+    const side = name === stem ? null : words.sideNames[name.slice(-1) as 'L' | 'R'];
+    const called = side ? words.ofSide(stem.replaceAll('_', ' '), side) : stem.replaceAll('_', ' ');
+    const made = button(side ?? words.presetAdd, 'quiet', () => {
+      close();
+      this.try(() => this.edits.addFace(called, this.state.edited, name));
+    });
+    made.setAttribute('aria-label', upper(called));
+    made.dataset.preset = name;
+    return made;
   }
 
   /** The question that is asked most. */

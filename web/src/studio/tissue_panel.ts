@@ -13,12 +13,12 @@ const thickness = 'mesh.thickness_mm';
 const threeDigits = (value: number): number => Number(value.toPrecision(3));
 
 /** A decade to either side of the default within the range where that spans decades; else the range. */
-function courseOf({ low = 0, high = 1, default: given }: SceneKey): { course: Course; isLog: boolean } {
+function courseOf({ low = 0, high = 1, default: given }: SceneKey): Course {
   const middle = Number(given);
   const decades = high / Math.max(low, 1e-12) > 100 && middle > 0;
-  if (!decades) return { course: linear(low, high), isLog: false };
+  if (!decades) return linear(Math.max(low, 0), high);
   const from = Math.max(middle / 20, low > 0 ? low : 0);
-  return { course: logarithmic(from, Math.min(middle * 20, high)), isLog: true };
+  return logarithmic(from, Math.min(middle * 20, high));
 }
 
 export class TissuePanel {
@@ -38,7 +38,7 @@ export class TissuePanel {
     this.sliders.clear();
     for (const key of keys) {
       const known = this.state.keys.get(key);
-      if (known) this.add(known, courseOf(known).course, {});
+      if (known) this.add(known, courseOf(known), {});
     }
     const depth = this.state.keys.get(thickness);
     if (depth) this.addThickness(depth);
@@ -47,7 +47,7 @@ export class TissuePanel {
 
   private add(key: SceneKey, course: Course, { still = false }): Slider {
     const slider = new Slider({
-      name: words.keyNames[key.name] ?? key.name, unit: key.unit, hint: key.description, course,
+      name: words.keyNames[key.name] ?? key.name, unit: key.unit.replace('^3', '³'), hint: key.description, course,
       round: threeDigits, low: key.low ?? 0, high: key.high ?? Infinity,
       live: (value) => {
         if (!still) this.edits.live({ [key.name]: value });

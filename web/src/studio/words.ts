@@ -19,6 +19,7 @@ const en = {
   rightSide: 'What can be changed, and what comes of it',
 
   // Faces.
+  facesRow: 'Faces',
   facesGroup: 'Face',
   base: 'Base',
   whatIf: 'What if…',
@@ -42,6 +43,7 @@ const en = {
   weakerName: (side: string, percent: number) => `${side} side ${percent} % weaker`,
   sideNames: { R: 'Right', L: 'Left' } as Record<'L' | 'R', string>,
   presetsTitle: 'From a preset',
+  presetAdd: 'Add',
   presetSource: (source: string, assumed: string) => `Source: ${source}. Assumed: ${assumed}.`,
   emptyTitle: 'Something else',
   emptyAdd: 'A copy of the face shown, to change',
@@ -86,7 +88,7 @@ const en = {
   thicknessAuto: 'From published depths',
   thicknessTakes: 'Takes a new mesh, some seconds.',
   keyNames: {
-    'tissue.young_kpa': 'Stiffness (Young’s modulus E)',
+    'tissue.young_kpa': 'Stiffness (modulus E)',
     'tissue.viscosity_pa_s': 'Viscosity η',
     'tissue.poisson': 'Poisson’s ratio ν',
     'tissue.density_kg_m3': 'Density',

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The studio as a user has it: the program's own server and its page in Chromium.
+//   HYPEREX=build/release/bin/hyperex node --test web/tests/studio.test.mjs
+// SCREENSHOTS=FOLDER keeps pictures of the page in light and dark at three sizes, to be looked at.
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import { mkdir, readFile, writeFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { launch, tooWide } from './browser.mjs';
+import { openStudio, program, run, startStudio } from './studio_server.mjs';
+
+const skip = program() ? false : 'the program is not built';
+const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+const count = (page, what) => page.evaluate((key) => Number(document.documentElement.dataset[key] ?? 0), what);
+const faces = (page) => page.locator('.tab-name').allInnerTexts();
+const sceneText = (page) => page.locator('#scene-text').textContent();
+/** Largest distance of a corner from rest in a face, mm, not rounded. */
+const cornerMm = (page, face, side) =>
+  page.locator(`.corner-table tr[data-face="${face}"] td[data-side=${side}]`).first().getAttribute('data-mm').then(Number);
+
+/** After `act` another motion has come and is shown. */
+async function afterMotion(page, act, more = 1) {
+  const before = await count(page, 'motions');
+  await act();
+  await page.waitForFunction((n) => Number(document.documentElement.dataset.motions ?? 0) >= n, before + more);
+}
+
+/** Until the motion that is shown is that of the scene as it is. */
+const settled = (page) => page.waitForFunction(() => document.documentElement.dataset.current === 'true');
+
+/** Pulls a slider to a share of its length in steps, and holds it there. */
+async function pull(page, range, to, steps = 8) {
+  await range.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await range.boundingBox();
+  const [from, middle] = [Number(await range.inputValue()) / 1000, y + height / 2];
+  // The thumb's middle does not reach the ends.
+  const at = (share) => x + 8 + share * (width - 16);
+  await page.mouse.move(at(from), middle);
+  await page.mouse.down();
+  for (let i = 1; i <= steps; ++i) {
+    await page.mouse.move(at(from + ((to - from) * i) / steps), middle);
+    await page.waitForTimeout(30);
+  }
+}
+
+async function weaker(page, side, percent) {
+  await page.click('#what-if');
+  await page.selectOption('.weaker select', side);
+  await page.fill('.weaker input', String(percent));
+  await page.click('.weaker .primary');
+  await page.waitForFunction((by) => document.getElementById('scene-text').textContent.includes(`side_${by[0]}" = ${by[1]}`), [side, 1 - percent / 100]);
+  await settled(page);
+}
+
+describe('the studio', { skip, concurrency: false }, () => {
+  let browser;
+  before(async () => (browser = await launch()));
+  after(() => browser?.close());
+
+  test('what if the right side were 30 % weaker: beside base, in millimetres, as a picture, as a scene that runs', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    assert.equal(new URL(page.url()).hash, '', 'the token is gone from the address');
+    assert.deepEqual(await faces(page), ['Base']);
+    await weaker(page, 'R', 30);
+    assert.deepEqual(await faces(page), ['Base', 'Right side 30 % weaker']);
+    assert.equal(await page.locator('#canvas-host').getAttribute('data-mode'), 'side-by-side');
+    const [baseR, ownR] = [await cornerMm(page, 0, 'right'), await cornerMm(page, 1, 'right')];
+    assert.ok(ownR < baseR - 1 && ownR > 0.5 * baseR, `${baseR} to ${ownR} mm`);
+    assert.match(await page.locator('.corner-table tr[data-face="1"] td[data-side=right]').innerText(), /−\d\.\d mm to base/);
+
+    const [picture] = await Promise.all([page.waitForEvent('download'), page.click('#save-picture')]);
+    assert.match(picture.suggestedFilename(), /right-side-30-weaker.*\.png$/);
+    assert.deepEqual([...(await readFile(await picture.path())).subarray(1, 4)].map((c) => String.fromCharCode(c)).join(''), 'PNG');
+
+    assert.ok(await page.locator('#unsaved').isVisible());
+    await page.click('#save-menu');
+    await page.fill('#save-name', 'weaker');
+    await page.click('[data-save=scene]');
+    await page.waitForSelector('.told:has-text("weaker.toml")');
+    await page.keyboard.press('Escape');
+    assert.ok(!(await page.locator('#unsaved').isVisible()));
+    const file = join(studio.folder, 'weaker.toml');
+    assert.equal(await readFile(file, 'utf8').then((text) => text.includes('side_R')), true);
+
+    const out = join(studio.folder, 'out');
+    await run(['run', file, '--out', out], studio);
+    const summary = JSON.parse(await readFile(join(out, 'summary.json'), 'utf8'));
+    const excursions = (holder) => holder.excursions.find(({ point }) => point === 'cheilion' || point === 'ibug68_48/54').excursion_mm;
+    const runs = [excursions(summary.symmetry), excursions(summary.variants.table[1])];
+    for (const [face, own] of runs.entries())
+      for (const [side, name] of [['right', 'R'], ['left', 'L']]) {
+        const shown = await cornerMm(page, face, side);
+        assert.ok(Math.abs(shown - own[name]) <= 1e-6 * own[name], `face ${face}, ${side}: ${shown} here, ${own[name]} by hyperex run`);
+      }
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('a slider makes a face beside base, moves it while it is pulled and changes it when let go; undo and redo', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('#tab-tissue');
+    const young = page.locator('[data-key="tissue.young_kpa"] input[type=range]');
+    const before = await page.locator('[data-key="tissue.young_kpa"] input[type=number]').inputValue();
+    await pull(page, young, 0.8, 12);
+    await page.waitForFunction(() => Number(document.documentElement.dataset.shapes ?? 0) > 0);
+    assert.deepEqual(await faces(page), ['Base', 'What if']);
+    await afterMotion(page, () => page.mouse.up());
+    await page.waitForFunction(() => /young_kpa/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    const stiff = Number(/young_kpa = ([\d.]+)/.exec(await sceneText(page))[1]);
+    assert.ok(stiff > 2 * Number(before), `${before} to ${stiff} kPa`);
+    assert.equal(Number(await page.locator('[data-key="tissue.young_kpa"] input[type=number]').inputValue()), stiff);
+    const changed = await cornerMm(page, 1, 'left');
+    assert.ok(changed < (await cornerMm(page, 0, 'left')) - 1, 'stiffer tissue answers less');
+
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => !/young_kpa/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.equal(await page.locator('[data-key="tissue.young_kpa"] input[type=number]').inputValue(), before);
+    await page.keyboard.press('Control+Shift+z');
+    await page.waitForFunction(() => /young_kpa/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.equal(await cornerMm(page, 1, 'left'), changed, 'the same scene gives the same figures');
+
+    // A muscle, by keys alone; its line lights up.
+    await page.click('#tab-muscles');
+    await page.locator('[data-gain=zygomatic_R]').focus();
+    for (let i = 0; i < 3; ++i) await page.keyboard.press('PageDown');
+    await page.waitForFunction(() => /zygomatic_R/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.match(await sceneText(page), /"zygomatic_R" = 0\.4/);
+    assert.ok((await cornerMm(page, 1, 'right')) < changed);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('variants from presets: added, renamed, duplicated, deleted; wipe and difference', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('#what-if');
+    await page.click('[data-preset=palsy_complete_L]');
+    await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 2);
+    await settled(page);
+    assert.deepEqual(await faces(page), ['Base', 'palsy complete, left']);
+    assert.ok((await cornerMm(page, 1, 'left')) < 0.5 * (await cornerMm(page, 0, 'left')));
+
+    await page.locator('.tab-name').nth(1).dblclick();
+    await page.fill('.tab-rename', 'Left palsy');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.tab-name:has-text("Left palsy")');
+    await page.locator('.tab-more').first().click();
+    await page.click('.sheet:popover-open .entry:has-text("Duplicate")');
+    await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 3);
+    await settled(page);
+    assert.deepEqual(await faces(page), ['Base', 'Left palsy', 'Left palsy, copy']);
+    const [copy, own] = [await cornerMm(page, 2, 'left'), await cornerMm(page, 1, 'left')];
+    assert.ok(Math.abs(copy - own) <= 1e-5 * own, `${copy} of the copy, ${own} mm`);
+
+    await page.click('#modes [data-mode=wipe]');
+    await page.click('[data-colouring=difference]');
+    assert.match(await page.locator('#colour-bar').innerText(), /Distance between the faces/);
+    assert.equal(await page.locator('#canvas-host').getAttribute('data-mode'), 'wipe');
+    await page.locator('.tab-more').nth(1).click();
+    await page.click('.sheet:popover-open .entry:has-text("Delete")');
+    await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 2);
+    await settled(page);
+    assert.equal(await page.locator('.corner-table tbody tr:not(.differs)').count(), 2);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('files: what is no scan is refused in place; a scene opens; a server that dies and comes back', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    const choose = async (name, text) => page.locator('#file-picker').setInputFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+    await choose('broken.ply', 'ply\nformat nonsense\n');
+    await page.waitForSelector('#open-panel .problem:not([hidden])');
+    assert.match(await page.locator('#open-panel .problem').innerText(), /broken\.ply/);
+    await choose('alone.csv', 'time_s\n');
+    assert.match(await page.locator('#open-panel .problem').innerText(), /scan/);
+
+    const motions = await count(page, 'motions');
+    await choose('mine.toml', 'title = "Mine"\nscan = { file = "embedded" }\nmotion = { file = "embedded" }\n[[variant]]\nname = "stiff"\ntissue.young_kpa = 900\n');
+    await page.waitForFunction(() => document.getElementById('scene-title').textContent === 'Mine');
+    await page.waitForFunction(() => document.querySelectorAll('.corner-table tbody tr:not(.differs)').length === 2);
+    assert.deepEqual(await faces(page), ['Base', 'stiff']);
+    assert.equal(await count(page, 'motions'), motions, 'a face, not another motion');
+    assert.deepEqual(complaints, []);
+
+    await studio.kill();
+    await page.waitForSelector('#banner:not([hidden])');
+    assert.match(await page.locator('#banner').innerText(), /does not answer/);
+    await close();
+  });
+
+  test('a page that is loaded again goes on; another window takes over; a wrong token is turned away', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const first = await openStudio(browser, studio.address);
+    await weaker(first.page, 'L', 50);
+    await first.page.reload();
+    await first.page.waitForSelector('html[data-ready]');
+    assert.deepEqual(await faces(first.page), ['Base', 'Left side 50 % weaker']);
+    const second = await openStudio(browser, studio.address);
+    await first.page.waitForSelector('#banner:not([hidden])');
+    assert.match(await first.page.locator('#banner').innerText(), /another window/);
+    assert.deepEqual(await faces(second.page), ['Base', 'Left side 50 % weaker']);
+    const stranger = await openStudio(browser, studio.address.replace(/#.*/, '#00112233445566778899aabbccddeeff'), { ready: false });
+    await stranger.page.waitForSelector('#banner:not([hidden])');
+    assert.match(await stranger.page.locator('#banner').innerText(), /does not let this page in/);
+    for (const { complaints, close } of [first, second]) {
+      assert.deepEqual(complaints, []);
+      await close();
+    }
+    await stranger.close();
+  });
+
+  test('axe-core finds nothing, nothing is wider than the window: light and dark at three sizes', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const shots = process.env.SCREENSHOTS;
+    if (shots) await mkdir(shots, { recursive: true });
+    let made = false;
+    for (const colorScheme of ['light', 'dark'])
+      for (const [name, viewport] of [['small', { width: 1280, height: 720 }], ['large', { width: 2560, height: 1440 }], ['tablet', { width: 820, height: 1180 }]]) {
+        const { page, complaints, close } = await openStudio(browser, studio.address, { colorScheme, viewport });
+        if (!made) await weaker(page, 'R', 30);
+        made = true;
+        await page.click('#modes [data-mode=side-by-side]');
+        assert.ok((await tooWide(page)) <= 0, `${colorScheme} ${name}`);
+        await page.evaluate(axe);
+        for (const panel of ['muscles', 'tissue', 'scene']) {
+          await page.click(`#tab-${panel}`);
+          const { violations, passes } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+          assert.ok(passes.length >= 12);
+          assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((n) => n.target.join(' ')).join(', ')}`), [], `${colorScheme} ${name} ${panel}`);
+          if (shots) await writeFile(join(shots, `${colorScheme}-${name}-${panel}.png`), await page.screenshot());
+        }
+        await page.click('#what-if');
+        const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+        assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((n) => n.target.join(' ')).join(', ')}`), []);
+        if (shots) await writeFile(join(shots, `${colorScheme}-${name}-what-if.png`), await page.screenshot());
+        assert.deepEqual(complaints, []);
+        await close();
+      }
+    assert.ok(existsSync(studio.folder));
+  });
+});

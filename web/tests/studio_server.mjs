@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A studio of one's own: the program's server in an empty folder, and a page of it in a browser.
+import { spawn } from 'node:child_process';
+import { existsSync, readdirSync, statSync } from 'node:fs';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { fileURLToPath } from 'node:url';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
+
+/** HYPEREX, or the newest build's; null where none is built. */
+export function program() {
+  if (process.env.HYPEREX) return existsSync(process.env.HYPEREX) ? process.env.HYPEREX : null;
+  const build = join(root, 'build');
+  const found = existsSync(build)
+    ? readdirSync(build).map((preset) => join(build, preset, 'bin', 'hyperex')).filter(existsSync)
+    : [];
+  return found.sort((a, b) => statSync(b).mtimeMs - statSync(a).mtimeMs)[0] ?? null;
+}
+
+/** Runs the program to its end; its standard output. */
+export async function run(args, { cwd, env = {} }) {
+  const child = spawn(program(), args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'] });
+  let [out, err] = ['', ''];
+  child.stdout.on('data', (text) => (out += text));
+  child.stderr.on('data', (text) => (err += text));
+  const code = await new Promise((done) => child.on('close', done));
+  if (code !== 0) throw new Error(`hyperex ${args.join(' ')}: ${code}\n${err}`);
+  return out;
+}
+
+/** Starts `hyperex studio` with these arguments. What it keeps lies in its folder. */
+export async function startStudio(args = [], { port, folder: given } = {}) {
+  const folder = given ?? (await mkdtemp(join(tmpdir(), 'hyperex-studio-')));
+  const env = { XDG_STATE_HOME: join(folder, 'state'), XDG_CACHE_HOME: join(folder, 'cache') };
+  const child = spawn(program(), ['studio', '--no-browser', ...(port ? ['--port', String(port)] : []), ...args], {
+    cwd: folder, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'],
+  });
+  let err = '';
+  child.stderr.on('data', (text) => (err += text));
+  const ended = new Promise((done) => child.on('close', done));
+  const address = await new Promise((done, fail) => {
+    createInterface({ input: child.stdout }).on('line', (line) => {
+      const found = /http:\/\/\S+/.exec(line);
+      if (found) done(found[0]);
+    });
+    void ended.then((code) => fail(new Error(`hyperex studio ended with ${code}: ${err}`)));
+  });
+  const end = async (signal) => {
+    child.kill(signal);
+    await ended;
+  };
+  return {
+    address, folder, env, port: Number(new URL(address).port),
+    kill: () => end('SIGKILL'),
+    stop: async () => {
+      await end('SIGTERM');
+      await rm(folder, { recursive: true, force: true });
+    },
+  };
+}
+
+/** A page of the studio that remembers everything that should not happen; ready once the face is drawn. */
+export async function openStudio(browser, address, { ready = true, ...options } = {}) {
+  const context = await browser.newContext({
+    viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce', acceptDownloads: true, ...options,
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(60_000);
+  const complaints = [];
+  page.on('console', (message) => {
+    if (/GPU stall due to ReadPixels|readback operations using getImageData/.test(message.text())) return;
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  const { origin } = new URL(address);
+  page.on('request', (request) => {
+    const url = request.url();
+    if (!url.startsWith(`${origin}/`) && !/^(data|blob):/.test(url)) complaints.push(`request to ${url}`);
+  });
+  await page.goto(address);
+  if (ready) await page.waitForSelector('html[data-ready]');
+  return { page, complaints, close: () => context.close() };
+}
