@@ -135,7 +135,7 @@ export class Tabs {
       close();
       this.try(() => this.edits.addFace(called, this.state.edited, name));
     });
-    made.setAttribute('aria-label', upper(called));
+    made.setAttribute('aria-label', side ? upper(called) : `${words.presetAdd}: ${called}`);
     made.dataset.preset = name;
     return made;
   }
