@@ -177,6 +177,36 @@ describe('the studio', { skip, concurrency: false }, () => {
     await close();
   });
 
+  test('landmarks: dragged over the skin and moved by keys, doubted, used', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('#landmarks-panel > .quiet');
+    const names = await page.locator('.landmark-choice option').allInnerTexts();
+    assert.ok(names.length > 60 && new Set(names).size === names.length, `${names.length} points, each once`);
+    // Where the cheek of the embedded face lies at rest.
+    const { x, y, width, height } = await page.locator('#canvas-host').boundingBox();
+    const [cheekX, cheekY] = [x + 0.631 * width, y + 0.554 * height];
+    const chosen = () => page.locator('.landmark-choice select').evaluate((select) => select.selectedOptions[0].text);
+    await page.mouse.move(cheekX, cheekY);
+    await page.mouse.down();
+    for (let i = 1; i <= 6; ++i) await page.mouse.move(cheekX + 6 * i, cheekY + 5 * i);
+    await page.mouse.up();
+    assert.equal(await chosen(), 'Cheek, left');
+    await page.waitForSelector('.doubts li');
+    assert.match(await page.locator('.doubts').innerText(), /cheek_L is \d+\.\d mm/);
+    await page.selectOption('.landmark-choice select', { label: 'Tip of the nose (pronasale)' });
+    for (let i = 0; i < 3; ++i) await page.locator('#face').press('ArrowUp');
+    await page.click('.landmark-buttons .primary');
+    await page.waitForFunction(() => /landmarks/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => !/landmarks/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
   test('files: what is no scan is refused in place; a scene opens; a server that dies and comes back', async (t) => {
     const studio = await startStudio();
     t.after(() => studio.stop());

@@ -14,7 +14,8 @@ import { transportKeys, wireTransport } from '../replay/transport';
 import { Connection, takeToken, type LineState } from './connection';
 import { Edits } from './edits';
 import { FiguresPanel } from './figures_panel';
-import { isRecord, type MuscleInfo, type Places, type Preset, type SceneKey, type SceneNow } from './messages';
+import { LandmarksPanel } from './landmarks_panel';
+import { isRecord, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type SceneKey, type SceneNow } from './messages';
 import { MessagesPanel } from './messages_panel';
 import { MusclesPanel } from './muscles_panel';
 import { OpenPanel } from './open_panel';
@@ -37,6 +38,7 @@ class Studio {
   private readonly figures = new FiguresPanel(this.state, at('figures-body'));
   private readonly tabs = new Tabs(this.state, this.connection, this.edits);
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'));
+  private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null);
   private readonly messages = new MessagesPanel(at('messages-panel'));
   private readonly progress = new Progress(at('progress'));
   private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.say('note', text));
@@ -79,12 +81,13 @@ class Studio {
       at('unsaved').hidden = saved;
       this.compareTexts();
     });
-    connection.on('face', ({ replay, muscles, block }) => {
+    connection.on('face', ({ replay, muscles, landmarks, block }) => {
       const manifest = replay as Manifest & { palette?: Palette };
       if (manifest.palette) defineColours(manifest.palette);
       this.withOptions(manifest.summary);
       state.muscles = isRecord(muscles) ? (muscles.muscles as MuscleInfo[]) : [];
       state.source.setFace(replayOf(manifest, block));
+      this.landmarks.build(landmarks as LandmarkInfo[]);
       this.movedText = state.scene?.text ?? null;
       this.compareTexts();
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The scene file as it would be saved, and what drives the face.
 import { button, element } from '../page/dom';
+import { upper } from '../page/format';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
@@ -25,7 +26,7 @@ export class ScenePanel {
     state.sceneChanged.add(() => {
       const { scene } = state;
       if (!scene) return;
-      drive.replaceChildren(element('b', words.drivenBy[scene.drive] ?? scene.drive), scene.drive_why ? `: ${scene.drive_why}` : '.');
+      drive.textContent = `${upper(scene.drive_why || words.drivenBy[scene.drive] || scene.drive)}.`.replace(/\.+$/, '.');
       text.textContent = scene.text;
       copied.textContent = '';
     });

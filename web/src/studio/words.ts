@@ -153,7 +153,8 @@ const en = {
   landmarksDone: 'Use them',
   landmarksDoneHint: 'Makes the face anew with the points as they lie',
   landmarksLeave: 'Leave',
-  landmarksSay: 'Drag a point over the skin, or choose it here and move it with the arrow keys.',
+  landmarksSay: 'Drag a point over the skin; or choose it here, then press the arrow keys in the picture.',
+  landmarkChosen: 'Point',
   landmarkReset: 'As found',
   landmarkCount: (count: number) => `${count} points lie on the scan.`,
 

@@ -167,6 +167,13 @@ export class FaceBody {
     return [a, b, c].map((i) => (this.split ? this.split[i] : i)).reduce((p, q) => (far(q) < far(p) ? q : p));
   }
 
+  /** Where a ray first meets this face, in the scan's own axes. */
+  placeOn(ray: Raycaster): Vector3 | null {
+    this.mesh.geometry.boundingSphere = null; // it was that of another frame
+    const [first] = ray.intersectObject(this.mesh, false);
+    return first ? this.mesh.worldToLocal(first.point.clone()) : null;
+  }
+
   /** Metres, in the scan's own axes. */
   positionOf(vertex: number): Vector3 {
     return new Vector3().fromArray(this.shape.position, 3 * vertex);

@@ -7,10 +7,11 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Painting } from './colouring';
-import type { Replay } from '../data';
+import type { Replay, Vec3 } from '../data';
 import { SceneMotion } from './deform';
 import { FaceBody, FaceMaterials } from './face_body';
 import { uprightFromScan } from './face_frame';
+import type { Marks } from './marks';
 import type { Overlay, OverlayName } from './overlays';
 import type { Shown } from '../shown';
 import { drawsInSoftware } from '../software_gl';
@@ -66,6 +67,7 @@ export class FaceViewer {
   private lit: ReadonlySet<string> = new Set();
   /** What a face looks like at this instant, in the place of its motion. */
   private live: { face: number; displacement: Float32Array } | null = null;
+  private marks: Marks | null = null;
   private readonly undoing = new Undoing();
 
   /** Throws where the browser has no WebGL. */
@@ -128,6 +130,36 @@ export class FaceViewer {
     if (!live && !this.live) return;
     this.live = live;
     this.touch();
+  }
+
+  /** Points over the face alone that is shown, until null. */
+  showMarks(marks: Marks | null): void {
+    this.marks?.dispose();
+    this.marks = marks;
+    if (marks) this.upright.add(marks.object);
+    this.queue();
+  }
+
+  /** After marks were moved or chosen. */
+  redraw(): void {
+    this.queue();
+  }
+
+  /** Whether pointers turn the face. */
+  set turning(on: boolean) {
+    this.controls.enabled = on;
+  }
+
+  /** Where a ray through a place in the window first meets the one face that is shown, in the scan's axes. */
+  skinAt(clientX: number, clientY: number): Vector3 | null {
+    return this.passes()[0].body.placeOn(this.rayAt(clientX, clientY, this.passes()[0]));
+  }
+
+  /** Where a point in the scan's axes lies in the window. */
+  inWindow(point: Vec3): { x: number; y: number } {
+    const box = this.host.getBoundingClientRect();
+    const at = this.upright.localToWorld(new Vector3(...point)).project(this.camera);
+    return { x: box.left + ((at.x + 1) / 2) * box.width, y: box.top + ((1 - at.y) / 2) * box.height };
   }
 
   lightMuscles(names: ReadonlySet<string>): void {
@@ -212,11 +244,16 @@ export class FaceViewer {
     const side = passes.findIndex(({ from, to }) => x >= from && x < to);
     if (side < 0) return null;
     const pass = passes[side];
-    const ray = new Raycaster();
-    const at = new Vector2((2 * (x - pass.x)) / pass.width - 1, 1 - (2 * (clientY - box.top)) / box.height);
-    ray.setFromCamera(at, this.camera);
-    const vertex = pass.body.vertexAt(ray);
+    const vertex = pass.body.vertexAt(this.rayAt(clientX, clientY, pass));
     return vertex === null ? null : { vertex, side };
+  }
+
+  private rayAt(clientX: number, clientY: number, pass: Pass): Raycaster {
+    const box = this.host.getBoundingClientRect();
+    const ray = new Raycaster();
+    const at = new Vector2((2 * (clientX - box.left - pass.x)) / pass.width - 1, 1 - (2 * (clientY - box.top)) / box.height);
+    ray.setFromCamera(at, this.camera);
+    return ray;
   }
 
   /** Where a vertex lies in the stage now, in its pixels; null outside its part. */
