@@ -101,13 +101,14 @@ class Studio {
       document.documentElement.dataset.computedS = seconds.toFixed(3);
       document.documentElement.dataset.motions = String(Number(document.documentElement.dataset.motions ?? 0) + 1);
     });
-    connection.on('shape', ({ face, time_s, step_m, values, block }) => {
+    connection.on('shape', ({ face, time_s, step_m, values, block, seconds }) => {
       if (!state.source.open || Math.abs(time_s - state.playback.timeS) > 1e-6 || state.playback.playing) return;
       const displacement = new Float32Array(block.int16(values));
       for (let i = 0; i < displacement.length; ++i) displacement[i] *= step_m;
       if (displacement.length !== state.source.replay.points.length) return;
       this.stage?.face?.showLive({ face, displacement });
       this.figures.showLive(face, displacement);
+      document.documentElement.dataset.shapeS = seconds.toFixed(3);
       document.documentElement.dataset.shapes = String(Number(document.documentElement.dataset.shapes ?? 0) + 1);
     });
     connection.on('progress', ({ stage, share }) => this.progress.tell(stage, share));

@@ -439,7 +439,8 @@ export class FaceViewer {
   private refineAtRest(gap: number): void {
     this.drawnAt += gap;
     // Once they come late, pictures in motion stay coarse: going back and forth would show.
-    if (this.slow < 3) this.slow = this.playing && gap > 50 ? this.slow + 1 : 0;
+    const moving = this.playing || this.live !== null;
+    if (this.slow < 3) this.slow = moving && gap > 50 && gap < 400 ? this.slow + 1 : 0;
     clearTimeout(this.rest);
     if (this.playing) return;
     this.rest = window.setTimeout(() => {
@@ -447,6 +448,6 @@ export class FaceViewer {
       this.renderer.setPixelRatio(2);
       this.draw();
       this.canvas.dataset.atRest = 'true';
-    }, 150);
+    }, this.live ? 700 : 150); // a hand that rests on a slider goes on soon
   }
 }
