@@ -145,6 +145,7 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
   std::vector<Pair> pairs = pairs_at(frame, lower, upper, moved);
   out.before_m = out.after_m = depth_of(pairs);
   out.force.setZero(compliance_.rows());
+  out.moved = moved;
   if (out.before_m < kFelt_m) return out;
   Eigen::MatrixXd response, between;
   Eigen::VectorXd gap, lambda;
@@ -188,6 +189,7 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
     if (depth < out.after_m) {
       out.after_m = depth;
       out.residual_m = solved.residual;
+      out.moved = moved;
       out.force.setZero(compliance_.rows());
       out.pairs = 0;
       for (Index i = 0; i < count; ++i) {
@@ -202,6 +204,19 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
   }
   if (holding_.rows() > 0) out.force += (holding_ * out.force).eval();
   return out;
+}
+
+void MouthContact::take_off(const Eigen::VectorXd& moved, PointsF& skin,
+                            std::vector<Points>& at_sides) const {
+  const auto off = [&](const std::vector<int>& vertices, const std::vector<SkinCarrier>& carriers) {
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+      skin.row(vertices[i]) -= followed(carriers[i], moved).cast<float>().transpose();
+  };
+  off(surfaces_->lower(), lower_);
+  off(surfaces_->upper(), upper_);
+  for (std::size_t s = 0; s < sides_.size(); ++s)
+    for (std::size_t i = 0; i < sides_[s].carriers.size(); ++i)
+      at_sides[s].row(Index(i)) -= followed(sides_[s].carriers[i], moved).transpose();
 }
 
 }  // namespace hyperex::reenact

@@ -53,14 +53,19 @@ class MouthContact {
 
   struct Correction {
     Eigen::VectorXd
-        force;            ///< N, three a node of nodes(): contact's and what holds recorded places
-    double before_m = 0;  ///< greatest depth of anything as it was given
-    double after_m = 0;   ///< and as corrected
+        force;  ///< N, three a node of nodes(): contact's and what holds recorded places
+    Eigen::VectorXd moved;      ///< of nodes() by these forces, to first order, m
+    double before_m = 0;        ///< greatest depth of anything as it was given
+    double after_m = 0;         ///< and as corrected
     double residual_m = 0;      ///< of the last complementarity problem
     int rounds = 0, pairs = 0;  ///< pairs that press, of the last round
   };
   /// May be called from several threads.
   Correction correct(const FreeFrame& frame) const;
+
+  /// Takes displacements of nodes() off a frame: of the skin's vertices that may touch and of the
+  /// places of each side.
+  void take_off(const Eigen::VectorXd& moved, PointsF& skin, std::vector<Points>& at_sides) const;
 
   /// Nodes of the volume on which forces act.
   const std::vector<int>& nodes() const { return nodes_; }

@@ -56,11 +56,6 @@ void check_finite(const SimulationOptions& o, std::vector<InputProblem>& problem
     wrong("model.viscous_form", "printed", "isotropic where strain is finite");
   if (o.drive.by == DriveBy::reactions)
     wrong("drive.by", "reactions", "displacement or muscles where strain is finite");
-  const std::pair<const char*, bool> touching[] = {{"contact.lips", o.contact.lips},
-                                                   {"contact.teeth", o.contact.teeth},
-                                                   {"contact.eyes", o.contact.eyes}};
-  for (const auto& [name, on] : touching)
-    if (on) wrong(name, "true", "false where strain is finite: its correction is linear");
 }
 
 }  // namespace

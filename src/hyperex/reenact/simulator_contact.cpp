@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/solve/condensed_inverse.hpp"
+#include "hyperex/reenact/finite_correction.hpp"
 #include "hyperex/reenact/simulator_impl.hpp"
 #include "hyperex/reenact/support.hpp"
 
 namespace hyperex::reenact {
 namespace {
 
-constexpr double kHeldNear_m = 0.015;   // of what touches: farther points need not be held
+constexpr double kHeldNear_m = 0.015;  // of what touches: farther points need not be held
+constexpr int kMostFiniteRounds = 6;
+constexpr double kFiniteSettled_m = 2e-5;
 constexpr double kMayTouch_m = 0.0015;  // places never as near to an obstacle do without contact
 
 /// Springs that hold driven nodes where they are driven, as contact feels them.
@@ -120,6 +124,109 @@ void Simulator::Impl::need_places() {
   touchable = std::move(found);
 }
 
+/// Frames in which something touches, as they are without contact.
+struct Simulator::Impl::Touching {
+  const std::vector<Shot>& shots;
+  const std::vector<std::size_t>& which;  // of the shots
+  const std::vector<PointsF>& skin;       // of each of `which`
+  const std::vector<std::vector<Points>>& at_sides;
+  const std::vector<Eigen::Isometry3d>& jaw_now_from_rest;
+  const PointCurve& points;
+};
+
+double Simulator::Impl::correct_linear(const Touching& frames, Solution& solution) {
+  const std::size_t count = frames.which.size();
+  std::vector<MouthContact::Correction> corrections(count);
+  for_frames(count, [&](std::size_t i) {
+    corrections[i] =
+        contact->correct({frames.skin[i], frames.at_sides[i], frames.jaw_now_from_rest[i]});
+  });
+  Eigen::MatrixXd force(3 * Eigen::Index(contact->nodes().size()), Eigen::Index(count));
+  double residual_m = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    force.col(Eigen::Index(i)) = corrections[i].force;
+    residual_m = std::max(residual_m, corrections[i].residual_m);
+  }
+  fem::PartitionedFactor& factor = *contact_factor;
+  Eigen::MatrixXd moved = on_free(factor, solution.displacement.rows(), contact->nodes(), force);
+  factor.solve(moved);
+  for (std::size_t i = 0; i < count; ++i) {
+    auto column = solution.displacement.col(Eigen::Index(frames.which[i]));
+    for (std::size_t u = 0; u < factor.free().size(); ++u)
+      column[factor.free()[u]] += moved(Eigen::Index(u), Eigen::Index(i));
+  }
+  return residual_m;
+}
+
+double Simulator::Impl::correct_finite(const Touching& frames, Solution& solution) {
+  fem::SparseMatrix springs = assembler->stiffness_pattern();
+  boundary->add_springs(springs);
+  std::vector<int> prescribed = boundary->prescribed();
+  if (!by_forces()) {
+    add_patches(*mesh, boundary->driven_nodes(), options.contact.patch_pa_per_m, springs);
+    prescribed = boundary->released().prescribed();
+  }
+  springs.prune(0.0);
+  fem::FiniteNewtonOptions how;
+  how.tolerance = options.solver.finite_tolerance;
+  FiniteCorrection tissue(*assembler, material(), options.model.law, std::move(springs),
+                          std::move(prescribed), how, options.solver.linear,
+                          by_forces() ? known_order() : nullptr);
+  double residual_m = 0;
+  const auto depth_of = [&](std::size_t i, const PointsF& skin, const std::vector<Points>& sides) {
+    double deepest = options.contact.lips ? readout->lip_surfaces()->depth(skin) : 0;
+    for (std::size_t s = 0; s < touchable->size(); ++s) {
+      const ObstaclePlaces& side = *(*touchable)[s];
+      deepest = std::max(
+          deepest, side.depth(sides[s], side.obstacle().with_jaw ? frames.jaw_now_from_rest[i]
+                                                                 : Eigen::Isometry3d::Identity()));
+    }
+    return deepest;
+  };
+  for (std::size_t i = 0; i < frames.which.size(); ++i) {
+    ask();
+    auto column = solution.displacement.col(Eigen::Index(frames.which[i]));
+    const Eigen::VectorXd d0 = column;
+    const Points points = frames.points.at(frames.shots[frames.which[i]].time_s);
+    PointsF skin = frames.skin[i];
+    std::vector<Points> sides = frames.at_sides[i];
+    double least_m = depth_of(i, skin, sides);
+    tissue.begin(d0);
+    Eigen::VectorXd moved, more;
+    for (int round = 0; round < kMostFiniteRounds && least_m > kFiniteSettled_m; ++round) {
+      // What the forces of the last round did, to first order at rest, is taken off; what they did
+      // in the tissue as it stands and what they should have done then differ less and less.
+      if (round > 0) contact->take_off(moved, skin, sides);
+      const MouthContact::Correction next =
+          contact->correct({skin, sides, frames.jaw_now_from_rest[i]});
+      more.setZero(d0.size());
+      for (std::size_t n = 0; n < contact->nodes().size(); ++n)
+        more.segment<3>(3 * contact->nodes()[n]) = next.force.segment<3>(3 * Eigen::Index(n));
+      moved = next.moved;
+      Eigen::VectorXd d;
+      try {
+        d = tissue.under(more);
+      } catch (const NumericalError&) {
+        break;  // the frame stays as the rounds before left it; the depth that is left tells
+      }
+      const Eigen::Map<const Points> nodes(d.data(), mesh->volume.nodes.rows(), 3);
+      skin = readout->skin(*region, driven_points->rim, nodes, points);
+      for (std::size_t s = 0; s < touchable->size(); ++s)
+        sides[s] = (*touchable)[s]->moved(skin, nodes);
+      const double depth_m = depth_of(i, skin, sides);
+      if (depth_m < least_m) {
+        least_m = depth_m;
+        column = d;
+        residual_m = std::max(residual_m, next.residual_m);
+      }
+    }
+    tell(told + 0.5 * (1 - told) / double(frames.which.size()));
+  }
+  report.iterations += tissue.iterations();
+  report.factorisations += tissue.factorisations();
+  return residual_m;
+}
+
 void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& points,
                             Solution& solution, SimulationResult& result) {
   Stopwatch watch;
@@ -196,24 +303,20 @@ void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& po
     ask();
     need_contact(std::move(near));
     ask();
-    std::vector<MouthContact::Correction> corrections(touching.size());
-    for_frames(touching.size(), [&](std::size_t i) {
-      const std::size_t shot = touching[i];
-      corrections[i] = contact->correct({skin_of(shot), at_sides[shot], jaw_of(shot)});
-    });
-    Eigen::MatrixXd force(3 * Eigen::Index(contact->nodes().size()), Eigen::Index(touching.size()));
-    for (std::size_t i = 0; i < touching.size(); ++i) {
-      force.col(Eigen::Index(i)) = corrections[i].force;
-      told_of.frames += shots[touching[i]].frame >= 0;
-      told_of.residual_mm = std::max(told_of.residual_mm, 1e3 * corrections[i].residual_m);
+    std::vector<std::vector<Points>> at_touching;
+    std::vector<Eigen::Isometry3d> jaws;
+    std::vector<PointsF> skins;
+    for (const std::size_t i : touching) {
+      at_touching.push_back(at_sides[i]);
+      jaws.push_back(jaw_of(i));
+      skins.push_back(skin_of(i));
+      told_of.frames += shots[i].frame >= 0;
     }
-    fem::PartitionedFactor& factor = *contact_factor;
-    Eigen::MatrixXd moved = on_free(factor, solution.displacement.rows(), contact->nodes(), force);
-    factor.solve(moved);
+    const Touching frames{shots, touching, skins, at_touching, jaws, points};
+    told_of.residual_mm =
+        1e3 * (options.model.strain == Strain::finite ? correct_finite(frames, solution)
+                                                      : correct_linear(frames, solution));
     for_frames(touching.size(), [&](std::size_t i) {
-      auto column = solution.displacement.col(Eigen::Index(touching[i]));
-      for (std::size_t u = 0; u < factor.free().size(); ++u)
-        column[factor.free()[u]] += moved(Eigen::Index(u), Eigen::Index(i));
       store(shots[touching[i]], nodes_of(touching[i]), points, result);
     });
     const Depths after = measure();

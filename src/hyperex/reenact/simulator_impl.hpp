@@ -148,6 +148,12 @@ struct Simulator::Impl {
   /// Per obstacle and place: whether it ever comes near.
   void need_contact(std::vector<std::vector<char>> coming_near);
   void need_places();
+  /// Corrections of frames that were found at small strain, or at finite strain: there the forces
+  /// are found in the compliance at rest, some rounds, and what they do in the tissue as it stands.
+  /// Both change `solution` and return the greatest residual of the complementarity problems (m).
+  struct Touching;
+  double correct_linear(const Touching& frames, Solution& solution);
+  double correct_finite(const Touching& frames, Solution& solution);
   /// What contact changes in the frames that were stored.
   void touch(const std::vector<Shot>& shots, const PointCurve& points, Solution& solution,
              SimulationResult& result);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/reenact/finite_correction.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "hyperex/core/error.hpp"
+
+namespace hyperex::reenact {
+namespace {
+
+fem::Hyperelastic relaxed(fem::Hyperelastic law) {
+  law.branches.clear();
+  return law;
+}
+
+/// The forces are no step from forces before: half of them would be another moment.
+fem::FiniteNewtonOptions whole_steps(fem::FiniteNewtonOptions how) {
+  how.most_halvings = 0;
+  return how;
+}
+
+}  // namespace
+
+FiniteCorrection::FiniteCorrection(const fem::Assembler& assembler, const fem::Material& material,
+                                   fem::Hyperelastic law, fem::SparseMatrix springs,
+                                   std::vector<int> prescribed, fem::FiniteNewtonOptions how,
+                                   fem::LinearSolver linear,
+                                   std::shared_ptr<const fem::NodeOrder> order)
+    : form_(assembler, material, relaxed(std::move(law))), springs_(springs) {
+  newton_.emplace(form_, std::move(prescribed), whole_steps(how), std::move(springs),
+                  std::vector<const fem::NodalPotential*>(), linear, std::move(order));
+}
+
+void FiniteCorrection::begin(const Eigen::VectorXd& d0) {
+  d0_ = d0;
+  form_.rest_at(d0_);
+  form_.begin_step({0, 0, 0, std::numeric_limits<double>::infinity()}, d0_, d0_);
+  force_.resize(d0_.size());
+  form_.energy_and_gradient(d0_, force_);
+  force_ += springs_ * d0_;
+  prescribed_ = d0_(newton_->prescribed());
+  newton_->start(d0_, Eigen::VectorXd::Zero(d0_.size()));
+}
+
+const Eigen::VectorXd& FiniteCorrection::under(const Eigen::VectorXd& more) {
+  try {
+    const fem::FiniteStepReport report = newton_->equilibrium(prescribed_, force_ + more);
+    iterations_ += report.iterations;
+    factorisations_ += report.factorisations;
+  } catch (const NumericalError&) {
+    newton_->start(d0_, Eigen::VectorXd::Zero(d0_.size()));
+    throw;
+  }
+  return newton_->displacement();
+}
+
+}  // namespace hyperex::reenact
