@@ -14,12 +14,6 @@ fem::Hyperelastic relaxed(fem::Hyperelastic law) {
   return law;
 }
 
-/// The forces are no step from forces before: half of them would be another moment.
-fem::FiniteNewtonOptions whole_steps(fem::FiniteNewtonOptions how) {
-  how.most_halvings = 0;
-  return how;
-}
-
 }  // namespace
 
 FiniteCorrection::FiniteCorrection(const fem::Assembler& assembler, const fem::Material& material,
@@ -28,7 +22,7 @@ FiniteCorrection::FiniteCorrection(const fem::Assembler& assembler, const fem::M
                                    fem::LinearSolver linear,
                                    std::shared_ptr<const fem::NodeOrder> order)
     : form_(assembler, material, relaxed(std::move(law))), springs_(springs) {
-  newton_.emplace(form_, std::move(prescribed), whole_steps(how), std::move(springs),
+  newton_.emplace(form_, std::move(prescribed), how, std::move(springs),
                   std::vector<const fem::NodalPotential*>(), linear, std::move(order));
 }
 
@@ -40,7 +34,13 @@ void FiniteCorrection::begin(const Eigen::VectorXd& d0) {
   form_.energy_and_gradient(d0_, force_);
   force_ += springs_ * d0_;
   prescribed_ = d0_(newton_->prescribed());
+  start();
+}
+
+/// In equilibrium under what acted until then: from there further forces can come in parts.
+void FiniteCorrection::start() {
   newton_->start(d0_, Eigen::VectorXd::Zero(d0_.size()));
+  newton_->equilibrium(prescribed_, force_);
 }
 
 const Eigen::VectorXd& FiniteCorrection::under(const Eigen::VectorXd& more) {
@@ -49,7 +49,7 @@ const Eigen::VectorXd& FiniteCorrection::under(const Eigen::VectorXd& more) {
     iterations_ += report.iterations;
     factorisations_ += report.factorisations;
   } catch (const NumericalError&) {
-    newton_->start(d0_, Eigen::VectorXd::Zero(d0_.size()));
+    start();
     throw;
   }
   return newton_->displacement();

@@ -32,6 +32,7 @@ class FiniteCorrection {
   int factorisations() const { return factorisations_; }
 
  private:
+  void start();
   fem::FiniteStrain form_;
   fem::SparseMatrix springs_;
   std::optional<fem::FiniteNewton> newton_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact: frames that were found without it, corrected.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "hyperex/core/error.hpp"
@@ -14,7 +17,7 @@ namespace hyperex::reenact {
 namespace {
 
 constexpr double kHeldNear_m = 0.015;  // of what touches: farther points need not be held
-constexpr int kMostFiniteRounds = 6;
+constexpr int kMostFiniteRounds = 6, kMostHalvings = 3;
 constexpr double kFiniteSettled_m = 2e-5;
 constexpr double kMayTouch_m = 0.0015;  // places never as near to an obstacle do without contact
 
@@ -169,10 +172,12 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
   springs.prune(0.0);
   fem::FiniteNewtonOptions how;
   how.tolerance = options.solver.finite_tolerance;
+  how.most_halvings = kMostHalvings;
   FiniteCorrection tissue(*assembler, material(), options.model.law, std::move(springs),
                           std::move(prescribed), how, options.solver.linear,
                           by_forces() ? known_order() : nullptr);
-  double residual_m = 0;
+  double residual_m = 0, hopeless_m = std::numeric_limits<double>::infinity();
+  int given_up = 0;
   const auto depth_of = [&](std::size_t i, const PointsF& skin, const std::vector<Points>& sides) {
     double deepest = options.contact.lips ? readout->lip_surfaces()->depth(skin) : 0;
     for (std::size_t s = 0; s < touchable->size(); ++s) {
@@ -191,6 +196,10 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
     PointsF skin = frames.skin[i];
     std::vector<Points> sides = frames.at_sides[i];
     double least_m = depth_of(i, skin, sides);
+    if (least_m >= hopeless_m) {
+      ++given_up;
+      continue;
+    }
     tissue.begin(d0);
     Eigen::VectorXd moved, more;
     for (int round = 0; round < kMostFiniteRounds && least_m > kFiniteSettled_m; ++round) {
@@ -207,7 +216,10 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
       try {
         d = tissue.under(more);
       } catch (const NumericalError&) {
-        break;  // the frame stays as the rounds before left it; the depth that is left tells
+        // The frame stays as the rounds before left it, and deeper ones are not tried.
+        if (round == 0) hopeless_m = std::min(hopeless_m, least_m);
+        given_up += round == 0;
+        break;
       }
       const Eigen::Map<const Points> nodes(d.data(), mesh->volume.nodes.rows(), 3);
       skin = readout->skin(*region, driven_points->rim, nodes, points);
@@ -224,6 +236,11 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
   }
   report.iterations += tissue.iterations();
   report.factorisations += tissue.factorisations();
+  if (given_up > 0)
+    report.notes.push_back(fmt::format(
+        "in {} frames no equilibrium with contact was found at finite strain: what passes through "
+        "each other there, by {:.2f} mm and more, was left so",
+        given_up, 1e3 * hopeless_m));
   return residual_m;
 }
 

@@ -130,9 +130,6 @@ TEST_F(FiniteRun, RefusesWhatItCannotDo) {
   wrong.solver.finite_step_s = 1e-6;
   expect_refused(wrong, "finite_step_s");
   wrong = options_;
-  wrong.contact.lips = true;
-  expect_refused(wrong, "contact.lips");
-  wrong = options_;
   wrong.model.law.law = fem::HyperelasticLaw::yeoh;
   wrong.model.law.c20 = -1;
   expect_refused(wrong, "model.law");

@@ -231,6 +231,39 @@ TEST_F(ObstacleOfAFace, KeepsTissueOut) {
   }
 }
 
+TEST_F(ObstacleOfAFace, KeepsTissueOutAtFiniteStrain) {
+  for (const DriveBy by : {DriveBy::displacement, DriveBy::muscles}) {
+    options_.drive.by = by;
+    options_.model.strain = Strain::linear;
+    const SimulationResult linear = simulator().run();
+    options_.model.strain = Strain::finite;
+    const SimulationResult r = simulator().run();
+    EXPECT_GT(r.report.contact.teeth_mm, 0.2);
+    EXPECT_LT(r.report.contact.teeth_left_mm, 0.025);
+    EXPECT_EQ(r.report.inverted_tets, 0);
+    EXPECT_EQ(r.performance.skin_displacement_m.front().cwiseAbs().maxCoeff(), 0);
+    options_.contact.teeth = false;
+    const SimulationResult free = simulator().run();
+    EXPECT_EQ(free.report.contact.frames, 0);
+    EXPECT_EQ(free.performance.skin_displacement_m[1], r.performance.skin_displacement_m[1])
+        << "what does not touch keeps its bits";
+    options_.contact.teeth = true;
+    // What contact changes is much the same for so small a press.
+    const std::size_t f = 6;
+    const SimulationOptions finite = options_;
+    options_.model.strain = Strain::linear;
+    options_.contact.teeth = false;
+    const SimulationResult linear_free = simulator().run();
+    options_ = finite;
+    const PointsF change =
+        r.performance.skin_displacement_m[f] - free.performance.skin_displacement_m[f];
+    const PointsF linear_change =
+        linear.performance.skin_displacement_m[f] - linear_free.performance.skin_displacement_m[f];
+    EXPECT_GT(change.norm(), 0.5 * linear_change.norm());
+    EXPECT_LT(change.norm(), 2 * linear_change.norm());
+  }
+}
+
 TEST_F(ObstacleOfAFace, SwitchedOffAndOnAgainGivesTheSameBits) {
   Simulator one = simulator();
   const SimulationResult on = one.run();

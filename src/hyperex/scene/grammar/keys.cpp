@@ -420,7 +420,7 @@ std::vector<Key> run_keys() {
           "contact.lips", AT(contact.lips),
           "The lips may touch but not pass through each other, without friction. Each frame "
           "is corrected by itself, in static equilibrium. Recorded points then end where "
-          "they are recorded only as far as no lip is in their way. Of small strain alone."),
+          "they are recorded only as far as no lip is in their way."),
       flag<Scene>("contact.teeth", AT(contact.teeth),
                   "The mouth's side of lips and cheeks may touch the teeth of both jaws, the lower "
                   "ones going along with the jaw, but not pass through them, in the same way."),
