@@ -32,7 +32,7 @@ void FiniteCorrection::begin(const Eigen::VectorXd& d0) {
   form_.begin_step({0, 0, 0, std::numeric_limits<double>::infinity()}, d0_, d0_);
   force_.resize(d0_.size());
   form_.energy_and_gradient(d0_, force_);
-  force_ += springs_ * d0_;
+  if (springs_.cols() > 0) force_ += springs_ * d0_;
   prescribed_ = d0_(newton_->prescribed());
   start();
 }

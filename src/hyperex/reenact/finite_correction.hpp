@@ -15,12 +15,14 @@ namespace hyperex::reenact {
 /// where f(d) = f(d0) + more on what is free. Branches count as relaxed. One moment at a time.
 class FiniteCorrection {
  public:
-  /// `springs`: on the pattern of System::stiffness; `prescribed`: what stays where d0 has it;
-  /// `order`: FiniteNewton. `assembler` must outlive this.
+  /// `springs`: on the pattern of System::stiffness, no columns: none; `prescribed`: what stays
+  /// where d0 has it; `order`: FiniteNewton. `assembler` must outlive this.
   FiniteCorrection(const fem::Assembler& assembler, const fem::Material& material,
                    fem::Hyperelastic law, fem::SparseMatrix springs, std::vector<int> prescribed,
                    fem::FiniteNewtonOptions how, fem::LinearSolver linear,
                    std::shared_ptr<const fem::NodeOrder> order);
+
+  FiniteCorrection(const FiniteCorrection&) = delete;
 
   /// The moment: 3 |nodes|, m.
   void begin(const Eigen::VectorXd& d0);

@@ -17,7 +17,7 @@ namespace hyperex::reenact {
 namespace {
 
 constexpr double kHeldNear_m = 0.015;  // of what touches: farther points need not be held
-constexpr int kMostFiniteRounds = 6, kMostHalvings = 3;
+constexpr int kMostFiniteRounds = 20, kMostIdleRounds = 3, kMostHalvings = 3;
 constexpr double kFiniteSettled_m = 2e-5;
 constexpr double kMayTouch_m = 0.0015;  // places never as near to an obstacle do without contact
 
@@ -202,7 +202,10 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
     }
     tissue.begin(d0);
     Eigen::VectorXd moved, more;
-    for (int round = 0; round < kMostFiniteRounds && least_m > kFiniteSettled_m; ++round) {
+    int idle = 0;  // rounds in a row that gain little
+    for (int round = 0;
+         round < kMostFiniteRounds && idle < kMostIdleRounds && least_m > kFiniteSettled_m;
+         ++round) {
       // What the forces of the last round did, to first order at rest, is taken off; what they did
       // in the tissue as it stands and what they should have done then differ less and less.
       if (round > 0) contact->take_off(moved, skin, sides);
@@ -226,6 +229,7 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
       for (std::size_t s = 0; s < touchable->size(); ++s)
         sides[s] = (*touchable)[s]->moved(skin, nodes);
       const double depth_m = depth_of(i, skin, sides);
+      idle = depth_m < 0.9 * least_m ? 0 : idle + 1;
       if (depth_m < least_m) {
         least_m = depth_m;
         column = d;

@@ -232,6 +232,7 @@ TEST_F(ObstacleOfAFace, KeepsTissueOut) {
 }
 
 TEST_F(ObstacleOfAFace, KeepsTissueOutAtFiniteStrain) {
+  options_.drive.gain = 0.7;  // pressed flat, tissue finds no equilibrium any more
   for (const DriveBy by : {DriveBy::displacement, DriveBy::muscles}) {
     options_.drive.by = by;
     options_.model.strain = Strain::linear;
