@@ -17,6 +17,7 @@
 #include "hyperex/scene/grammar/toml_values.hpp"
 #include "hyperex/scene/grammar/variant_presets.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/tissue/field/regions.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "scene_files.hpp"
 #include "server.hpp"
@@ -87,6 +88,13 @@ json presets_json() {
                    {"summary", preset.summary},
                    {"source", preset.source},
                    {"assumed", preset.assumed}});
+  return out;
+}
+
+json regions_json() {
+  json out = json::array();
+  for (const tissue::FacialRegion& region : tissue::facial_regions())
+    out.push_back({{"name", region.name}, {"meaning", region.meaning}});
   return out;
 }
 
@@ -171,6 +179,7 @@ json Session::hello() {
   return {{"program", options_.program},
           {"keys", keys_json()},
           {"presets", presets_json()},
+          {"regions", regions_json()},
           {"places",
            {{"started", options_.started.empty() ? json() : json(options_.started.filename())},
             {"autosave", options_.rescued.empty() ? json() : json("unsaved work")},

@@ -129,6 +129,23 @@ describe('the studio', { skip, concurrency: false }, () => {
     await settled(page);
     assert.equal(await cornerMm(page, 1, 'left'), changed, 'the same scene gives the same figures');
 
+    // One part of the face, by its number.
+    const factor = page.locator('[data-key="tissue.region"] input[type=number]');
+    await page.selectOption('.part select', 'cheek_R');
+    await factor.fill('5');
+    await factor.press('Enter');
+    await page.waitForFunction(() => /"young_factor" = 5/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.match(await sceneText(page), /"name" = "cheek_R"/);
+    assert.match(await page.locator('#second-label').innerText(), /Cheek, right: Young’s modulus × 5/);
+    await page.locator('[data-key="tissue.region"] .back').click();
+    await page.waitForFunction(() => !/young_factor/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    await factor.fill('-5');
+    await factor.press('Enter');
+    assert.ok(!(await factor.evaluate((input) => input.validity.valid)), 'what is out of range is not sent');
+    assert.doesNotMatch(await sceneText(page), /young_factor/);
+
     // A muscle, by keys alone; its line lights up.
     await page.click('#tab-muscles');
     await page.locator('[data-gain=zygomatic_R]').focus();
@@ -247,6 +264,11 @@ describe('the studio', { skip, concurrency: false }, () => {
     const stranger = await openStudio(browser, studio.address.replace(/#.*/, '#00112233445566778899aabbccddeeff'), { ready: false });
     await stranger.page.waitForSelector('#banner:not([hidden])');
     assert.match(await stranger.page.locator('#banner').innerText(), /does not let this page in/);
+    const blocked = await stranger.page.evaluate(() => new Promise((done) => {
+      document.addEventListener('securitypolicyviolation', ({ effectiveDirective }) => done(effectiveDirective));
+      fetch('http://127.0.0.1:9/').catch(() => setTimeout(() => done('none'), 500));
+    }));
+    assert.equal(blocked, 'connect-src', 'the page talks to its own server alone');
     for (const { complaints, close } of [first, second]) {
       assert.deepEqual(complaints, []);
       await close();

@@ -15,7 +15,7 @@ import { Connection, takeToken, type LineState } from './connection';
 import { Edits } from './edits';
 import { FiguresPanel } from './figures_panel';
 import { LandmarksPanel } from './landmarks_panel';
-import { isRecord, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type SceneKey, type SceneNow } from './messages';
+import { isRecord, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type Region, type SceneKey, type SceneNow } from './messages';
 import { MessagesPanel } from './messages_panel';
 import { MusclesPanel } from './muscles_panel';
 import { OpenPanel } from './open_panel';
@@ -135,7 +135,8 @@ class Studio {
     summary.options = options;
   }
 
-  private greeted({ program, keys, presets, places }: Greeting): void {
+  private greeted({ program, keys, presets, regions, places }: Greeting): void {
+    this.state.regions = regions;
     this.state.keys = new Map(keys.map((key) => [key.name, key]));
     this.tabs.presets = presets;
     this.saving.folder = places.folder;
@@ -247,6 +248,7 @@ interface Greeting {
   program: string;
   keys: SceneKey[];
   presets: Preset[];
+  regions: Region[];
   places: Places;
 }
 

@@ -25,6 +25,12 @@ export interface Preset {
   assumed: string;
 }
 
+/** Of the face: "cheek", also as "cheek_L" and "cheek_R". */
+export interface Region {
+  name: string;
+  meaning: string;
+}
+
 export interface Places {
   started: string | null;
   autosave: string | null;

@@ -11,6 +11,8 @@ const scenes = /\.toml$/i;
 
 export class OpenPanel {
   private places: Places | null = null;
+  /** What a scene without a title is called. */
+  private opened = '';
   private readonly now = element('p', '', 'open-now');
   private readonly choices = element('div', '', 'choices');
   private readonly problem = element('p', '', 'problem');
@@ -29,7 +31,7 @@ export class OpenPanel {
     });
     const drop = element('p', words.drop, 'drop');
     into.append(this.now, this.rescue, this.choices, this.problem, drop, this.picker);
-    state.sceneChanged.add(() => (this.now.textContent = words.openNow(state.scene?.title ?? '')));
+    state.sceneChanged.add(() => (this.now.textContent = this.called()));
     this.wireDrop();
   }
 
@@ -50,6 +52,10 @@ export class OpenPanel {
     if (!places.open) void this.open(started ? 'started' : 'embedded');
   }
 
+  private called(): string {
+    return words.openNow(this.state.scene?.title || this.opened);
+  }
+
   private ask(what: string): void {
     if (this.maySkip()) void this.open(what);
   }
@@ -61,6 +67,7 @@ export class OpenPanel {
   private async open(what: string, recording?: string): Promise<void> {
     this.tell('');
     try {
+      this.opened = what === 'started' ? this.places?.started ?? '' : what;
       await this.connection.ask('open', { what, ...(recording && { recording }) });
     } catch (error) {
       if (error instanceof Refused) this.tell(error.message);
@@ -93,7 +100,7 @@ export class OpenPanel {
     } catch (error) {
       this.tell(error instanceof Error ? error.message : String(error));
     } finally {
-      if (this.state.scene) this.now.textContent = words.openNow(this.state.scene.title);
+      if (this.state.scene) this.now.textContent = this.called();
     }
   }
 

@@ -27,6 +27,8 @@ export interface HelloAnswer {
   keys: unknown;
   /** of variants: name, summary, source, assumed */
   presets: unknown;
+  /** parts of the face that tissue.region may name, alone or with _L or _R: name, meaning */
+  regions: unknown;
   /** what the studio was started with: file names that open may name */
   places: unknown;
 }

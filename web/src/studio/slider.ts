@@ -152,7 +152,7 @@ export class Slider {
         return;
       }
       digits.setCustomValidity('');
-      this.value = value;
+      this.show(value);
       options.done(value);
     });
     this.back.addEventListener('click', () => options.done(null));

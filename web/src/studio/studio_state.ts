@@ -5,7 +5,7 @@ import { ChangingSource } from '../replay/data_source';
 import type { Face } from '../replay/data';
 import { Playback } from '../replay/playback';
 import { Shown } from '../replay/shown';
-import type { MuscleInfo, SceneKey, SceneNow, Values } from './messages';
+import type { MuscleInfo, Region, SceneKey, SceneNow, Values } from './messages';
 
 export class StudioState {
   readonly source = new ChangingSource();
@@ -14,6 +14,7 @@ export class StudioState {
   readonly sceneChanged = new Listeners();
   keys = new Map<string, SceneKey>();
   muscles: MuscleInfo[] = [];
+  regions: Region[] = [];
   scene: SceneNow | null = null;
   /** The base itself may be changed, not only another face beside it. */
   changeBase = false;

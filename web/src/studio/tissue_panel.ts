@@ -2,13 +2,16 @@
 // Sliders of the tissue, made of the keys that the server tells.
 import { element } from '../page/dom';
 import type { Edits } from './edits';
-import type { SceneKey } from './messages';
+import { upper } from '../page/format';
+import { isRecord, type SceneKey } from './messages';
 import { linear, logarithmic, Slider, type Course } from './slider';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
 const keys = ['tissue.young_kpa', 'tissue.viscosity_pa_s', 'tissue.poisson', 'tissue.density_kg_m3'];
 const thickness = 'mesh.thickness_mm';
+const regions = 'tissue.region';
+type Row = Record<string, unknown>;
 
 const threeDigits = (value: number): number => Number(value.toPrecision(3));
 
@@ -26,6 +29,8 @@ export class TissuePanel {
   private readonly sliders = new Map<string, Slider>();
   private readonly auto = element('input');
   private readonly thicknessWhy = element('p', '', 'why');
+  private readonly part = element('select');
+  private there: Slider | null = null;
 
   constructor(private readonly state: StudioState, private readonly edits: Edits) {
     state.sceneChanged.add(() => this.update());
@@ -39,6 +44,8 @@ export class TissuePanel {
     for (const key of keys) {
       const known = this.state.keys.get(key);
       if (known) this.add(known, courseOf(known), {});
+      // What is asked for most goes first.
+      if (key === keys[0] && this.state.regions.length > 0) this.addRegion();
     }
     const depth = this.state.keys.get(thickness);
     if (depth) this.addThickness(depth);
@@ -58,6 +65,50 @@ export class TissuePanel {
     this.sliders.set(key.name, slider);
     this.element.append(slider.element);
     return slider;
+  }
+
+  /** How stiff a part of the face is, over the rest. */
+  private addRegion(): void {
+    const chosen = this.part.value;
+    this.part.replaceChildren();
+    for (const { name, meaning } of this.state.regions)
+      for (const side of ['R', 'L', ''] as const) {
+        const called = upper(name.replaceAll('_', ' '));
+        const option = new Option(
+          side ? words.ofSide(called, words.sideNames[side]) : words.regionBoth(called), side ? `${name}_${side}` : name);
+        option.title = meaning;
+        this.part.add(option);
+      }
+    this.part.value = chosen || 'cheek_R';
+    if (this.part.selectedIndex < 0) this.part.selectedIndex = 0;
+    this.part.onchange = () => this.update();
+    const label = element('label', '', 'part');
+    label.append(element('span', words.regionChoose), this.part);
+    this.there = new Slider({
+      name: words.regionStiffness, unit: '×', hint: words.regionHint, course: logarithmic(0.1, 10), round: threeDigits,
+      low: 0.001, high: 1000,
+      live: (factor) => this.edits.live({ [regions]: this.withFactor(factor) }),
+      done: (factor) => void this.edits.commit({ [regions]: this.withFactor(factor ?? 1) }),
+    });
+    this.there.element.dataset.key = regions;
+    const box = element('div', '', 'region');
+    box.append(element('h2', words.regionTitle), label, this.there.element);
+    this.element.append(box);
+  }
+
+  private rows(value: unknown): Row[] {
+    return Array.isArray(value) ? value.filter(isRecord) : [];
+  }
+
+  /** The scene's own rows stay; that of this part gets the factor, and goes where nothing is left of it. */
+  private withFactor(factor: number): Row[] {
+    const name = this.part.value;
+    const rows = this.rows(this.edits.value(regions));
+    const at = rows.findIndex((row) => row.name === name);
+    const { young_factor: _before, ...rest } = rows[at] ?? { name };
+    const next = factor === 1 ? rest : { ...rest, young_factor: factor };
+    const kept = Object.keys(next).length > 1 ? [next] : [];
+    return at < 0 ? [...rows, ...kept] : [...rows.slice(0, at), ...kept, ...rows.slice(at + 1)];
   }
 
   /** One mesh serves all faces, and takes a while: no live changes, and none of variants. */
@@ -84,6 +135,8 @@ export class TissuePanel {
       const before = edited === 0 ? state.keys.get(key)?.default : base[key];
       slider.set(Number(own[key]), Number(before));
     }
+    const factorOf = (value: unknown) => Number(this.rows(value).find((row) => row.name === this.part.value)?.young_factor ?? 1);
+    this.there?.set(factorOf(own[regions]), edited === 0 ? 1 : factorOf(base[regions]));
     const slider = this.sliders.get(thickness);
     if (!slider) return;
     const depth = Number(base[thickness]);
