@@ -241,11 +241,23 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.waitForFunction(() => document.querySelectorAll('.corner-table tbody tr:not(.differs)').length === 2);
     assert.deepEqual(await faces(page), ['Base', 'stiff']);
     assert.equal(await count(page, 'motions'), motions, 'a face, not another motion');
+    await weaker(page, 'R', 20);
     assert.deepEqual(complaints, []);
 
     await studio.kill();
     await page.waitForSelector('#banner:not([hidden])');
     assert.match(await page.locator('#banner').innerText(), /does not answer/);
+    // Another one in its place has another token, and offers what was not saved.
+    const next = await startStudio([], { port: studio.port, folder: studio.folder });
+    t.after(() => next.stop());
+    await page.waitForSelector('#banner:has-text("does not let this page in")');
+    const again = await openStudio(browser, next.address);
+    await again.page.click('.rescue button >> nth=0');
+    await again.page.waitForFunction(() => /side_R/.test(document.getElementById('scene-text').textContent));
+    await settled(again.page);
+    assert.deepEqual(await faces(again.page), ['Base', 'stiff', 'Right side 20 % weaker']);
+    assert.deepEqual(again.complaints, []);
+    await again.close();
     await close();
   });
 

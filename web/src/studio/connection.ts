@@ -54,6 +54,8 @@ export class Connection {
   private readonly heard = new Map<string, Listeners<Told<EventName>>>();
   private readonly changed = new Listeners<LineState>();
   private retry = 0;
+  /** Since it was last connected hello was answered. */
+  private inside = false;
   private line: LineState = { state: 'opening' };
 
   /** `greeted`: of each hello's answer, also after the line was lost. */
@@ -75,6 +77,7 @@ export class Connection {
 
   connect(): void {
     clearTimeout(this.retry);
+    this.inside = false;
     const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';
     const socket = new WebSocket(`${scheme}//${location.host}/socket`);
     this.socket = socket;
@@ -111,6 +114,7 @@ export class Connection {
   private async greet(): Promise<void> {
     try {
       const answer = await this.ask('hello', { token: this.token, version: protocolVersion });
+      this.inside = true;
       this.be({ state: 'open' });
       this.greeted(answer);
     } catch (error) {
@@ -129,7 +133,7 @@ export class Connection {
     this.waiting.clear();
     if (this.line.state === 'refused') return;
     // What was said first was not right, and will not be the next time.
-    const never = code === 1008 && this.line.state === 'opening';
+    const never = code === 1008 && !this.inside;
     if (never || code === 1001) {
       this.be({ state: never ? 'refused' : 'taken' });
       return;
