@@ -153,7 +153,23 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.waitForFunction(() => /zygomatic_R/.test(document.getElementById('scene-text').textContent));
     await settled(page);
     assert.match(await sceneText(page), /"zygomatic_R" = 0\.4/);
-    assert.ok((await cornerMm(page, 1, 'right')) < changed);
+    const weak = await cornerMm(page, 1, 'right');
+    assert.ok(weak < changed);
+
+    // One muscle alone, and all again.
+    await page.click('.muscle-group summary >> nth=1');
+    const solo = page.locator('.muscle-group >> nth=1').getByRole('button', { name: 'R S: Solo Zygomaticus major, right' });
+    await solo.click();
+    await page.waitForFunction(() => /zyg_major_L" = 0/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.equal(await solo.getAttribute('aria-pressed'), 'true');
+    assert.ok((await cornerMm(page, 1, 'left')) < 0.5 * changed, 'the other side hardly moves');
+    await solo.click();
+    await page.waitForFunction(() => !/zyg_major/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.match(await sceneText(page), /"zygomatic_R" = 0\.4/);
+    const again = await cornerMm(page, 1, 'right');
+    assert.ok(Math.abs(again - weak) <= 1e-5 * weak, `${weak}, then ${again} mm`);
     assert.deepEqual(complaints, []);
     await close();
   });

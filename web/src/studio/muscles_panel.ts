@@ -31,20 +31,16 @@ export class MusclesPanel {
   private gain: Slider | null = null;
   private readonly resetAll = button(words.resetMuscles, 'quiet', () => this.set({}));
   private readonly note = element('p', '', 'why');
-  /** What a muted muscle had, and what all had before one of them was alone. */
+  /** What a muted muscle had, and what all muscles of a face had before one of them was alone. */
   private readonly before = new Map<string, number>();
-  private beforeSolo: Gains = {};
-  private alone = '';
+  private readonly beforeSolo = new Map<string, Gains>();
 
   /** `light`: the muscles with these names, with their sides. */
   constructor(
     private readonly state: StudioState, private readonly edits: Edits, private readonly light: (names: ReadonlySet<string>) => void,
   ) {
     state.sceneChanged.add(() => this.update());
-    state.shown.onChange(() => {
-      this.alone = '';
-      this.update();
-    });
+    state.shown.onChange(() => this.update());
   }
 
   /** Once the muscles of the face are known. */
@@ -172,19 +168,31 @@ export class MusclesPanel {
     this.set(this.with(name, 0));
   }
 
+  /** All muscles with their sides. */
+  private get names(): string[] {
+    return this.state.muscles.flatMap(({ name }) => sides.map((side) => `${name}_${side}`));
+  }
+
+  /** The one muscle that pulls; empty where several do. */
+  private aloneIn(gains: Gains): string {
+    const pulling = this.names.filter((name) => gains[name] !== 0);
+    return pulling.length === 1 ? pulling[0] : '';
+  }
+
   private solo(name: string): void {
-    if (this.alone === name) {
-      this.alone = '';
-      this.set(this.beforeSolo);
+    const { gains } = this;
+    const face = this.state.nameOf(this.state.edited);
+    const alone = this.aloneIn(gains);
+    const before = this.beforeSolo.get(face) ?? {};
+    if (alone === name) {
+      this.set(before);
       return;
     }
-    if (this.alone === '') this.beforeSolo = this.gains;
-    this.alone = name;
-    const all: Gains = {};
-    for (const muscle of this.state.muscles)
-      for (const side of sides) if (`${muscle.name}_${side}` !== name) all[`${muscle.name}_${side}`] = 0;
-    const own = this.beforeSolo[name];
-    this.set(own === undefined ? all : { ...all, [name]: own });
+    const own = alone === '' ? gains : before;
+    this.beforeSolo.set(face, own);
+    const all: Gains = Object.fromEntries(this.names.filter((other) => other !== name).map((other) => [other, 0]));
+    if (own[name]) all[name] = own[name];
+    this.set(all);
   }
 
   private update(): void {
@@ -196,11 +204,12 @@ export class MusclesPanel {
     };
     const gains = gainsOf(state.edited);
     const base = state.edited === 0 ? {} : gainsOf(0);
+    const alone = this.aloneIn(gains);
     for (const [name, { slider, mute, solo }] of this.handles) {
       const value = gains[name] ?? 1;
       slider.set(100 * value, 100 * (base[name] ?? 1));
-      mute?.setAttribute('aria-pressed', String(value === 0 && this.alone === ''));
-      solo?.setAttribute('aria-pressed', String(this.alone === name));
+      mute?.setAttribute('aria-pressed', String(value === 0 && alone === ''));
+      solo?.setAttribute('aria-pressed', String(alone === name));
     }
     const gainBefore = state.edited === 0 ? 1 : Number(state.valuesOf(0)[motionGain] ?? 1);
     this.gain?.set(100 * Number(state.valuesOf(state.edited)[motionGain] ?? 1), 100 * gainBefore);
