@@ -37,7 +37,8 @@ class CorrectedBlock : public testing::Test {
     return d;
   }
 
-  const hyperex::test::BoxMesh box_ = hyperex::test::box_mesh({3, 3, 3}, Vec3(0.02, 0.02, 0.02), 0.1);
+  const hyperex::test::BoxMesh box_ =
+      hyperex::test::box_mesh({3, 3, 3}, Vec3(0.02, 0.02, 0.02), 0.1);
   const fem::Material material_ = hyperex::test::varied_material(box_.tets.rows());
   const fem::Assembler assembler_{box_.nodes, box_.tets, fem::ElementKind::tet4_star};
   const std::vector<int> held_ =
