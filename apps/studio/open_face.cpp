@@ -10,6 +10,7 @@
 #include "hyperex/scene/stages/drive_choice.hpp"
 #include "hyperex/scene/stages/driven_points.hpp"
 #include "hyperex/scene/stages/kept_order.hpp"
+#include "hyperex/scene/stages/obstacles.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
 #include "hyperex/scene/stages/teeth.hpp"
 
@@ -21,6 +22,16 @@ namespace {
 
 /// Not known while one edits: it takes a run of the mirrored face.
 constexpr const char* kNoTwin = "the studio runs no mirrored twin while one edits";
+
+/// What of a scene and its variants may touch something.
+std::vector<bool> contact_of(const scene::Scene& scene) {
+  std::vector<bool> out{scene.contact.teeth, scene.contact.eyes};
+  for (const scene::Variant& variant : scene.variants) {
+    out[0] = out[0] || variant.scene.contact.teeth;
+    out[1] = out[1] || variant.scene.contact.eyes;
+  }
+  return out;
+}
 
 /// Whether one is read, meshed and aligned as the other.
 bool same_face(const scene::Scene& a, const scene::Scene& b) {
@@ -119,6 +130,11 @@ void OpenFace::take(scene::Scene next) {
     simulator_.emplace(face_.mesh, inputs.landmarks, inputs.motion, options);
   else if (!same_base)
     simulator_->set_options(options);
+  if (contact_of(scene_) != touched_) {
+    // Built where a scene or a variant first asks for it: a grid of distances takes a moment.
+    touched_ = contact_of(scene_);
+    simulator_->set_obstacles(scene::obstacles_of(scene_, inputs, *face_.mesh, teeth_.get()));
+  }
   stale_ = stale_ || !same_base;
   std::vector<Variant> old = std::exchange(variants_, {});
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -131,7 +147,11 @@ void OpenFace::take(scene::Scene next) {
       known->simulator.reset();
       variant.stale = known->stale || variant.simulator->options() != of_runs[i];
       if (variant.stale) {
-        variant.simulator->set_options(of_runs[i]);
+        try {
+          variant.simulator->set_options(of_runs[i]);
+        } catch (const InputError&) {
+          variant.simulator.reset();  // a run will make another, or say why it cannot
+        }
       } else {
         variant.run.simulation = std::move(known->run.simulation);
         variant.run.symmetry = std::move(known->run.symmetry);
@@ -146,10 +166,10 @@ reenact::Simulator& OpenFace::simulator_of(std::size_t face) {
   Variant& variant = variants_.at(face - 1);
   if (!variant.simulator) {
     simulator_->still(0);  // finds the forces, where there are none yet
-    variant.simulator = *simulator_;
-    variant.simulator->hold_load();
-    variant.simulator->set_options(
-        options_of(variant.run.scene, variant.run.inputs, variant.run.field));
+    reenact::Simulator made = *simulator_;
+    made.hold_load();
+    made.set_options(options_of(variant.run.scene, variant.run.inputs, variant.run.field));
+    variant.simulator = std::move(made);
   }
   return *variant.simulator;
 }
@@ -171,6 +191,13 @@ void OpenFace::run(const reenact::RunCallbacks& callbacks) {
     symmetry_ = symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, twin);
     modes_ = report::displacement_modes(simulation_.performance.skin_displacement_m);
     stale_ = false;
+    // At finite strain the run completed the load (what holds the patches): copies made before it
+    // lack that.
+    if (scene_.model.strain == reenact::Strain::finite)
+      for (Variant& variant : variants_) {
+        variant.simulator.reset();
+        variant.stale = true;
+      }
   }
   for (std::size_t i = 0; i < variants_.size(); ++i) {
     Variant& variant = variants_[i];

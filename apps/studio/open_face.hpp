@@ -74,6 +74,7 @@ class OpenFace {
   std::unique_ptr<scene::TissueFields> fields_;
   std::optional<tissue::TissueField> field_;
   std::optional<reenact::Simulator> simulator_;
+  std::vector<bool> touched_{false, false};  ///< whether obstacles are set for teeth, for eyes
   bool stale_ = true;
   reenact::SimulationResult simulation_;
   metrics::SymmetryMeasures symmetry_;

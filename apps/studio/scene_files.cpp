@@ -55,7 +55,12 @@ void for_paths_of_tables(json& tables, const std::function<void(json&)>& visit) 
 
 /// A scene's text with the paths in it visited.
 std::string with_paths(const std::string& text, const std::function<void(json&)>& visit) {
-  const json before = scene::parse_toml(text).root;
+  json before;
+  try {
+    before = scene::parse_toml(text).root;
+  } catch (const scene::TornToml&) {
+    return text;  // reading the scene will say what is wrong with it
+  }
   json after = before;
   for_paths_of_tables(after, visit);
   std::string out = text;
@@ -125,7 +130,8 @@ json with_uploads(const std::string& key, json value, const fs::path& uploads,
 
 std::string with_uploads(const std::string& text, const fs::path& uploads) {
   const auto taken = [&](json& path) {
-    const std::string name = path.get<std::string>();
+    // A scene that the studio saved names its files in a folder beside it.
+    const std::string name = fs::path(path.get<std::string>()).filename().string();
     if (!is_upload_name(name) || !fs::is_regular_file(uploads / name))
       throw InputError(fmt::format("the scene names {}: open that file together with it", name));
     path = (uploads / name).string();
@@ -140,15 +146,17 @@ std::vector<std::string> paths_of(const json& options) {
   return out;
 }
 
-void save_scene(const std::string& text, const fs::path& from, const fs::path& copied,
+void save_scene(const std::string& text, const fs::path& from, const std::vector<fs::path>& copied,
                 const fs::path& to) {
-  const fs::path folder = from.parent_path(), target = fs::absolute(to).parent_path();
+  const fs::path folder = fs::weakly_canonical(fs::absolute(from)).parent_path(),
+                 target = fs::weakly_canonical(fs::absolute(to)).parent_path();
   const std::string files = to.stem().string() + "_files";
   const auto moved = [&](json& value) {
     fs::path file = value.get<std::string>();
     const bool relative = file.is_relative();
     if (relative) file = folder / file;
-    if (lies_in(file, copied)) {
+    if (std::any_of(copied.begin(), copied.end(),
+                    [&](const fs::path& one) { return lies_in(file, one); })) {
       fs::create_directories(target / files);
       const fs::path copy = target / files / file.filename();
       write_file_atomically(copy, [&](std::ostream& out) { out << read_file(file); });

@@ -30,9 +30,9 @@ std::string with_uploads(const std::string& text, const std::filesystem::path& u
 std::vector<std::string> paths_of(const nlohmann::json& options);
 
 /// Writes the scene `text`, which stands in `from`, to `to`. Files that it names are named from
-/// there; those that lie in `copied` (a folder; empty: none) are copied into a folder beside it.
+/// there; those that lie in one of `copied` (folders) are copied into a folder beside it.
 /// Throws InputError where that cannot be written.
 void save_scene(const std::string& text, const std::filesystem::path& from,
-                const std::filesystem::path& copied, const std::filesystem::path& to);
+                const std::vector<std::filesystem::path>& copied, const std::filesystem::path& to);
 
 }  // namespace hyperex::studio

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
@@ -67,10 +69,26 @@ std::optional<std::string> unescaped(std::string_view text) {
   return out;
 }
 
+/// "me.ply", or where that is there already "me-2.ply": scenes may name the one that is there.
+std::string free_name(const std::filesystem::path& folder, const std::string& name) {
+  const std::filesystem::path path = name;
+  std::string free = name;
+  for (int i = 2; std::filesystem::exists(folder / free); ++i)
+    free = fmt::format("{}-{}{}", path.stem().string(), i, path.extension().string());
+  return free;
+}
+
 }  // namespace
 
 bool is_upload_name(std::string_view name) {
   if (name.empty() || name.size() > 100 || name.front() == '.' || name.front() == ' ') return false;
+  try {
+    static_cast<void>(nlohmann::json(std::string(name)).dump());
+  } catch (const nlohmann::json::exception&) {
+    return false;  // no UTF-8
+  }
+  for (std::size_t i = 1; i < name.size(); ++i)  // C1 controls
+    if (name[i - 1] == '\xc2' && static_cast<unsigned char>(name[i]) < 0xa0) return false;
   return std::all_of(name.begin(), name.end(), [](char c) {
     const auto u = static_cast<unsigned char>(c);
     return u >= 0x80 || std::isalnum(u) || std::string_view(" -_.()").find(c) != std::string::npos;
@@ -90,6 +108,8 @@ struct Server::Impl {
   std::shared_ptr<Socket> client;  // that was let in
   int connections = 0;
   std::size_t uploaded = 0;  // bytes in all
+  int parts = 0;
+  asio::steady_timer again{io};
 
   void accept();
 };
@@ -122,13 +142,13 @@ class Server::Impl::Socket : public std::enable_shared_from_this<Socket> {
 
   void send(std::shared_ptr<const std::string> message, bool binary, const std::string& replaces) {
     if (ended_) return;
+    // The new one takes its own place: what was sent in between comes before it.
     if (!replaces.empty())
       for (std::size_t i = writing_ ? 1 : 0; i < queue_.size(); ++i)
         if (queue_[i].replaces == replaces) {
           waiting_ -= queue_[i].message->size();
-          waiting_ += message->size();
-          queue_[i].message = std::move(message);
-          return;
+          queue_.erase(queue_.begin() + std::ptrdiff_t(i));
+          break;
         }
     waiting_ += message->size();
     if (waiting_ > server_.options.most_waiting)
@@ -282,13 +302,16 @@ class Server::Impl::Connection : public std::enable_shared_from_this<Connection>
                                 server_.options.longest_upload >> 20U,
                                 server_.options.longest_upload >> 19U));
     server_.uploaded += *length;
-    name_ = *name;
+    charged_ = *length;
+    name_ = free_name(server_.options.uploads, *name);
     upload_.emplace(std::move(*head_));
     upload_->body_limit(server_.options.longest_upload);
     beast::error_code error;
     // Under its own name only when it is whole.
-    const std::string part = (server_.options.uploads / (".part-" + name_)).string();
+    const std::string part =
+        (server_.options.uploads / fmt::format(".part-{}-{}", ++server_.parts, name_)).string();
     upload_->get().body().open(part.c_str(), beast::file_mode::write, error);
+    if (error) server_.uploaded -= charged_;
     if (error) return answer(http::status::insufficient_storage, "the file cannot be written\n");
     stream_.expires_after(seconds(600));
     http::async_read(
@@ -298,8 +321,10 @@ class Server::Impl::Connection : public std::enable_shared_from_this<Connection>
           std::error_code ignored;
           if (failed) {
             std::filesystem::remove(part, ignored);
+            self->server_.uploaded -= self->charged_;
             return;
           }
+          self->name_ = free_name(self->server_.options.uploads, self->name_);
           std::filesystem::rename(part, self->server_.options.uploads / self->name_, ignored);
           if (ignored)
             return self->answer(http::status::insufficient_storage, "the file cannot be written\n");
@@ -349,11 +374,21 @@ class Server::Impl::Connection : public std::enable_shared_from_this<Connection>
   std::optional<http::request_parser<http::file_body>> upload_;
   http::response<http::string_body> answer_;
   std::string name_;
+  std::size_t charged_ = 0;
 };
 
 void Server::Impl::accept() {
   acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
+    if (error) {  // no file descriptor is left: wait until some are
+      again.expires_after(std::chrono::milliseconds(200));
+      again.async_wait([this](beast::error_code stopped) {
+        if (!stopped) accept();
+      });
+      return;
+    }
+    // Programs that are started, as the browser, must not hold it.
+    fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
     // Small answers go at once: held back for others they would come 40 ms late.
     if (!error) socket.set_option(tcp::no_delay(true), error);
     if (!error && connections < options.most_connections)
@@ -376,6 +411,7 @@ Server::Server(ServerOptions options, ServerEvents events) : impl_(std::make_uni
     throw InputError("--port", fmt::format("{}: this port cannot be taken ({}); expected a free "
                                            "one, or none to have one chosen",
                                            m.options.port, error.message()));
+  fcntl(m.acceptor.native_handle(), F_SETFD, FD_CLOEXEC);
   m.port = m.acceptor.local_endpoint().port();
   m.policy = fmt::format(fmt::runtime(kPolicy), m.port);
 }
@@ -390,12 +426,18 @@ std::string Server::address() const {
 
 void Server::run() {
   impl_->accept();
-  impl_->io.run();
+  while (!impl_->io.stopped()) try {
+      impl_->io.run();
+    } catch (const std::exception& error) {
+      // Of one connection, which is gone with it; the others go on.
+      spdlog::warn("the studio's network: {}", error.what());
+    }
 }
 
 void Server::stop() {
   asio::post(impl_->io, [this] {
     impl_->acceptor.close();
+    impl_->again.cancel();
     impl_->client.reset();
     impl_->io.stop();
   });

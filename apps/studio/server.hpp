@@ -30,8 +30,9 @@ struct ServerOptions {
 
 /// All are called on the thread of run().
 struct ServerEvents {
-  std::function<void(std::string text)> request;   ///< of the client that is let in
-  std::function<void(std::string name)> uploaded;  ///< a file of that name lies in `uploads`
+  std::function<void(std::string text)> request;  ///< of the client that is let in
+  /// A file of that name lies in `uploads`: the client's, with a number where there was one.
+  std::function<void(std::string name)> uploaded;
 };
 
 class Server {

@@ -17,6 +17,7 @@
 #include "hyperex/scene/grammar/toml_values.hpp"
 #include "hyperex/scene/grammar/variant_presets.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/scene/stages/drive_choice.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "scene_files.hpp"
@@ -162,6 +163,9 @@ void Session::answer(const Request& request) {
       out = save(fields);
     else
       throw InputError(name + ": this studio does not know how to do that yet");
+  } catch (const scene::TornToml& torn) {
+    tell("");
+    out = {{"error", fmt::format("line {}: no sound TOML: {}", torn.line, torn.why)}};
   } catch (const std::exception& error) {
     tell("");
     out = {{"error", without_folder(error.what(), options_.folder)}};
@@ -200,7 +204,7 @@ json Session::open(const json& fields) {
     if (!name.empty() && !is_upload_name(name)) throw InputError(name + ": no such upload");
   const auto uploaded = [&](const std::string& name) {
     if (name.empty()) return fs::path();
-    const fs::path file = options_.folder / name;
+    const fs::path file = options_.folder / "uploads" / name;
     if (!fs::is_regular_file(file)) throw InputError(name + ": no such upload");
     return file;
   };
@@ -220,7 +224,7 @@ json Session::open(const json& fields) {
     saved_ = false;
     send_scene();
   } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
-    open_text(with_uploads(read_file(file), options_.folder), file);
+    open_text(with_uploads(read_file(file), options_.folder / "uploads"), file);
   } else {
     open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");
   }
@@ -281,12 +285,15 @@ std::string Session::changed(const json& wanted, int face) {
   if (!wanted.is_object()) throw InputError("changes: expected keys and values");
   std::string text = now_.text;
   json changes = json::object();
-  const std::vector<std::string> known = paths_of(options_json(need_face().scene()));
+  need_face();
+  const scene::Scene committed = scene::read_scene_text(now_.text, now_.file);
+  const std::vector<std::string> known = paths_of(options_json(committed));
   for (const auto& [key, value] : wanted.items()) {
     if (!scene::find_key(key)) throw InputError(key + ": no key of a scene");
-    changes[key] = with_uploads(key, value, options_.folder, known);
+    changes[key] = with_uploads(key, value, options_.folder / "uploads", known);
   }
-  if (changes_muscles(changes) && need_face().scene().drive.by != reenact::DriveBy::muscles)
+  if (changes_muscles(changes) &&
+      scene::drive_choice(committed, face_->inputs()).by != reenact::DriveBy::muscles)
     text = scene::with_value(text, "drive.by", "muscles");
   if (face == 0) {
     for (const auto& [key, value] : changes.items()) text = scene::with_value(text, key, value);
@@ -300,14 +307,14 @@ std::string Session::changed(const json& wanted, int face) {
     const std::string section = scene::section_of(key);
     const std::string name = section.empty() ? key : key.substr(section.size() + 1);
     json& table = section.empty() ? block : block[section];
-    if (value.is_null())
+    if (value.is_null() && table.is_object())
       table.erase(name);
-    else
+    else if (!value.is_null())
       table[name] = value;
     if (!section.empty() && table.empty()) block.erase(section);
   }
   // A variant that changes nothing yet: what it will change is to come.
-  if (block.size() == 1) block["motion"]["gain"] = values_of(need_face().scene())["motion.gain"];
+  if (block.size() == 1) block["motion"]["gain"] = values_of(committed)["motion.gain"];
   return scene::with_variants(text, blocks);
 }
 
@@ -428,7 +435,10 @@ json Session::save(const json& fields) {
   const fs::path into = options_.save_into;
   if (what == "scene") {
     const fs::path file = free(into / (name + ".toml"));
-    save_scene(now_.text, now_.file, options_.folder, file);
+    const fs::path files = free(into / (name + "_files"));
+    save_scene(now_.text, now_.file, {options_.folder, options_.rescued}, file);
+    written_.push_back(files);
+    keeps_rescued_ = keeps_rescued_ && now_.file.parent_path() != options_.rescued;
     saved_ = true;
     send_scene();
     return done(file);
@@ -467,15 +477,18 @@ void Session::work(const std::function<bool()>& cancelled) {
   callbacks.progress = [&](double share) { tell("simulating", share); };
   try {
     face_->run(callbacks);
+    motion_due_ = false;
+    send_motion(watch);
   } catch (const reenact::Cancelled&) {
     return;
   } catch (const std::exception& error) {
     motion_due_ = false;
-    tell("");
     say("error", without_folder(error.what(), options_.folder));
-    return;
   }
-  motion_due_ = false;
+  tell("");
+}
+
+void Session::send_motion(Stopwatch& watch) {
   report::BinaryBlock block;
   json head = {{"event", face_sent_ ? "motion" : "face"}};
   head["replay"] = face_->replay(block, !face_sent_);
@@ -498,7 +511,6 @@ void Session::work(const std::function<bool()>& cancelled) {
   }
   send_(binary_message(head, block), true, "");
   face_sent_ = true;
-  tell("");
 }
 
 void Session::send_scene() {
@@ -536,10 +548,10 @@ void Session::send_shape(std::size_t face, double time_s) {
     return static_cast<std::int16_t>(std::lround(value / step_m));
   });
   report::BinaryBlock block;
-  const json head = {{"event", "shape"},           {"face", face},
-                     {"time_s", time_s},           {"step_m", step_m},
-                     {"values", block.add(steps)}, {"seconds", watch.lap()}};
-  send_(binary_message(head, block), true, "shape");
+  json head = {{"event", "shape"},           {"face", face},
+               {"time_s", time_s},           {"step_m", step_m},
+               {"values", block.add(steps)}, {"seconds", watch.lap()}};
+  send_(binary_message(head, block), true, fmt::format("shape-{}", face));
 }
 
 void Session::tell(const std::string& stage, double share) {
@@ -553,7 +565,12 @@ void Session::say(const char* level, const std::string& text) {
 }
 
 void Session::keep() {
-  save_scene(now_.text, now_.file, {}, options_.folder / "scene.toml");
+  try {
+    save_scene(now_.text, now_.file, {}, options_.folder / "scene.toml");
+  } catch (const std::exception& error) {
+    say("warning",
+        fmt::format("what is not saved would be lost with the studio: {}", error.what()));
+  }
 }
 
 }  // namespace hyperex::studio

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hyperex/core/kept_results.hpp"
+#include "hyperex/core/stopwatch.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "open_face.hpp"
@@ -37,6 +38,8 @@ class Session {
   void answer(const Request& request);
   /// Whether files of the user hold all that was done.
   bool saved() const { return saved_; }
+  /// Whether the folder that was rescued holds what no file of the user holds.
+  bool keeps_rescued() const { return keeps_rescued_; }
   /// Something to do when no request waits: a motion that is not up to date.
   bool has_work() const;
   /// Does it; ended early where `cancelled` says so, to be begun again.
@@ -68,7 +71,7 @@ class Session {
   std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
   void send_scene();
   void send_shape(std::size_t face, double time_s);
-  void send_motion();
+  void send_motion(Stopwatch& watch);
   void tell(const std::string& stage, double share = -1);
   void say(const char* level, const std::string& text);
   void keep();
@@ -78,7 +81,7 @@ class Session {
   std::unique_ptr<OpenFace> face_;
   Step now_;  // what was committed last; the face may be ahead of it while a slider is dragged
   std::vector<Step> undo_, redo_;
-  bool face_sent_ = false, motion_due_ = false, saved_ = true;
+  bool face_sent_ = false, motion_due_ = false, saved_ = true, keeps_rescued_ = true;
   std::vector<std::filesystem::path> written_;
   std::optional<SurfaceTree> scan_;  ///< of the face that is open, once a landmark was moved
   io::Landmarks moved_;              ///< since the last landmarks_done()

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session_folder.hpp"
 
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -26,24 +27,43 @@ fs::path state_folder() {
     return state / "hyperex" / "studio";
   if (const fs::path home = absolute("HOME"); !home.empty())
     return home / ".local" / "state" / "hyperex" / "studio";
-  return fs::temp_directory_path() / fmt::format("hyperex-studio-{}", getuid());
+  return {};
 }
+
+/// One process after the other, while it lives.
+class Turn {
+ public:
+  explicit Turn(const fs::path& file)
+      : file_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600)) {
+    if (file_ >= 0) flock(file_, LOCK_EX);
+  }
+  ~Turn() {
+    if (file_ >= 0) close(file_);
+  }
+  Turn(const Turn&) = delete;
+
+ private:
+  int file_;
+};
 
 }  // namespace
 
 SessionFolder::SessionFolder() {
-  fs::path folder = state_folder();
+  const fs::path folder = state_folder();
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    folder = fs::temp_directory_path() / fmt::format("hyperex-studio-{}", getuid());
-    fs::create_directories(folder, error);
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (folder.empty() || error) {
+    make_among_temporary_files();
+    return;
   }
   // Of this user alone: uploads are faces.
   fs::permissions(folder, fs::perms::owner_all, error);
+  const Turn turn(folder / ".lock");  // of studios that begin at the same time
   fs::file_time_type youngest = fs::file_time_type::min();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (!entry.is_directory(error) || InUse(entry.path()).taken()) continue;
+    if (!entry.is_directory(error)) continue;
+    const InUse nobodys(entry.path());
+    if (!nobodys.held()) continue;
     const fs::path scene = entry.path() / "scene.toml";
     const bool there = fs::is_regular_file(scene, error);
     const auto written = fs::last_write_time(there ? scene : entry.path(), error);
@@ -56,10 +76,22 @@ SessionFolder::SessionFolder() {
   }
   path_ = folder / new_token().substr(0, 12);
   fs::create_directory(path_, error);
+  if (!error) fs::permissions(path_, fs::perms::owner_all, error);
   if (error)
     throw InputError(path_, "cannot be made (" + error.message() +
                                 "): expected a folder for what "
                                 "the studio keeps; XDG_STATE_HOME names another place");
+  in_use_ = std::make_unique<InUse>(path_);
+}
+
+/// Where there is no home: of this user alone, and offered to no later studio.
+void SessionFolder::make_among_temporary_files() {
+  std::string name = (fs::temp_directory_path() / "hyperex-studio-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw InputError(name,
+                     "cannot be made: expected a folder for what the studio keeps; "
+                     "XDG_STATE_HOME names another place");
+  path_ = name;
   in_use_ = std::make_unique<InUse>(path_);
 }
 

@@ -9,7 +9,7 @@ namespace hyperex::studio {
 
 /// The folder of one session, for uploads and for the scene as it is: what a later session offers
 /// where this one dies. It lies in $XDG_STATE_HOME/hyperex/studio, else
-/// ~/.local/state/hyperex/studio, else among the temporary files.
+/// ~/.local/state/hyperex/studio; without a home among the temporary files.
 class SessionFolder {
  public:
   SessionFolder();
@@ -24,6 +24,7 @@ class SessionFolder {
   void leave() { left_ = true; }
 
  private:
+  void make_among_temporary_files();
   std::filesystem::path path_, rescued_;
   std::unique_ptr<InUse> in_use_;
   bool left_ = false;

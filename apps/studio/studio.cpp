@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/core/interrupt.hpp"
 #include "hyperex/report/page_template.hpp"
 #include "request_queue.hpp"
@@ -28,6 +29,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// A page that leads to the address, which only this user can read: what is on a command line every
+/// user of the machine can.
+std::string door(const std::string& address, const fs::path& folder) {
+  const fs::path file = folder / "open.html";
+  write_file_atomically(file, [&](std::ostream& out) {
+    out << "<!doctype html><meta http-equiv=\"refresh\" content=\"0;url=" << address << "\">\n";
+  });
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  return "file://" + file.string();
+}
+
 /// By the desktop's own opener, which may not be there.
 void open_browser(std::string address) {
   std::string program = "xdg-open";
@@ -37,8 +49,12 @@ void open_browser(std::string address) {
   posix_spawn_file_actions_init(&quiet);
   posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", 1, 0);
   posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", 1, 0);
-  if (posix_spawnp(&child, program.c_str(), &quiet, nullptr, arguments, environ) != 0)
+  posix_spawnattr_t own_session;  // Ctrl+C here must not end the browser
+  posix_spawnattr_init(&own_session);
+  posix_spawnattr_setflags(&own_session, POSIX_SPAWN_SETSID);
+  if (posix_spawnp(&child, program.c_str(), &quiet, &own_session, arguments, environ) != 0)
     spdlog::info("no browser could be opened: open the address yourself");
+  posix_spawnattr_destroy(&own_session);
   posix_spawn_file_actions_destroy(&quiet);
 }
 
@@ -71,7 +87,8 @@ void run_studio(const StudioOptions& options) {
   how.page = report::page_template(report::Page::studio);
   how.token = new_token();
   how.port = options.port;
-  how.uploads = folder.path();
+  how.uploads = folder.path() / "uploads";
+  fs::create_directory(how.uploads);
   ServerEvents events;
   events.request = [&](const std::string& text) {
     std::int64_t id = -1;
@@ -85,7 +102,7 @@ void run_studio(const StudioOptions& options) {
   };
   events.uploaded = [](const std::string& name) { spdlog::info("uploaded: {}", name); };
   server = std::make_unique<Server>(std::move(how), std::move(events));
-  Session session({.started = options.started,
+  Session session({.started = options.started.empty() ? fs::path() : fs::absolute(options.started),
                    .save_into = fs::absolute(options.save_into).lexically_normal(),
                    .folder = folder.path(),
                    .rescued = folder.rescued(),
@@ -98,12 +115,16 @@ void run_studio(const StudioOptions& options) {
   std::thread worker([&] { answer_all(queue, session, *server); });
   std::cout << server->address() << std::endl;
   std::cerr << "The studio is open at this address on this machine alone; Ctrl+C ends it.\n";
-  if (options.open_browser) open_browser(server->address());
+  if (options.open_browser) open_browser(door(server->address(), folder.path()));
   while (!stop.requested()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   queue.close();
   worker.join();
   server->stop();
   network.join();
+  if (!session.keeps_rescued()) {
+    std::error_code ignored;
+    fs::remove_all(folder.rescued(), ignored);
+  }
   if (!session.saved()) {
     folder.leave();
     std::cerr << "What was not saved is kept: the next studio offers it.\n";

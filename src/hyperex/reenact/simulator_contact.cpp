@@ -200,7 +200,14 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
       ++given_up;
       continue;
     }
-    tissue.begin(d0);
+    try {
+      tissue.begin(d0);
+    } catch (const NumericalError&) {
+      hopeless_m = std::min(hopeless_m, least_m);
+      ++given_up;
+      continue;
+    }
+    double own_residual_m = 0;
     Eigen::VectorXd moved, more;
     int idle = 0;  // rounds in a row that gain little
     for (int round = 0;
@@ -233,9 +240,10 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
       if (depth_m < least_m) {
         least_m = depth_m;
         column = d;
-        residual_m = std::max(residual_m, next.residual_m);
+        own_residual_m = next.residual_m;
       }
     }
+    residual_m = std::max(residual_m, own_residual_m);
     tell(told + 0.5 * (1 - told) / double(frames.which.size()));
   }
   report.iterations += tissue.iterations();

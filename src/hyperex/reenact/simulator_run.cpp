@@ -325,6 +325,7 @@ SimulationResult Simulator::Impl::run() {
 }
 
 PointsF Simulator::Impl::still(double time_s) {
+  time_s = std::clamp(time_s, 0.0, end_s());
   report = {};
   need_region();
   const PointCurve points(*motion, options.drive.gain);
@@ -337,6 +338,10 @@ PointsF Simulator::Impl::still(double time_s) {
     const Eigen::MatrixXd d = reduced->at_rest(
         input->drive, {std::clamp(time_s / options.time.step_s, 0.0, double(steps()))});
     nodes = Eigen::Map<const Points>(d.data(), nodes.rows(), 3);
+  }
+  if (report.forces_found_anew) {  // told by the next run
+    prepared.forces_found_anew = true;
+    prepared.notes.push_back(kForcesFoundAnew);
   }
   return readout->skin(*region, driven_points->rim, nodes, points.at(time_s));
 }

@@ -32,14 +32,14 @@ TEST(SceneFiles, WhatASceneNamesIsFoundFromItsNewPlace) {
   std::ofstream(own / "me.csv") << embedded_smile();
   const std::string text =
       "[scan]\nfile = \"embedded\"\n\n[motion]\narkit = \"smile_arkit.csv\"  # here\n";
-  save_scene(text, from / "a.toml", own, to / "b.toml");
+  save_scene(text, from / "a.toml", {own}, to / "b.toml");
   const std::string saved = read_file(to / "b.toml");
   EXPECT_THAT(saved, HasSubstr("arkit = \"../from/smile_arkit.csv\"  # here"));
   EXPECT_TRUE(
       fs::equivalent(scene::read_scene(to / "b.toml").motion.arkit, from / "smile_arkit.csv"));
   // What lies in a session's own folder goes along.
   save_scene("[scan]\nfile = \"embedded\"\n[motion]\narkit = '" + (own / "me.csv").string() + "'\n",
-             own / "scene.toml", own, to / "c.toml");
+             own / "scene.toml", {own}, to / "c.toml");
   fs::remove_all(own);
   EXPECT_EQ(read_file(scene::read_scene(to / "c.toml").motion.arkit), embedded_smile());
 }

@@ -32,7 +32,7 @@ class StudioSession : public testing::Test {
     options.folder = folder_.path() / "own";
     options.program = "Hyperex test";
     fs::create_directory(options.save_into);
-    fs::create_directory(options.folder);
+    fs::create_directories(options.folder / "uploads");
     session_ = std::make_unique<Session>(
         options, [this](const std::string& message, bool binary, const std::string&) {
           if (!binary) return messages_.push_back({json::parse(message), ""});
@@ -181,6 +181,54 @@ TEST_F(StudioSession, AWrongValueChangesNothingAndSaysOneSentence) {
   EXPECT_EQ(event("scene")->head["text"], text);
   work();
   EXPECT_NE(event("face"), nullptr);
+}
+
+TEST_F(StudioSession, WhatIsTornOrCannotBeWrittenIsSaidAndHarmsNothing) {
+  std::ofstream(folder_.path() / "own" / "uploads" / "torn.toml") << "[scan\n";
+  EXPECT_THAT(ask("open", {{"what", "torn.toml"}})["error"].get<std::string>(),
+              HasSubstr("sound TOML"));
+  open();
+  EXPECT_TRUE(set({{"muscles.gain", {{"zyg_major_R", nullptr}}}, {"tissue.young_kpa", 100}}, 0)
+                  .contains("error"));
+  ask("add_variant", {{"name", "v"}, {"like", 0}});
+  EXPECT_FALSE(set({{"support.skull", nullptr}}, 1).contains("error"))
+      << "it has none to take away";
+  EXPECT_TRUE(set({{"tissue.strain", "odd"}}, 1).contains("error"));
+  work();
+  EXPECT_NE(event("motion"), nullptr);
+}
+
+TEST_F(StudioSession, MusclesMoveASceneThatSaysDisplacementAgainAndAgain) {
+  open();
+  set({{"drive.by", "displacement"}}, 0);
+  for (const double gain : {0.9, 0.8, 0.7})
+    EXPECT_FALSE(set({{"muscles.gain", {{"side_R", gain}}}}, 0, true).contains("error"));
+  EXPECT_FALSE(set({{"muscles.gain", {{"side_R", 0.7}}}}, 0).contains("error"));
+  EXPECT_EQ(event("scene")->head["drive"], "muscles");
+}
+
+TEST_F(StudioSession, AVariantThatCannotBeRunIsNotShownAsBase) {
+  open();
+  ask("add_variant", {{"name", "finite"}, {"like", 0}});
+  set({{"tissue.strain", "finite"}}, 1);
+  for (int i = 0; i < 2; ++i) {
+    messages_.clear();
+    work();
+    ASSERT_NE(event("said"), nullptr);
+    EXPECT_EQ(event("motion"), nullptr);
+    ask("hello");
+  }
+}
+
+TEST_F(StudioSession, ASavedSceneOpensAgainFromItsFiles) {
+  open();
+  ask("save", {{"what", "scene"}, {"name", "mine"}});
+  const fs::path mine = folder_.path() / "mine", uploads = folder_.path() / "own" / "uploads";
+  fs::copy(mine / "mine.toml", uploads / "mine.toml");
+  EXPECT_THAT(ask("open", {{"what", "mine.toml"}})["error"].get<std::string>(),
+              HasSubstr("open that file together with it"));
+  fs::copy(mine / "mine_files" / "smile_arkit.csv", uploads / "smile_arkit.csv");
+  EXPECT_FALSE(ask("open", {{"what", "mine.toml"}}).contains("error"));
 }
 
 TEST_F(StudioSession, WritesOverNothingThatItDidNotWrite) {

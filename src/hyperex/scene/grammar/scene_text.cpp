@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/io/toml.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
 
@@ -191,6 +192,20 @@ std::string toml_document(const json& root) {
   return text;
 }
 
+namespace {
+
+/// The whole document. Throws InputError for what TOML cannot hold.
+std::string written_anew(const json& wanted, const std::string& key) {
+  const std::string text = toml_document(wanted);
+  try {
+    if (parse_toml(text).root == wanted) return text;
+  } catch (const TornToml&) {
+  }
+  throw InputError(key + ": a value that a scene file cannot hold");
+}
+
+}  // namespace
+
 std::string with_value(const std::string& text, const std::string& key, const json& value) {
   const std::size_t dot = key.find('.');
   const std::string section = dot == std::string::npos ? "" : key.substr(0, dot);
@@ -206,7 +221,7 @@ std::string with_value(const std::string& text, const std::string& key, const js
     // Not one of the ways that are known here.
   } catch (const toml::parse_error&) {
   }
-  return toml_document(wanted);
+  return written_anew(wanted, key);
 }
 
 std::vector<json> variant_blocks(const std::string& text) {
@@ -224,7 +239,7 @@ std::string with_variants(const std::string& text, const std::vector<json>& bloc
     wanted["variant"] = blocks;
   std::vector<std::string> lines = lines_of(text);
   const std::vector<Stretch> stretches = variant_lines(lines);
-  if (stretches.size() != old.size()) return toml_document(wanted);
+  if (stretches.size() != old.size()) return written_anew(wanted, "variant");
   std::vector<std::string> texts;
   for (const Stretch& s : stretches)
     texts.push_back(
@@ -244,7 +259,7 @@ std::string with_variants(const std::string& text, const std::vector<json>& bloc
     if (parse_toml(out).root == wanted) return out;
   } catch (const TornToml&) {
   }
-  return toml_document(wanted);
+  return written_anew(wanted, "variant");
 }
 
 }  // namespace hyperex::scene

@@ -12,7 +12,7 @@ namespace hyperex::scene {
 /// files; null: without the key. Where the key stands its value is replaced; where its section
 /// stands it is put at that section's end; else the section is put before the first [[variant]].
 /// Where a file is written in a way that this cannot edit, the whole is written anew, without its
-/// comments. Throws TornToml where `text` is no TOML.
+/// comments. Throws TornToml where `text` is no TOML, InputError for a value that TOML cannot hold.
 std::string with_value(const std::string& text, const std::string& key,
                        const nlohmann::json& value);
 
