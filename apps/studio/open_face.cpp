@@ -11,6 +11,7 @@
 #include "hyperex/scene/stages/driven_points.hpp"
 #include "hyperex/scene/stages/kept_order.hpp"
 #include "hyperex/scene/stages/obstacles.hpp"
+#include "hyperex/scene/stages/plausible.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
 #include "hyperex/scene/stages/teeth.hpp"
 
@@ -72,6 +73,11 @@ OpenFace::OpenFace(std::string text, std::filesystem::path file, KeptResults kep
   own_notes_ = inputs_.notes.size();
   stage("meshing the soft tissue");
   face_ = scene::prepare_face(scene, inputs_, [] {});
+  warnings_ = inputs_.warnings;
+  if (const std::string off =
+          scene::skin_warning(scene::skin_off_scan(*face_.mesh, inputs_.landmarks));
+      !off.empty())
+    warnings_.push_back(off);
   fields_ = std::make_unique<scene::TissueFields>(inputs_, *face_.mesh);
   teeth_ = scene::teeth_of(scene, inputs_, *face_.mesh, teeth_notes_);
   stage("assembling and factoring");
@@ -213,11 +219,11 @@ void OpenFace::run(const reenact::RunCallbacks& callbacks) {
 scene::Results OpenFace::results() const {
   scene::Results out{scene_,          inputs_,       *face_.mesh, simulation_,
                      symmetry_,       inputs_.notes, modes_,      field_ ? &*field_ : nullptr,
-                     inputs_.warnings};
+                     warnings_};
   out.teeth = teeth_.get();
   out.notes.insert(out.notes.end(), teeth_notes_.begin(), teeth_notes_.end());
   out.notes.insert(out.notes.end(), face_.mesh->notes.begin(), face_.mesh->notes.end());
-  out.notes.insert(out.notes.end(), inputs_.warnings.begin(), inputs_.warnings.end());
+  out.notes.insert(out.notes.end(), warnings_.begin(), warnings_.end());
   for (const std::string& note : simulation_.report.notes) {
     out.notes.push_back(note);
     out.warnings.push_back(note);

@@ -32,6 +32,8 @@ class OpenFace {
   const scene::Inputs& inputs() const { return inputs_; }
   const tissue::TissueMesh& mesh() const { return *face_.mesh; }
   std::size_t faces() const { return 1 + variants_.size(); }
+  /// What is probably wrong with the inputs or the mesh, a sentence each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// Why the program picked what drives, a sentence.
   const std::string& drive_why() const { return drive_why_; }
 
@@ -70,7 +72,7 @@ class OpenFace {
   std::string drive_why_;
   scene::PreparedFace face_;
   std::shared_ptr<const tissue::Teeth> teeth_;  ///< null: none
-  std::vector<std::string> teeth_notes_;
+  std::vector<std::string> teeth_notes_, warnings_;
   std::unique_ptr<scene::TissueFields> fields_;
   std::optional<tissue::TissueField> field_;
   std::optional<reenact::Simulator> simulator_;

@@ -256,6 +256,7 @@ void Session::open_text(const std::string& text, const fs::path& file) {
   motion_due_ = true;
   saved_ = true;
   send_scene();
+  for (const std::string& warning : face_->warnings()) say("warning", warning);
 }
 
 void Session::apply(const std::string& text) {
@@ -266,6 +267,7 @@ void Session::apply(const std::string& text) {
   scan_.reset();
   moved_.clear();
   face_sent_ = false;
+  for (const std::string& warning : face_->warnings()) say("warning", warning);
 }
 
 void Session::commit(const std::string& text) {

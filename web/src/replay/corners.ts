@@ -52,6 +52,12 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
 
 export const mm = (value: number): string => `${value.toFixed(1)} mm`;
 
+/** "corners right 8.2 mm, left 9.7 mm": how far they go; empty where that is not known. */
+export function cornerFigures(replay: Replay, face: number): string {
+  const corners = cornersOf(replay, face);
+  return corners ? `corners right ${mm(corners.rightMm)}, left ${mm(corners.leftMm)}` : '';
+}
+
 /** "8.1 mm less on the right" */
 export function differenceWords({ leftMm, rightMm, floorMm, undecided }: Corners): string {
   const apart = Math.abs(leftMm - rightMm);

@@ -16,6 +16,9 @@ import { dark } from '../page/theme';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
+/** While one edits there is no error band: changes below this are not made to look like findings, mm. */
+const unsureMm = 0.5;
+
 /** A change below this is none, mm: half of what a figure here shows. */
 const sameMm = 0.05;
 const sides = ['right', 'left'] as const; // as one sees the face
@@ -169,6 +172,12 @@ export class FiguresPanel {
       cell.title = words.mostHint;
       cell.textContent = differs;
     });
+    if (this.state.source.replay.faces.length > 1) {
+      const note = table.createTFoot().insertRow().insertCell();
+      note.colSpan = 3;
+      note.className = 'no-band';
+      note.textContent = words.noBand;
+    }
   }
 
   /** The largest in large, what it is against base, and where the corner is now. */
@@ -181,7 +190,8 @@ export class FiguresPanel {
     if (i > 0) {
       const change = of(own) - of(base);
       const same = Math.abs(change) < sameMm;
-      cell.append(element('small', same ? words.asBase : words.againstBase(plus(change)), same ? 'same' : 'change'));
+      const sure = Math.abs(change) >= unsureMm;
+      cell.append(element('small', same ? words.asBase : words.againstBase(plus(change)), sure ? 'change' : 'same'));
     }
     const now = element('small', '', 'now-is');
     cell.append(now);

@@ -127,6 +127,7 @@ const en = {
   nowIs: (value: string) => `now ${value}`,
   againstBase: (value: string) => `${value} to base`,
   asBase: 'as base',
+  noBand: 'Without error bands while you edit: a change below 0.5 mm may be none. A saved report tells.',
   most: 'Differs most',
   mostHint: 'Greatest distance from base, of all places and times',
   nearPoint: (point: string) => `near ${point}`,

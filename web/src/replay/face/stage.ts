@@ -9,6 +9,7 @@ import { changeMode, chooseFace, wireFaces } from './face_chooser';
 import { faceHue } from '../../page/face_colour';
 import { faceWords } from '../../page/format';
 import type { Key } from '../keys';
+import { cornerFigures } from '../corners';
 import { drawPicture, pngOf } from './picture';
 import type { Playback } from '../playback';
 import { fileName, save } from '../../page/save';
@@ -241,7 +242,7 @@ export class Stage {
       time: `${timeS.toFixed(3)} s`,
       faces: named.map((i) => ({
         name: faceWords(replay.faces, i),
-        changes: changesOf(replay, i).join(', '),
+        changes: [cornerFigures(replay, i), ...changesOf(replay, i)].filter((text) => text).join(', '),
         colour: palette[faceHue(i)],
       })),
       divided: shown.mode === 'single' ? null : shown.mode === 'wipe' ? wipe!.at : 0.5,
