@@ -217,8 +217,8 @@ void OpenFace::run(const reenact::RunCallbacks& callbacks) {
 }
 
 scene::Results OpenFace::results() const {
-  scene::Results out{scene_,          inputs_,       *face_.mesh, simulation_,
-                     symmetry_,       inputs_.notes, modes_,      field_ ? &*field_ : nullptr,
+  scene::Results out{scene_,    inputs_,       *face_.mesh, simulation_,
+                     symmetry_, inputs_.notes, modes_,      field_ ? &*field_ : nullptr,
                      warnings_};
   out.teeth = teeth_.get();
   out.notes.insert(out.notes.end(), teeth_notes_.begin(), teeth_notes_.end());
