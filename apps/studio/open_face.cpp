@@ -142,42 +142,42 @@ void OpenFace::take(scene::Scene next) {
     simulator_->set_obstacles(scene::obstacles_of(scene_, inputs, *face_.mesh, teeth_.get()));
   }
   stale_ = stale_ || !same_base;
-  std::vector<Variant> old = std::exchange(variants_, {});
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    Variant variant{.run = std::move(runs[i]), .simulator = {}, .stale = true};
-    const auto known = std::find_if(old.begin(), old.end(), [&](const Variant& one) {
-      return one.simulator && one.run.scene.title == variant.run.scene.title;
-    });
-    if (same_base && known != old.end()) {
-      variant.simulator = std::move(known->simulator);
-      known->simulator.reset();
-      variant.stale = known->stale || variant.simulator->options() != of_runs[i];
-      if (variant.stale) {
-        try {
-          variant.simulator->set_options(of_runs[i]);
-        } catch (const InputError&) {
-          variant.simulator.reset();  // a run will make another, or say why it cannot
-        }
-      } else {
-        variant.run.simulation = std::move(known->run.simulation);
-        variant.run.symmetry = std::move(known->run.symmetry);
-      }
+  std::vector<scene::VariantRun> old_runs = std::exchange(runs_, std::move(runs));
+  std::vector<Standing> old = std::exchange(standing_, std::vector<Standing>(runs_.size()));
+  for (std::size_t i = 0; i < runs_.size() && same_base; ++i) {
+    std::size_t known = 0;
+    while (known < old.size() &&
+           !(old[known].simulator && old_runs[known].scene.title == runs_[i].scene.title))
+      ++known;
+    if (known == old.size()) continue;
+    Standing& now = standing_[i];
+    now.simulator = std::exchange(old[known].simulator, std::nullopt);
+    now.stale = old[known].stale || now.simulator->options() != of_runs[i];
+    if (!now.stale) {
+      runs_[i].simulation = std::move(old_runs[known].simulation);
+      runs_[i].symmetry = std::move(old_runs[known].symmetry);
+      continue;
     }
-    variants_.push_back(std::move(variant));
+    try {
+      now.simulator->set_options(of_runs[i]);
+    } catch (const InputError&) {
+      now.simulator.reset();  // a run will make another, or say why it cannot
+    }
   }
 }
 
 reenact::Simulator& OpenFace::simulator_of(std::size_t face) {
   if (face == 0) return *simulator_;
-  Variant& variant = variants_.at(face - 1);
-  if (!variant.simulator) {
+  std::optional<reenact::Simulator>& own = standing_.at(face - 1).simulator;
+  if (!own) {
+    const scene::VariantRun& run = runs_[face - 1];
     simulator_->still(0);  // finds the forces, where there are none yet
     reenact::Simulator made = *simulator_;
     made.hold_load();
-    made.set_options(options_of(variant.run.scene, variant.run.inputs, variant.run.field));
-    variant.simulator = std::move(made);
+    made.set_options(options_of(run.scene, run.inputs, run.field));
+    own = std::move(made);
   }
-  return *variant.simulator;
+  return *own;
 }
 
 PointsF OpenFace::still(std::size_t face, double time_s) {
@@ -185,8 +185,8 @@ PointsF OpenFace::still(std::size_t face, double time_s) {
 }
 
 bool OpenFace::up_to_date() const {
-  return !stale_ && std::none_of(variants_.begin(), variants_.end(),
-                                 [](const Variant& variant) { return variant.stale; });
+  return !stale_ && std::none_of(standing_.begin(), standing_.end(),
+                                 [](const Standing& one) { return one.stale; });
 }
 
 void OpenFace::run(const reenact::RunCallbacks& callbacks) {
@@ -200,19 +200,15 @@ void OpenFace::run(const reenact::RunCallbacks& callbacks) {
     // At finite strain the run completed the load (what holds the patches): copies made before it
     // lack that.
     if (scene_.model.strain == reenact::Strain::finite)
-      for (Variant& variant : variants_) {
-        variant.simulator.reset();
-        variant.stale = true;
-      }
+      for (Standing& one : standing_) one = {};
   }
-  for (std::size_t i = 0; i < variants_.size(); ++i) {
-    Variant& variant = variants_[i];
-    if (!variant.stale) continue;
-    scene::VariantRun& run = variant.run;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    if (!standing_[i].stale) continue;
+    scene::VariantRun& run = runs_[i];
     run.simulation = simulator_of(i + 1).run(callbacks);
     run.symmetry =
         symmetry_measures(run.scene, run.inputs, face_.at_rest, run.simulation.performance, twin);
-    variant.stale = false;
+    standing_[i].stale = false;
   }
 }
 
@@ -233,15 +229,13 @@ scene::Results OpenFace::results() const {
 
 json OpenFace::replay(report::BinaryBlock& block, bool with_face) const {
   const scene::Results all = results();
-  std::vector<scene::VariantRun> runs;
-  for (const Variant& variant : variants_) runs.push_back(variant.run);
   json summary;
   summary["symmetry"] = metrics::summary_of(symmetry_);
   summary["warnings"] = all.warnings;
   summary["peak_time_s"] =
       simulation_.performance.frame_time_s[std::size_t(simulation_.performance.peak_frame)];
-  if (!runs.empty()) summary["variants"] = {{"table", scene::variant_table(all, runs)}};
-  const scene::ReplayPage page(all, runs, summary);
+  if (!runs_.empty()) summary["variants"] = {{"table", scene::variant_table(all, runs_)}};
+  const scene::ReplayPage page(all, runs_, summary);
   return report::replay_manifest(page.input(), block, with_face);
 }
 

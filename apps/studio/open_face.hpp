@@ -31,7 +31,7 @@ class OpenFace {
   const scene::Scene& scene() const { return scene_; }
   const scene::Inputs& inputs() const { return inputs_; }
   const tissue::TissueMesh& mesh() const { return *face_.mesh; }
-  std::size_t faces() const { return 1 + variants_.size(); }
+  std::size_t faces() const { return 1 + runs_.size(); }
   /// What is probably wrong with the inputs or the mesh, a sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Why the program picked what drives, a sentence.
@@ -54,8 +54,8 @@ class OpenFace {
   nlohmann::json replay(report::BinaryBlock& block, bool with_face) const;
 
  private:
-  struct Variant {
-    scene::VariantRun run;
+  /// What a variant's run rests on.
+  struct Standing {
     std::optional<reenact::Simulator> simulator;  ///< with base's load held; none: not made yet
     bool stale = true;
   };
@@ -81,7 +81,8 @@ class OpenFace {
   reenact::SimulationResult simulation_;
   metrics::SymmetryMeasures symmetry_;
   report::DisplacementModes modes_;
-  std::vector<Variant> variants_;
+  std::vector<scene::VariantRun> runs_;  ///< of the variants
+  std::vector<Standing> standing_;       ///< of each of them
 };
 
 /// Every key with its value, in the units of scene files: {"tissue.young_kpa": 150}.

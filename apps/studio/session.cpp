@@ -204,13 +204,12 @@ json Session::open(const json& fields) {
     if (!name.empty() && !is_upload_name(name)) throw InputError(name + ": no such upload");
   const auto uploaded = [&](const std::string& name) {
     if (name.empty()) return fs::path();
-    const fs::path file = options_.folder / "uploads" / name;
+    const fs::path file = uploads() / name;
     if (!fs::is_regular_file(file)) throw InputError(name + ": no such upload");
     return file;
   };
   if (what == "embedded") {
-    write_file_atomically(options_.folder / "smile_arkit.csv",
-                          [](std::ostream& out) { out << embedded_smile(); });
+    write_smile();
     open_text(embedded_scene(), options_.folder / "scene.toml");
   } else if (what == "started" && !options_.started.empty()) {
     const fs::path& file = options_.started;
@@ -224,7 +223,7 @@ json Session::open(const json& fields) {
     saved_ = false;
     send_scene();
   } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
-    open_text(with_uploads(read_file(file), options_.folder / "uploads"), file);
+    open_text(with_uploads(read_file(file), uploads()), file);
   } else {
     open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");
   }
@@ -235,39 +234,39 @@ json Session::open(const json& fields) {
 std::string Session::scan_scene(const fs::path& scan, const fs::path& recording) {
   std::string text = scene::with_value("", "scan.file", fs::absolute(scan).string());
   if (recording.empty()) {
-    write_file_atomically(options_.folder / "smile_arkit.csv",
-                          [](std::ostream& out) { out << embedded_smile(); });
+    write_smile();
     text = scene::with_value(text, "motion.arkit", "smile_arkit.csv");
     return scene::with_value(text, "drive.by", "muscles");
   }
   return scene::with_value(text, recording_key(recording), fs::absolute(recording).string());
 }
 
-void Session::open_text(const std::string& text, const fs::path& file) {
-  auto next = std::make_unique<OpenFace>(text, file, options_.kept,
-                                         [this](const std::string& stage) { tell(stage); });
-  face_ = std::move(next);
+void Session::write_smile() const {
+  write_file_atomically(options_.folder / "smile_arkit.csv",
+                        [](std::ostream& out) { out << embedded_smile(); });
+}
+
+void Session::make_face(const std::string& text, const fs::path& file) {
+  face_ = std::make_unique<OpenFace>(text, file, options_.kept,
+                                     [this](const std::string& stage) { tell(stage); });
   scan_.reset();
   moved_.clear();
-  now_ = {text, file};
-  undo_.clear();
-  redo_.clear();
   face_sent_ = false;
-  motion_due_ = true;
-  saved_ = true;
-  send_scene();
   for (const std::string& warning : face_->warnings()) say("warning", warning);
 }
 
+void Session::open_text(const std::string& text, const fs::path& file) {
+  make_face(text, file);
+  now_ = {text, file};
+  undo_.clear();
+  redo_.clear();
+  motion_due_ = true;
+  saved_ = true;
+  send_scene();
+}
+
 void Session::apply(const std::string& text) {
-  if (need_face().set_text(text)) return;
-  auto next = std::make_unique<OpenFace>(text, face_->file(), options_.kept,
-                                         [this](const std::string& stage) { tell(stage); });
-  face_ = std::move(next);
-  scan_.reset();
-  moved_.clear();
-  face_sent_ = false;
-  for (const std::string& warning : face_->warnings()) say("warning", warning);
+  if (!need_face().set_text(text)) make_face(text, face_->file());
 }
 
 void Session::commit(const std::string& text) {
@@ -292,7 +291,7 @@ std::string Session::changed(const json& wanted, int face) {
   const std::vector<std::string> known = paths_of(options_json(committed));
   for (const auto& [key, value] : wanted.items()) {
     if (!scene::find_key(key)) throw InputError(key + ": no key of a scene");
-    changes[key] = with_uploads(key, value, options_.folder / "uploads", known);
+    changes[key] = with_uploads(key, value, uploads(), known);
   }
   if (changes_muscles(changes) &&
       scene::drive_choice(committed, face_->inputs()).by != reenact::DriveBy::muscles)

@@ -62,6 +62,11 @@ class Session {
   nlohmann::json save(const nlohmann::json& fields);
 
   OpenFace& need_face();
+  /// Reads and meshes, and says what is probably wrong; the face that is open goes only then.
+  void make_face(const std::string& text, const std::filesystem::path& file);
+  std::filesystem::path uploads() const { return options_.folder / "uploads"; }
+  /// The smile that the program carries, beside the session's scene.
+  void write_smile() const;
   void open_text(const std::string& text, const std::filesystem::path& file);
   /// The text becomes the scene; one step of the history.
   void commit(const std::string& text);
