@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How soon the studio answers, and whether its memory, threads and files stay as they are:
 //   node bench/studio_bench.mjs build/release/bin/hyperex [SCENE.toml] [--soak MINUTES]
+//   node bench/studio_bench.mjs build/release/bin/hyperex [SCENE.toml] --live RECORDING
 // Times are from sending a request to having its event, over the loopback interface.
 import { readdirSync, readFileSync } from 'node:fs';
 import { mkdtempSync, rmSync } from 'node:fs';
@@ -12,9 +13,11 @@ import { connect, startStudio } from '../web/tests/studio_client.mjs';
 const [program, ...rest] = process.argv.slice(2);
 const soakAt = rest.indexOf('--soak');
 const soakMinutes = soakAt < 0 ? 0 : Number(rest.splice(soakAt, 2)[1]);
+const liveAt = rest.indexOf('--live');
+const recording = liveAt < 0 ? '' : resolve(rest.splice(liveAt, 2)[1]);
 const folder = mkdtempSync(join(tmpdir(), 'hyperex-studio-'));
 const begun = performance.now();
-const studio = await startStudio(resolve(program), rest.map((file) => resolve(file)), {
+const studio = await startStudio(resolve(program), [...rest.map((file) => resolve(file)), ...(recording ? ['--device', `play:${recording}`] : [])], {
   cwd: folder, env: { ...process.env, XDG_STATE_HOME: folder },
 });
 const client = await connect(studio.address);
@@ -38,6 +41,35 @@ async function series(what, count, fields, event) {
   const times = [];
   for (let i = 0; i < count; ++i) times.push(await timed(fields(i), event));
   console.log(`${what}: median ${quantile(times, 0.5).toFixed(0)} ms, 95 % ${quantile(times, 0.95).toFixed(0)} ms (${count})`);
+}
+if (recording) {
+  await live();
+  client.close();
+  await studio.stop();
+  rmSync(folder, { recursive: true, force: true });
+  process.exit(0);
+}
+
+/** A recording at its own pace: what reaches a client that draws nothing, tracker included. */
+async function live() {
+  const times = [];
+  client.on('live_shape', ({ frame }) => {
+    times.push(performance.now());
+    void client.ask('live_drawn', { frame });
+  });
+  const ended = new Promise((done) => client.on('live', (told) => {
+    last = told.delay_ms === null ? last : told;
+    if (told.state === 'ended') done();
+  }));
+  let last = null;
+  const { error } = await client.ask('live_start', { what: 'device', face: 0 });
+  if (error) throw new Error(error);
+  await ended;
+  // The first ones come late, when the face has been learnt.
+  const steady = times.slice(15);
+  const rate = (steady.length - 1) / ((steady.at(-1) - steady[0]) / 1e3);
+  console.log(`live: ${rate.toFixed(1)} frames a second, delay ${last.delay_ms.toFixed(0)} ms in the median, 95 % within ${last.delay_95_ms.toFixed(0)} ms ` +
+    `(alignment and step ${last.step_ms.toFixed(0)} ms); ${last.frames} tracked, ${last.dropped} dropped, ${last.not_drawn} not sent`);
 }
 const motion = client.event('motion');
 await client.ask('add_variant', { name: 'other', like: 0, preset: 'palsy_complete_R' });

@@ -5,14 +5,33 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "hyperex/capture/open_source.hpp"
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/progress.hpp"
 
 namespace hyperex::cli {
 
+namespace {
+
+/// A colour picture alone does not tell whether it is a mirror's, and left and right depend on it.
+void check_device(const std::string& device, const std::string& mirrored) {
+  if (device.empty()) {
+    if (!mirrored.empty()) throw InputError("studio: --mirrored is for a camera: give --device");
+    return;
+  }
+  if (device.starts_with("webcam") && mirrored.empty())
+    throw InputError("studio: " + device +
+                     ": does its picture show the world as a mirror does? Say --mirrored yes or "
+                     "--mirrored no: left and right depend on it");
+}
+
+}  // namespace
+
 void add_studio(CLI::App& program) {
   auto options = std::make_shared<studio::StudioOptions>();
   options->save_into = ".";
+  auto mirrored = std::make_shared<std::string>();
   auto no_browser = std::make_shared<bool>(false), no_cache = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand(
       "studio", "Open a face in the browser, change its tissue and muscles, and see what follows");
@@ -22,12 +41,23 @@ void add_studio(CLI::App& program) {
                       "Folder that saved files go into; none is ever overwritten but those that "
                       "the same studio wrote [default: the current folder]");
   command->add_option("--port", options->port, "Port on this machine [default: one that is free]");
+  command->add_option("--device", options->device,
+                      "A camera to follow a face with, live: kinect, openni, openni:URI, webcam:N, "
+                      "or play:RECORDING, which plays one at its own pace");
+  command
+      ->add_option("--mirrored", *mirrored,
+                   "yes: the camera's pictures show the world as a mirror does; no: they do not. A "
+                   "webcam must be said")
+      ->check(CLI::IsMember({"yes", "no"}))
+      ->option_text("yes|no");
   command->add_flag("--no-browser", *no_browser, "Print the address and open no browser");
   command->add_flag("--no-cache", *no_cache, "Keep and take no results of earlier runs");
   command->footer("Example: hyperex studio examples/what_if.toml");
   command->callback([=] {
     take_library_memory();
     Progress::silence(true);
+    check_device(options->device, *mirrored);
+    options->mirrored = *mirrored == "yes";
     options->open_browser = !*no_browser;
     options->version = HYPEREX_VERSION;
     if (!*no_cache) options->kept = KeptResults(user_cache_folder());

@@ -14,6 +14,7 @@
 #include "hyperex/scene/stages/plausible.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
 #include "hyperex/scene/stages/teeth.hpp"
+#include "live.hpp"
 
 namespace hyperex::studio {
 
@@ -182,6 +183,24 @@ reenact::Simulator& OpenFace::simulator_of(std::size_t face) {
 
 PointsF OpenFace::still(std::size_t face, double time_s) {
   return simulator_of(face).still(time_s);
+}
+
+reenact::SimulationOptions OpenFace::options_live(std::size_t face,
+                                                  const std::vector<std::string>& points) const {
+  if (face > runs_.size()) throw InputError("face: there is none of this number");
+  const scene::Scene& scene = face == 0 ? scene_ : runs_[face - 1].scene;
+  motion::Motion named;
+  named.names = points;
+  reenact::SimulationOptions options =
+      face == 0 ? options_of(scene_, inputs_, field_)
+                : options_of(scene, runs_[face - 1].inputs, runs_[face - 1].field);
+  options.drive.points = scene::driven_points(scene, named);
+  for (const std::string& point : options.drive.points)
+    if (std::find(points.begin(), points.end(), point) == points.end())
+      throw InputError("drive.points", point + ": not tracked live");
+  if (options.region.measured != reenact::Measured::none)
+    throw InputError("region.measured", "live the whole skin is simulated: expected none");
+  return live_options(std::move(options));
 }
 
 bool OpenFace::up_to_date() const {

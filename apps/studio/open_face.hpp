@@ -45,6 +45,12 @@ class OpenFace {
   /// Of the skin, m, in static equilibrium at an instant.
   PointsF still(std::size_t face, double time_s);
 
+  /// A face as it would follow `points` (names) that come in live. Throws InputError where one that
+  /// drives is not among them.
+  reenact::SimulationOptions options_live(std::size_t face,
+                                          const std::vector<std::string>& points) const;
+  std::shared_ptr<const tissue::TissueMesh> shared_mesh() const { return face_.mesh; }
+
   bool up_to_date() const;
   /// Runs what is not up to date. Throws NumericalError, and reenact::Cancelled: what was done so
   /// far stays.

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/capture/mirrored.hpp"
+#include "hyperex/capture/open_source.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/motion/read_motion.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
 #include "hyperex/scene/grammar/scene_text.hpp"
@@ -22,6 +25,7 @@
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "scene_files.hpp"
 #include "server.hpp"
+#include "shape_message.hpp"
 
 namespace hyperex::studio {
 
@@ -161,6 +165,18 @@ void Session::answer(const Request& request) {
       out = landmarks_done();
     else if (name == "save")
       out = save(fields);
+    else if (name == "live_start")
+      out = live_start(fields);
+    else if (name == "live_stop")
+      end_live(), out = json::object();
+    else if (name == "live_neutral")
+      need_live().set_neutral(), out = json::object();
+    else if (name == "live_record")
+      need_live().record(fields.at("on")), out = json::object();
+    else if (name == "live_drawn")
+      drawn(fields.at("frame")), out = json::object();
+    else if (name == "live_take")
+      out = live_take(fields);
     else
       throw InputError(name + ": this studio does not know how to do that yet");
   } catch (const scene::TornToml& torn) {
@@ -173,6 +189,7 @@ void Session::answer(const Request& request) {
   out["answer"] = request.id;
   send_(out.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
   if (name == "hello" && face_) send_scene();
+  if (name == "hello" && live_) live_->tell();
 }
 
 json Session::hello() {
@@ -189,6 +206,7 @@ json Session::hello() {
             {"autosave", options_.rescued.empty() ? json() : json("unsaved work")},
             {"folder", options_.save_into},
             {"save_into", options_.save_into},
+            {"device", options_.device.empty() ? json() : json(options_.device)},
             {"open", face_ != nullptr}}}};
 }
 
@@ -247,8 +265,10 @@ void Session::write_smile() const {
 }
 
 void Session::make_face(const std::string& text, const fs::path& file) {
-  face_ = std::make_unique<OpenFace>(text, file, options_.kept,
-                                     [this](const std::string& stage) { tell(stage); });
+  auto made = std::make_unique<OpenFace>(text, file, options_.kept,
+                                         [this](const std::string& stage) { tell(stage); });
+  end_live();
+  face_ = std::move(made);
   scan_.reset();
   moved_.clear();
   face_sent_ = false;
@@ -266,7 +286,10 @@ void Session::open_text(const std::string& text, const fs::path& file) {
 }
 
 void Session::apply(const std::string& text) {
-  if (!need_face().set_text(text)) make_face(text, face_->file());
+  if (need_face().set_text(text))
+    refresh_live();
+  else
+    make_face(text, face_->file());
 }
 
 void Session::commit(const std::string& text) {
@@ -322,11 +345,17 @@ std::string Session::changed(const json& wanted, int face) {
 json Session::set(const json& fields) {
   const int face = fields.at("face");
   const std::string text = changed(fields.at("changes"), face);
+  const bool following = live_ && !live_->ended();
+  if (following) live_face_ = std::size_t(face);
   if (!fields.at("live").get<bool>()) {
     commit(text);
     return {{"superseded", false}};
   }
   if (!need_face().set_text(text)) return {{"superseded", false}};  // not while one drags
+  if (following) {
+    refresh_live();
+    return {{"superseded", false}};
+  }
   send_shape(std::size_t(face), fields.at("time_s"));
   return {{"superseded", false}};
 }
@@ -467,6 +496,77 @@ json Session::save(const json& fields) {
   return done(file);
 }
 
+Live& Session::need_live() {
+  if (!live_) throw InputError("nothing is live: begin first");
+  return *live_;
+}
+
+void Session::end_live() {
+  std::unique_ptr<Live> gone;
+  {
+    const std::lock_guard lock(live_mutex_);
+    gone = std::move(live_);
+  }
+  if (!gone) return;
+  gone->stop();
+  gone->wait();
+  gone->tell();
+}
+
+void Session::drawn(std::int64_t frame) {
+  const std::lock_guard lock(live_mutex_);
+  if (live_) live_->drawn(frame);
+}
+
+void Session::refresh_live() {
+  if (!live_ || live_->ended()) return;
+  live_face_ = std::min(live_face_, face_->faces() - 1);
+  live_->set_options(face_->options_live(live_face_, live_points()), live_face_);
+}
+
+json Session::live_start(const json& fields) {
+  const scene::MotionOptions& motion = need_face().scene().motion;
+  const std::string what = fields.at("what");
+  const bool device = what == "device";
+  const std::string recording = motion.recording.string();
+  if (device && options_.device.empty())
+    throw InputError("no camera was named: start hyperex studio with --device");
+  if (!device && recording.empty())
+    throw InputError("motion.recording", "the scene has none that could be played");
+  end_live();
+  const std::size_t face = fields.at("face");
+  LiveSetup setup;
+  setup.mesh = face_->shared_mesh();
+  setup.landmarks = face_->inputs().landmarks;
+  setup.method = face_->scene().alignment.method;
+  setup.options = face_->options_live(face, live_points());
+  setup.face = face;
+  setup.source = capture::open_device(device ? options_.device : "play:" + recording);
+  if (device ? options_.mirrored : motion.mirrored)
+    setup.source = std::make_unique<capture::Mirrored>(std::move(setup.source));
+  for (const std::string& note : setup.source->notes()) say("note", note);
+  auto live = std::make_unique<Live>(std::move(setup), send_);
+  live_face_ = face;
+  const std::lock_guard lock(live_mutex_);
+  live_ = std::move(live);
+  return json::object();
+}
+
+json Session::live_take(const json& fields) {
+  const motion::Motion take = need_live().take(fields.at("from_s"), fields.at("to_s"));
+  // A name of its own each time: undo goes back to the one before.
+  const fs::path file = options_.folder / fmt::format("take-{}.csv", ++takes_);
+  motion::write_motion_csv(file, take);
+  std::string text = scene::with_value(now_.text, "motion.file", file.string());
+  // What belongs to the motion that was.
+  for (const char* key : {"recording", "arkit", "openface", "candide", "unit", "mirrored",
+                          "rigid_points", "rest_s", "time_scale"})
+    text = scene::with_value(text, fmt::format("motion.{}", key), nullptr);
+  text = scene::with_value(text, "time.end_s", nullptr);
+  commit(text);
+  return json::object();
+}
+
 bool Session::has_work() const {
   return face_ && motion_due_;
 }
@@ -542,16 +642,10 @@ void Session::send_shape(std::size_t face, double time_s) {
   Stopwatch watch;
   if (face >= face_->faces()) throw InputError("face: there is none of this number");
   const PointsF shape = face_->still(face, time_s);
-  const float largest = shape.size() > 0 ? shape.cwiseAbs().maxCoeff() : 0;
-  const float step_m = largest > 0 ? largest / 32767 : 1;
-  std::vector<std::int16_t> steps(static_cast<std::size_t>(shape.size()));
-  std::transform(shape.data(), shape.data() + shape.size(), steps.begin(), [&](float value) {
-    return static_cast<std::int16_t>(std::lround(value / step_m));
-  });
   report::BinaryBlock block;
-  json head = {{"event", "shape"},           {"face", face},
-               {"time_s", time_s},           {"step_m", step_m},
-               {"values", block.add(steps)}, {"seconds", watch.lap()}};
+  json head = {{"event", "shape"}, {"face", face}, {"time_s", time_s}};
+  add_shape(shape, block, head);
+  head["seconds"] = watch.lap();
   send_(binary_message(head, block), true, fmt::format("shape-{}", face));
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "live.hpp"
 #include "open_face.hpp"
 #include "protocol.hpp"
 
@@ -24,6 +26,8 @@ struct SessionOptions {
   std::filesystem::path folder;     ///< the session's own: uploads, what is kept against a crash
   std::filesystem::path rescued;    ///< the folder of a session that died, its scene.toml in it
   std::string program;              ///< "hyperex 1.0.0"
+  std::string device;               ///< a camera (capture::open_device); empty: none
+  bool mirrored = false;            ///< its pictures are a mirror's
   KeptResults kept;
 };
 
@@ -40,6 +44,8 @@ class Session {
   bool saved() const { return saved_; }
   /// Whether the folder that was rescued holds what no file of the user holds.
   bool keeps_rescued() const { return keeps_rescued_; }
+  /// A shape of the live face was drawn: from any thread.
+  void drawn(std::int64_t frame);
   /// Something to do when no request waits: a motion that is not up to date.
   bool has_work() const;
   /// Does it; ended early where `cancelled` says so, to be begun again.
@@ -60,6 +66,12 @@ class Session {
   nlohmann::json move_landmark(const nlohmann::json& fields);
   nlohmann::json landmarks_done();
   nlohmann::json save(const nlohmann::json& fields);
+  nlohmann::json live_start(const nlohmann::json& fields);
+  nlohmann::json live_take(const nlohmann::json& fields);
+  Live& need_live();
+  void end_live();
+  /// What the live face is made of follows the scene.
+  void refresh_live();
 
   OpenFace& need_face();
   /// Reads and meshes, and says what is probably wrong; the face that is open goes only then.
@@ -90,7 +102,10 @@ class Session {
   std::vector<std::filesystem::path> written_;
   std::optional<SurfaceTree> scan_;  ///< of the face that is open, once a landmark was moved
   io::Landmarks moved_;              ///< since the last landmarks_done()
-  int landmark_files_ = 0;
+  int landmark_files_ = 0, takes_ = 0;
+  mutable std::mutex live_mutex_;  // of the pointer: drawn() comes from another thread
+  std::unique_ptr<Live> live_;
+  std::size_t live_face_ = 0;
 };
 
 }  // namespace hyperex::studio

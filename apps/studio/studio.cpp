@@ -90,10 +90,17 @@ void run_studio(const StudioOptions& options) {
   how.uploads = folder.path() / "uploads";
   fs::create_directory(how.uploads);
   ServerEvents events;
+  std::unique_ptr<Session> session;
   events.request = [&](const std::string& text) {
     std::int64_t id = -1;
     try {
-      if (!queue.push(read_request(text, id))) throw InputError("too many requests wait");
+      Request request = read_request(text, id);
+      if (request.name == "live_drawn") {  // must not wait, nor break off what is computed
+        session->drawn(request.fields.at("frame"));
+        server->send(json{{"answer", id}}.dump(), false);
+        return;
+      }
+      if (!queue.push(std::move(request))) throw InputError("too many requests wait");
     } catch (const InputError& error) {
       server->send(json{{"answer", id}, {"error", error.what()}}.dump(
                        -1, ' ', false, json::error_handler_t::replace),
@@ -102,17 +109,21 @@ void run_studio(const StudioOptions& options) {
   };
   events.uploaded = [](const std::string& name) { spdlog::info("uploaded: {}", name); };
   server = std::make_unique<Server>(std::move(how), std::move(events));
-  Session session({.started = options.started.empty() ? fs::path() : fs::absolute(options.started),
-                   .save_into = fs::absolute(options.save_into).lexically_normal(),
-                   .folder = folder.path(),
-                   .rescued = folder.rescued(),
-                   .program = "Hyperex " + options.version,
-                   .kept = options.kept},
-                  [&](std::string message, bool binary, const std::string& replaces) {
-                    server->send(std::move(message), binary, replaces);
-                  });
+  session = std::make_unique<Session>(
+      SessionOptions{
+          .started = options.started.empty() ? fs::path() : fs::absolute(options.started),
+          .save_into = fs::absolute(options.save_into).lexically_normal(),
+          .folder = folder.path(),
+          .rescued = folder.rescued(),
+          .program = "Hyperex " + options.version,
+          .device = options.device,
+          .mirrored = options.mirrored,
+          .kept = options.kept},
+      [&](std::string message, bool binary, const std::string& replaces) {
+        server->send(std::move(message), binary, replaces);
+      });
   std::thread network([&] { server->run(); });
-  std::thread worker([&] { answer_all(queue, session, *server); });
+  std::thread worker([&] { answer_all(queue, *session, *server); });
   std::cout << server->address() << std::endl;
   std::cerr << "The studio is open at this address on this machine alone; Ctrl+C ends it.\n";
   if (options.open_browser) open_browser(door(server->address(), folder.path()));
@@ -121,11 +132,11 @@ void run_studio(const StudioOptions& options) {
   worker.join();
   server->stop();
   network.join();
-  if (!session.keeps_rescued()) {
+  if (!session->keeps_rescued()) {
     std::error_code ignored;
     fs::remove_all(folder.rescued(), ignored);
   }
-  if (!session.saved()) {
+  if (!session->saved()) {
     folder.leave();
     std::cerr << "What was not saved is kept: the next studio offers it.\n";
   }

@@ -13,6 +13,8 @@ struct StudioOptions {
   std::filesystem::path save_into;  ///< where saved files go
   unsigned short port = 0;          ///< 0: one that is free
   bool open_browser = true;
+  std::string device;     ///< a camera (capture::open_device); empty: none
+  bool mirrored = false;  ///< its pictures are a mirror's
   std::string version;
   KeptResults kept;
 };

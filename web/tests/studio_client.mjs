@@ -21,7 +21,7 @@ export async function startStudio(program, args = [], options = {}) {
   };
 }
 
-/** A client that is let in: `ask` answers' promises, `event` the next event of a name. */
+/** A client that is let in: `ask` answers' promises, `event` the next event of a name, `on` each from now on. */
 export async function connect(address) {
   const url = new URL(address);
   const socket = new WebSocket(`ws://${url.host}/socket`, { origin: url.origin });
@@ -32,6 +32,7 @@ export async function connect(address) {
   let id = 0;
   const answers = new Map();
   const listeners = new Map();
+  const every = new Map();
   socket.on('message', (data, binary) => {
     const message = JSON.parse(binary ? data.subarray(4, 4 + data.readUInt32LE(0)) : data);
     if ('answer' in message) {
@@ -40,6 +41,7 @@ export async function connect(address) {
     } else {
       for (const resolve of listeners.get(message.event) ?? []) resolve(message);
       listeners.delete(message.event);
+      every.get(message.event)?.(message);
     }
   });
   const client = {
@@ -50,6 +52,7 @@ export async function connect(address) {
     event: (name) => new Promise((resolve) => {
       listeners.set(name, [...(listeners.get(name) ?? []), resolve]);
     }),
+    on: (name, listener) => every.set(name, listener),
     close: () => socket.close(),
   };
   client.hello = await client.ask('hello', { token: url.hash.slice(1), version: 1 });

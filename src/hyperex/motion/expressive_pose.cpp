@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 
 #include "hyperex/core/progress.hpp"
@@ -130,14 +131,13 @@ struct Sample {
   Points now;
 };
 
-Sample sample_at(const Motion& motion, const std::vector<KnownLandmark>& landmarks, std::size_t k) {
+Sample sample_of(const Points& positions, const std::vector<KnownLandmark>& landmarks) {
   Sample sample;
   for (std::size_t i = 0; i < landmarks.size(); ++i)
-    if (motion.positions[k].row(landmarks[i].column).allFinite()) sample.seen.push_back(int(i));
+    if (positions.row(landmarks[i].column).allFinite()) sample.seen.push_back(int(i));
   sample.now.resize(Eigen::Index(sample.seen.size()), 3);
   for (std::size_t j = 0; j < sample.seen.size(); ++j)
-    sample.now.row(Eigen::Index(j)) =
-        motion.positions[k].row(landmarks[std::size_t(sample.seen[j])].column);
+    sample.now.row(Eigen::Index(j)) = positions.row(landmarks[std::size_t(sample.seen[j])].column);
   return sample;
 }
 
@@ -209,25 +209,25 @@ class WitnessKeeper {
   std::map<std::array<int, 2>, Witnesses::Weighing> weighings_;
 };
 
-/// The likeliest amplitudes, their logarithms smoothed over time.
-std::vector<Amplitudes> smoothed(const std::vector<double>& time_s,
-                                 const std::vector<std::array<int, 2>>& found) {
-  std::vector<Amplitudes> out(found.size());
-  for (std::size_t k = 0; k < found.size(); ++k)
-    for (std::size_t part = 0; part < 2; ++part) {
-      double sum = 0, weights = 0;
-      const auto add = [&](std::size_t j) {
-        const double far = (time_s[j] - time_s[k]) / kSmoothing_s;
-        if (std::abs(far) > 4) return false;
-        const double weight = std::exp(-far * far / 2);
-        sum += weight * found[j][part];
-        weights += weight;
-        return true;
-      };
-      for (std::size_t j = k; j < found.size() && add(j);) ++j;
-      for (std::size_t j = k; j > 0 && add(j - 1);) --j;
-      out[k][part] = kLeastAmplitude * std::exp2(sum / weights);
-    }
+/// The likeliest amplitudes about sample k, their logarithms smoothed over time.
+template <typename Times, typename Found>
+Amplitudes smoothed(const Times& time_s, const Found& found, std::size_t k) {
+  constexpr double kFar = 4;
+  Amplitudes out;
+  for (std::size_t part = 0; part < 2; ++part) {
+    double sum = 0, weights = 0;
+    const auto add = [&](std::size_t j) {
+      const double far = (time_s[j] - time_s[k]) / kSmoothing_s;
+      if (std::abs(far) > kFar) return false;
+      const double weight = std::exp(-far * far / 2);
+      sum += weight * found[j][part];
+      weights += weight;
+      return true;
+    };
+    for (std::size_t j = k; j < found.size() && add(j);) ++j;
+    for (std::size_t j = k; j > 0 && add(j - 1);) --j;
+    out[part] = kLeastAmplitude * std::exp2(sum / weights);
+  }
   return out;
 }
 
@@ -257,15 +257,15 @@ std::vector<UncertainPose> expressive_poses(const Motion& motion,
   Progress progress("head pose", long(2 * samples));
   std::vector<std::array<int, 2>> found(samples, {0, 0});
   for (std::size_t k = 0; k < samples; ++k) {
-    found[k] = keeper.likeliest(sample_at(motion, landmarks, k), k == 0 ? found[0] : found[k - 1]);
+    found[k] = keeper.likeliest(sample_of(motion.positions[k], landmarks),
+                                k == 0 ? found[0] : found[k - 1]);
     progress.update(long(k + 1));
   }
-  const std::vector<Amplitudes> amplitudes = smoothed(motion.time_s, found);
   std::vector<UncertainPose> poses;
   for (std::size_t k = 0; k < samples; ++k) {
-    const Sample sample = sample_at(motion, landmarks, k);
+    const Sample sample = sample_of(motion.positions[k], landmarks);
     const Witnesses& witnesses = keeper.of(sample.seen);
-    const Amplitudes& a = amplitudes[k];
+    const Amplitudes a = smoothed(motion.time_s, found, k);
     poses.push_back(
         witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)));
     // A lift of the brows that the pose has swallowed leaves no trace in the lower face.
@@ -273,6 +273,42 @@ std::vector<UncertainPose> expressive_poses(const Motion& motion,
     progress.update(long(samples + k + 1));
   }
   return poses;
+}
+
+struct ExpressivePoseStream::Impl {
+  Impl(Motion rest, double jitter_m)
+      : reference(std::move(rest)),
+        landmarks(known_landmarks(reference)),
+        keeper(reference, landmarks, std::max(kLeastJitter_m, jitter_m)) {}
+  Motion reference;
+  std::vector<KnownLandmark> landmarks;
+  WitnessKeeper keeper;
+  std::deque<double> time_s;
+  std::deque<std::array<int, 2>> found;
+};
+
+ExpressivePoseStream::ExpressivePoseStream(Motion reference, double jitter_m)
+    : impl_(std::make_unique<Impl>(std::move(reference), jitter_m)) {
+  if (impl_->landmarks.size() < 3)
+    refuse(impl_->reference, "head pose needs three landmarks of the face");
+}
+ExpressivePoseStream::~ExpressivePoseStream() = default;
+ExpressivePoseStream::ExpressivePoseStream(ExpressivePoseStream&&) noexcept = default;
+ExpressivePoseStream& ExpressivePoseStream::operator=(ExpressivePoseStream&&) noexcept = default;
+
+Eigen::Isometry3d ExpressivePoseStream::pose(double time_s, const Points& positions) {
+  Impl& m = *impl_;
+  const Sample sample = sample_of(positions, m.landmarks);
+  m.found.push_back(
+      m.keeper.likeliest(sample, m.found.empty() ? std::array<int, 2>{0, 0} : m.found.back()));
+  m.time_s.push_back(time_s);
+  while (m.time_s.front() < time_s - 5 * kSmoothing_s) {
+    m.time_s.pop_front();
+    m.found.pop_front();
+  }
+  const Witnesses& witnesses = m.keeper.of(sample.seen);
+  const Amplitudes a = smoothed(m.time_s, m.found, m.found.size() - 1);
+  return witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)).pose;
 }
 
 }  // namespace hyperex::motion

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Geometry>
+#include <memory>
 #include <vector>
 
 #include "hyperex/motion/motion.hpp"
@@ -42,5 +43,24 @@ std::vector<KnownLandmark> known_landmarks(const Motion& motion);
 /// known_landmarks(), three or more in each sample and not on a line.
 std::vector<UncertainPose> expressive_poses(const Motion& motion,
                                             const std::vector<KnownLandmark>& landmarks);
+
+/// The same for samples that come in one after the other: how strong the expression is is smoothed
+/// over the samples so far alone, and the jitter is stated. Covariances are left out.
+class ExpressivePoseStream {
+ public:
+  /// `reference`: names and the face at rest, its first sample. Throws InputError where fewer than
+  /// three landmarks are known.
+  ExpressivePoseStream(Motion reference, double jitter_m);
+  ~ExpressivePoseStream();
+  ExpressivePoseStream(ExpressivePoseStream&&) noexcept;
+  ExpressivePoseStream& operator=(ExpressivePoseStream&&) noexcept;
+
+  /// Carries the head at rest to where it is in `positions` (P x 3, finite). Times rise.
+  Eigen::Isometry3d pose(double time_s, const Points& positions);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace hyperex::motion

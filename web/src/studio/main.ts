@@ -16,6 +16,7 @@ import { Edits } from './edits';
 import { FiguresPanel } from './figures_panel';
 import { LandmarksPanel } from './landmarks_panel';
 import { isRecord, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type Region, type SceneKey, type SceneNow } from './messages';
+import { LivePanel } from './live';
 import { MessagesPanel } from './messages_panel';
 import { MusclesPanel } from './muscles_panel';
 import { OpenPanel } from './open_panel';
@@ -39,6 +40,7 @@ class Studio {
   private readonly tabs = new Tabs(this.state, this.connection, this.edits);
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'));
   private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null);
+  private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null);
   private readonly messages = new MessagesPanel(at('messages-panel'));
   private readonly progress = new Progress(at('progress'));
   private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.say('note', text));
@@ -102,7 +104,7 @@ class Studio {
       document.documentElement.dataset.motions = String(Number(document.documentElement.dataset.motions ?? 0) + 1);
     });
     connection.on('shape', ({ face, time_s, step_m, values, block, seconds }) => {
-      if (!state.source.open || Math.abs(time_s - state.playback.timeS) > 1e-6 || state.playback.playing) return;
+      if (!state.source.open || Math.abs(time_s - state.playback.timeS) > 1e-6 || state.playback.playing || this.live.live) return;
       const displacement = new Float32Array(block.int16(values));
       for (let i = 0; i < displacement.length; ++i) displacement[i] *= step_m;
       if (displacement.length !== state.source.replay.points.length) return;
@@ -144,6 +146,7 @@ class Studio {
     this.tissue.build();
     if (this.state.muscles.length > 0) this.muscles.build();
     at<HTMLButtonElement>('what-if').disabled = false;
+    this.live.greet(places);
     this.opening.greet(places);
   }
 

@@ -33,6 +33,8 @@ export interface Region {
 
 export interface Places {
   started: string | null;
+  /** A camera that the command named. */
+  device: string | null;
   autosave: string | null;
   /** Where "save" writes. */
   folder: string;

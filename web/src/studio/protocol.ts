@@ -120,6 +120,49 @@ export interface MoveLandmarkAnswer {
 export type LandmarksDoneRequest = Record<string, never>;
 export type LandmarksDoneAnswer = Record<string, never>;
 
+/**
+ * Follows a face while frames come in, from a camera or a recording played as one: events live and
+ * live_shape. What was live ends. Changes of a face meanwhile show that face.
+ */
+export interface LiveStartRequest {
+  /** the camera that the command named; the scene's motion.recording */
+  what: 'device' | 'recording';
+  /** whose tissue */
+  face: number;
+}
+export type LiveStartAnswer = Record<string, never>;
+
+/** The camera is let go; the take stays. */
+export type LiveStopRequest = Record<string, never>;
+export type LiveStopAnswer = Record<string, never>;
+
+/** The face of the last moment is the one at rest. */
+export type LiveNeutralRequest = Record<string, never>;
+export type LiveNeutralAnswer = Record<string, never>;
+
+/** A take begins, in the place of the one before, or ends: the event take. */
+export interface LiveRecordRequest {
+  /** begins */
+  on: boolean;
+}
+export type LiveRecordAnswer = Record<string, never>;
+
+/** A shape is on the screen: another may come. Measures the delay. */
+export interface LiveDrawnRequest {
+  /** of the event live_shape */
+  frame: number;
+}
+export type LiveDrawnAnswer = Record<string, never>;
+
+/** The take becomes the scene's motion; the event face follows. */
+export interface LiveTakeRequest {
+  /** since its first sample */
+  from_s: number;
+  /** likewise */
+  to_s: number;
+}
+export type LiveTakeAnswer = Record<string, never>;
+
 /** Writes into the folder that the studio was started with; never over a file that it did not write. */
 export interface SaveRequest {
   /** scene: the scene file and what it names; run: all that hyperex run writes */
@@ -190,6 +233,58 @@ export interface MotionEvent {
   seconds: number;
 }
 
+/** How the live face goes, some times a second. */
+export interface LiveEvent {
+  /** for a face; its shape at rest; what it does */
+  state: 'looking' | 'learning' | 'following' | 'ended';
+  /** a sentence, or empty */
+  problem: string;
+  /** that were tracked */
+  frames: number;
+  /** of those, in which the face was followed */
+  valid: number;
+  /** that came while the one before was worked on */
+  dropped: number;
+  /** that were not sent, as the page had not drawn those before */
+  not_drawn: number;
+  /** that the page has drawn */
+  drawn: number;
+  /** in the last second */
+  drawn_a_second: number;
+  /** from having a camera's frame to having it drawn, median of the last ones; null: none yet */
+  delay_ms: unknown;
+  /** 95 % within */
+  delay_95_ms: unknown;
+  /** of that, alignment and simulation */
+  step_ms: number;
+  /** a take */
+  recording: boolean;
+  /** its length */
+  take_s: number;
+}
+
+/** Binary. The live face in one frame; answered by live_drawn. */
+export interface LiveShapeEvent {
+  /** whose tissue */
+  face: number;
+  /** its number */
+  frame: number;
+  /** of the camera's clock */
+  time_s: number;
+  /** displacement = step_m * values */
+  step_m: number;
+  /** int16, three a vertex */
+  values: Stretch;
+}
+
+/** A take was recorded. */
+export interface TakeEvent {
+  /** of each sample, since the first */
+  time_s: unknown;
+  /** of each sample the farthest way of a point from the neutral face */
+  moved_mm: unknown;
+}
+
 /** Binary. One face at one instant, in static equilibrium: while a slider is dragged. */
 export interface ShapeEvent {
   /** whose */
@@ -216,6 +311,12 @@ export interface Requests {
   redo: { fields: RedoRequest; answer: RedoAnswer };
   move_landmark: { fields: MoveLandmarkRequest; answer: MoveLandmarkAnswer };
   landmarks_done: { fields: LandmarksDoneRequest; answer: LandmarksDoneAnswer };
+  live_start: { fields: LiveStartRequest; answer: LiveStartAnswer };
+  live_stop: { fields: LiveStopRequest; answer: LiveStopAnswer };
+  live_neutral: { fields: LiveNeutralRequest; answer: LiveNeutralAnswer };
+  live_record: { fields: LiveRecordRequest; answer: LiveRecordAnswer };
+  live_drawn: { fields: LiveDrawnRequest; answer: LiveDrawnAnswer };
+  live_take: { fields: LiveTakeRequest; answer: LiveTakeAnswer };
   save: { fields: SaveRequest; answer: SaveAnswer };
 }
 
@@ -226,5 +327,8 @@ export interface Events {
   scene: SceneEvent;
   face: FaceEvent;
   motion: MotionEvent;
+  live: LiveEvent;
+  live_shape: LiveShapeEvent;
+  take: TakeEvent;
   shape: ShapeEvent;
 }

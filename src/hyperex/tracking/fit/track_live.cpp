@@ -22,8 +22,8 @@ struct Fed {
 class LiveTracker {
  public:
   LiveTracker(const expression::FaceModel& model, const capture::Intrinsics& camera,
-              const TrackerOptions& options, const FrameVisitor& visit)
-      : tracker_(model, camera, options), visit_(visit) {}
+              const TrackerOptions& options, const LiveOptions& live, const FrameVisitor& visit)
+      : tracker_(model, camera, options), live_(live), visit_(visit) {}
 
   void feed(const capture::Frame& frame, std::size_t dropped) {
     if (!first_) first_ = frame.arrived;
@@ -58,17 +58,18 @@ class LiveTracker {
     LiveStatus& status = result_.status;
     for (auto& frame : frames) {
       if (visit_) visit_(frame, fed_.front().bgr);
+      if (live_.finished) live_.finished(frame, fed_.front().arrived);
       const auto now = Clock::now();
       status.delay_s = seconds_between(fed_.front().arrived, now);
       if (learning)
         status.learning_delay_s = std::max(status.learning_delay_s, status.delay_s);
-      else
+      else if (live_.keep)
         result_.delays_s.push_back(status.delay_s);
       count_rate(fed_.front().arrived);
       fed_.pop_front();
       ++status.frames;
       status.valid += frame.valid;
-      result_.tracking.frames.push_back(std::move(frame));
+      if (live_.keep) result_.tracking.frames.push_back(std::move(frame));
     }
   }
 
@@ -81,6 +82,7 @@ class LiveTracker {
   }
 
   FaceTracker tracker_;
+  const LiveOptions& live_;
   const FrameVisitor& visit_;
   LiveTracking result_;
   std::deque<Fed> fed_;                        // not finished
@@ -94,7 +96,7 @@ class LiveTracker {
 LiveTracking track_live(capture::FrameSource& source, const expression::FaceModel& model,
                         const TrackerOptions& options, const LiveOptions& live,
                         const FrameVisitor& visit) {
-  LiveTracker tracker(model, source.intrinsics(), options, visit);
+  LiveTracker tracker(model, source.intrinsics(), options, live, visit);
   while (!live.stop || !live.stop()) {
     const auto frame = source.next();
     if (!frame || tracker.seconds_to(frame->arrived) > live.seconds) break;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <chrono>
 #include <functional>
 #include <limits>
 
@@ -25,6 +26,10 @@ struct LiveOptions {
   double seconds = std::numeric_limits<double>::infinity();
   std::function<bool()> stop;                     ///< asked before each frame
   std::function<void(const LiveStatus&)> status;  ///< told after each frame fed
+  /// Told of each frame once it is finished, in order, and of when it arrived.
+  std::function<void(const TrackedFrame&, std::chrono::steady_clock::time_point arrived)> finished;
+  /// Frames and delays are kept for the result; false: for a camera without end.
+  bool keep = true;
 };
 
 struct LiveTracking {

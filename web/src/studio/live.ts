@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The face live: a camera, or the scene's recording played as one. Drawn as it comes in, with what it costs; a take
+// is recorded, trimmed and becomes the scene's motion.
+import { button, element } from '../page/dom';
+import type { FaceViewer } from '../replay/face/viewer';
+import { Refused, type Connection } from './connection';
+import type { Places } from './messages';
+import type { LiveEvent, LiveStartRequest, Requests } from './protocol';
+import type { StudioState } from './studio_state';
+import { TrimCurve } from './trim_curve';
+import { words } from './words';
+
+export class LivePanel {
+  private device: string | null = null;
+  private running = false;
+  private recorded = false;
+  private readonly choices = element('div', '', 'choices');
+  private readonly told = element('p', '', 'why');
+  private readonly figures = element('dl', '', 'live-figures');
+  private readonly tools = element('div', '', 'landmark-buttons');
+  private readonly neutral = button(words.liveNeutral, 'quiet', () => void this.ask('live_neutral', {}));
+  private readonly record = button(words.liveRecord, 'quiet', () => void this.toggleTake());
+  private readonly trim = element('div', '', 'trim');
+  private readonly curve = new TrimCurve(words.takeCurve, [words.takeFrom, words.takeTo]);
+  private readonly problem = element('p', '', 'problem');
+
+  constructor(
+    private readonly state: StudioState, private readonly connection: Connection, private readonly into: HTMLElement,
+    private readonly viewer: () => FaceViewer | null,
+  ) {
+    this.neutral.title = words.liveNeutralHint;
+    this.record.title = words.liveRecordHint;
+    this.tools.append(this.neutral, this.record, button(words.liveEnd, 'quiet', () => void this.ask('live_stop', {})));
+    this.told.setAttribute('role', 'status');
+    this.problem.setAttribute('role', 'alert');
+    const use = button(words.takeUse, 'primary', () => void this.useTake());
+    use.title = words.takeUseHint;
+    this.trim.append(this.curve.element, use);
+    into.append(this.choices, this.told, this.figures, this.tools, this.trim, this.problem);
+    this.problem.hidden = this.trim.hidden = this.tools.hidden = this.figures.hidden = true;
+    state.sceneChanged.add(() => this.offer());
+    state.source.onChange((change) => {
+      if (change === 'face') this.trim.hidden = true;
+    });
+    connection.on('live', (told) => this.tell(told));
+    connection.on('live_shape', ({ face, frame, step_m, values, block }) => {
+      if (!state.source.open || values.count !== state.source.replay.points.length) return;
+      const displacement = new Float32Array(block.int16(values));
+      for (let i = 0; i < displacement.length; ++i) displacement[i] *= step_m;
+      this.show(face, displacement, frame);
+    });
+    connection.on('take', ({ time_s, moved_mm }) => {
+      this.curve.show(time_s as number[], moved_mm as number[]);
+      this.trim.hidden = (time_s as number[]).length < 2;
+    });
+  }
+
+  /** Whether shapes come in. */
+  get live(): boolean {
+    return this.running;
+  }
+
+  greet({ device }: Places): void {
+    this.device = device;
+    this.offer();
+  }
+
+  /** What there is to follow. */
+  private offer(): void {
+    const recording = this.state.valuesOf(0)['motion.recording'];
+    const choices = [];
+    if (this.device) choices.push(button(words.liveCamera(this.device), 'quiet', () => void this.start('device')));
+    if (typeof recording === 'string' && recording)
+      choices.push(button(words.livePlay, 'quiet', () => void this.start('recording')));
+    for (const choice of choices) choice.disabled = this.running;
+    this.choices.replaceChildren(...choices);
+    this.into.hidden = choices.length === 0;
+  }
+
+  private async start(what: LiveStartRequest['what']): Promise<void> {
+    const { state } = this;
+    this.trim.hidden = true;
+    this.told.textContent = words.liveStates.looking;
+    state.playback.pause();
+    const face = state.edited;
+    state.shown.set({ mode: 'single', first: face });
+    if (!(await this.ask('live_start', { what, face }))) this.told.textContent = '';
+  }
+
+  private show(face: number, displacement: Float32Array, frame: number): void {
+    const { state } = this;
+    const viewer = this.viewer();
+    if (state.playback.playing) state.playback.pause();
+    if (face < state.source.replay.faces.length && !state.shown.visible.includes(face)) state.shown.set({ mode: 'single', first: face });
+    viewer?.showLive({ face, displacement });
+    // Drawn when the frames asked for before are; the next task comes after the drawing.
+    requestAnimationFrame(() => setTimeout(() => void this.ask('live_drawn', { frame })));
+  }
+
+  private tell(told: LiveEvent): void {
+    const { state, problem, drawn_a_second, delay_ms, delay_95_ms, dropped, not_drawn, frames, valid, recording, take_s } = told;
+    const was = this.running;
+    this.running = state !== 'ended';
+    if (was !== this.running) {
+      this.offer();
+      if (!this.running) this.viewer()?.showLive(null);
+    }
+    this.into.dataset.live = state;
+    this.told.textContent = words.liveStates[state];
+    this.tools.hidden = !this.running;
+    this.neutral.disabled = this.record.disabled = state !== 'following';
+    this.recorded = recording;
+    this.record.textContent = recording ? words.liveRecorded(take_s.toFixed(1)) : words.liveRecord;
+    this.record.setAttribute('aria-pressed', String(recording));
+    this.say(problem);
+    const ms = (value: unknown) => (typeof value === 'number' ? `${value.toFixed(0)} ms` : '–');
+    const rows: [string, string][] = [
+      [words.liveRate, `${drawn_a_second}`], [words.liveDelay, words.liveDelays(ms(delay_ms), ms(delay_95_ms))],
+      [words.liveDropped, words.liveDrops(dropped, not_drawn)], [words.liveFollowed, words.liveOf(valid, frames)],
+    ];
+    this.figures.hidden = frames === 0;
+    this.figures.replaceChildren(...rows.flatMap(([name, value]) => [element('dt', name), element('dd', value)]));
+  }
+
+  private async toggleTake(): Promise<void> {
+    const on = !this.recorded;
+    if (on) this.trim.hidden = true;
+    await this.ask('live_record', { on });
+  }
+
+  private async useTake(): Promise<void> {
+    const [from_s, to_s] = this.curve.range;
+    await this.ask('live_take', { from_s, to_s });
+  }
+
+  /** False where the server says no; the problem is told then. */
+  private async ask<K extends keyof Requests>(name: K, fields: Requests[K]['fields']): Promise<boolean> {
+    try {
+      await this.connection.ask(name, fields);
+      return true;
+    } catch (error) {
+      if (error instanceof Refused) this.say(error.message);
+      return false;
+    }
+  }
+
+  private say(problem: string): void {
+    this.problem.textContent = problem;
+    this.problem.hidden = problem === '';
+  }
+}
