@@ -86,6 +86,27 @@ TEST(FiniteNewton, TheLinearLawTakesOneIterationAndIsTheStaticSolution) {
   for (int i = 1; i <= 5; ++i) EXPECT_EQ(in_time.step(0.01, i * to / 5, force).iterations, 1) << i;
 }
 
+TEST(FiniteNewton, AFactorServesManyStepsAndTheAnswerIsThatOfFullNewton) {
+  const Block block(0.49, 50);
+  FiniteNewtonOptions old_factors, full = exact();
+  old_factors.tolerance = 1e-4;
+  full.full_newton = true;
+  FiniteStrain form(block.assembler, block.material, {}),
+      other(block.assembler, block.material, {});
+  FiniteNewton newton(form, block.ends, old_factors), reference(other, block.ends, full);
+  constexpr int kSteps = 40;
+  int factorisations = 0;
+  for (int i = 1; i <= kSteps; ++i) {  // stretched by a third, sheared, and half of the way back
+    const double way = i <= 30 ? i / 30.0 : 1 - (i - 30) / 20.0;
+    const VectorXd to = block.moved(way * Vec3(0.012, 0.008, 0));
+    factorisations += newton.step(0.01, to).factorisations;
+    reference.step(0.01, to);
+    EXPECT_LT((newton.displacement() - reference.displacement()).lpNorm<Eigen::Infinity>(), 5e-6)
+        << i;
+  }
+  EXPECT_LT(factorisations, kSteps / 2);
+}
+
 TEST(FiniteNewton, TinyLoadsGiveTheLinearAnswer) {
   for (const Hyperelastic& law : test::finite_laws()) {
     const Block block(0.49);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/form/finite_strain.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -96,19 +97,37 @@ struct FiniteStrain::Element {
     return k;
   }
 
-  /// The same by gradients, its second derivatives by F made positive semidefinite.
-  Eigen::Matrix<double, 9, 9> projected() const {
+  /// Second derivatives by F.
+  Eigen::Matrix<double, 9, 9> by_gradient() const {
     Eigen::Matrix<double, 9, 9> h;
     const std::array<Corner, 3> c{corner(Vec3::UnitX()), corner(Vec3::UnitY()),
                                   corner(Vec3::UnitZ())};
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l) h.block<3, 3>(3 * k, 3 * l) = block(c[k], c[l]);
-    h = (h + h.transpose()).eval() / 2;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> eigen(h);
-    return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-           eigen.eigenvectors().transpose();
+    return (h + h.transpose()) / 2;
   }
 };
+
+namespace {
+
+/// An eigenvalue above minus this share of the largest diagonal entry counts as none below zero.
+constexpr double kSemidefinite = 1e-9;
+
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+
+bool is_semidefinite(const Matrix9d& h) {
+  Matrix9d raised = h;
+  raised.diagonal().array() += kSemidefinite * h.diagonal().cwiseAbs().maxCoeff();
+  return Eigen::LLT<Matrix9d>(raised).info() == Eigen::Success;
+}
+
+Matrix9d made_semidefinite(const Matrix9d& h) {
+  const Eigen::SelfAdjointEigenSolver<Matrix9d> eigen(h);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+}  // namespace
 
 FiniteStrain::FiniteStrain(const Assembler& mesh, const Material& material, const Hyperelastic& law)
     : mesh_(mesh), law_(law) {
@@ -444,8 +463,9 @@ void FiniteStrain::find_blocks(bool projected) {
       }
     }
     double* out = blocks_.data() + 54 * t;
-    if (projected) {
-      const Eigen::Matrix<double, 9, 9> h = shape.volume * e.projected();
+    Matrix9d h;
+    if (projected && !is_semidefinite(h = e.by_gradient())) {
+      h = shape.volume * made_semidefinite(h);
       for (int pair = 0; pair < 6; ++pair, out += 9) {
         Eigen::Map<Matrix3d> block(out);
         block.setZero();

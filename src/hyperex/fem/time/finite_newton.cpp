@@ -27,6 +27,13 @@ constexpr double kNoResidual = 1e-9;
 constexpr double kEnergyNoise = 1e-11;
 /// A new factor costs as much as this many corrections with the old one.
 constexpr double kFactorInCorrections = 10;
+/// A correction of less than this many tolerances that is no smaller than the one before it is no
+/// reason for a new factor, so many times.
+constexpr double kSmall = 10;
+constexpr int kForgiven = 2;
+constexpr int kMostPartsAfresh = 16;
+/// Steps whose backward differences differ by less than this share can do with the same factor.
+constexpr double kSameRate = 0.01;
 constexpr int kBacktracks = 12;
 /// The step that the first factor is made for; only its pattern matters later.
 constexpr double kNominalStep_s = 0.01;
@@ -103,6 +110,16 @@ struct FiniteNewton::Impl {
   double last_h = 0, time = 0;
   VectorXd force_last, start_prescribed;
 
+  // Of the factor at hand: parts of steps that ended with it, corrections it made, and what the
+  // last part cost, in corrections.
+  int parts_with_factor = 0, corrections_with_factor = 0;
+  double last_cost = 0;
+  // Where an old factor did not pay, this many parts, and the next time twice as many, get their
+  // own.
+  int parts_afresh = 0, next_parts_afresh = 1;
+  bool factor_is_rough = true;  // projected, or of the state at rest
+  double rate_of_factor = -1;   // RateRule::now that it was made for
+
   // Of a part of a step.
   RateRule rule;
   double mass_share = 0;
@@ -162,13 +179,38 @@ struct FiniteNewton::Impl {
   /// False where not even the projected matrix is positive definite.
   bool factor_at(const VectorXd& d, FiniteStepReport& report) {
     secants.clear();
+    rate_of_factor = rule.now;
+    parts_with_factor = corrections_with_factor = 0;
     fill_matrix(d, false);
     ++report.factorisations;
-    if (factor->try_refactor(matrix) < 0) return true;
+    factor_is_rough = factor->try_refactor(matrix) >= 0;
+    if (!factor_is_rough) return true;
     fill_matrix(d, true);
     ++report.factorisations;
     ++report.projections;
     return factor->try_refactor(matrix) < 0;
+  }
+
+  /// Whether a part should begin with a new factor: an old one serves as long as that lets the mean
+  /// cost of the parts with it fall.
+  bool factor_is_due() const {
+    return options.full_newton || factor_is_rough || parts_with_factor == 0 || parts_afresh > 0 ||
+           std::abs(rate_of_factor - rule.now) > kSameRate * rule.now ||
+           last_cost * parts_with_factor > kFactorInCorrections + corrections_with_factor;
+  }
+
+  /// A part has ended that cost as much as `cost` corrections, besides the factor it began with.
+  void count_part(bool began_afresh, double cost) {
+    ++parts_with_factor;
+    last_cost = cost;
+    if (began_afresh) {
+      parts_afresh = std::max(0, parts_afresh - 1);
+    } else if (cost > kFactorInCorrections) {
+      parts_afresh = next_parts_afresh;
+      next_parts_afresh = std::min(2 * next_parts_afresh, kMostPartsAfresh);
+    } else {
+      next_parts_afresh = std::max(1, next_parts_afresh / 2);
+    }
   }
 
   /// The incremental potential without external forces, and its gradient.
@@ -208,20 +250,32 @@ struct FiniteNewton::Impl {
     if (hooks.before_iteration) hooks.before_iteration(x, time + h, external);
     find_residual();
     double first_residual = 0, last_size = 0;
-    bool refactor = true;
+    bool refactor = factor_is_due(), jumped = prescribed_change.isZero(0);
+    const bool began_afresh = refactor;
+    const int factorisations = report.factorisations + (refactor ? 1 : 0);
+    int corrections = 0, forgiven = 0;
     for (int k = 0; k < options.most_iterations; ++k) {
       const bool fresh = refactor || options.full_newton;
       if (fresh && !factor_at(x, report)) return false;
       refactor = false;
-      const bool jump = k == 0 && !prescribed_change.isZero(0);
+      if (fresh) forgiven = 0;
+      const bool jump = !jumped;
       find_direction(jump);
+      ++corrections, ++corrections_with_factor;
       if (k == 0) first_residual = right_side;
       const double size = greatest_motion(delta);
       double share = 1;
       if (jump) {  // what is prescribed does work: the energy may well rise
         trial = x + delta;
-        energy = potential(trial, trial_gradient);
-        if (!std::isfinite(energy) || !trial_gradient.allFinite()) return false;
+        const double there = potential(trial, trial_gradient);
+        if (!std::isfinite(there) || !trial_gradient.allFinite()) {
+          if (fresh) return false;
+          refactor = true;
+          find_residual();
+          continue;
+        }
+        energy = there;
+        jumped = true;
       } else if (size > 0) {
         share = search(energy);
         if (share == 0) {
@@ -264,9 +318,15 @@ struct FiniteNewton::Impl {
       } else {
         refactor = true;
       }
+      if (refactor && size < kSmall * options.tolerance * scale && forgiven++ < kForgiven)
+        refactor = false;
       last_size = share * size;
       report.error = missing / scale;
-      if (report.error <= options.tolerance) return true;
+      if (report.error <= options.tolerance) {
+        count_part(began_afresh,
+                   corrections + kFactorInCorrections * (report.factorisations - factorisations));
+        return true;
+      }
     }
     return false;
   }
@@ -412,6 +472,7 @@ struct FiniteNewton::Impl {
         part_force = (1 - until) * force_last;
       if (!converge(h, part == whole ? guess : nullptr, hooks, report)) {
         if (part == 1) fail(h);
+        parts_with_factor = 0;  // it may be to blame
         part /= 2;
         continue;
       }

@@ -18,8 +18,9 @@ struct FiniteNewtonOptions {
   double least_motion_m = 1e-4;
   int most_iterations = 25;  ///< of a step, before it is halved
   int most_halvings = 8;     ///< a step is taken in at most 2^8 parts
-  /// True: the matrix is factored in each iteration. False: once a step, and anew where that
-  /// converges slowly; corrections with an old factor are bettered by L-BFGS.
+  /// True: the matrix is factored in each iteration. False: a factor serves as many steps as it
+  /// pays, and a new one is made where it converges slowly; corrections with an old factor are
+  /// bettered by L-BFGS.
   bool full_newton = false;
   bool inertia = true;  ///< false: M is left out of the equation of motion
 };
