@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/reenact/finite_correction.hpp"
 
-#include <limits>
+#include <algorithm>
 #include <utility>
 
 #include "hyperex/core/error.hpp"
@@ -14,6 +14,11 @@ fem::Hyperelastic relaxed(fem::Hyperelastic law) {
   return law;
 }
 
+fem::Material elastic(fem::Material material) {
+  std::fill(material.viscosity_pa_s.begin(), material.viscosity_pa_s.end(), 0.0);
+  return material;
+}
+
 }  // namespace
 
 FiniteCorrection::FiniteCorrection(const fem::Assembler& assembler, const fem::Material& material,
@@ -21,7 +26,7 @@ FiniteCorrection::FiniteCorrection(const fem::Assembler& assembler, const fem::M
                                    std::vector<int> prescribed, fem::FiniteNewtonOptions how,
                                    fem::LinearSolver linear,
                                    std::shared_ptr<const fem::NodeOrder> order)
-    : form_(assembler, material, relaxed(std::move(law))), springs_(springs) {
+    : form_(assembler, elastic(material), relaxed(std::move(law))), springs_(springs) {
   newton_.emplace(form_, std::move(prescribed), how, std::move(springs),
                   std::vector<const fem::NodalPotential*>(), linear, std::move(order));
 }
@@ -29,7 +34,6 @@ FiniteCorrection::FiniteCorrection(const fem::Assembler& assembler, const fem::M
 void FiniteCorrection::begin(const Eigen::VectorXd& d0) {
   d0_ = d0;
   form_.rest_at(d0_);
-  form_.begin_step({0, 0, 0, std::numeric_limits<double>::infinity()}, d0_, d0_);
   force_.resize(d0_.size());
   form_.energy_and_gradient(d0_, force_);
   if (springs_.cols() > 0) force_ += springs_ * d0_;
@@ -39,8 +43,7 @@ void FiniteCorrection::begin(const Eigen::VectorXd& d0) {
 
 /// In equilibrium under what acted until then: from there further forces can come in parts.
 void FiniteCorrection::start() {
-  newton_->start(d0_, Eigen::VectorXd::Zero(d0_.size()));
-  newton_->equilibrium(prescribed_, force_);
+  newton_->start(d0_, Eigen::VectorXd::Zero(d0_.size()), force_);
 }
 
 const Eigen::VectorXd& FiniteCorrection::under(const Eigen::VectorXd& more) {

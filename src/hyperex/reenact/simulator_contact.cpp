@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact: frames that were found without it, corrected.
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "hyperex/core/error.hpp"
@@ -200,13 +202,7 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
       ++given_up;
       continue;
     }
-    try {
-      tissue.begin(d0);
-    } catch (const NumericalError&) {
-      hopeless_m = std::min(hopeless_m, least_m);
-      ++given_up;
-      continue;
-    }
+    tissue.begin(d0);
     double own_residual_m = 0;
     Eigen::VectorXd moved, more;
     int idle = 0;  // rounds in a row that gain little
@@ -288,8 +284,9 @@ void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& po
     double lips = 0, teeth = 0, eyes = 0;
   };
   std::vector<Depths> each(shots.size());
-  const auto measure = [&] {
-    for_frames(shots.size(), [&](std::size_t i) {
+  const auto measure = [&](const std::vector<std::size_t>& which) {
+    for_frames(which.size(), [&](std::size_t at) {
+      const std::size_t i = which[at];
       each[i] = {};
       if (lips_touch) each[i].lips = lips.depth(skin_of(i));
       at_sides[i].resize(touchable->size());
@@ -311,7 +308,9 @@ void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& po
     return most;
   };
   SimulationReport::Contact& told_of = report.contact;
-  const Depths before = measure();
+  std::vector<std::size_t> all(shots.size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  const Depths before = measure(all);
   told_of.overlap_mm = told_of.left_mm = before.lips;
   told_of.teeth_mm = told_of.teeth_left_mm = before.teeth;
   told_of.eyes_mm = told_of.eyes_left_mm = before.eyes;
@@ -323,11 +322,12 @@ void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& po
     for (std::size_t s = 0; s < touchable->size(); ++s) {
       const ObstaclePlaces& side = *(*touchable)[s];
       near[s].assign(std::size_t(side.count()), 0);
-      Vec3 outward;
-      for (const std::size_t i : touching)
-        for (Eigen::Index k = 0; k < side.count(); ++k)
-          near[s][std::size_t(k)] |=
-              side.gap_m(k, at_sides[i][s].row(k), pose_of(side, i), outward) < kMayTouch_m;
+      tbb::parallel_for(Eigen::Index(0), side.count(), [&](Eigen::Index k) {
+        Vec3 outward;
+        near[s][std::size_t(k)] = std::any_of(touching.begin(), touching.end(), [&](std::size_t i) {
+          return side.gap_m(k, at_sides[i][s].row(k), pose_of(side, i), outward) < kMayTouch_m;
+        });
+      });
     }
     ask();
     need_contact(std::move(near));
@@ -348,7 +348,7 @@ void Simulator::Impl::touch(const std::vector<Shot>& shots, const PointCurve& po
     for_frames(touching.size(), [&](std::size_t i) {
       store(shots[touching[i]], nodes_of(touching[i]), points, result);
     });
-    const Depths after = measure();
+    const Depths after = measure(touching);
     told_of.left_mm = after.lips;
     told_of.teeth_left_mm = after.teeth;
     told_of.eyes_left_mm = after.eyes;

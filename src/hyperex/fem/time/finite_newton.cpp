@@ -505,13 +505,17 @@ FiniteNewton::FiniteNewton(FiniteStrain& form, std::vector<int> prescribed,
 FiniteNewton::~FiniteNewton() = default;
 FiniteNewton::FiniteNewton(FiniteNewton&&) noexcept = default;
 
-void FiniteNewton::start(const VectorXd& d, const VectorXd& v) {
+void FiniteNewton::start(const VectorXd& d, const VectorXd& v, const VectorXd& force) {
   Impl& m = *impl_;
   HX_ASSERT(d.size() == m.state.d.size() && v.size() == d.size());
+  HX_ASSERT(force.size() == 0 || force.size() == d.size());
   m.state.d = m.d_before = d;
   m.state.v = m.v_before = v;
   m.state.a.setZero();
-  m.force_last.setZero();
+  if (force.size() > 0)
+    m.force_last = force;
+  else
+    m.force_last.setZero();
   m.residual.setZero();
   m.last_h = m.time = 0;
   m.form.rest_at(d);

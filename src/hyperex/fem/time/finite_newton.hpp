@@ -69,8 +69,9 @@ class FiniteNewton {
   FiniteNewton(FiniteNewton&&) noexcept;
 
   /// At time 0 in state d (m), v (m/s; 3 |nodes| each), at rest before as far as viscous branches
-  /// are concerned. Without: zero.
-  void start(const Eigen::VectorXd& d, const Eigen::VectorXd& v);
+  /// are concerned. Without: zero. `force` (N; empty: none): what acts until then; where a step is
+  /// halved, forces grow from there.
+  void start(const Eigen::VectorXd& d, const Eigen::VectorXd& v, const Eigen::VectorXd& force = {});
   void start();
 
   /// Advances by dt_s to prescribed displacements `prescribed` (in their order, m) under `force`
