@@ -203,6 +203,10 @@ reenact::SimulationOptions OpenFace::options_live(std::size_t face,
   return live_options(std::move(options));
 }
 
+Eigen::VectorXd OpenFace::region_shares(const std::string& text) {
+  return fields_->region_shares(scene::read_scene_text(text, scene_.file), 0);
+}
+
 bool OpenFace::up_to_date() const {
   return !stale_ && std::none_of(standing_.begin(), standing_.end(),
                                  [](const Standing& one) { return one.stale; });
@@ -256,6 +260,22 @@ json OpenFace::replay(report::BinaryBlock& block, bool with_face) const {
   if (!runs_.empty()) summary["variants"] = {{"table", scene::variant_table(all, runs_)}};
   const scene::ReplayPage page(all, runs_, summary);
   return report::replay_manifest(page.input(), block, with_face);
+}
+
+json OpenFace::activations(report::BinaryBlock& block) const {
+  const reenact::MuscleCourse& base = simulation_.performance.muscles;
+  if (base.names.empty()) return nullptr;
+  const auto rows = [&](const reenact::MuscleCourse& course) {
+    if (course.names != base.names) return json();
+    std::vector<float> values;
+    for (const auto& row : course.activation.rowwise())
+      values.insert(values.end(), row.begin(), row.end());
+    return block.add(values);
+  };
+  json faces = json::array({rows(base)});
+  for (const scene::VariantRun& run : runs_)
+    faces.push_back(rows(run.simulation.performance.muscles));
+  return {{"names", base.names}, {"time_s", base.time_s}, {"faces", faces}};
 }
 
 }  // namespace hyperex::studio

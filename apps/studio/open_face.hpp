@@ -50,6 +50,9 @@ class OpenFace {
   reenact::SimulationOptions options_live(std::size_t face,
                                           const std::vector<std::string>& points) const;
   std::shared_ptr<const tissue::TissueMesh> shared_mesh() const { return face_.mesh; }
+  /// Of the first region of another text of this face, how much of its change holds at each vertex
+  /// of the skin, 0 to 1. Throws InputError.
+  Eigen::VectorXd region_shares(const std::string& text);
 
   bool up_to_date() const;
   /// Runs what is not up to date. Throws NumericalError, and reenact::Cancelled: what was done so
@@ -58,6 +61,8 @@ class OpenFace {
 
   /// Once all is up to date: what the page reads (report::replay_manifest).
   nlohmann::json replay(report::BinaryBlock& block, bool with_face) const;
+  /// Likewise: of the muscles over time; null where none drive (protocol.json, event face).
+  nlohmann::json activations(report::BinaryBlock& block) const;
 
  private:
   /// What a variant's run rests on.

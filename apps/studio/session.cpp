@@ -21,8 +21,10 @@
 #include "hyperex/scene/grammar/variant_presets.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
 #include "hyperex/scene/stages/drive_choice.hpp"
+#include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
+#include "painting.hpp"
 #include "scene_files.hpp"
 #include "server.hpp"
 #include "shape_message.hpp"
@@ -92,7 +94,19 @@ json presets_json() {
     out.push_back({{"name", preset.name},
                    {"summary", preset.summary},
                    {"source", preset.source},
-                   {"assumed", preset.assumed}});
+                   {"assumed", preset.assumed},
+                   {"changes", preset.changes}});
+  return out;
+}
+
+json tissues_json() {
+  json out = json::array();
+  for (const tissue::TissuePreset& preset : tissue::tissue_presets())
+    if (const auto& factor = preset.factor[tissue::young])
+      out.push_back({{"name", preset.name},
+                     {"summary", preset.summary},
+                     {"source", preset.source},
+                     {"young_factor", *factor}});
   return out;
 }
 
@@ -155,6 +169,10 @@ void Session::answer(const Request& request) {
       out = remove_variant(fields);
     else if (name == "rename_variant")
       out = rename_variant(fields);
+    else if (name == "paint")
+      out = paint(fields);
+    else if (name == "region_shares")
+      out = region_shares(fields);
     else if (name == "undo")
       out = undo_or_redo(undo_, redo_);
     else if (name == "redo")
@@ -200,6 +218,7 @@ json Session::hello() {
   return {{"program", options_.program},
           {"keys", keys_json()},
           {"presets", presets_json()},
+          {"tissues", tissues_json()},
           {"regions", regions_json()},
           {"places",
            {{"started", options_.started.empty() ? json() : json(options_.started.filename())},
@@ -213,6 +232,14 @@ json Session::hello() {
 OpenFace& Session::need_face() {
   if (!face_) throw InputError("no face is open: open one first");
   return *face_;
+}
+
+std::vector<std::string> Session::known_paths() const {
+  const scene::Scene committed = scene::read_scene_text(now_.text, now_.file);
+  std::vector<std::string> known = paths_of(options_json(committed));
+  for (const scene::Variant& variant : committed.variants)
+    for (const std::string& path : paths_of(options_json(variant.scene))) known.push_back(path);
+  return known;
 }
 
 json Session::open(const json& fields) {
@@ -311,7 +338,7 @@ std::string Session::changed(const json& wanted, int face) {
   json changes = json::object();
   need_face();
   const scene::Scene committed = scene::read_scene_text(now_.text, now_.file);
-  const std::vector<std::string> known = paths_of(options_json(committed));
+  const std::vector<std::string> known = known_paths();
   for (const auto& [key, value] : wanted.items()) {
     if (!scene::find_key(key)) throw InputError(key + ": no key of a scene");
     changes[key] = with_uploads(key, value, uploads(), known);
@@ -389,6 +416,29 @@ json Session::rename_variant(const json& fields) {
   if (face > blocks.size()) throw InputError("face: no such variant");
   blocks[face - 1]["name"] = fields.at("name");
   commit(scene::with_variants(now_.text, blocks));
+  return json::object();
+}
+
+json Session::paint(const json& fields) {
+  const tissue::TissueMesh& mesh = need_face().mesh();
+  return {{"file", write_painting(mesh, fields.at("vertices"), fields.at("shares"), uploads())}};
+}
+
+json Session::region_shares(const json& fields) {
+  need_face();
+  json row = fields.at("region");
+  if (!row.is_object()) throw InputError("region: expected a row of tissue.region");
+  for (const char* key : {"young_kpa", "viscosity_pa_s", "poisson", "density_kg_m3"})
+    row.erase(key);
+  row["young_factor"] = 2;  // some change; its share is asked for
+  const json rows = with_uploads("tissue.region", json::array({row}), uploads(), known_paths());
+  const Eigen::VectorXf shares =
+      face_->region_shares(scene::with_value(now_.text, "tissue.region", rows)).cast<float>();
+  report::BinaryBlock block;
+  const json head = {{"event", "shares"},
+                     {"key", fields.at("key")},
+                     {"values", block.add("float32", shares.data(), std::size_t(shares.size()))}};
+  send_(binary_message(head, block), true, "");
   return json::object();
 }
 
@@ -593,6 +643,7 @@ void Session::send_motion(Stopwatch& watch) {
   report::BinaryBlock block;
   json head = {{"event", face_sent_ ? "motion" : "face"}};
   head["replay"] = face_->replay(block, !face_sent_);
+  head["activations"] = face_->activations(block);
   if (face_sent_) {
     head["table"] = head["replay"]["summary"].contains("variants")
                         ? head["replay"]["summary"]["variants"]["table"]

@@ -62,6 +62,8 @@ class Session {
   nlohmann::json add_variant(const nlohmann::json& fields);
   nlohmann::json remove_variant(const nlohmann::json& fields);
   nlohmann::json rename_variant(const nlohmann::json& fields);
+  nlohmann::json paint(const nlohmann::json& fields);
+  nlohmann::json region_shares(const nlohmann::json& fields);
   nlohmann::json undo_or_redo(std::vector<Step>& from, std::vector<Step>& to);
   nlohmann::json move_landmark(const nlohmann::json& fields);
   nlohmann::json landmarks_done();
@@ -74,6 +76,8 @@ class Session {
   void refresh_live();
 
   OpenFace& need_face();
+  /// Every path that the scene or a variant of it names.
+  std::vector<std::string> known_paths() const;
   /// Reads and meshes, and says what is probably wrong; the face that is open goes only then.
   void make_face(const std::string& text, const std::filesystem::path& file);
   std::filesystem::path uploads() const { return options_.folder / "uploads"; }

@@ -27,9 +27,10 @@ const withUnit = (text: string, unit: string): string => (unit ? `${text} ${unit
 
 /** One change of one part of the face: {"name": "cheek_R", "young_factor": 10} is "cheek R: Young's modulus × 10". */
 function placeWords(entry: Json): string {
-  const { name, landmark, point, side, scar, ...rest } = entry;
+  const { name, landmark, point, side, scar, painted, ...rest } = entry;
   const place = Array.isArray(scar) && scar.length > 0
     ? `scar ${scar.map((at) => landmarkName(String(at))).join(' to ')}`
+    : typeof painted === 'string' && painted !== '' ? 'painted patch'
     : [name, landmark, point, side].filter((v) => typeof v === 'string' && v !== '').map((v) => landmarkName(String(v))).join(' ');
   const what = Object.entries(rest).map(([key, value]) => {
     const factor = /^(\w+)_factor$/.exec(key)?.[1];

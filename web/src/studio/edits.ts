@@ -57,6 +57,23 @@ export class Edits {
     }
   }
 
+  /** A whole step at once: the frame shown follows first, then the motion. */
+  async step(changes: Values): Promise<void> {
+    this.draft(changes);
+    this.waiting = null;
+    ++this.turn;
+    this.problem('');
+    try {
+      const face = await this.face();
+      await this.send(face, changes, true).catch(() => {}); // what is wrong the change itself tells
+      await this.send(face, changes, false);
+    } catch (error) {
+      this.tell(error);
+    } finally {
+      this.target = null;
+    }
+  }
+
   private draft(changes: Values): void {
     for (const [key, value] of Object.entries(changes)) this.drafts.set(key, value);
   }

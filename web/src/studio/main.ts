@@ -15,11 +15,12 @@ import { Connection, takeToken, type LineState } from './connection';
 import { Edits } from './edits';
 import { FiguresPanel } from './figures_panel';
 import { LandmarksPanel } from './landmarks_panel';
-import { isRecord, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type Region, type SceneKey, type SceneNow } from './messages';
+import { isRecord, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type Region, type SceneKey, type SceneNow, type StifferTissue } from './messages';
 import { LivePanel } from './live';
 import { MessagesPanel } from './messages_panel';
 import { MusclesPanel } from './muscles_panel';
 import { OpenPanel } from './open_panel';
+import { PaintPanel } from './paint_panel';
 import { Panels } from './panels';
 import { Progress } from './progress';
 import { SaveMenu } from './save_menu';
@@ -35,6 +36,7 @@ class Studio {
   private readonly edits = new Edits(this.state, this.connection, (text) => this.problem(text));
   private readonly muscles = new MusclesPanel(this.state, this.edits, (names) => this.stage?.face?.lightMuscles(names));
   private readonly tissue = new TissuePanel(this.state, this.edits);
+  private readonly paint = new PaintPanel(this.state, this.edits, this.connection);
   private readonly scene = new ScenePanel(this.state);
   private readonly figures = new FiguresPanel(this.state, at('figures-body'));
   private readonly tabs = new Tabs(this.state, this.connection, this.edits);
@@ -54,6 +56,7 @@ class Studio {
     new Panels(this.state, [
       { key: 'muscles', title: words.muscles, element: this.muscles.element },
       { key: 'tissue', title: words.tissue, element: this.tissue.element },
+      { key: 'paint', title: words.paint, element: this.paint.element, seen: (now) => this.paint.seen(now) },
       { key: 'scene', title: words.scene, element: this.scene.element },
     ]);
     this.wireBar();
@@ -137,13 +140,14 @@ class Studio {
     summary.options = options;
   }
 
-  private greeted({ program, keys, presets, regions, places }: Greeting): void {
+  private greeted({ program, keys, presets, tissues, regions, places }: Greeting): void {
     this.state.regions = regions;
     this.state.keys = new Map(keys.map((key) => [key.name, key]));
     this.tabs.presets = presets;
     this.saving.folder = places.folder;
     at('title').title = program;
     this.tissue.build();
+    this.paint.build(presets, tissues);
     if (this.state.muscles.length > 0) this.muscles.build();
     at<HTMLButtonElement>('what-if').disabled = false;
     this.live.greet(places);
@@ -155,12 +159,14 @@ class Studio {
     const { source, shown, playback } = this.state;
     const { replay } = source;
     // What shows the face that was must not hear of the other's.
+    this.paint.attach(null);
     this.stage?.dispose();
     this.stage = null;
     this.figures.clear();
     this.setRange();
     shown.setCount(replay.faces.length);
     this.stage = new Stage(replay, shown);
+    this.paint.attach(this.stage);
     this.muscles.build();
     this.figures.build();
     this.rewireKeys();
@@ -177,6 +183,7 @@ class Studio {
     this.setRange();
     shown.setCount(source.replay.faces.length);
     this.stage?.refresh();
+    this.paint.refresh();
     this.figures.refresh();
     this.rewireKeys();
     this.showTime();
@@ -251,6 +258,7 @@ interface Greeting {
   program: string;
   keys: SceneKey[];
   presets: Preset[];
+  tissues: StifferTissue[];
   regions: Region[];
   places: Places;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What protocol.json calls "json", as the server writes it (apps/studio/session.cpp).
+import type { Stretch } from '../page/page_data';
 import type { Vec3 } from '../replay/data';
 
 /** A key of a scene, as docs/scene.md lists them. */
@@ -23,6 +24,16 @@ export interface Preset {
   summary: string;
   source: string;
   assumed: string;
+  /** As a variant would have them: sections with keys. */
+  changes: Record<string, unknown>;
+}
+
+/** A published tissue that is so many times as stiff. */
+export interface StifferTissue {
+  name: string;
+  summary: string;
+  source: string;
+  young_factor: number;
 }
 
 /** Of the face: "cheek", also as "cheek_L" and "cheek_R". */
@@ -48,6 +59,14 @@ export interface SceneFace {
   name: string;
   preset?: string;
   changes: Values;
+}
+
+/** Of the muscles over time, in the events "face" and "motion". */
+export interface Activations {
+  names: string[];
+  time_s: number[];
+  /** Names x times, a face each; null where it is not known. */
+  faces: (Stretch | null)[];
 }
 
 /** The event "scene". */

@@ -9,6 +9,8 @@ export interface Panel {
   key: string;
   title: string;
   element: HTMLElement;
+  /** Told when it comes into view and when it goes. */
+  seen?(now: boolean): void;
 }
 
 export class Panels {
@@ -25,6 +27,7 @@ export class Panels {
       panel.id = `panel-${key}`;
       panel.setAttribute('role', 'tabpanel');
       panel.setAttribute('aria-labelledby', tab.id);
+      panel.hidden = i > 0;
       return tab;
     });
     at('panel-tabs').append(...this.tabs);
@@ -38,7 +41,10 @@ export class Panels {
     this.tabs.forEach((tab, i) => {
       tab.setAttribute('aria-selected', String(i === chosen));
       tab.tabIndex = i === chosen ? 0 : -1;
-      this.panels[i].element.hidden = i !== chosen;
+      const { element: panel, seen } = this.panels[i];
+      if (panel.hidden === (i !== chosen)) return;
+      panel.hidden = i !== chosen;
+      seen?.(i === chosen);
     });
   }
 

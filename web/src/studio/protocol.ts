@@ -25,8 +25,10 @@ export interface HelloAnswer {
   program: string;
   /** keys of a scene: name, kind, unit, range, choices, default, description */
   keys: unknown;
-  /** of variants: name, summary, source, assumed */
+  /** of variants: name, summary, source, assumed, changes */
   presets: unknown;
+  /** published tissues that are so many times as stiff: name, summary, source, young_factor */
+  tissues: unknown;
   /** parts of the face that tissue.region may name, alone or with _L or _R: name, meaning */
   regions: unknown;
   /** what the studio was started with: file names that open may name */
@@ -93,6 +95,27 @@ export interface RenameVariantRequest {
   name: string;
 }
 export type RenameVariantAnswer = Record<string, never>;
+
+/** Keeps what was painted on the skin as a file that "painted" of tissue.region may name in set. */
+export interface PaintRequest {
+  /** of the skin; all others have a share of 0 */
+  vertices: unknown;
+  /** of each of them, above 0 to 1 */
+  shares: unknown;
+}
+export interface PaintAnswer {
+  /** its name */
+  file: string;
+}
+
+/** How much of the change of a region holds where: the event shares comes before the answer. */
+export interface RegionSharesRequest {
+  /** a row of tissue.region: name, scar or painted; values and factors do not matter */
+  region: unknown;
+  /** that the event is to bear */
+  key: string;
+}
+export type RegionSharesAnswer = Record<string, never>;
 
 /** The scene as it was before the last change. */
 export type UndoRequest = Record<string, never>;
@@ -221,6 +244,11 @@ export interface FaceEvent {
   landmarks: unknown;
   /** names, branches and sides that gains may name */
   muscles: unknown;
+  /**
+   * of the muscles over time, where they drive: names, time_s, faces (an array a face: float32, names x
+   * times); else null
+   */
+  activations: unknown;
 }
 
 /** Binary. Some faces move otherwise now: replaces what the last face or motion event said of them. */
@@ -229,6 +257,8 @@ export interface MotionEvent {
   replay: unknown;
   /** rows of variants.csv as JSON: what differs from base, in millimetres */
   table: unknown;
+  /** as in the event face */
+  activations: unknown;
   /** that it took */
   seconds: number;
 }
@@ -285,6 +315,14 @@ export interface TakeEvent {
   moved_mm: unknown;
 }
 
+/** Binary. Where a region's change holds. */
+export interface SharesEvent {
+  /** as it was asked */
+  key: string;
+  /** float32, one a vertex of the skin, 0 to 1 */
+  values: Stretch;
+}
+
 /** Binary. One face at one instant, in static equilibrium: while a slider is dragged. */
 export interface ShapeEvent {
   /** whose */
@@ -307,6 +345,8 @@ export interface Requests {
   add_variant: { fields: AddVariantRequest; answer: AddVariantAnswer };
   remove_variant: { fields: RemoveVariantRequest; answer: RemoveVariantAnswer };
   rename_variant: { fields: RenameVariantRequest; answer: RenameVariantAnswer };
+  paint: { fields: PaintRequest; answer: PaintAnswer };
+  region_shares: { fields: RegionSharesRequest; answer: RegionSharesAnswer };
   undo: { fields: UndoRequest; answer: UndoAnswer };
   redo: { fields: RedoRequest; answer: RedoAnswer };
   move_landmark: { fields: MoveLandmarkRequest; answer: MoveLandmarkAnswer };
@@ -330,5 +370,6 @@ export interface Events {
   live: LiveEvent;
   live_shape: LiveShapeEvent;
   take: TakeEvent;
+  shares: SharesEvent;
   shape: ShapeEvent;
 }

@@ -2,8 +2,8 @@
 // Sliders of the tissue, made of the keys that the server tells.
 import { element } from '../page/dom';
 import type { Edits } from './edits';
-import { upper } from '../page/format';
 import { isRecord, type SceneKey } from './messages';
+import { regionChooser } from './region_chooser';
 import { linear, logarithmic, Slider, type Course } from './slider';
 import type { StudioState } from './studio_state';
 import { words } from './words';
@@ -69,18 +69,7 @@ export class TissuePanel {
 
   /** How stiff a part of the face is, over the rest. */
   private addRegion(): void {
-    const chosen = this.part.value;
-    this.part.replaceChildren();
-    for (const { name, meaning } of this.state.regions)
-      for (const side of ['R', 'L', ''] as const) {
-        const called = upper(name.replaceAll('_', ' '));
-        const option = new Option(
-          side ? words.ofSide(called, words.sideNames[side]) : words.regionBoth(called), side ? `${name}_${side}` : name);
-        option.title = meaning;
-        this.part.add(option);
-      }
-    this.part.value = chosen || 'cheek_R';
-    if (this.part.selectedIndex < 0) this.part.selectedIndex = 0;
+    regionChooser(this.state.regions, this.part);
     this.part.onchange = () => this.update();
     const label = element('label', '', 'part');
     label.append(element('span', words.regionChoose), this.part);

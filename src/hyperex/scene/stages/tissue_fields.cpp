@@ -7,11 +7,10 @@
 
 namespace hyperex::scene {
 
-std::optional<tissue::TissueField> TissueFields::of(const Scene& scene, const std::string& owner) {
-  const tissue::TissueFieldOptions options = scene.tissue;
-  if (!is_graded(options)) return std::nullopt;
-  Progress progress("spreading the tissue's parameters over the face", 0);
-  if (needs_registration(options) && !with_face_) {
+template <typename Made>
+Made TissueFields::made(const Scene& scene, const std::string& owner,
+                        const std::function<Made(const tissue::TissueFieldMaker&)>& make) {
+  if (needs_registration(scene.tissue) && !with_face_) {
     face_ = tissue::register_canonical_face(inputs_.landmarks, inputs_.scan.mesh);
     maker_.reset();
     with_face_ = true;
@@ -20,14 +19,29 @@ std::optional<tissue::TissueField> TissueFields::of(const Scene& scene, const st
   if (!maker_)
     maker_.emplace(whole_ ? *whole_ : mesh_, inputs_.landmarks, face_ ? &*face_ : nullptr);
   try {
-    tissue::TissueField field = maker_->make(options);
-    if (mesh_.full) keep_thinned(field, *mesh_.full);
-    return field;
+    return make(*maker_);
   } catch (const tissue::FieldError& error) {
     InputProblem problem = problem_at(scene, "tissue." + error.problem.key, error.problem.expected);
     problem.key = owner + problem.key;
     throw InputError(problem);
   }
+}
+
+std::optional<tissue::TissueField> TissueFields::of(const Scene& scene, const std::string& owner) {
+  const tissue::TissueFieldOptions options = scene.tissue;
+  if (!is_graded(options)) return std::nullopt;
+  Progress progress("spreading the tissue's parameters over the face", 0);
+  tissue::TissueField field = made<tissue::TissueField>(
+      scene, owner, [&](const tissue::TissueFieldMaker& maker) { return maker.make(options); });
+  if (mesh_.full) keep_thinned(field, *mesh_.full);
+  return field;
+}
+
+Eigen::VectorXd TissueFields::region_shares(const Scene& scene, std::size_t region) {
+  const auto shares = made<Eigen::VectorXd>(scene, "", [&](const tissue::TissueFieldMaker& maker) {
+    return maker.region_shares(scene.tissue, region);
+  });
+  return mesh_.full ? Eigen::VectorXd(shares(mesh_.full->kept)) : shares;
 }
 
 }  // namespace hyperex::scene

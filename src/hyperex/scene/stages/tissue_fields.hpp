@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -19,8 +20,14 @@ class TissueFields {
   /// Nothing where the tissue is the same everywhere. Throws InputError naming the scene's key,
   /// `owner` before it: "variant[0].".
   std::optional<tissue::TissueField> of(const Scene& scene, const std::string& owner = "");
+  /// How much of a region's change holds at each vertex of the skin, 0 to 1. Errors as above.
+  Eigen::VectorXd region_shares(const Scene& scene, std::size_t region);
 
  private:
+  template <typename Made>
+  Made made(const Scene& scene, const std::string& owner,
+            const std::function<Made(const tissue::TissueFieldMaker&)>& make);
+
   const Inputs& inputs_;
   const tissue::TissueMesh& mesh_;
   std::optional<tissue::TissueMesh> whole_;  ///< of a thinned scan: files name its own vertices

@@ -188,13 +188,22 @@ TriMesh TissueFieldMaker::scan() const {
   return {mesh_.skin.points.topRows(mesh_.scan_vertices), mesh_.skin.triangles};
 }
 
-/// Values of the scan's vertices, and between them those of the vertices that the cut added.
+/// Values of the scan's vertices, and between them those of the vertices that the cut added; where
+/// an edge joined the lips, each end of the cut has the value of its own lip: what holds for one
+/// does not run over to the other.
 Eigen::VectorXd TissueFieldMaker::on_skin(const Eigen::VectorXd& of_scan) const {
+  const std::vector<double>& margin = mesh_.skin_upper_margin;
   Eigen::VectorXd out(mesh_.skin.points.rows());
   out.head(mesh_.scan_vertices) = of_scan;
   for (std::size_t i = 0; i < mesh_.appended.size(); ++i) {
     const EdgePoint& e = mesh_.appended[i];
-    out[mesh_.scan_vertices + Eigen::Index(i)] = (1 - e.t) * of_scan[e.a] + e.t * of_scan[e.b];
+    const Eigen::Index own = mesh_.scan_vertices + Eigen::Index(i);
+    double t = e.t;
+    if (margin[e.a] * margin[e.b] < 0) t = margin[e.a] * margin[own] > 0 ? 0 : 1;
+    // No product with a value that counts for nothing: it may be unknown.
+    out[own] = t == 0   ? of_scan[e.a]
+               : t == 1 ? of_scan[e.b]
+                        : (1 - t) * of_scan[e.a] + t * of_scan[e.b];
   }
   return out;
 }

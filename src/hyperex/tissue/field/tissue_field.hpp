@@ -65,6 +65,8 @@ class TissueFieldMaker {
 
   /// problems_of(options) must be empty. Throws FieldError, InputError (the file a vertex).
   TissueField make(const TissueFieldOptions& options) const;
+  /// How much of a region's change holds at each vertex of the skin, 0 to 1. Throws as make().
+  Eigen::VectorXd region_shares(const TissueFieldOptions& options, std::size_t index) const;
 
  private:
   std::array<Eigen::VectorXd, parameter_count> skin_field(const TissueFieldOptions& options) const;
@@ -73,7 +75,6 @@ class TissueFieldMaker {
   void apply_region(const TissueFieldOptions& options, std::size_t index,
                     std::array<Eigen::VectorXd, parameter_count>& field) const;
   Eigen::VectorXd region_depth(const TissueFieldOptions& options, std::size_t index) const;
-  Eigen::VectorXd region_shares(const TissueFieldOptions& options, std::size_t index) const;
   TriMesh scan() const;
   Eigen::VectorXd on_skin(const Eigen::VectorXd& of_scan) const;
 

@@ -14,6 +14,13 @@ import { Teeth } from './teeth';
 
 const rampSize = 256;
 
+/** A place on the skin, wherever it has moved to. */
+export interface SkinHit {
+  vertices: [number, number, number];
+  /** Of 1 in all. */
+  weights: [number, number, number];
+}
+
 /** What all faces are drawn with. */
 export class FaceMaterials {
   /** Colours of a map, looked up for every pixel. */
@@ -165,6 +172,16 @@ export class FaceBody {
     const at = this.mesh.worldToLocal(first.point.clone());
     const far = (vertex: number) => at.distanceToSquared(this.positionOf(vertex));
     return [a, b, c].map((i) => (this.split ? this.split[i] : i)).reduce((p, q) => (far(q) < far(p) ? q : p));
+  }
+
+  /** Where on the skin a ray first meets this face: a triangle's vertices, and their weights. */
+  hitOn(ray: Raycaster): SkinHit | null {
+    this.mesh.geometry.boundingSphere = null; // it was that of another frame
+    const [first] = ray.intersectObject(this.mesh, false);
+    if (!first?.face || !first.barycoord) return null;
+    const { a, b, c } = first.face;
+    const vertices = [a, b, c].map((i) => (this.split ? this.split[i] : i)) as SkinHit['vertices'];
+    return { vertices, weights: [first.barycoord.x, first.barycoord.y, first.barycoord.z] };
   }
 
   /** Where a ray first meets this face, in the scan's own axes. */

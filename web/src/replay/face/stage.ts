@@ -28,6 +28,8 @@ export class Stage {
   private readout: Readout | null = null;
   private colourings: Colouring[];
   private colouring: Colouring;
+  /** Beside the replay's own, and what was chosen before it. */
+  private lent: { colouring: Colouring; before: string } | null = null;
   private painting: Painting;
   private sayOfFaces: (note: (face: Face) => string) => void;
   private timeS = 0;
@@ -70,11 +72,25 @@ export class Stage {
     this.facesUndoing = new Undoing();
     this.sayOfFaces = wireFaces(this.replay, this.shown, this.facesUndoing);
     this.colourings = colouringsOf(this.replay);
-    this.colouring = this.colourings.find(({ key }) => key === this.colouring.key) ?? this.colourings[0];
+    this.colouring = this.choices.find(({ key }) => key === this.colouring.key) ?? this.colourings[0];
     if (!this.viewer) return;
     this.viewer.refresh();
     this.fillColourings();
     this.fillOverlays();
+  }
+
+  /** Another colouring beside the replay's own, chosen at once; null: none any more, and the one before it. */
+  lend(colouring: Colouring | null): void {
+    if (!this.viewer) return;
+    const chosen = this.lent && this.colouring === this.lent.colouring ? this.lent.before : this.colouring.key;
+    this.lent = colouring && { colouring, before: chosen };
+    this.colouring = colouring ?? this.colourings.find(({ key }) => key === chosen) ?? this.colourings[0];
+    this.fillColourings();
+  }
+
+  /** After what a colouring tells has changed. */
+  repaint(): void {
+    if (this.viewer) this.paint();
   }
 
   /** Off the page for good; leaves its elements as another stage wants them. */
@@ -150,9 +166,13 @@ export class Stage {
       }, { signal: this.undoing.signal });
   }
 
+  private get choices(): Colouring[] {
+    return this.lent ? [...this.colourings, this.lent.colouring] : this.colourings;
+  }
+
   private fillColourings(): void {
     at('colouring').replaceChildren();
-    for (const colouring of this.colourings) {
+    for (const colouring of this.choices) {
       const button = document.createElement('button');
       button.type = 'button';
       button.dataset.colouring = colouring.key;
@@ -180,7 +200,7 @@ export class Stage {
   }
 
   private nextColouring(): void {
-    const { colourings } = this;
+    const colourings = this.choices;
     this.setColouring(colourings[(colourings.indexOf(this.colouring) + 1) % colourings.length]);
     this.say();
   }

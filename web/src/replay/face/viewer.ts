@@ -9,7 +9,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Painting } from './colouring';
 import type { Replay, Vec3 } from '../data';
 import { SceneMotion } from './deform';
-import { FaceBody, FaceMaterials } from './face_body';
+import { FaceBody, FaceMaterials, type SkinHit } from './face_body';
 import { uprightFromScan } from './face_frame';
 import type { Marks } from './marks';
 import type { Overlay, OverlayName } from './overlays';
@@ -153,6 +153,28 @@ export class FaceViewer {
   /** Where a ray through a place in the window first meets the one face that is shown, in the scan's axes. */
   skinAt(clientX: number, clientY: number): Vector3 | null {
     return this.passes()[0].body.placeOn(this.rayAt(clientX, clientY, this.passes()[0]));
+  }
+
+  /** The place on the skin under a place in the window, on whichever face is shown there; `pixelsPerM`: at its depth. */
+  hitAt(clientX: number, clientY: number): (SkinHit & { pixelsPerM: number }) | null {
+    const x = clientX - this.host.getBoundingClientRect().left;
+    const pass = this.passes().find(({ from, to }) => x >= from && x < to);
+    const hit = pass?.body.hitOn(this.rayAt(clientX, clientY, pass));
+    if (!pass || !hit) return null;
+    const at = pass.body.mesh.localToWorld(pass.body.positionOf(hit.vertices[0]));
+    const depth = -at.applyMatrix4(this.camera.matrixWorldInverse).z;
+    return { ...hit, pixelsPerM: this.host.clientHeight / (2 * depth * Math.tan(radians(this.camera.fov) / 2)) };
+  }
+
+  /** Where a place on the skin is seen on the last of the faces shown, in the window. */
+  seenAt({ vertices, weights }: SkinHit): { x: number; y: number } {
+    const passes = this.passes();
+    const { body, x, width } = passes[passes.length - 1];
+    const at = new Vector3();
+    vertices.forEach((vertex, k) => at.addScaledVector(body.positionOf(vertex), weights[k]));
+    body.mesh.localToWorld(at).project(this.camera);
+    const box = this.host.getBoundingClientRect();
+    return { x: box.left + x + ((at.x + 1) / 2) * width, y: box.top + ((1 - at.y) / 2) * box.height };
   }
 
   /** Where a point in the scan's axes lies in the window. */

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is painted: rows of tissue.region that name a file of shares, one a vertex, and how these lie on the skin.
+import type { Face } from '../replay/data';
+import type { Connection } from './connection';
+import { isRecord } from './messages';
+import type { StudioState } from './studio_state';
+
+export const regionKey = 'tissue.region';
+export type Row = Record<string, unknown>;
+export type Factor = 'young' | 'viscosity';
+/** Their keys of a scene, and of tissue maps. */
+export const parameterKeys: Record<Factor, string> = { young: 'young_kpa', viscosity: 'viscosity_pa_s' };
+
+export interface Patch {
+  /** Its file, as the scene names it. */
+  file: string;
+  row: Row;
+}
+
+export const rowsOf = (value: unknown): Row[] => (Array.isArray(value) ? value.filter(isRecord) : []);
+export const isPatch = (row: Row): boolean => typeof row.painted === 'string' && row.painted !== '';
+export const patchesOf = (rows: Row[]): Patch[] => rows.filter(isPatch).map((row) => ({ file: String(row.painted), row }));
+export const factorOf = (row: Row, factor: Factor): number => Number(row[`${factor}_factor`] ?? 1);
+
+/** Files of the studio's own are named after what they hold, wherever they lie. */
+const nameOf = (file: string): string => file.replace(/^.*\//, '');
+
+/** Shares of files and of named regions, from the server, which are kept: neither changes on one face. */
+export class Shares {
+  private readonly known = new Map<string, Float32Array>();
+  private readonly asked = new Map<string, Promise<Float32Array | null>>();
+
+  constructor(private readonly connection: Connection) {
+    connection.on('shares', ({ key, values, block }) => void this.known.set(key, block.float32(values).slice()));
+  }
+
+  /** Before another face. */
+  clear(): void {
+    this.known.clear();
+    this.asked.clear();
+  }
+
+  /** Null: not here yet. */
+  ofFile(file: string): Float32Array | null {
+    return this.known.get(nameOf(file)) ?? null;
+  }
+
+  /** Rejects where the server refuses. */
+  async fetchFile(file: string): Promise<Float32Array | null> {
+    return this.fetch(nameOf(file), { painted: file });
+  }
+
+  async fetchRegion(name: string): Promise<Float32Array | null> {
+    return this.fetch(`region ${name}`, { name });
+  }
+
+  private fetch(key: string, region: Row): Promise<Float32Array | null> {
+    let asked = this.asked.get(key);
+    if (!asked) {
+      asked = this.connection.ask('region_shares', { region, key }).then(() => this.known.get(key) ?? null);
+      this.asked.set(key, asked);
+      asked.catch(() => this.asked.delete(key));
+    }
+    return asked;
+  }
+}
+
+/** The values of a parameter over a face as it is being painted. */
+export class PaintedTissue {
+  /** Of each face, the patches that the server's own map holds. */
+  private held: Patch[][] = [];
+
+  constructor(private readonly state: StudioState, private readonly shares: Shares) {}
+
+  /** After a motion came: its maps are those of the scene as it is. */
+  hold(): void {
+    this.held = (this.state.scene?.values ?? []).map((values) => patchesOf(rowsOf(values[regionKey])));
+  }
+
+  /** Of a face with these patches, in the units of scene files. `inHand`: shares that stand for a patch's own. */
+  values(face: number, patches: Patch[], factor: Factor, inHand: { patch: number; shares: Float32Array; row: Row } | null, out: Float32Array): void {
+    const shown: Face | undefined = this.state.source.replay.faces[face] ?? this.state.source.replay.faces[0];
+    const map = shown.tissue.find(({ key }) => key === parameterKeys[factor]);
+    if (map) for (let v = 0; v < out.length; ++v) out[v] = map.least + (map.bytes[v] / 255) * (map.greatest - map.least);
+    else out.fill(Number(this.state.valuesOf(face)[`tissue.${parameterKeys[factor]}`]) || 0);
+    const before = map ? this.held[face] ?? [] : [];
+    const all = [...before, ...patches].map(({ file }) => this.shares.ofFile(file));
+    // Where not all is here yet, what the server has told must do.
+    const whole = all.every((one, i) => one !== null || (inHand !== null && i - before.length === inHand.patch));
+    if (!whole) return;
+    const times = (shares: Float32Array, by: number, inverse: boolean) => {
+      if (by === 1) return;
+      for (let v = 0; v < out.length; ++v) {
+        const part = 1 + shares[v] * (by - 1);
+        out[v] *= inverse ? 1 / part : part;
+      }
+    };
+    before.forEach(({ row }, i) => times(all[i]!, factorOf(row, factor), true));
+    patches.forEach(({ row }, i) => {
+      const own = inHand?.patch === i ? inHand : { shares: all[before.length + i]!, row };
+      times(own.shares, factorOf(own.row, factor), false);
+    });
+    if (inHand && inHand.patch >= patches.length) times(inHand.shares, factorOf(inHand.row, factor), false);
+  }
+}
