@@ -138,6 +138,82 @@ TEST_F(StudioSession, WeakensAMuscleLiveAndRunsItAgainFromTheSavedScene) {
                   event("motion")->head["table"][face][corner].get<double>(), 1e-6);
 }
 
+TEST_F(StudioSession, PaintedPatchesAreRunAgainFromTheSavedScene) {
+  open();
+  ask("add_variant", {{"name", "painted"}, {"like", 0}});
+  // What is painted: the right cheek, and a spot of the left one.
+  const auto shares_of = [&](const json& region) {
+    const json answer = ask("region_shares", {{"region", region}, {"key", "k"}});
+    EXPECT_FALSE(answer.contains("error")) << answer;
+    const json& at = event("shares")->head["values"];
+    EXPECT_EQ(event("shares")->head["key"], "k");
+    std::vector<float> values(at["count"].get<std::size_t>());
+    std::memcpy(values.data(), event("shares")->block.data() + at["offset"].get<std::size_t>(),
+                4 * values.size());
+    return values;
+  };
+  const auto paint = [&](const std::vector<float>& shares) {
+    json vertices = json::array(), some = json::array();
+    for (std::size_t v = 0; v < shares.size(); ++v)
+      if (shares[v] > 0) {
+        vertices.push_back(v);
+        some.push_back(shares[v]);
+      }
+    return ask("paint", {{"vertices", vertices}, {"shares", some}});
+  };
+  const std::vector<float> cheek = shares_of({{"name", "cheek_R"}});
+  const std::string stiff = paint(cheek)["file"];
+  EXPECT_EQ(paint(cheek)["file"], stiff) << "the same paint is the same file";
+  const std::vector<float> back = shares_of({{"painted", stiff}});
+  ASSERT_EQ(back.size(), cheek.size());
+  for (std::size_t v = 0; v < back.size(); ++v) ASSERT_NEAR(back[v], cheek[v], 1e-5);
+  const std::string soft = paint(shares_of({{"name", "cheek_L"}}))["file"];
+  EXPECT_NE(soft, stiff);
+  const json rows = {{{"painted", stiff}, {"young_factor", 6}},
+                     {{"painted", soft}, {"young_factor", 0.5}, {"viscosity_factor", 2}}};
+  set({{"tissue.region", rows}}, 1, true);
+  EXPECT_NE(event("shape"), nullptr);
+  EXPECT_FALSE(set({{"tissue.region", rows}}, 1).contains("error"));
+  // Rows that are there already go back as the scene has them.
+  const json known = event("scene")->head["values"][1]["tissue.region"];
+  EXPECT_FALSE(shares_of(known[0]).empty());
+  EXPECT_FALSE(set({{"tissue.region", known}}, 1).contains("error"));
+  work();
+  EXPECT_LT(right_mm(1), right_mm(0) - 0.2) << "the stiff side";
+  const json table = event("motion")->head["table"];
+
+  const json saved = ask("save", {{"what", "scene"}, {"name", "painted"}});
+  const scene::Scene scene =
+      scene::read_scene(saved["path"].get<std::string>(), {"output.vtu=false", "output.glb=false"});
+  EXPECT_EQ(scene.variants[0].scene.tissue.regions[0].painted.parent_path(),
+            folder_.path() / "mine" / "painted_files");
+  const auto summary = scene::run_scene(scene, folder_.path() / "run");
+  for (const char* corner : {"commissure_L_mm", "commissure_R_mm"})
+    EXPECT_NEAR(summary["variants"]["table"][1][corner].get<double>(),
+                table[1][corner].get<double>(), 1e-6);
+}
+
+TEST_F(StudioSession, PaintThatIsNoneIsRefused) {
+  EXPECT_TRUE(ask("paint", {{"vertices", {1}}, {"shares", {1}}}).contains("error"));
+  open();
+  const std::vector<std::pair<json, json>> wrong = {{json::array(), json::array()},
+                                                    {{1, 2}, {1}},
+                                                    {{-1}, {1}},
+                                                    {{1000000000}, {1}},
+                                                    {{1.5}, {1}},
+                                                    {{1}, {0}},
+                                                    {{1}, {1.5}},
+                                                    {{1}, {"x"}},
+                                                    {"x", "x"}};
+  for (const auto& [vertices, shares] : wrong)
+    EXPECT_TRUE(ask("paint", {{"vertices", vertices}, {"shares", shares}}).contains("error"))
+        << vertices;
+  for (const json& region :
+       {json{{"painted", "/etc/passwd"}}, json{{"name", "nose ring"}}, json("x"), json::object()})
+    EXPECT_TRUE(ask("region_shares", {{"region", region}, {"key", ""}}).contains("error"))
+        << region;
+}
+
 TEST_F(StudioSession, UndoesAndRedoesEachStep) {
   open();
   ask("add_variant", {{"name", "a"}, {"like", 0}, {"preset", "palsy_complete_R"}});

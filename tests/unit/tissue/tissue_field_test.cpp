@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/field/presets.hpp"
@@ -367,6 +368,36 @@ TEST_F(Field, APaintedRegionChangesAsMuchAsItIsPainted) {
   EXPECT_EQ(problems[0].key, "region[0].painted");
   std::filesystem::remove(csv);
   std::filesystem::remove(ply);
+}
+
+TEST(PaintedLips, PaintOfOneLipDoesNotRunOverToTheOther) {
+  io::Landmarks landmarks;
+  const TriMesh& closed = canonical_face().mesh;
+  for (const auto& name : face::all_ibug())
+    landmarks[name] = canonical_face().landmark(name, closed.points);
+  TissueMeshOptions coarse;
+  coarse.element_size_m = 0.006;
+  const TissueMesh mesh = build_tissue_mesh(closed, landmarks, coarse, "closed");
+  const std::vector<double>& margin = mesh.skin_upper_margin;
+  const auto file = std::filesystem::temp_directory_path() / "hyperex_lower_lip.csv";
+  std::ofstream table(file);
+  table << "weight\n";
+  for (Eigen::Index v = 0; v < mesh.scan_vertices; ++v) table << (margin[v] < 0) << "\n";
+  table.close();
+  TissueFieldOptions options;
+  options.regions.push_back({.painted = file, .factor = {2.0}});
+  const Eigen::VectorXd shares =
+      TissueFieldMaker(mesh, landmarks, nullptr).region_shares(options, 0);
+  int upper = 0, lower = 0;
+  for (std::size_t i = 0; i < mesh.appended.size(); ++i) {
+    const EdgePoint& e = mesh.appended[i];
+    if (!(margin[e.a] * margin[e.b] < 0)) continue;
+    const Eigen::Index own = mesh.scan_vertices + Eigen::Index(i);
+    EXPECT_EQ(shares[own], margin[own] < 0 ? 1 : 0);
+    ++(margin[own] < 0 ? lower : upper);
+  }
+  EXPECT_GT(std::min(lower, upper), 3);
+  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -10,6 +10,13 @@ namespace hyperex::scene {
 template <typename Made>
 Made TissueFields::made(const Scene& scene, const std::string& owner,
                         const std::function<Made(const tissue::TissueFieldMaker&)>& make) {
+  // A studio's scene changes after its inputs were read and checked.
+  const auto problems = tissue::problems_of(scene.tissue, inputs_.landmarks);
+  if (!problems.empty()) {
+    InputProblem first = problem_at(scene, "tissue." + problems[0].key, problems[0].expected);
+    first.key = owner + first.key;
+    throw InputError(first);
+  }
   if (needs_registration(scene.tissue) && !with_face_) {
     face_ = tissue::register_canonical_face(inputs_.landmarks, inputs_.scan.mesh);
     maker_.reset();
