@@ -90,7 +90,7 @@ coverage: ## which lines the tests run: a table by room, build/coverage/report/i
 	ctest --preset coverage --parallel $(JOBS) || true
 	scripts/coverage.sh
 
-lint: ## formatting and clang-tidy over everything (some 30 minutes of CPU)
+lint: ## formatting, words and clang-tidy over everything (some 30 minutes of CPU)
 	scripts/setup.sh --lint
 	cmake --preset release -DHYPEREX_TESTS=ON
 	cmake --build --preset release --parallel $(JOBS)

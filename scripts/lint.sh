@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Formatting (.clang-format) and a small set of checks (.clang-tidy) over the C++ of this repository.
-#   scripts/lint.sh                    both, over everything (the checks take some 30 minutes of CPU)
+# Formatting (.clang-format) and a small set of checks (.clang-tidy) over the C++ of this repository;
+# words: the length of sentences and the links of the pages for people (scripts/words.py), spelling (codespell).
+#   scripts/lint.sh                    all, over everything (the checks take some 30 minutes of CPU)
 #   scripts/lint.sh --format           formatting alone (seconds)
+#   scripts/lint.sh --words            words alone (seconds)
 #   scripts/lint.sh --tidy [FILE...]   the checks alone, over these .cpp files
 # The checks read build/release/compile_commands.json and need what a build generates: build first.
-# Both need version 14, Debian 12's: others format and warn differently.
+# clang's two need version 14, Debian 12's: others format and warn differently.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 die() { printf 'lint: %s\n' "$*" >&2; exit 2; }
@@ -20,6 +22,20 @@ format() {
   git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror ||
     die "not formatted: clang-format -i on the files above"
   echo "lint: $(git ls-files '*.cpp' '*.hpp' | wc -l) files are formatted"
+}
+
+# Misspelt on purpose: the inputs of tests. Not ours: the list of packages of npm.
+words() {
+  scripts/words.py || die "sentences or links to mend (above); exceptions: scripts/words_allowed.txt"
+  if ! command -v codespell > /dev/null; then
+    echo "lint: SKIPPED spelling: codespell is missing (scripts/setup.sh --lint)"
+    return
+  fi
+  git ls-files -z -- ':!tests/' ':!web/package-lock.json' ':!scripts/spelling_allowed.txt' |
+    xargs -0 grep -lIZ '' |
+    xargs -0 codespell --quiet-level 2 --ignore-words scripts/spelling_allowed.txt ||
+    die "words misspelt (above); what is right all the same: scripts/spelling_allowed.txt"
+  echo "lint: codespell finds nothing"
 }
 
 tidy() {
@@ -40,7 +56,8 @@ tidy() {
 case "${1:-}" in
   --format) format ;;
   --tidy) shift; tidy "$@" ;;
-  '') format; tidy ;;
-  -h | --help) sed -n '3,8s/^# \{0,1\}//p' "$0" ;;
-  *) die "unknown option $1 (there are --format and --tidy)" ;;
+  --words) words ;;
+  '') format; words; tidy ;;
+  -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" ;;
+  *) die "unknown option $1 (there are --format, --words and --tidy)" ;;
 esac

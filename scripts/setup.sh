@@ -9,7 +9,7 @@
 #   scripts/setup.sh --fuzz    also clang and libFuzzer
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
 #   scripts/setup.sh --interop  also the programs that make interop tries: ParaView, Blender, Snakemake, Slurm
-#   scripts/setup.sh --lint    also clang-format, clang-tidy and gcovr (with --tests)
+#   scripts/setup.sh --lint    also clang-format, clang-tidy, gcovr and codespell (with --tests)
 # Says first what it will install and how large it is, installs only what is missing, and is quick
 # when nothing is.
 set -euo pipefail
@@ -47,7 +47,7 @@ case "${1:-}" in
   --tests | --lint)
     packages+=("${video[@]}" "${python[@]}" "${tests[@]}")
     [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
-    [[ "$1" == --tests ]] || packages+=(clang-format clang-tidy gcovr)
+    [[ "$1" == --tests ]] || packages+=(clang-format clang-tidy gcovr codespell)
     ;;
   --fuzz) packages+=(clang libclang-rt-14-dev) ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
