@@ -18,14 +18,15 @@ help: ## this list
 	@echo "make TARGET, where TARGET is one of"
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  \1\t\2/p' Makefile | expand -t 15
 
-demo: build ## re-enact a mouth opening on the face that comes with the program
+demo: build ## one smile, then the same pull with a weak muscle and with a stiff scar, in millimetres
 	$(PROGRAM) run examples/demo.toml --out out/demo
 	@echo
-	@echo "The face moves. Open in a browser:"
+	@echo "The face smiles, three times side by side. Open in a browser:"
 	@echo "  $(CURDIR)/out/demo/report.html"
 	@echo "In Blender or any glTF viewer: out/demo/performance.glb; in ParaView: out/demo/frames.pvd"
 	@echo "(there the filter Warp By Vector moves the tissue)."
-	@echo "Your own face next: see 'Your own data' in README.md."
+	@echo "To pull the muscles yourself: $(PROGRAM) studio examples/demo.toml"
+	@echo "Your own face next: $(PROGRAM) new SCAN MOTION writes a scene to start from."
 
 build: setup ## the program alone: build/release/bin/hyperex
 	cmake --preset release $(CMAKE_OPTIONS)

@@ -23,7 +23,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SCAN = ROOT / "../shared/data/ict/subject_A_neutral_scan.ply"
-SCENE = ROOT / "examples" / ("subject_a_mouth_open.toml" if SCAN.exists() else "demo.toml")
+SCENE = ROOT / "examples" / ("subject_a_mouth_open.toml" if SCAN.exists() else "mouth_open.toml")
 
 
 def run(program, scene, folder, options, cache):

@@ -4,8 +4,8 @@
 set(examples ${PROJECT_SOURCE_DIR}/examples)
 set(examples_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex/examples)
 if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
-  install(FILES ${examples}/demo.toml ${examples}/stiff_cheek.toml ${examples}/variants.toml
-                ${examples}/what_if.toml ${examples}/smile_arkit.csv
+  install(FILES ${examples}/mouth_open.toml ${examples}/stiff_cheek.toml ${examples}/variants.toml
+                ${examples}/demo.toml ${examples}/smile_arkit.csv
                 ${examples}/one_sided_smile.toml ${examples}/one_sided_smile.csv
           DESTINATION ${examples_folder} COMPONENT program)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex

@@ -21,8 +21,8 @@ visitor_does() {
 }
 
 use_program() {
-  install_packages "./hyperex_*.deb" && visitor_does program "hyperex run $examples/demo.toml --out demo && test -s demo/report.html &&
-    hyperex run $examples/what_if.toml --out what_if | tee said && grep 'right side paralysed' said"
+  install_packages "./hyperex_*.deb" && visitor_does program "hyperex run $examples/mouth_open.toml --out mouth_open && test -s mouth_open/report.html &&
+    hyperex run $examples/demo.toml --out demo | tee said && grep 'weak right zygomatic branch' said"
 }
 use_library() {
   install_packages "./libhyperex-dev_*.deb" g++ cmake && visitor_does library "cp -r $examples/cpp . && cmake -S cpp -B build && cmake --build build &&

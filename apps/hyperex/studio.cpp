@@ -52,7 +52,7 @@ void add_studio(CLI::App& program) {
       ->option_text("yes|no");
   command->add_flag("--no-browser", *no_browser, "Print the address and open no browser");
   command->add_flag("--no-cache", *no_cache, "Keep and take no results of earlier runs");
-  command->footer("Example: hyperex studio examples/what_if.toml");
+  command->footer("Example: hyperex studio examples/demo.toml");
   command->callback([=] {
     take_library_memory();
     Progress::silence(true);

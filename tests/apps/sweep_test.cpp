@@ -256,7 +256,7 @@ TEST_F(Sweep, ThePagesExampleRuns) {
   const std::string page = read_file(HYPEREX_SOURCE_DIR "/docs/studies.md"), fence = "```toml\n";
   const auto begin = page.find(fence) + fence.size();
   fs::create_directory(in("examples"));
-  fs::copy_file(HYPEREX_SOURCE_DIR "/examples/demo.toml", in("examples/demo.toml"));
+  fs::copy_file(HYPEREX_SOURCE_DIR "/examples/mouth_open.toml", in("examples/mouth_open.toml"));
   std::ofstream(in("examples/study.toml")) << page.substr(begin, page.find("```", begin) - begin);
   const Outcome found = call("sweep examples/study.toml");
   ASSERT_EQ(found.status, 0) << found.err;

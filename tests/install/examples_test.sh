@@ -22,7 +22,7 @@ build/stiffness_sweep > sweep.csv
 build/own_mesh > own.txt
 cat first.txt sweep.csv
 
-# The same numbers as those of `hyperex run examples/demo.toml`.
+# The same numbers as those of `hyperex run examples/mouth_open.toml`.
 read -r left right < <(awk -F, '$1 == "cheilion" { printf "%.2f %.2f\n", $2, $3 }' "$demo/excursions.csv")
 grep -qx "excursion of the corners: left $left mm, right $right mm" first.txt ||
   said "the program's corners travel $left and $right mm"

@@ -20,7 +20,7 @@ class Scenes(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def test_run_scene_writes_what_the_program_does(self):
-        summary = hyperex.run_scene(EXAMPLES / "demo.toml", self.folder / "out",
+        summary = hyperex.run_scene(EXAMPLES / "mouth_open.toml", self.folder / "out",
                                     {"output.vtu": False, "output.glb": False,
                                      "output.report": False})
         for name in ("motion.csv", "symmetry.csv", "excursions.csv", "skin_peak.ply"):
@@ -50,13 +50,13 @@ class Scenes(unittest.TestCase):
 
     def test_changes_that_cannot_be(self):
         with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -3: expected"):
-            hyperex.run_scene(EXAMPLES / "demo.toml", self.folder / "out", {"tissue.young_kpa": -3})
+            hyperex.run_scene(EXAMPLES / "mouth_open.toml", self.folder / "out", {"tissue.young_kpa": -3})
         self.assertFalse((self.folder / "out").exists())
         with self.assertRaisesRegex(hyperex.InputError, "tisue"):
-            hyperex.check_scene(EXAMPLES / "demo.toml", {"tisue.young_kpa": 3})
+            hyperex.check_scene(EXAMPLES / "mouth_open.toml", {"tisue.young_kpa": 3})
 
     def test_check(self):
-        checked = hyperex.check_scene(EXAMPLES / "demo.toml")
+        checked = hyperex.check_scene(EXAMPLES / "mouth_open.toml")
         self.assertEqual(checked["warnings"], [])
         self.assertIn("aligned by 92 common points", checked["notes"][0])
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What muscles do in a report: curves a side, by group, and their lines over the face.
-//   REPORT=out/what_if/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/muscles.test.mjs
+//   REPORT=out/demo/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/muscles.test.mjs
 // Without REPORT it takes the variants of a made-up face that write_report_fixtures wrote, and gives it muscles.
 import assert from 'node:assert/strict';
 import { mkdir, mkdtemp, writeFile } from 'node:fs/promises';

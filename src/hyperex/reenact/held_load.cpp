@@ -138,6 +138,19 @@ fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double d
                           });
 }
 
+HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change) {
+  std::vector<Eigen::Index> changed;
+  for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * change.size(); ++m)
+    if (change[m % change.size()] != 0) changed.push_back(m);
+  HeldLoad out;
+  out.time_s = load.time_s;
+  out.force = load.force(Eigen::all, changed);
+  out.course = load.course(changed, Eigen::all);
+  for (std::size_t i = 0; i < changed.size(); ++i)
+    out.course.row(Eigen::Index(i)) *= change[changed[i] % change.size()];
+  return out;
+}
+
 std::vector<char> turning_columns(const HeldLoad& load, const muscles::MuscleTable& table) {
   std::vector<char> out(std::size_t(load.force.cols()), 0);
   const std::size_t count = load.muscles.names.size();

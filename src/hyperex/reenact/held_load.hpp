@@ -56,6 +56,10 @@ Eigen::Index jaw_row(const HeldLoad& load);
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
                     double tolerance, Eigen::Index prescribed);
 
+/// What gains of 1 + `change` (one a muscle) add to the load as it was recorded: no names, and the
+/// columns of the muscles whose gain changes, their course times the change.
+HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change);
+
 /// Of each column: whether its force turns with the tissue where strain is finite. Those of muscles
 /// of the cheek (TemplateMuscle::cheek) do, whose lines lie in the skin that they carry; those of
 /// the jaw's springs, of what is left over and of muscles of lips and chin keep their direction

@@ -24,6 +24,26 @@ Box grown(const Box& box, double by) {
   return {box.min().array() - by, box.max().array() + by};
 }
 
+/// A box about points as seen along a direction.
+class Outline {
+ public:
+  Outline(const Points& points, const Vec3& forward) {
+    axes_ << forward.unitOrthogonal(), Vec3::Zero(), forward;
+    axes_.col(1) = forward.cross(axes_.col(0));
+    for (const Vec3& p : points.rowwise()) box_.extend(axes_.transpose() * p);
+  }
+  /// Whether who looks forward from `p` has some of the box before them.
+  bool is_before(const Vec3& p) const {
+    Vec3 at = axes_.transpose() * p;
+    at[2] = std::max(at[2], box_.min()[2]);
+    return box_.contains(at);
+  }
+
+ private:
+  Eigen::Matrix3d axes_;
+  Box box_;
+};
+
 /// How many triangles have each edge.
 std::map<std::pair<int, int>, int> uses_of_edges(const Triangles& triangles) {
   std::map<std::pair<int, int>, int> uses;
@@ -214,10 +234,15 @@ std::vector<LipPair> LipSurfaces::raw_pairs(const Points& lower, const Points& u
   if (kept.empty()) return {};
   surface.triangles = triangles_(kept, Eigen::all);
   const SurfaceTree tree(surface);
+  // Most vertices are outside and far off. Deeper than this a vertex counts only where is_behind(),
+  // and so only within the skin's outline as seen from there.
+  const double plain_m = std::max(kPlain_m, within_m);
+  const Outline outline(upper, forward_);
   std::vector<LipPair> found;
   for (const int i : near) {
     const Vec3 p = lower.row(i);
-    const ClosestPoint foot = tree.query(p, look_m);
+    ClosestPoint foot = tree.query(p, plain_m);
+    if (foot.triangle < 0 && outline.is_before(p)) foot = tree.query(p, look_m);
     if (foot.triangle < 0) continue;
     const auto f = std::size_t(kept[std::size_t(foot.triangle)]);
     const auto outward_there = outward_at(surface.points, f, foot.weights);

@@ -25,7 +25,10 @@ void Simulator::Impl::drop_contact() {
 }
 
 void Simulator::Impl::drop_values() {
-  reduced_current = full_current = false, response.reset();
+  reduced_current = full_current = false;
+  response.reset();
+  recorded_response.reset();
+  added.reset();
   drop_contact();
   stream_current = false;
 }
@@ -41,6 +44,8 @@ void Simulator::Impl::drop_factors() {
 void Simulator::Impl::drop_input() {
   input.reset();
   response.reset();
+  recorded_response.reset();
+  added.reset();
 }
 
 void Simulator::Impl::drop_load() {
@@ -88,7 +93,10 @@ void Simulator::Impl::set(SimulationOptions next) {
     drop_input();
   }
   if (!same_but_gains(before.muscles, options.muscles)) drop_driven();
-  if (before.muscles != options.muscles) drop_input();
+  if (before.muscles != options.muscles) {  // their gains, which leave the response as recorded
+    input.reset();
+    response.reset();
+  }
   if (options.support != before.support) drop_boundary();
   if (options.model.element != before.model.element) {
     assembler.reset();

@@ -74,6 +74,13 @@ struct Simulator::Impl {
   };
   std::optional<Values> reduced_values;  // that the factor was made of
   std::optional<fem::Response> response;
+  std::optional<fem::Response> recorded_response;  // to the load as it was recorded
+  /// What the last change of gains adds to it, per muscle over the greatest change.
+  struct AddedResponse {
+    Eigen::VectorXd direction;
+    std::optional<fem::Response> response;  // none: not simpler than the whole
+  };
+  std::optional<AddedResponse> added;
   // Of the values, the driven points, the options and which places come near.
   std::optional<MouthContact> contact;
   std::optional<fem::PartitionedFactor> contact_factor;
@@ -157,6 +164,10 @@ struct Simulator::Impl {
   /// What contact changes in the frames that were stored.
   void touch(const std::vector<Shot>& shots, const PointCurve& points, Solution& solution,
              SimulationResult& result);
+  /// The response to the load with other gains as that to the load as recorded and that to what the
+  /// gains add, where the latter is simpler than the whole; nothing where it is not, or where both
+  /// errors together are more than is wanted. Numbers do not depend on what was run before.
+  std::optional<fem::Response> response_by_gains(const fem::ReducedOptions& how);
   Solution solved(const std::vector<double>& times);
   /// From 0 to the end, s: of the steps at finite strain.
   std::vector<double> finite_times_s() const;

@@ -59,6 +59,29 @@ void Simulator::Impl::for_frames(std::size_t count, const std::function<void(std
   tell(from + step * static_cast<double>(count));
 }
 
+std::optional<fem::Response> Simulator::Impl::response_by_gains(const fem::ReducedOptions& how) {
+  if (!by_forces() || load->muscles.names.empty() || options.muscles.mirrored) return {};
+  const Eigen::VectorXd change =
+      muscle_gains(load->muscles.names, options.muscles.gains, options.muscles.table()).array() - 1;
+  Eigen::Index most = 0;
+  if (change.cwiseAbs().maxCoeff(&most) == 0) return {};
+  const MuscleOptions as_was = as_recorded(options.muscles);
+  if (!recorded_response) recorded_response = reduced->run(drive_by(*load, as_was), how);
+  // One strength after another of the same muscles adds the same motion, more or less of it.
+  const Eigen::VectorXd direction = change / change[most];
+  if (!added || added->direction != direction) {
+    const fem::Drive drive = drive_by(added_by_gains(*load, direction), as_was);
+    fem::ReducedOptions less = how;  // half of the whole's error is enough
+    less.allowed_m = 0.5 * how.tolerance * recorded_response->greatest_displacement_m;
+    added = AddedResponse{direction, {}};
+    if (2 * drive.shapes() <= input->drive.shapes()) added->response = reduced->run(drive, less);
+  }
+  if (!added->response) return {};
+  fem::Response sum = fem::sum_of(*recorded_response, *added->response, change[most]);
+  if (!sum.converged || sum.estimated_error > how.tolerance) return {};
+  return sum;
+}
+
 Solution Simulator::Impl::solved(const std::vector<double>& times) {
   const auto progress = [this](double share) { tell(kDirectDone * share); };
   if (options.solver.method == SolverMethod::direct) {
@@ -70,6 +93,7 @@ Solution Simulator::Impl::solved(const std::vector<double>& times) {
   Stopwatch watch;
   fem::ReducedOptions how{newmark(), options.solver.tolerance};
   how.between_growths = [this] { ask(); };
+  if (!response) response = response_by_gains(how);
   if (!response) response = reduced->run(input->drive, how);
   report.basis_s = watch.lap();
   Solution out = run_reduced(*reduced, *response, times);

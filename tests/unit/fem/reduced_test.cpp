@@ -195,6 +195,31 @@ TEST(ReducedModel, StandsStillWithoutInput) {
   EXPECT_EQ(r.displacement({0, 5}).rows(), on.layer.system.mass.cols());
 }
 
+/// Superposition: a model is linear, so the answer to two drives is the sum of the answers.
+TEST(ReducedModel, AddsResponses) {
+  const Driven whole(3);
+  ReducedModel model(whole.layer.system, whole.layer.prescribed);
+  Drive rest = whole.drive;
+  for (Eigen::MatrixXd* part : {&rest.s, &rest.rate, &rest.second})
+    for (Eigen::Index row = 0; row < 2; ++row) part->row(row).setZero();
+  Drive first = whole.drive;
+  for (Eigen::MatrixXd* part : {&first.s, &first.rate, &first.second}) part->row(2).setZero();
+  const ReducedOptions how{{kDt}, 1e-4};
+  const Response a = model.run(first, how), b = model.run(rest, how), sum = sum_of(a, b);
+  EXPECT_EQ(sum.basis_size, a.basis_size + b.basis_size);
+  EXPECT_TRUE(sum.converged);
+  const Eigen::MatrixXd full = whole.full();
+  EXPECT_LE(test::true_error(sum, full), sum.estimated_error);
+  EXPECT_GT(test::true_error(a, full), 0.01) << "both parts matter";
+  EXPECT_NEAR(sum.greatest_displacement_m, model.run(whole.drive, how).greatest_displacement_m,
+              2e-4 * sum.greatest_displacement_m);
+  // Of opposite sums the error is not small beside what is left.
+  const Response little = sum_of(a, a, -0.999);
+  EXPECT_GT(little.estimated_error, 100 * a.estimated_error);
+  EXPECT_NEAR(little.greatest_displacement_m, 0.001 * a.greatest_displacement_m,
+              1e-6 * a.greatest_displacement_m);
+}
+
 TEST(ReducedModel, TakesOneShapeAndOneStep) {
   const Driven on(1, false);
   ReducedModel model(on.layer.system, on.layer.prescribed);

@@ -157,6 +157,21 @@ TEST_F(LoadOfMuscles, ScalesBothBandsOfAMuscle) {
   expect_at_samples(load_.force * course);
 }
 
+TEST_F(LoadOfMuscles, AsRecordedAndWhatGainsAddAreTheLoadWithGains) {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(6);
+  change[1] = -0.7, change[4] = 1;
+  const HeldLoad added = added_by_gains(load_, change);
+  EXPECT_EQ(added.force.cols(), 4) << "two bands each of the two that change";
+  EXPECT_EQ(added.time_s, load_.time_s);
+  EXPECT_TRUE(added.muscles.names.empty());
+  Eigen::MatrixXd course = load_.course;
+  for (const int row : {1, 6 + 1}) course.row(row) *= 0.3;
+  for (const int row : {4, 6 + 4}) course.row(row) *= 2;
+  const Eigen::MatrixXd wanted = load_.force * course;
+  EXPECT_LT((load_.force * load_.course + added.force * added.course - wanted).norm(),
+            1e-12 * wanted.norm());
+}
+
 TEST_F(LoadOfMuscles, MirroredEachTakesItsCounterpartsCourse) {
   options_.mirrored = true;
   options_.gains = {{"malaris_L", 0.5}};  // of the muscle that acts, after mirroring

@@ -271,6 +271,9 @@ TEST_F(DrivenByForces, AWeakerMuscleMovesLess) {
   const std::string corner = name.back() == 'L' ? "ibug68_54" : "ibug68_48";
   const std::string other = name.back() == 'L' ? "ibug68_48" : "ibug68_54";
   SimulationOptions weak = options_;
+  weak.muscles.gains = {{name, 0.6}};
+  simulator.set_options(weak);
+  simulator.run();
   weak.muscles.gains = {{name, 0.3}};
   simulator.set_options(weak);
   const SimulationResult after = simulator.run();
@@ -279,6 +282,12 @@ TEST_F(DrivenByForces, AWeakerMuscleMovesLess) {
   EXPECT_LT((after.performance.muscles.activation.row(m) - 0.3 * muscles.activation.row(m)).norm(),
             1e-12);
   EXPECT_EQ(apart(after, made(weak).run()), 0) << "as a simulator made with it";
+  EXPECT_GT(after.report.basis_size, before.report.basis_size)
+      << "what one muscle loses is added to the run as recorded";
+  weak.solver.verify = true;
+  const SimulationResult checked = made(weak).run();
+  EXPECT_LT(checked.report.verified_error, weak.solver.tolerance);
+  EXPECT_GT(checked.report.verified_error, 0);
   // Gains do not find new forces: back to 1, all is as before.
   simulator.set_options(options_);
   EXPECT_EQ(apart(simulator.run(), before), 0);

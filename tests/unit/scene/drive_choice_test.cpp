@@ -20,7 +20,7 @@ DriveChoice choice(const std::string& name, const std::vector<std::string>& chan
 }
 
 TEST(DriveChoice, GoesByTheMotionWhereNothingIsSaid) {
-  const DriveChoice jaw = choice("demo.toml");
+  const DriveChoice jaw = choice("mouth_open.toml");
   EXPECT_EQ(jaw.by, DriveBy::displacement);
   EXPECT_THAT(jaw.why, StartsWith("driven by displacement: the mouth opens by "));
   EXPECT_THAT(jaw.why, HasSubstr("as by the jaw alone"));
@@ -28,7 +28,7 @@ TEST(DriveChoice, GoesByTheMotionWhereNothingIsSaid) {
   EXPECT_EQ(smile.by, DriveBy::muscles);
   EXPECT_THAT(smile.why,
               StartsWith("driven by muscles: the mouth opens by 9 mm, not more than 18"));
-  EXPECT_EQ(choice("demo.toml", {"motion.gain=0.2"}).by, DriveBy::muscles) << "not wide";
+  EXPECT_EQ(choice("mouth_open.toml", {"motion.gain=0.2"}).by, DriveBy::muscles) << "not wide";
 }
 
 TEST(DriveChoice, TakesWhatTheSceneSays) {
@@ -42,7 +42,7 @@ TEST(DriveChoice, TakesWhatTheSceneSays) {
   EXPECT_EQ(choice("one_sided_smile.toml", {"support.jaw_points=[\"ibug68_8\"]"}).by,
             DriveBy::muscles);
   EXPECT_EQ(choice("variants.toml").by, DriveBy::displacement);
-  EXPECT_THAT(choice("what_if.toml").why, StartsWith("driven by muscles"));
+  EXPECT_THAT(choice("demo.toml").why, StartsWith("driven by muscles"));
 }
 
 TEST(DriveChoice, HoldsForTheSceneAndIsNoted) {

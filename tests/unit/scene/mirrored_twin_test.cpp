@@ -47,7 +47,7 @@ TEST_P(SymmetricMotion, EndsWhereItIsDrivenAndIsUndecided) {
   EXPECT_TRUE(corners.at("undecided").get<bool>());
   EXPECT_NEAR(corners.at("excursion_ratio_R_L").get<double>(), 1, 0.005);
   EXPECT_GT(corners.at("excursion_mm").at("L").get<double>(), 3);
-  if (std::string(file) == "demo.toml") {  // a symmetric face: 0.0104 is the resolution
+  if (std::string(file) == "mouth_open.toml") {  // a symmetric face: 0.0104 is the resolution
     EXPECT_LT(symmetry.at("mesh_floor").at("xi_there").get<double>(), 2 * 0.0104)
         << "the mesh adds no more than the resolution";
   }
@@ -56,8 +56,8 @@ TEST_P(SymmetricMotion, EndsWhereItIsDrivenAndIsUndecided) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, SymmetricMotion,
-                         testing::Values(Case{"demo.toml", "", "3.3"}, Case{"demo.toml", "", "4"},
-                                         Case{"demo.toml", "all", "4"},
+                         testing::Values(Case{"mouth_open.toml", "", "3.3"}, Case{"mouth_open.toml", "", "4"},
+                                         Case{"mouth_open.toml", "all", "4"},
                                          Case{"subject_a_mouth_open.toml", "", "3.3"},
                                          Case{"subject_a_mouth_open_all.toml", "", "3.3"},
                                          Case{"subject_a_mouth_open_all.toml", "", "2.5"}),

@@ -242,6 +242,25 @@ Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps
   return d;
 }
 
+Response sum_of(const Response& a, const Response& b, double factor) {
+  HX_ASSERT(a.shapes.rows() == b.shapes.rows() && a.course.cols() == b.course.cols());
+  Response out;
+  out.shapes.resize(a.shapes.rows(), a.shapes.cols() + b.shapes.cols());
+  out.shapes << a.shapes, b.shapes;
+  out.course.resize(a.course.rows() + b.course.rows(), a.course.cols());
+  out.course << a.course, factor * b.course;
+  out.basis_size = a.basis_size + b.basis_size;
+  const std::vector<int> at = instants(static_cast<int>(out.course.cols()) - 1);
+  out.greatest_displacement_m =
+      greatest_node_motion(out.displacement(std::vector<double>(at.begin(), at.end())));
+  const double error = a.estimated_error * a.greatest_displacement_m +
+                       std::abs(factor) * b.estimated_error * b.greatest_displacement_m;
+  if (error > 0) out.estimated_error = error / out.greatest_displacement_m;
+  out.converged = a.converged && b.converged;
+  out.passes = a.passes + b.passes;
+  return out;
+}
+
 ReducedModel::ReducedModel(System system, std::vector<int> prescribed, LinearSolver wanted,
                            std::shared_ptr<const NodeOrder> order)
     : system_(std::move(system)),
@@ -277,7 +296,7 @@ Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {
     if (options.between_growths) options.between_growths();
     error = growth.grow();
     ++passes;
-    converged = error <= options.tolerance * growth.greatest();
+    converged = error <= std::max(options.tolerance * growth.greatest(), options.allowed_m);
   }
   Response response = growth.response();
   response.estimated_error = growth.greatest() > 0 ? error / growth.greatest() : 0;

@@ -15,6 +15,7 @@ struct ReducedOptions {
   double tolerance = 1e-3;
   int most_vectors = 400;  ///< where the tolerance is not reached by then, `converged` is false
   std::function<void()> between_growths = {};  ///< may throw, which ends the run
+  double allowed_m = 0;  ///< an error that does no harm, however small the motion is
 };
 
 /// The response of a reduced model: d(step) = shapes * course.col(step), all unknowns.
@@ -31,6 +32,10 @@ struct Response {
   /// between steps.
   Eigen::MatrixXd displacement(const std::vector<double>& times_in_steps) const;
 };
+
+/// The response to a drive plus `factor` times another, over the same steps of one model. Its error
+/// is at most the sum of theirs.
+Response sum_of(const Response& a, const Response& b, double factor = 1);
 
 /// K d + C d' + M d'' = f projected onto the motions that its drive makes.
 ///
