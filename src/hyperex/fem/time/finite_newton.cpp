@@ -345,10 +345,8 @@ struct FiniteNewton::Impl {
     if (guess) {
       x = *guess;
       for (std::size_t i = 0; i < prescribed.size(); ++i) x[prescribed[i]] = target[i];
-    } else if (dynamic && last_h > 0) {
-      x = state.d + h * state.v + h * h / 2 * state.a;
     } else if (dynamic) {
-      x = state.d + h * state.v;
+      x = state.d + h * state.v;  // the acceleration besides leads farther off more often than not
     } else {
       x = state.d;
     }
