@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One file: report.html, or the page that HYPEREX_PAGE names, with scripts and styles inside. The
 // program that writes it puts the data where the page says HYPEREX_DATA.
+import { readFileSync } from 'node:fs';
 import { defineConfig, type Plugin } from 'vite';
 import { viteSingleFile } from 'vite-plugin-singlefile';
 
@@ -17,8 +18,29 @@ const withPolicy: Plugin = {
     `${first}\n    <meta http-equiv="Content-Security-Policy" content="${policy}" />`),
 };
 
+// The MIT licence of what a page carries inside (three.js, uPlot) asks for its text in every copy.
+const packageOf = (module: string) => /.*\/node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(module)?.[1];
+const notices = (packages: string[]) => packages.map((name) => {
+  const folder = new URL(`node_modules/${name}/`, import.meta.url);
+  const { version, license } = JSON.parse(readFileSync(new URL('package.json', folder), 'utf8'));
+  return `${name} ${version} (${license})\n\n${readFileSync(new URL('LICENSE', folder), 'utf8').trim()}\n`;
+}).join('\n');
+const withNotices: Plugin = {
+  name: 'third-party-notices',
+  apply: 'build',
+  transformIndexHtml: {
+    order: 'post',
+    handler: (html, { bundle }) => {
+      const modules = Object.values(bundle ?? {}).flatMap((part) => part.type === 'chunk' ? part.moduleIds : []);
+      const packages = [...new Set(modules.map(packageOf).filter((name) => name !== undefined))].sort();
+      const text = `This page is part of Hyperex (GPL-3.0-or-later) and carries these packages:\n\n${notices(packages)}`;
+      return html.replace('</body>', () => `  <!--\n${text.replaceAll('--', '- -')}-->\n  </body>`);
+    },
+  },
+};
+
 export default defineConfig({
-  plugins: [withPolicy, viteSingleFile({ removeViteModuleLoader: true })],
+  plugins: [withPolicy, withNotices, viteSingleFile({ removeViteModuleLoader: true })],
   build: {
     target: 'es2022',
     reportCompressedSize: false,

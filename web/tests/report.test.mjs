@@ -3,7 +3,7 @@
 //   REPORT=out/a/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/report.test.mjs
 // Without REPORT it takes the reports of a made-up face that write_report_fixtures wrote.
 import assert from 'node:assert/strict';
-import { mkdir } from 'node:fs/promises';
+import { mkdir, readFile } from 'node:fs/promises';
 import { basename, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
@@ -41,6 +41,12 @@ for (const report of reports) {
     // A small window: software draws every pixel of it. Full sizes are below.
     before(async () => ({ page, complaints, close } = await open(report, { viewport: { width: 960, height: 560 } })));
     after(() => close?.());
+
+    test('carries the notices of the packages inside it', async () => {
+      const html = await readFile(report, 'utf8');
+      for (const owner of ['three.js authors', 'Leon Sorokin'])
+        assert.match(html, new RegExp(`Copyright \\S+ [-0-9]+ ${owner}\\s+Permission is hereby granted`), owner);
+    });
 
     test('shows a face, not a blank canvas', async () => {
       const pixels = await look(page);
