@@ -2,24 +2,38 @@
 // How soon the studio answers, and whether its memory, threads and files stay as they are:
 //   node bench/studio_bench.mjs build/release/bin/hyperex [SCENE.toml] [--soak MINUTES]
 //   node bench/studio_bench.mjs build/release/bin/hyperex [SCENE.toml] --live RECORDING
+//   node bench/studio_bench.mjs build/release/bin/hyperex [SCENE.toml] [--live RECORDING] --page
+// With --page times are from moving a slider, or from the camera's frame, to having it drawn in Chromium, whose WebGL is
+// drawn in software on the same cores.
 // Times are from sending a request to having its event, over the loopback interface.
 import { readdirSync, readFileSync } from 'node:fs';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { resolve } from 'node:path';
+import { launch } from '../web/tests/browser.mjs';
+import { openStudio } from '../web/tests/studio_server.mjs';
 import { connect, startStudio } from '../web/tests/studio_client.mjs';
 
+const quantile = (values, share) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
 const [program, ...rest] = process.argv.slice(2);
 const soakAt = rest.indexOf('--soak');
 const soakMinutes = soakAt < 0 ? 0 : Number(rest.splice(soakAt, 2)[1]);
 const liveAt = rest.indexOf('--live');
 const recording = liveAt < 0 ? '' : resolve(rest.splice(liveAt, 2)[1]);
+const pageAt = rest.indexOf('--page');
+if (pageAt >= 0) rest.splice(pageAt, 1);
 const folder = mkdtempSync(join(tmpdir(), 'hyperex-studio-'));
 const begun = performance.now();
 const studio = await startStudio(resolve(program), [...rest.map((file) => resolve(file)), ...(recording ? ['--device', `play:${recording}`] : [])], {
   cwd: folder, env: { ...process.env, XDG_STATE_HOME: folder },
 });
+if (pageAt >= 0) {
+  await inPage();
+  await studio.stop();
+  rmSync(folder, { recursive: true, force: true });
+  process.exit(0);
+}
 const client = await connect(studio.address);
 const face = client.event('face');
 await client.ask('open', { what: client.hello.places.started ? 'started' : 'embedded' });
@@ -27,7 +41,6 @@ const { replay } = await face;
 console.log(`first motion ${((performance.now() - begun) / 1e3).toFixed(2)} s after the command, ` +
   `${replay.skin.points.count / 3} vertices, ${replay.motion.time_s.length} frames`);
 
-const quantile = (values, share) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
 const timeS = replay.motion.time_s[replay.motion.peak_frame];
 async function timed(fields, event) {
   const from = performance.now();
@@ -48,6 +61,48 @@ if (recording) {
   await studio.stop();
   rmSync(folder, { recursive: true, force: true });
   process.exit(0);
+}
+
+/** What the user of a page waits for. */
+async function inPage() {
+  const browser = await launch();
+  const { page } = await openStudio(browser, studio.address);
+  console.log(`page ready ${((performance.now() - begun) / 1e3).toFixed(2)} s after the command, ` +
+    `${await page.evaluate(() => document.getElementById('face').width)} x ${await page.evaluate(() => document.getElementById('face').height)} pixels of face`);
+  if (recording) {
+    await page.click('#live-panel .choices button');
+    await page.waitForSelector('#live-panel[data-live=ended]', { timeout: 120_000 });
+    console.log((await page.locator('.live-figures').innerText()).replaceAll('\n', ' '));
+  } else {
+    await page.click('#to-peak');
+    for (const [what, tab, selector] of [['strength of a muscle', 'muscles', '[data-gain=zygomatic_R]'], ['tissue', 'tissue', '[data-key="tissue.young_kpa"] input[type=range]']]) {
+      await page.click(`#tab-${tab}`);
+      const times = await page.evaluate(async (which) => {
+        const slider = document.querySelector(which);
+        const gl = document.getElementById('face').getContext('webgl2');
+        const shapes = () => Number(document.documentElement.dataset.shapes ?? 0);
+        const out = [];
+        for (let i = 0; i < 42; ++i) {
+          const before = shapes();
+          const from = performance.now();
+          slider.value = String(300 + 7 * i);
+          slider.dispatchEvent(new Event('input', { bubbles: true }));
+          await new Promise((done) => requestAnimationFrame(function look() {
+            if (shapes() > before) setTimeout(done);
+            else requestAnimationFrame(look);
+          }));
+          gl.finish();
+          out.push(performance.now() - from);
+        }
+        slider.dispatchEvent(new Event('change', { bubbles: true }));
+        return out.slice(2); // the first makes the face that is changed
+      }, selector);
+      await page.waitForFunction(() => document.documentElement.dataset.current === 'true');
+      console.log(`${what}, slider to pixels: median ${quantile(times, 0.5).toFixed(0)} ms, 95 % ${quantile(times, 0.95).toFixed(0)} ms (${times.length}); ` +
+        `drawing alone ${await page.evaluate(() => document.getElementById('face').dataset.drawMs)} ms`);
+    }
+  }
+  await browser.close();
 }
 
 /** A recording at its own pace: what reaches a client that draws nothing, tracker included. */

@@ -23,7 +23,7 @@ using nlohmann::json;
 namespace {
 
 /// Not known while one edits: it takes a run of the mirrored face.
-constexpr const char* kNoTwin = "the studio runs no mirrored twin while one edits";
+constexpr const char* kNoTwin = "no mirrored twin was run yet, as one edits";
 
 /// What of a scene and its variants may touch something.
 std::vector<bool> contact_of(const scene::Scene& scene) {
@@ -154,6 +154,7 @@ void OpenFace::take(scene::Scene next) {
     Standing& now = standing_[i];
     now.simulator = std::exchange(old[known].simulator, std::nullopt);
     now.stale = old[known].stale || now.simulator->options() != of_runs[i];
+    now.bands = !now.stale && old[known].bands;
     if (!now.stale) {
       runs_[i].simulation = std::move(old_runs[known].simulation);
       runs_[i].symmetry = std::move(old_runs[known].symmetry);
@@ -220,6 +221,7 @@ void OpenFace::run(const reenact::RunCallbacks& callbacks) {
     symmetry_ = symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, twin);
     modes_ = report::displacement_modes(simulation_.performance.skin_displacement_m);
     stale_ = false;
+    twin_.reset();
     // At finite strain the run completed the load (what holds the patches): copies made before it
     // lack that.
     if (scene_.model.strain == reenact::Strain::finite)
@@ -231,7 +233,33 @@ void OpenFace::run(const reenact::RunCallbacks& callbacks) {
     run.simulation = simulator_of(i + 1).run(callbacks);
     run.symmetry =
         symmetry_measures(run.scene, run.inputs, face_.at_rest, run.simulation.performance, twin);
-    standing_[i].stale = false;
+    standing_[i].stale = standing_[i].bands = false;
+  }
+}
+
+bool OpenFace::bands_known() const {
+  return up_to_date() && twin_ &&
+         std::all_of(standing_.begin(), standing_.end(),
+                     [](const Standing& one) { return one.bands; });
+}
+
+void OpenFace::find_bands(const std::function<bool()>& cancelled) {
+  const metrics::MidsagittalPlane& plane = face_.at_rest.plane;
+  if (!twin_) {
+    twin_ = scene::simulate_twin(scene_, inputs_, field_ ? &*field_ : nullptr, plane, *simulator_,
+                                 cancelled);
+    symmetry_ = symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, *twin_);
+    twin_->skin_displacement_m.clear();
+  }
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    if (standing_[i].bands) continue;
+    scene::VariantRun& run = runs_[i];
+    reenact::Simulator spent = simulator_of(i + 1);
+    const scene::MirroredTwin twin = scene::simulate_variants_twin(
+        run.scene, run.inputs, run.field ? &*run.field : nullptr, plane, spent, *twin_, cancelled);
+    run.symmetry =
+        symmetry_measures(run.scene, run.inputs, face_.at_rest, run.simulation.performance, twin);
+    standing_[i].bands = true;
   }
 }
 

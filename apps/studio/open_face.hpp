@@ -11,6 +11,7 @@
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/scene/output/outputs.hpp"
 #include "hyperex/scene/output/variant_run.hpp"
+#include "hyperex/scene/stages/mirrored_twin.hpp"
 #include "hyperex/scene/stages/prepared_face.hpp"
 #include "hyperex/scene/stages/tissue_fields.hpp"
 
@@ -59,6 +60,12 @@ class OpenFace {
   /// far stays.
   void run(const reenact::RunCallbacks& callbacks);
 
+  /// Whether the error bands of all figures are known: not while one edits, as each takes a run of
+  /// the mirrored face.
+  bool bands_known() const;
+  /// Finds them once all is up to date. Throws as run(); what was done so far stays.
+  void find_bands(const std::function<bool()>& cancelled);
+
   /// Once all is up to date: what the page reads (report::replay_manifest).
   nlohmann::json replay(report::BinaryBlock& block, bool with_face) const;
   /// Likewise: of the muscles over time; null where none drive (protocol.json, event face).
@@ -68,7 +75,7 @@ class OpenFace {
   /// What a variant's run rests on.
   struct Standing {
     std::optional<reenact::Simulator> simulator;  ///< with base's load held; none: not made yet
-    bool stale = true;
+    bool stale = true, bands = false;
   };
   reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::Inputs& inputs,
                                         const std::optional<tissue::TissueField>& field) const;
@@ -91,6 +98,7 @@ class OpenFace {
   bool stale_ = true;
   reenact::SimulationResult simulation_;
   metrics::SymmetryMeasures symmetry_;
+  std::optional<scene::MirroredTwin> twin_;  ///< of base as it is; none: not run yet
   report::DisplacementModes modes_;
   std::vector<scene::VariantRun> runs_;  ///< of the variants
   std::vector<Standing> standing_;       ///< of each of them

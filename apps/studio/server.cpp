@@ -16,6 +16,7 @@
 #include <chrono>
 #include <deque>
 #include <limits>
+#include <list>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -95,6 +96,18 @@ bool is_upload_name(std::string_view name) {
   });
 }
 
+namespace {
+
+/// Whoever has connected. Who has not shown that he is the user's page gives way to others.
+class Guest {
+ public:
+  virtual ~Guest() = default;
+  virtual bool proven() const = 0;
+  virtual void evict() = 0;  ///< at once
+};
+
+}  // namespace
+
 struct Server::Impl {
   class Socket;
   class Connection;
@@ -107,23 +120,47 @@ struct Server::Impl {
   std::string policy;
   std::shared_ptr<Socket> client;  // that was let in
   int connections = 0;
-  std::size_t uploaded = 0;  // bytes in all
+  std::list<std::weak_ptr<Guest>> guests;  // those that came first, first
+  std::size_t uploaded = 0;                // bytes in all
   int parts = 0;
   asio::steady_timer again{io};
 
   void accept();
+  void admit(const std::shared_ptr<Guest>& guest) { guests.push_back(guest); }
+  bool make_room();
 };
 
+/// Where all places are taken, the one goes that came first of those that are not proven.
+bool Server::Impl::make_room() {
+  guests.remove_if([](const std::weak_ptr<Guest>& guest) { return guest.expired(); });
+  if (connections < options.most_connections) return true;
+  for (auto one = guests.begin(); one != guests.end(); ++one) {
+    const std::shared_ptr<Guest> guest = one->lock();
+    if (guest->proven()) continue;
+    guests.erase(one);
+    guest->evict();
+    return true;
+  }
+  return false;
+}
+
 /// A page's socket, from its upgrade on.
-class Server::Impl::Socket : public std::enable_shared_from_this<Socket> {
+class Server::Impl::Socket : public std::enable_shared_from_this<Socket>, public Guest {
  public:
   Socket(Impl& server, tcp::socket&& socket)
       : server_(server), stream_(std::move(socket)), hello_timer_(server.io) {
     ++server_.connections;
   }
-  ~Socket() { --server_.connections; }
+  ~Socket() override { --server_.connections; }
+  bool proven() const override { return let_in_ && !ended_; }
+  void evict() override {
+    ended_ = true;
+    hello_timer_.cancel();
+    beast::get_lowest_layer(stream_).close();
+  }
 
   void start(const http::request<http::empty_body>& request) {
+    server_.admit(shared_from_this());
     websocket::stream_base::timeout timeouts =
         websocket::stream_base::timeout::suggested(beast::role_type::server);
     timeouts.keep_alive_pings = true;
@@ -246,13 +283,21 @@ class Server::Impl::Socket : public std::enable_shared_from_this<Socket> {
 };
 
 /// HTTP, until it asks for the socket.
-class Server::Impl::Connection : public std::enable_shared_from_this<Connection> {
+class Server::Impl::Connection : public std::enable_shared_from_this<Connection>, public Guest {
  public:
   Connection(Impl& server, tcp::socket&& socket) : server_(server), stream_(std::move(socket)) {
     ++server_.connections;
   }
-  ~Connection() { --server_.connections; }
+  ~Connection() override { --server_.connections; }
+  bool proven() const override { return upload_.has_value(); }  // which takes the token
+  void evict() override { stream_.close(); }
 
+  void start() {
+    server_.admit(shared_from_this());
+    read();
+  }
+
+ private:
   void read() {
     head_.emplace();
     head_->header_limit(kLongestHead);
@@ -265,7 +310,6 @@ class Server::Impl::Connection : public std::enable_shared_from_this<Connection>
                             });
   }
 
- private:
   void take() {
     const http::request<http::empty_body>& request = head_->get();
     const std::string_view target = view(request.target());
@@ -391,8 +435,7 @@ void Server::Impl::accept() {
     fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
     // Small answers go at once: held back for others they would come 40 ms late.
     if (!error) socket.set_option(tcp::no_delay(true), error);
-    if (!error && connections < options.most_connections)
-      std::make_shared<Connection>(*this, std::move(socket))->read();
+    if (!error && make_room()) std::make_shared<Connection>(*this, std::move(socket))->start();
     accept();
   });
 }

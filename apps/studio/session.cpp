@@ -618,17 +618,21 @@ json Session::live_take(const json& fields) {
 }
 
 bool Session::has_work() const {
-  return face_ && motion_due_;
+  // A live face needs the processors itself.
+  const bool following = live_ && !live_->ended();
+  return face_ && (motion_due_ || (bands_due_ && !following && face_->up_to_date()));
 }
 
 void Session::work(const std::function<bool()>& cancelled) {
   Stopwatch watch;
+  if (!motion_due_) return find_bands(cancelled);
   reenact::RunCallbacks callbacks;
   callbacks.cancelled = cancelled;
   callbacks.progress = [&](double share) { tell("simulating", share); };
   try {
     face_->run(callbacks);
     motion_due_ = false;
+    bands_due_ = options_.bands && !face_->bands_known();
     send_motion(watch);
   } catch (const reenact::Cancelled&) {
     return;
@@ -637,6 +641,21 @@ void Session::work(const std::function<bool()>& cancelled) {
     say("error", without_folder(error.what(), options_.folder));
   }
   tell("");
+}
+
+/// Without a word of what is done: nobody waits for it.
+void Session::find_bands(const std::function<bool()>& cancelled) {
+  Stopwatch watch;
+  try {
+    face_->find_bands(cancelled);
+    bands_due_ = false;
+    send_motion(watch);
+  } catch (const reenact::Cancelled&) {
+  } catch (const std::exception& error) {
+    bands_due_ = false;
+    say("warning",
+        fmt::format("no error bands: {}", without_folder(error.what(), options_.folder)));
+  }
 }
 
 void Session::send_motion(Stopwatch& watch) {
@@ -649,6 +668,7 @@ void Session::send_motion(Stopwatch& watch) {
                         ? head["replay"]["summary"]["variants"]["table"]
                         : json::array();
     head["seconds"] = watch.lap();
+    head["bands"] = face_->bands_known();
   } else {
     json landmarks = json::array();
     const std::vector<std::string>& placed = face_->inputs().placed;

@@ -71,12 +71,21 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.equal(await page.locator('#canvas-host').getAttribute('data-mode'), 'side-by-side');
     const [baseR, ownR] = [await cornerMm(page, 0, 'right'), await cornerMm(page, 1, 'right')];
     assert.ok(ownR < baseR - 1 && ownR > 0.5 * baseR, `${baseR} to ${ownR} mm`);
-    assert.match(await page.locator('.corner-table tr[data-face="1"] td[data-side=right]').innerText(), /−\d\.\d mm to base/);
+    // Error bands follow by themselves.
+    await page.waitForFunction(() => document.documentElement.dataset.bands === 'true');
+    assert.match(await page.locator('.corner-table tr[data-face="1"] td[data-side=right]').innerText(), /−\d\.\d mm \(± \d\.\d\) to base/);
+    assert.ok(!(await page.locator('.no-band').count()));
 
     const [picture] = await Promise.all([page.waitForEvent('download'), page.click('#save-picture')]);
     assert.match(picture.suggestedFilename(), /right-side-30-weaker.*\.png$/);
     assert.deepEqual([...(await readFile(await picture.path())).subarray(1, 4)].map((c) => String.fromCharCode(c)).join(''), 'PNG');
 
+    // As a video: the motion once from its start.
+    const [video] = await Promise.all([page.waitForEvent('download'), page.click('#save-video')]);
+    assert.match(video.suggestedFilename(), /right-side-30-weaker\.webm$/);
+    const film = await readFile(await video.path());
+    assert.equal(film.readUInt32BE(0), 0x1a45dfa3, 'EBML, as WebM begins');
+    assert.ok(film.length > 20_000, `${film.length} bytes`);
     assert.ok(await page.locator('#unsaved').isVisible());
     await page.click('#save-menu');
     await page.fill('#save-name', 'weaker');

@@ -26,11 +26,13 @@ struct Message {
 
 class StudioSession : public testing::Test {
  protected:
-  StudioSession() {
+  /// Error bands take time: a test of their own has them.
+  explicit StudioSession(bool bands = false) {
     SessionOptions options;
     options.save_into = folder_.path() / "mine";
     options.folder = folder_.path() / "own";
     options.program = "Hyperex test";
+    options.bands = bands;
     fs::create_directory(options.save_into);
     fs::create_directories(options.folder / "uploads");
     session_ = std::make_unique<Session>(
@@ -89,6 +91,45 @@ class StudioSession : public testing::Test {
   std::int64_t id_ = 0;
   double peak_s_ = 0;
 };
+
+class StudioSessionWithBands : public StudioSession {
+ protected:
+  StudioSessionWithBands() : StudioSession(true) {}
+};
+
+TEST_F(StudioSessionWithBands, FindsErrorBandsAsTheCommandDoesWhenNothingElseIsToDo) {
+  open();
+  ask("add_variant", {{"name", "weak"}, {"like", 0}});
+  set({{"muscles.gain", {{"side_R", 0.7}}}}, 1);
+  session_->work([] { return false; });
+  ASSERT_NE(event("motion"), nullptr);
+  EXPECT_EQ(event("motion")->head["bands"], false);
+  EXPECT_TRUE(event("motion")->head["table"][1]["commissure_R_band_mm"].is_null());
+  ASSERT_TRUE(session_->has_work());
+  messages_.clear();
+  session_->work([] { return true; });
+  EXPECT_EQ(event("motion"), nullptr) << "broken off by a request";
+  work();
+  ASSERT_NE(event("motion"), nullptr);
+  EXPECT_EQ(event("motion")->head["bands"], true);
+  const json table = event("motion")->head["table"];
+
+  ASSERT_FALSE(ask("save", {{"what", "scene"}, {"name", "weak"}}).contains("error"));
+  const fs::path saved = folder_.path() / "mine" / "weak.toml", out = folder_.path() / "out";
+  scene::Scene scene = scene::read_scene_text(read_file(saved), saved);
+  scene.output.vtu = scene.output.glb = scene.output.report = false;
+  run_scene(scene, out);
+  const json rows = json::parse(read_file(out / "summary.json"))["variants"]["table"];
+  for (const char* key : {"commissure_R_band_mm", "commissure_L_band_mm", "added_xi_floor"}) {
+    const double here = table[1][key], there = rows[1][key];
+    EXPECT_GT(here, 0);
+    EXPECT_NEAR(here, there, 1e-6 * there) << key;
+  }
+  // A slider that is held makes them old; what is at rest is not done again.
+  EXPECT_FALSE(session_->has_work());
+  set({{"muscles.gain", {{"side_R", 0.5}}}}, 1, true);
+  EXPECT_FALSE(session_->has_work());
+}
 
 TEST_F(StudioSession, TellsWhatThereIsToSetBeforeAFaceIsOpen) {
   const json hello = ask("hello");

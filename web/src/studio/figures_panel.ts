@@ -16,7 +16,7 @@ import { dark } from '../page/theme';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
-/** While one edits there is no error band: changes below this are not made to look like findings, mm. */
+/** Until error bands are known: changes below this are not made to look like findings, mm. */
 const unsureMm = 0.5;
 
 /** A change below this is none, mm: half of what a figure here shows. */
@@ -172,7 +172,7 @@ export class FiguresPanel {
       cell.title = words.mostHint;
       cell.textContent = differs;
     });
-    if (this.state.source.replay.faces.length > 1) {
+    if (this.state.source.replay.faces.length > 1 && !this.bandsKnown()) {
       const note = table.createTFoot().insertRow().insertCell();
       note.colSpan = 3;
       note.className = 'no-band';
@@ -189,13 +189,30 @@ export class FiguresPanel {
     cell.dataset.mm = String(of(own));
     if (i > 0) {
       const change = of(own) - of(base);
+      const band = this.bandOf(i, side);
       const same = Math.abs(change) < sameMm;
-      const sure = Math.abs(change) >= unsureMm;
-      cell.append(element('small', same ? words.asBase : words.againstBase(plus(change)), sure ? 'change' : 'same'));
+      const sure = Math.abs(change) >= (band ?? unsureMm);
+      const text = band === null ? words.againstBase(plus(change))
+        : sure ? words.againstBaseWithin(plus(change), band.toFixed(1)) : words.undecidedChange(plus(change), band.toFixed(1));
+      const small = element('small', same ? words.asBase : text, sure ? 'change' : 'same');
+      if (band !== null) small.title = words.bandHint;
+      cell.append(small);
     }
     const now = element('small', '', 'now-is');
     cell.append(now);
     return now;
+  }
+
+  /** Of a face's change against base: what mesh and jitter make of it, 95 %, mm; null: not known. */
+  private bandOf(face: number, side: SideName): number | null {
+    const { replay } = this.state.source;
+    const row = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
+    const band = row?.[side === 'left' ? 'commissure_L_band_mm' : 'commissure_R_band_mm'];
+    return isNumber(band) ? band : null;
+  }
+
+  private bandsKnown(): boolean {
+    return this.state.source.replay.faces.every((_, i) => i === 0 || this.bandOf(i, 'left') !== null);
   }
 
   private differsMost(i: number): string {

@@ -26,7 +26,7 @@ export class LivePanel {
 
   constructor(
     private readonly state: StudioState, private readonly connection: Connection, private readonly into: HTMLElement,
-    private readonly viewer: () => FaceViewer | null,
+    private readonly viewer: () => FaceViewer | null, private readonly measure: (face: number, displacement: Float32Array | null) => void,
   ) {
     this.neutral.title = words.liveNeutralHint;
     this.record.title = words.liveRecordHint;
@@ -69,7 +69,7 @@ export class LivePanel {
   private offer(): void {
     const recording = this.state.valuesOf(0)['motion.recording'];
     const choices = [];
-    if (this.device) choices.push(button(words.liveCamera(this.device), 'quiet', () => void this.start('device')));
+    if (this.device) choices.push(button(words.liveCamera(this.device.replace(/^(play:).*\//, '$1')), 'quiet', () => void this.start('device')));
     if (typeof recording === 'string' && recording)
       choices.push(button(words.livePlay, 'quiet', () => void this.start('recording')));
     for (const choice of choices) choice.disabled = this.running;
@@ -93,6 +93,7 @@ export class LivePanel {
     if (state.playback.playing) state.playback.pause();
     if (face < state.source.replay.faces.length && !state.shown.visible.includes(face)) state.shown.set({ mode: 'single', first: face });
     viewer?.showLive({ face, displacement });
+    this.measure(face, displacement);
     // Drawn when the frames asked for before are; the next task comes after the drawing.
     requestAnimationFrame(() => setTimeout(() => void this.ask('live_drawn', { frame })));
   }
@@ -103,7 +104,10 @@ export class LivePanel {
     this.running = state !== 'ended';
     if (was !== this.running) {
       this.offer();
-      if (!this.running) this.viewer()?.showLive(null);
+      if (!this.running) {
+        this.viewer()?.showLive(null);
+        this.measure(0, null);
+      }
     }
     this.into.dataset.live = state;
     this.told.textContent = words.liveStates[state];
@@ -115,8 +119,8 @@ export class LivePanel {
     this.say(problem);
     const ms = (value: unknown) => (typeof value === 'number' ? `${value.toFixed(0)} ms` : '–');
     const rows: [string, string][] = [
-      [words.liveRate, `${drawn_a_second}`], [words.liveDelay, words.liveDelays(ms(delay_ms), ms(delay_95_ms))],
-      [words.liveDropped, words.liveDrops(dropped, not_drawn)], [words.liveFollowed, words.liveOf(valid, frames)],
+      [words.liveRate, `${drawn_a_second}`], [words.liveDelay, ms(delay_ms)], [words.liveDelayMost, ms(delay_95_ms)],
+      [words.liveDropped, `${dropped + not_drawn}`], [words.liveFollowed, words.liveOf(valid, frames)],
     ];
     this.figures.hidden = frames === 0;
     this.figures.replaceChildren(...rows.flatMap(([name, value]) => [element('dt', name), element('dd', value)]));

@@ -28,6 +28,7 @@ import { ScenePanel } from './scene_panel';
 import { StudioState } from './studio_state';
 import { Tabs } from './tabs';
 import { TissuePanel } from './tissue_panel';
+import { ViewVideo } from './video';
 import { fillWords, words } from './words';
 
 class Studio {
@@ -42,7 +43,7 @@ class Studio {
   private readonly tabs = new Tabs(this.state, this.connection, this.edits);
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'));
   private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null);
-  private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null);
+  private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null, (face, shape) => this.figures.showLive(face, shape));
   private readonly messages = new MessagesPanel(at('messages-panel'));
   private readonly progress = new Progress(at('progress'));
   private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.say('note', text));
@@ -67,6 +68,7 @@ class Studio {
       else this.showMotion();
     });
     playback.onChange(() => this.showTime());
+    new ViewVideo(this.state, at<HTMLButtonElement>('save-video'), () => this.stage?.face ?? null, () => this.live.live);
     const loop = at<HTMLInputElement>('loop');
     loop.addEventListener('change', () => (playback.loop = loop.checked));
     this.connection.onState((line) => this.showLine(line));
@@ -96,13 +98,15 @@ class Studio {
       this.movedText = state.scene?.text ?? null;
       this.compareTexts();
     });
-    connection.on('motion', ({ replay, block, seconds }) => {
+    connection.on('motion', ({ replay, block, seconds, bands }) => {
       if (!state.source.open) return;
       const manifest = replay as MovingManifest;
       this.withOptions(manifest.summary);
       state.source.setMotion(movingOf(manifest, block));
       this.movedText = state.scene?.text ?? null;
       this.compareTexts();
+      document.documentElement.dataset.bands = String(bands);
+      if (bands) return;
       document.documentElement.dataset.computedS = seconds.toFixed(3);
       document.documentElement.dataset.motions = String(Number(document.documentElement.dataset.motions ?? 0) + 1);
     });

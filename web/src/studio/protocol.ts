@@ -261,6 +261,8 @@ export interface MotionEvent {
   activations: unknown;
   /** that it took */
   seconds: number;
+  /** error bands are known; false: they follow when nothing else is to do, in another such event */
+  bands: boolean;
 }
 
 /** How the live face goes, some times a second. */

@@ -95,7 +95,8 @@ namespace {
 /// Runs `simulator`, which follows the mirrored motion, with the scene's options mirrored.
 MirroredTwin twin_of(const Scene& scene, const Inputs& inputs, const tissue::TissueField* field,
                      const metrics::MidsagittalPlane& plane,
-                     std::shared_ptr<reenact::Simulator> simulator) {
+                     std::shared_ptr<reenact::Simulator> simulator,
+                     const std::function<bool()>& cancelled) {
   reenact::SimulationOptions options = simulation_options(scene, inputs);
   options.solver.method = reenact::SolverMethod::reduced;
   options.solver.verify = false;
@@ -105,7 +106,7 @@ MirroredTwin twin_of(const Scene& scene, const Inputs& inputs, const tissue::Tis
   if (field) options.tissue.element = mirrored_elements(*field, simulator->mesh(), plane);
   simulator->set_options(std::move(options));
   reenact::SimulationResult result =
-      simulator->run({.progress = {}, .cancelled = {}, .skin_alone = true});
+      simulator->run({.progress = {}, .cancelled = cancelled, .skin_alone = true});
   return {.why_not = {},
           .landmarks = std::move(result.performance.landmarks),
           .skin_displacement_m = std::move(result.performance.skin_displacement_m),
@@ -116,7 +117,7 @@ MirroredTwin twin_of(const Scene& scene, const Inputs& inputs, const tissue::Tis
 
 MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
                            const tissue::TissueField* field, const metrics::MidsagittalPlane& plane,
-                           const reenact::Simulator& run) {
+                           const reenact::Simulator& run, const std::function<bool()>& cancelled) {
   MirroredTwin none;
   if (scene.region.measured != reenact::Measured::none) {
     none.why_not = "a region of the skin follows the recording itself";
@@ -126,22 +127,23 @@ MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
   if (!motion) return none;
   auto simulator = std::make_shared<reenact::Simulator>(run);
   simulator->set_motion(std::move(*motion));
-  return twin_of(scene, inputs, field, plane, std::move(simulator));
+  return twin_of(scene, inputs, field, plane, std::move(simulator), cancelled);
 }
 
 MirroredTwin simulate_variants_twin(const Scene& scene, const Inputs& inputs,
                                     const tissue::TissueField* field,
                                     const metrics::MidsagittalPlane& plane, reenact::Simulator& run,
-                                    const MirroredTwin& of_base) {
+                                    const MirroredTwin& of_base,
+                                    const std::function<bool()>& cancelled) {
   // A variant may do what has no twin.
   MirroredTwin none;
   if (!of_base.simulator || scene.region.measured != reenact::Measured::none ||
       !mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), none.why_not))
-    return simulate_twin(scene, inputs, field, plane, run);
+    return simulate_twin(scene, inputs, field, plane, run, cancelled);
   auto simulator = std::make_shared<reenact::Simulator>(*of_base.simulator);
   simulator->hold_load();
   simulator->reuse_factor(std::move(run));
-  return twin_of(scene, inputs, field, plane, std::move(simulator));
+  return twin_of(scene, inputs, field, plane, std::move(simulator), cancelled);
 }
 
 }  // namespace hyperex::scene

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,16 +38,18 @@ std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
 
 /// `field`: where the run's tissue differs from place to place, else null. By the reduced model,
 /// whichever the run takes. `run`: a simulator of the run's mesh and motion, whose stages it begins
-/// with. Throws NumericalError as Simulator::run().
+/// with. Throws NumericalError as Simulator::run(), and Cancelled where `cancelled` says so.
 MirroredTwin simulate_twin(const Scene& scene, const Inputs& inputs,
                            const tissue::TissueField* field, const metrics::MidsagittalPlane& plane,
-                           const reenact::Simulator& run);
+                           const reenact::Simulator& run,
+                           const std::function<bool()>& cancelled = {});
 
 /// Of a variant: with the stages and the load of base's twin where there is one. `run`: the
 /// variant's simulator, not needed any more; its factor is used again.
 MirroredTwin simulate_variants_twin(const Scene& scene, const Inputs& inputs,
                                     const tissue::TissueField* field,
                                     const metrics::MidsagittalPlane& plane, reenact::Simulator& run,
-                                    const MirroredTwin& of_base);
+                                    const MirroredTwin& of_base,
+                                    const std::function<bool()>& cancelled = {});
 
 }  // namespace hyperex::scene

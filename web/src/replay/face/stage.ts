@@ -154,7 +154,8 @@ export class Stage {
 
   private goWithout(): void {
     at('no-webgl').hidden = false;
-    for (const id of ['face', 'view-tools', 'faces', 'first-label', 'second-label', 'save-picture', 'colour-key']) at(id).hidden = true;
+    // The studio's page has no list of faces here.
+    for (const id of ['face', 'view-tools', 'faces', 'first-label', 'second-label', 'save-picture', 'colour-key']) document.getElementById(id)?.toggleAttribute('hidden', true);
   }
 
   private wireViews(): void {

@@ -15,7 +15,7 @@ import type { Marks } from './marks';
 import type { Overlay, OverlayName } from './overlays';
 import type { Shown } from '../shown';
 import { drawsInSoftware } from '../software_gl';
-import { Undoing } from '../../page/listeners';
+import { Listeners, Undoing, type Undo } from '../../page/listeners';
 
 export type View = 'front' | 'three-quarter' | 'left' | 'right';
 
@@ -63,7 +63,7 @@ export class FaceViewer {
   private drawnAt = 0;
   private slow = 0; // pictures in a row that came late
   private rest = 0;
-  private drawn = () => {};
+  private readonly drawn = new Listeners();
   private lit: ReadonlySet<string> = new Set();
   /** What a face looks like at this instant, in the place of its motion. */
   private live: { face: number; displacement: Float32Array } | null = null;
@@ -253,9 +253,9 @@ export class FaceViewer {
     this.queue();
   }
 
-  /** After each picture; of one listener. */
-  onDraw(drawn: () => void): void {
-    this.drawn = drawn;
+  /** After each picture, while the canvas still holds it. */
+  onDraw(drawn: () => void): Undo {
+    return this.drawn.add(drawn);
   }
 
   /** What of the skin is seen at a place in the window. */
@@ -425,7 +425,7 @@ export class FaceViewer {
       this.renderer.setScissor(from, 0, to - from, height);
       this.renderer.render(this.scene, this.camera);
     }
-    this.drawn();
+    this.drawn.tell();
   }
 
   private touch(): void {
