@@ -112,7 +112,7 @@ export class LivePanel {
     this.into.dataset.live = state;
     this.told.textContent = words.liveStates[state];
     this.tools.hidden = !this.running;
-    this.neutral.disabled = this.record.disabled = state !== 'following';
+    this.neutral.disabled = state !== 'following';
     this.recorded = recording;
     this.record.textContent = recording ? words.liveRecorded(take_s.toFixed(1)) : words.liveRecord;
     this.record.setAttribute('aria-pressed', String(recording));

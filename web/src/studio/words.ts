@@ -175,7 +175,7 @@ const en = {
   asBase: 'as base',
   noBand: 'Error bands follow when you pause; until then a change below 0.5 mm may be none.',
   againstBaseWithin: (value: string, band: string) => `${value} (± ${band}) to base`,
-  undecidedChange: (value: string, band: string) => `undecided: ${value} (± ${band})`,
+  undecidedChange: (value: string, band: string) => `undecided, ${value} (± ${band})`,
   bandHint: '95 %: what mesh and jitter make of the change, as the mirrored face tells. Wrong tissue or muscles are not in it.',
   most: 'Differs most',
   mostHint: 'Greatest distance from base, of all places and times',
