@@ -613,6 +613,17 @@ json Session::live_take(const json& fields) {
                           "rigid_points", "rest_s", "time_scale"})
     text = scene::with_value(text, fmt::format("motion.{}", key), nullptr);
   text = scene::with_value(text, "time.end_s", nullptr);
+  // Where the tracker fell behind: said, and no reason to lose the take.
+  double gap_s = 0;
+  for (std::size_t k = 1; k < take.time_s.size(); ++k)
+    gap_s = std::max(gap_s, take.time_s[k] - take.time_s[k - 1]);
+  if (gap_s >= face_->scene().motion.max_gap_s) {
+    text = scene::with_value(text, "motion.max_gap_s", std::ceil(10 * gap_s + 1) / 10);
+    say("warning",
+        fmt::format("frames of the take were dropped for up to {:.1f} s: the motion between is a "
+                    "straight line",
+                    gap_s));
+  }
   commit(text);
   return json::object();
 }
