@@ -11,6 +11,7 @@ void add_check(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_landmarks(CLI::App& program);
 void add_mesh(CLI::App& program);
+void add_new(CLI::App& program);
 void add_presets(CLI::App& program);
 void add_run(CLI::App& program);
 void add_scene_reference(CLI::App& program);

@@ -67,6 +67,7 @@ void log_to_standard_error() {
 }
 
 void add_subcommands(CLI::App& program) {
+  hyperex::cli::add_new(program);
   hyperex::cli::add_run(program);
   hyperex::cli::add_check(program);
   hyperex::cli::add_studio(program);
@@ -100,8 +101,8 @@ void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2)
     throw hyperex::InputError(
         "expected a subcommand (" + list +
-        "), as in: hyperex run examples/demo.toml --out out/demo; all of them with an example: "
-        "hyperex --help");
+        "); to see a face move: hyperex studio; with a scan and a recording of your own: hyperex "
+        "new SCAN MOTION; all subcommands with an example: hyperex --help");
   const std::string near = hyperex::scene::nearest(argv[1], names);
   throw hyperex::InputError(
       {{},

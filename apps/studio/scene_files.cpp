@@ -101,19 +101,6 @@ std::string_view embedded_smile() {
   return {hyperex_studio_smile_begin, hyperex_studio_smile_end};
 }
 
-std::string recording_key(const fs::path& recording) {
-  std::string ending = recording.extension().string();
-  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (ending == ".trc") return "motion.file";
-  if (ending != ".csv") return "motion.recording";
-  const std::string head = read_file(recording).substr(0, 65536);
-  if (head.find("mouthSmileLeft") != std::string::npos ||
-      head.find("MouthSmileLeft") != std::string::npos)
-    return "motion.arkit";
-  if (head.find("AU12_r") != std::string::npos) return "motion.openface";
-  return "motion.file";
-}
-
 json with_uploads(const std::string& key, json value, const fs::path& uploads,
                   const std::vector<std::string>& known) {
   const scene::Key* info = scene::find_key(key);

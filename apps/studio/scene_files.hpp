@@ -15,9 +15,6 @@ std::string embedded_scene();
 /// That file.
 std::string_view embedded_smile();
 
-/// The key of a scene that a recording of this name belongs to: "motion.file", "motion.recording".
-std::string recording_key(const std::filesystem::path& recording);
-
 /// No path of a page reaches the file system: where `value` of the key holds paths (those in rows
 /// of tables too) each becomes that of the file of this name in `uploads`; "embedded" and those in
 /// `known` stay. Throws InputError for any other.

@@ -16,6 +16,7 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/grammar/new_scene.hpp"
 #include "hyperex/scene/grammar/scene_text.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
 #include "hyperex/scene/grammar/variant_presets.hpp"
@@ -283,7 +284,7 @@ std::string Session::scan_scene(const fs::path& scan, const fs::path& recording)
     text = scene::with_value(text, "motion.arkit", "smile_arkit.csv");
     return scene::with_value(text, "drive.by", "muscles");
   }
-  return scene::with_value(text, recording_key(recording), fs::absolute(recording).string());
+  return scene::with_value(text, scene::recording_key(recording), fs::absolute(recording).string());
 }
 
 void Session::write_smile() const {

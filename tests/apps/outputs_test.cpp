@@ -234,13 +234,13 @@ TEST_F(Outputs, WhatIsWrongIsSaidInWordsOfTheUsers) {
   EXPECT_THAT(gone.err, testing::Not(HasSubstr("not mirrored")));
   const Outcome alone = call("");
   EXPECT_EQ(alone.status, 2);
-  EXPECT_THAT(alone.err, HasSubstr("as in: hyperex run examples/demo.toml --out out/demo"));
+  EXPECT_THAT(alone.err, HasSubstr("hyperex new SCAN MOTION"));
   add_variant("base");
   expect_refused("check scene.toml", "\"base\": expected another name");
 }
 
 TEST_F(Outputs, WhatIsNoCommandOrSceneIsToldAsSuch) {
-  expect_refused("animate scene.toml", "\"animate\": expected a subcommand (run, check, ");
+  expect_refused("animate scene.toml", "\"animate\": expected a subcommand (new, run, check, ");
   expect_refused("simmetry motion.csv", "did you mean symmetry?");
   expect_refused("run face.ply --out out", "this is a scan. Put scan = { file = 'face.ply' }");
 }

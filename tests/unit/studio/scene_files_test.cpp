@@ -44,18 +44,5 @@ TEST(SceneFiles, WhatASceneNamesIsFoundFromItsNewPlace) {
   EXPECT_EQ(read_file(scene::read_scene(to / "c.toml").motion.arkit), embedded_smile());
 }
 
-TEST(SceneFiles, ARecordingIsKnownByItsEndingAndItsHead) {
-  const test::OwnFolder folder;
-  const auto key = [&](const char* name, const char* head) {
-    std::ofstream(folder.path() / name) << head;
-    return recording_key(folder.path() / name);
-  };
-  EXPECT_EQ(key("a.csv", "time_s,mouthSmileLeft\n"), "motion.arkit");
-  EXPECT_EQ(key("b.csv", "frame, AU12_r\n"), "motion.openface");
-  EXPECT_EQ(key("c.csv", "time_s,name,x_mm\n"), "motion.file");
-  EXPECT_EQ(key("d.TRC", ""), "motion.file");
-  EXPECT_EQ(key("e.mp4", ""), "motion.recording");
-}
-
 }  // namespace
 }  // namespace hyperex::studio

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "commands.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/printable.hpp"
+#include "hyperex/io/scan.hpp"
+#include "hyperex/scene/grammar/new_scene.hpp"
+#include "hyperex/scene/grammar/scene.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As seen from the scene's folder, where that is shorter.
+std::string seen_from(const fs::path& folder, const std::string& path) {
+  if (path == "embedded") return path;
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  const std::string near = whole.lexically_proximate(folder.lexically_normal()).generic_string();
+  return near.starts_with("../../..") ? whole.generic_string() : near;
+}
+
+void write_scene(const std::string& scan, const std::string& motion, fs::path to) {
+  const auto refuse_missing = [](const char* what, const std::string& path) {
+    if (path != "embedded" && !fs::exists(path))
+      throw InputError(
+          fmt::format("{}: there is no such file; expected {}, or embedded", path, what));
+  };
+  refuse_missing("a scan", scan);
+  refuse_missing("a recording", motion);
+  scene::NewScene made;
+  if (scan != "embedded") {
+    const io::Scan read = io::read_scan(scan);
+    made.unit = io::name_of(read.unit);
+    made.unit_note = io::unit_note(read);
+  }
+  if (to.empty()) to = fs::path(scan).stem().string() + ".toml";
+  if (fs::exists(to))
+    throw InputError(to.string() + ": is there already; name another file by --out");
+  made.name = to.stem().string();
+  const fs::path folder = fs::absolute(to).parent_path();
+  made.scan = seen_from(folder, scan);
+  made.motion = seen_from(folder, motion);
+  made.motion_key = motion == "embedded" ? "motion.file" : scene::recording_key(motion);
+  const std::string text = scene::new_scene_text(made);
+  scene::read_scene_text(text, to);  // what is wrong is said now, and nothing is written
+  write_file_atomically(to, [&](std::ostream& out) { out << text; });
+  std::cout << fmt::format(
+      "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n",  //
+      printable(to.string()), printable(made.name));
+}
+
+}  // namespace
+
+void add_new(CLI::App& program) {
+  struct Options {
+    std::string scan, motion;
+    fs::path to;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "new", "Write a scene with comments, to begin with, of a scan and a recording");
+  command
+      ->add_option("SCAN", options->scan,
+                   "PLY, OBJ, STL, glTF or GLB; or embedded, the face that comes with the program")
+      ->required();
+  command
+      ->add_option("MOTION", options->motion,
+                   "CSV of points, ARKit weights or OpenFace's units; TRC; a depth camera's "
+                   "recording or a video; or embedded")
+      ->required();
+  command->add_option("--out", options->to,
+                      "The scene's file, which must not exist [default: SCAN's name with .toml, in "
+                      "the current folder]");
+  command->footer("Example: hyperex new me.ply smile.csv --out me.toml");
+  command->callback([options] { write_scene(options->scan, options->motion, options->to); });
+}
+
+}  // namespace hyperex::cli

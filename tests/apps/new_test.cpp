@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `hyperex new`: from a scan and a recording to a scene that runs.
+#include <gmock/gmock.h>
+
+#include "apps/good_inputs.hpp"
+#include "apps/program.hpp"
+
+namespace hyperex {
+namespace {
+
+using testing::HasSubstr;
+
+class NewCommand : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_good_inputs(in(""));
+  }
+};
+
+TEST_F(NewCommand, WritesASceneThatPassesTheCheck) {
+  const Outcome made = call("new face.ply motion.csv --out me.toml");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("next: hyperex check me.toml"));
+  EXPECT_THAT(read_file(in("me.toml")), HasSubstr("unit = \"mm\"  # mm, guessed by its size"));
+  const Outcome checked = call("check me.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("no problems found"));
+}
+
+TEST_F(NewCommand, NamesFilesAsSeenFromTheScenesFolder) {
+  std::filesystem::create_directory(in("scenes"));
+  ASSERT_EQ(call("new face.ply embedded --out scenes/me.toml").status, 0);
+  EXPECT_THAT(read_file(in("scenes/me.toml")), HasSubstr("file = \"../face.ply\""));
+  EXPECT_EQ(call("check scenes/me.toml").status, 0);
+}
+
+TEST_F(NewCommand, OverwritesNothingAndRefusesWhatIsNotThere) {
+  put(in("face.toml"), "mine");
+  const Outcome again = call("new face.ply motion.csv");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("face.toml: is there already"));
+  EXPECT_EQ(read_file(in("face.toml")), "mine");
+  const Outcome gone = call("new face.ply nowhere.csv --out a.toml");
+  EXPECT_EQ(gone.status, 2);
+  EXPECT_THAT(gone.err, HasSubstr("nowhere.csv: there is no such file; expected a recording"));
+  const Outcome wrong = call("new motion.csv motion.csv --out a.toml");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
+}
+
+}  // namespace
+}  // namespace hyperex

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/grammar/new_scene.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "hyperex/scene/grammar/toml_values.hpp"
+
+namespace hyperex::scene {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(RecordingKey, IsToldByTheEndingAndTheColumns) {
+  const fs::path folder = fs::path(testing::TempDir()) / "hyperex_recording_key";
+  fs::create_directories(folder);
+  const auto key = [&](const char* name, const char* head) {
+    std::ofstream(folder / name) << head;
+    return recording_key(folder / name);
+  };
+  EXPECT_EQ(key("a.csv", "time_s,mouthSmileLeft\n"), "motion.arkit");
+  EXPECT_EQ(key("b.csv", "frame, AU12_r\n"), "motion.openface");
+  EXPECT_EQ(key("c.csv", "time_s,name,x_mm\n"), "motion.file");
+  EXPECT_EQ(key("d.TRC", ""), "motion.file");
+  EXPECT_EQ(key("e.mp4", ""), "motion.recording");
+  EXPECT_EQ(recording_key(folder), "motion.recording");
+  fs::remove_all(folder);
+}
+
+TEST(NewScene, SaysWhatItIsOfWhateverTheNames) {
+  const std::string odd = "my \"face\"\n# [scan] 'x'";
+  const NewScene of{odd + ".ply", odd + ".csv", "motion.arkit", "cm", "guessed\nby its size", odd};
+  const std::string text = new_scene_text(of);
+  const nlohmann::json root = parse_toml(text).root;
+  EXPECT_EQ(root.at("title"), odd);
+  EXPECT_EQ(root.at("scan"), nlohmann::json({{"file", odd + ".ply"}, {"unit", "cm"}}));
+  EXPECT_EQ(root.at("motion"), nlohmann::json({{"arkit", odd + ".csv"}}));
+  EXPECT_EQ(root.at("variant").size(), 1u);
+  EXPECT_THAT(text, HasSubstr("# guessed?by its size\n"));
+}
+
+TEST(NewScene, WhatIsCommentedOutIsSoundToo) {
+  std::string text = new_scene_text({"a.ply", "film.mp4", "motion.recording", "mm", "stated", "a"});
+  EXPECT_THAT(text, HasSubstr("#   hyperex run a.toml --out out/a\n"));
+  // Lines of comments that are keys or tables, uncommented.
+  std::string used;
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    end = text.find('\n', begin);
+    std::string line = text.substr(begin, end - begin);
+    if (line.starts_with("# ") && (line.find(" = ") != std::string::npos || line[2] == '['))
+      line = line.substr(2);
+    used += line + '\n';
+  }
+  const nlohmann::json root = parse_toml(used).root;
+  EXPECT_EQ(root.at("variant").size(), 3u);
+  EXPECT_EQ(root.at("scan").at("landmarks"), "landmarks.json");
+  EXPECT_EQ(root.at("motion").at("mirrored"), true);
+  EXPECT_EQ(root.at("tissue").at("preset"), "aged_skin");
+}
+
+}  // namespace
+}  // namespace hyperex::scene
