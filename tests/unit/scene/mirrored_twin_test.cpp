@@ -56,7 +56,8 @@ TEST_P(SymmetricMotion, EndsWhereItIsDrivenAndIsUndecided) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, SymmetricMotion,
-                         testing::Values(Case{"mouth_open.toml", "", "3.3"}, Case{"mouth_open.toml", "", "4"},
+                         testing::Values(Case{"mouth_open.toml", "", "3.3"},
+                                         Case{"mouth_open.toml", "", "4"},
                                          Case{"mouth_open.toml", "all", "4"},
                                          Case{"subject_a_mouth_open.toml", "", "3.3"},
                                          Case{"subject_a_mouth_open_all.toml", "", "3.3"},
