@@ -22,7 +22,9 @@ visitor_does() {
 
 use_program() {
   install_packages "./hyperex_*.deb" && visitor_does program "hyperex run $examples/mouth_open.toml --out mouth_open && test -s mouth_open/report.html &&
-    hyperex run $examples/demo.toml --out demo | tee said && grep 'weak right zygomatic branch' said"
+    hyperex run $examples/demo.toml --out demo | tee said && grep 'weak right zygomatic branch' said &&
+    test -s /usr/share/man/man1/hyperex-run.1.gz && bash -c 'source /usr/share/bash-completion/completions/hyperex; complete -p hyperex' &&
+    hyperex new embedded embedded --out mine.toml && hyperex check mine.toml"
 }
 use_library() {
   install_packages "./libhyperex-dev_*.deb" g++ cmake && visitor_does library "cp -r $examples/cpp . && cmake -S cpp -B build && cmake --build build &&

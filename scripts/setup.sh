@@ -33,7 +33,8 @@ packages=(
 )
 video=(libopencv-videoio-dev)  # FFmpeg, GStreamer and GDAL: 150 packages
 python=(pybind11-dev python3-dev python3-numpy)
-deb=(file dpkg-dev)  # what cpack asks which libraries the packages need
+deb=(file dpkg-dev  # what cpack asks which libraries the packages need
+     help2man)      # manual pages of the help texts
 tests=(python3-matplotlib libgtest-dev libgmock-dev libopencv-imgcodecs-dev calculix-ccx)
 
 say() { printf 'setup: %s\n' "$*"; }
