@@ -107,6 +107,21 @@ TEST(FiniteNewton, AFactorServesManyStepsAndTheAnswerIsThatOfFullNewton) {
   EXPECT_LT(factorisations, kSteps / 2);
 }
 
+TEST(FiniteNewton, ForcesGrowFromThoseItStartedUnder) {
+  const Block block(0.45);
+  FiniteStrain form(block.assembler, block.material, {});
+  FiniteNewton newton(form, block.ends, {});
+  const VectorXd force = block.pull({0, 0, 0.1});
+  FiniteNewtonHooks hooks;
+  hooks.before_iteration = [&](const VectorXd&, double, VectorXd& now) {
+    EXPECT_LT((now - force).norm(), 1e-12 * force.norm());
+  };
+  newton.start(block.zeros(), block.zeros(), force);
+  // Crushed to a sixth at once: elements would turn inside out, and so it is done in parts.
+  const FiniteStepReport report = newton.equilibrium(block.moved({-0.033, 0, 0}), force, hooks);
+  EXPECT_GT(report.parts, 1);
+}
+
 TEST(FiniteNewton, TinyLoadsGiveTheLinearAnswer) {
   for (const Hyperelastic& law : test::finite_laws()) {
     const Block block(0.49);

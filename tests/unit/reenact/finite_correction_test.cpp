@@ -13,11 +13,11 @@ namespace {
 /// A block that stands on a held base.
 class CorrectedBlock : public testing::Test {
  protected:
-  FiniteCorrection correction() const {
+  FiniteCorrection correction(fem::SparseMatrix springs = {}) const {
     fem::FiniteNewtonOptions how;
     how.tolerance = 1e-9;
     how.least_motion_m = 1e-9;
-    return {assembler_, material_, {}, fem::SparseMatrix(), held_, how, fem::LinearSolver::cholesky,
+    return {assembler_, material_, {}, std::move(springs), held_, how, fem::LinearSolver::cholesky,
             nullptr};
   }
   /// A push on the top, along x and down.
@@ -73,6 +73,19 @@ TEST_F(CorrectedBlock, TheForcesOfTheMomentStayAndTheFurtherOnesAreMet) {
   EXPECT_LT(left.norm(), 1e-6 * more.norm());
   for (const int u : held_) EXPECT_EQ(d[u], d0[u]);
   EXPECT_LT((tissue.under(0 * more) - d0).cwiseAbs().maxCoeff(), 1e-8) << "and taken away again";
+}
+
+TEST_F(CorrectedBlock, SpringsPullInTheMomentAsTheyDid) {
+  fem::SparseMatrix springs = assembler_.stiffness_pattern();
+  for (Eigen::Index u = 0; u < springs.cols(); ++u) springs.coeffRef(u, u) = 50;
+  springs.prune(0.0);
+  const Eigen::VectorXd d0 = leaned(), more = push(0.02);
+  FiniteCorrection held = correction(springs), free = correction();
+  held.begin(d0);
+  EXPECT_LT((held.under(0 * more) - d0).cwiseAbs().maxCoeff(), 1e-8) << "none: nothing moves";
+  const double by = (held.under(more) - d0).norm();
+  free.begin(d0);
+  EXPECT_LT(by, 0.9 * (free.under(more) - d0).norm());
 }
 
 TEST_F(CorrectedBlock, AForceThatNothingCanMeetLeavesItUsable) {

@@ -167,6 +167,26 @@ TEST_F(FiniteRun, AStreamKnowsNoFiniteStrain) {
   EXPECT_THROW(simulator.start_stream(0.02), InputError);
 }
 
+TEST_F(FiniteRun, FramesBetweenStepsLieOnTheMotion) {
+  options_.solver.finite_step_s = 1 / 30.0;
+  const auto base = made(options_, smile(1)).run();
+  options_.time.frame_rate_hz *= 2;
+  const auto between = made(options_, smile(1)).run();
+  const auto& d = between.performance.node_displacement_m;
+  const auto& at_steps = base.performance.node_displacement_m;
+  ASSERT_GE(d.size() + 1, 2 * at_steps.size());
+  double most = 0, off = 0;
+  for (std::size_t f = 1; f + 2 < at_steps.size(); ++f) {
+    EXPECT_LT((d[2 * f] - at_steps[f]).cwiseAbs().maxCoeff(), 1e-6) << "a step's end";
+    // Hermite's cubic through evenly spaced ends of a smooth motion is near the cubic through four.
+    const auto middle =
+        ((9 * (at_steps[f] + at_steps[f + 1]) - at_steps[f - 1] - at_steps[f + 2]) / 16.0F).eval();
+    off = std::max(off, double((d[2 * f + 1] - middle).cwiseAbs().maxCoeff()));
+    most = std::max(most, double((at_steps[f + 1] - at_steps[f]).cwiseAbs().maxCoeff()));
+  }
+  EXPECT_LT(off, 0.08 * most);
+}
+
 TEST_F(FiniteRun, ForcesTurnWithTheTissue) {
   const auto& volume = mesh_->volume;
   const fem::Assembler assembler(volume.nodes, volume.tets, fem::ElementKind::tet4);

@@ -306,6 +306,23 @@ TEST_F(ObstacleOfAFace, AFaceAlikeOnBothSidesIsCorrectedAlike) {
   EXPECT_LT(apart, 0.1 * most) << "tetrahedra are not cut alike";
 }
 
+TEST_F(ObstacleOfAFace, GapsOpenAlongTheNormalOfAnObstacleThatTurned) {
+  const ObstaclePlaces places(face_.mesh, face_.landmarks, obstacles_->front());
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+  turned.rotate(Eigen::AngleAxisd(0.4, Vec3(3, -1, 2).normalized()));
+  constexpr double step = 1e-6;
+  for (Eigen::Index i = 0; i < places.count(); i += 7) {
+    const Vec3 at(0.001, -0.002, 0.0005);
+    Vec3 outward, ignored;
+    places.gap_m(i, at, turned, outward);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR((places.gap_m(i, at + step * Vec3::Unit(axis), turned, ignored) -
+                   places.gap_m(i, at - step * Vec3::Unit(axis), turned, ignored)) /
+                      (2 * step),
+                  outward[axis], 1e-6);
+  }
+}
+
 TEST_F(ObstacleOfAFace, LidsTouchTheEyeballsBehindThem) {
   const std::vector<Obstacle> eyes = eyes_to_touch(face_.mesh.skin.points, face_.landmarks);
   ASSERT_EQ(eyes.size(), 2u);
