@@ -27,12 +27,12 @@ class CorrectedBlock : public testing::Test {
       if (box_.nodes(n, 2) > 0.0199) force.segment<3>(3 * n) = newton * Vec3(1, 0.3, -0.5);
     return force;
   }
-  /// The block leaned by some millimetres: a moment of a motion.
+  /// The block leaned by some millimetres, its base moved a little: a moment of a motion.
   Eigen::VectorXd leaned() const {
     Eigen::VectorXd d = Eigen::VectorXd::Zero(3 * box_.nodes.rows());
     for (Eigen::Index n = 0; n < box_.nodes.rows(); ++n) {
       const double z = box_.nodes(n, 2) / 0.02;
-      d.segment<3>(3 * n) = z * z * Vec3(0.003, 0.001, -0.0005);
+      d.segment<3>(3 * n) = z * z * Vec3(0.003, 0.001, -0.0005) + Vec3(4e-4, 0, 2e-4);
     }
     return d;
   }

@@ -63,7 +63,7 @@ class FiniteStrain {
   /// `matrix` := second derivatives + mass_share M at d; its pattern is made where it is not that
   /// of System::stiffness already. `projected`: each element's part brought to positive
   /// semidefinite (Teran et al., Robust Quasistatic Finite Elements and Flesh Simulation, 2005),
-  /// six times as slow: where the exact one is not positive definite.
+  /// four times as slow: where the exact one is not positive definite.
   void tangent(const Eigen::VectorXd& d, double mass_share, bool projected, SparseMatrix& matrix);
 
   /// out := M u; M is the consistent mass.
