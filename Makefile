@@ -113,7 +113,7 @@ bench: ## measure everything, beside CalculiX, and write docs/performance.md (QU
 	  assembly_bench solver_bench reduced_bench memory_bench growth_bench tracking_bench
 	bench/run.sh build/release $(if $(QUICK),--quick)
 
-experiments: build ## the source's three experiments and twin experiments: reports, docs/experiments.md (subject A too where ../shared is), docs/twins.md
+experiments: build ## the thesis' three experiments and twin experiments: reports, docs/experiments.md (subject A too where ../shared is), docs/twins.md
 	cmake --build --preset release --parallel $(JOBS) --target experiments_study twins_study
 	bench/experiments/run.sh build/release
 

@@ -168,12 +168,13 @@ def step_section(solver):
                            for k in ("memory", "like", "cache")]])
     text = """
 ## A step of the full model
-`Newmark::step` with the face's motion, and its parts one after the other as in a step: both triangular
-solves, the product with mass and damping, the product with the prescribed displacements, the rest
-(what is left of the step). The bound is the time to read the factor twice, the least that any solver
-with this factor takes: at the rate of memory, of an array as large as the factor, and of the cache; in
-brackets the step over the bound. "Cores busy" is processor time over time: where two threads keep no
-more than one core busy, other programs had the second, and the row says nothing of two threads. A factor that fits the last cache may pass the bound of memory.
+`Newmark::step` with the face's motion, and its parts in the order of a step: both triangular solves, the
+product with mass and damping, the product with the prescribed displacements, and the rest of the step. The
+bound is the time to read the factor twice, which no solver with this factor can beat. It is given at the
+rate of memory, of an array as large as the factor, and of the cache, with the step over the bound in
+brackets. A factor that fits into the last cache may be faster than the bound of memory. "Cores busy" is
+processor time over elapsed time. If two threads keep no more than one core busy, other programs used the
+second core, and the row says nothing about two threads.
 
 """
     text += table(["element", "threads", "cores busy", "step", "solves", "M and C", "K_oc", "rest", "bound: memory",
@@ -226,9 +227,9 @@ def calculix_section(solver):
     own = solver["elements"]["tet4"]["steps"][-1]["step_s"]
     return f"""
 ### CalculiX
-The same mesh, linear tetrahedra, the same nodes driven and held (no springs of bones and of the foundation),
-implicit dynamics with Rayleigh damping, two threads, in the same run: {ccx["few"]} steps in
-{time(ccx["few_s"])}, {ccx["many"]} steps in {time(ccx["many_s"])}; the difference is
+The same mesh of linear tetrahedra, the same nodes driven and fixed (without the elastic foundations), and
+implicit dynamics with Rayleigh damping. On two threads, in the same run: {ccx["few"]} steps in
+{time(ccx["few_s"])}, {ccx["many"]} steps in {time(ccx["many_s"])}. The difference is
 **{time(ccx["step_s"])} a step, {ccx["step_s"] / own:.0f} times ours** ({time(own)}). It also writes the displacements of all nodes at each step.
 """
 
@@ -255,10 +256,10 @@ same run once more with nothing changed, which is skin, landmarks, lips and inve
 """
     text += table(["element", "assembly", "factor", "basis", "read out", "together"], edit)
     text += """
-Tolerance asked for, and error as estimated and as it is: the greatest distance of any node at any of
-the steps to the full model driven by the motion without anything left out, over the greatest
-displacement. "Hard": the motion's peak times a sine of 0.27 s, a tenth of the viscosity: from rest
-to full speed within the first steps.
+Requested tolerance, estimated error and true error. The true error is the greatest distance of any node
+in any step from the full model, driven by the complete motion, over the greatest displacement. "Hard": the
+motion's peak times a sine of 0.27 s, with a tenth of the viscosity, from rest to full speed within the
+first steps.
 
 """
     rows = []
@@ -277,10 +278,11 @@ to full speed within the first steps.
 def tracking_section(results):
     text = """
 ## Tracking
-`hyperex track` on recordings of 640 x 480 pixels, by stage, milliseconds a frame; on one core, the
-quickest of three passes. "From memory": the pictures are decoded before; "with decoding": read from
-JPEG and PNG as the pass goes; "and a scan": all vertices of a scan follow the tracked triangles too, as
-a measured region does. "Cores busy" is processor time over time. The person's shape is learnt once.
+`hyperex track` on recordings of 640 x 480 pixels, by stage, in milliseconds per frame, on one core, the
+fastest of three passes. "From memory": the pictures are decoded before. "With decoding": they are read from
+JPEG and PNG during the pass. "And a scan": all vertices of a scan follow the tracked triangles too, as a
+measured region does. "Cores busy" is processor time over elapsed time. The person's face shape is estimated
+once.
 
 """
     if not (results / "tracking.json").exists():

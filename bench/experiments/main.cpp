@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// experiments_study: the source's three experiments, beside what it reports, as a page with
+// experiments_study: the thesis' three experiments, beside what it reports, as a page with
 // pictures (make experiments).
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -45,7 +45,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   hyperex::bench::Options options;
-  CLI::App program("The source's three experiments, as a page");
+  CLI::App program("The thesis' three experiments, as a page");
   program.add_option("--examples", options.setting.examples, "Folder of the scenes")->required();
   program.add_option("--data", options.setting.data,
                      "Folder with ict/ and rgbd/; without it subject A is left out");

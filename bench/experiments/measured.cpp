@@ -14,7 +14,7 @@
 namespace hyperex::bench {
 namespace {
 
-constexpr double kScale_mm = 26;  // the source's
+constexpr double kScale_mm = 26;  // the thesis'
 
 struct Peak {
   TriMesh skin;

@@ -58,7 +58,7 @@ void add_model_panels(const std::string& face, const std::array<metrics::Symmetr
   const char* names[] = {"model 1", "model 2, right stiffer", "model 3, right softer"};
   const render::Range window{kSourceWindow_s[0], kSourceWindow_s[1]};
   CurvePanel s{.title = fmt::format("S(t), {}", face),
-               .unit = "ln |xi_L - xi_R|; the source's axis is -10 to -4, its window shaded",
+               .unit = "ln |xi_L - xi_R|; the thesis' axis is -10 to -4, its window shaded",
                .marked = window};
   CurvePanel tissue{.title = fmt::format("What the tissue does, {}", face),
                     .unit = "change of xi_L - xi_R against model 1, times 1000",
@@ -79,7 +79,7 @@ void add_model_panels(const std::string& face, const std::array<metrics::Symmetr
     for (std::size_t k = 0; k < change.size(); ++k) change[k] = 1e3 * (change[k] - own[k]);
     tissue.curves.push_back({names[m], curves[m].time_s, change, render::category_colour(m)});
   }
-  // Off the source's axis, where these curves lie there.
+  // Off the thesis' axis, where these curves lie there.
   s.range = {-10, std::max(-4.0, std::ceil(range_of(s.curves).high))};
   if (!curves[0].noise.empty()) {
     Curve floor{"noise floor", curves[0].time_s, {}, render::palette::faint_ink};

@@ -9,7 +9,7 @@
 
 namespace hyperex::bench {
 
-/// The window in which the source sees its curves part most.
+/// The window in which the thesis sees its curves part most.
 constexpr double kSourceWindow_s[2] = {0.25, 0.6};
 
 /// Model 2 or 3 against model 1.
@@ -34,7 +34,7 @@ struct SpreadRow {
   std::string condition, element, form;
   double tissue_2 = 0, tissue_3 = 0;  ///< greatest change of xi_L - xi_R against model 1, with sign
   double spread = 0, spread_at_s = 0;  ///< greatest spread of S, and when
-  double spread_in_window = 0;         ///< mean of the spread in the source's window
+  double spread_in_window = 0;         ///< mean of the spread in the thesis' window
   double share_in_window = 0;          ///< of the spread's integral over time
 };
 

@@ -49,8 +49,8 @@ std::string physics_section(const std::vector<PhysicsFace>& faces, const std::st
   std::string page = fmt::format(
       "\n## Experiment 2: mouth opening by physics\n"
       "`examples/experiment_2_embedded.toml`, `examples/experiment_2_subject_a.toml`.\n\n"
-      "![The mouth at the source's five times]({}/experiment_2_times.jpg)\n\n"
-      "Red: the driven points; blue: some of the nodes that are held. Which points the source "
+      "![The mouth at the thesis' five times]({}/experiment_2_times.jpg)\n\n"
+      "Red: the driven points; blue: some of the nodes that are held. Which points the thesis "
       "drives and holds is not\nlegible; ours are the seven of `drive.points`, a held border and "
       "bones to slide on.\n\n"
       "| | nodes | tetrahedra | driven points (nodes) | nodes on the skull | on the mandible | "
@@ -98,7 +98,7 @@ std::string models_section(const std::vector<ModelsFace>& faces, const std::stri
       "`examples/experiment_3_embedded.toml`, `examples/experiment_3_subject_a.toml`: the preset "
       "`source_model_1` and two\nvariants, which differ at the right crista philtri superior "
       "(cphs) "
-      "alone. The source's \"cheek\" is not among its\nlandmarks; ours is `cheek_L` and `cheek_R`, "
+      "alone. The thesis' \"cheek\" is not among its\nlandmarks; ours is `cheek_L` and `cheek_R`, "
       "the middle of the cheek ([landmarks.md](landmarks.md)).\n\n";
   for (const ModelsFace& f : faces)
     page += fmt::format("![Three models, {}]({}/experiment_3_maps_{}.jpg)\n\n", f.name, pictures,
@@ -179,7 +179,7 @@ std::string models_section(const std::vector<ModelsFace>& faces, const std::stri
   page += fmt::format(
       "\n**What parts the curves**, tried: the spread is the greatest S of the three less the "
       "least. "
-      "In the window of the\nsource, {:.2f} to {:.2f} s, lies {} of the time.\n\n"
+      "In the window of the\nthesis, {:.2f} to {:.2f} s, lies {} of the time.\n\n"
       "| face | condition | element | viscous tensor | D_2 - D_1, x 1000 | D_3 - D_1, x 1000 | "
       "greatest spread of S | at, s | mean in the window | share in the window |\n"
       "|---|---|---|---|---|---|---|---|---|---|\n",
@@ -198,7 +198,7 @@ std::string models_section(const std::vector<ModelsFace>& faces, const std::stri
 
 std::string experiments_page(const Experiments& all, const PageHead& head) {
   std::string page = fmt::format(
-      "# The source's three experiments\n\n"
+      "# The thesis' three experiments\n\n"
       "Written by `make experiments` at commit {}: every figure below comes from that run, none is "
       "typed. {}.\n\n"
       "H. Kato, *Hyper-expression with feature tracking* (thesis), reports three experiments. Its "
@@ -217,12 +217,12 @@ std::string experiments_page(const Experiments& all, const PageHead& head) {
   page += models_section(all.models, head.pictures);
   page += same_forces_section(all.same_forces);
   page +=
-      "\n## What the source leaves open, and what stands here\n"
+      "\n## What the thesis leaves open, and what stands here\n"
       "* **Driven and held**: not legible there. Seven points around mouth and chin, each a patch "
       "of skin; the border held;\n  bones to slide on; the mandible follows the chin.\n"
       "* **30 Hz input, steps of 1 or 2 ms**: a C2 spline through the recorded frames, at rest at "
       "both ends.\n"
-      "* **Interpolation** of the named points: linear over triangles of points, as the source's "
+      "* **Interpolation** of the named points: linear over triangles of points, as the thesis' "
       "likely is; with "
       "the harmonic\n  field ([tissue.md](tissue.md)) the tissue changes xi_L - xi_R by less: " +
       of_each(all.models,
@@ -231,7 +231,7 @@ std::string experiments_page(const Experiments& all, const PageHead& head) {
                                    100 * f.rows.back().tissue_2 / f.rows.front().tissue_2);
               }) +
       " of that.\n"
-      "* **Element**: `tet4-star`, which does not lock at nu = 0.495; `tet4`, the source's, beside "
+      "* **Element**: `tet4-star`, which does not lock at nu = 0.495; `tet4`, the thesis', beside "
       "it ([elements.md](elements.md)).\n"
       "* **Viscous tensor**: Stokes' law; the printed one, which is not isotropic, beside it.\n"
       "* **The base of the logarithm**: natural.\n";

@@ -22,11 +22,11 @@ struct PageHead {
   std::string pictures;  ///< their folder, as seen from the page
 };
 
-/// docs/experiments.md: what was measured beside what the source reports. Every figure comes from
+/// docs/experiments.md: what was measured beside what the thesis reports. Every figure comes from
 /// `all`, and what is concluded depends on them.
 std::string experiments_page(const Experiments& all, const PageHead& head);
 
-/// The page's parts: what the source says, point by point; and the three experiments.
+/// The page's parts: what the thesis says, point by point; and the three experiments.
 std::string point_by_point(const Experiments& all);
 std::string measured_section(const std::vector<MeasuredFace>& faces, const std::string& pictures);
 std::string physics_section(const std::vector<PhysicsFace>& faces, const std::string& pictures);

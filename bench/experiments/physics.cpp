@@ -62,7 +62,7 @@ void add_pictures(const Study& study, const SimulationResult& result, render::Co
   for (std::size_t s = 0; s < result.still_displacement_m.size(); ++s) {
     const PointsF& d = result.still_displacement_m[s];
     std::vector<render::Marker> markers;
-    if (s == 0) {  // as the source does, at rest
+    if (s == 0) {  // as the thesis does, at rest
       for (const auto at : p.held_points_rest.rowwise())
         markers.push_back(pictures.marker(at.transpose(), render::palette::held));
       for (const auto at : p.driven_points_rest.rowwise())
@@ -135,7 +135,7 @@ PhysicsFace face_of(const Setting& setting, bool subject_a, render::ContactSheet
 std::vector<PhysicsFace> mouth_opening_by_physics(const Setting& setting) {
   constexpr double scale_mm = 30;
   render::ContactSheet sheet;
-  sheet.title = "Mouth opening by physics at the source's five times";
+  sheet.title = "Mouth opening by physics at the thesis' five times";
   sheet.note = "displacement of the skin; red: driven points, blue: held nodes";
   sheet.columns = 5;
   sheet.bar = render::ColourBar{{0, scale_mm}, "displacement (mm)"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the source says, point by point, and what was measured: verdicts and reasons follow from the
+// What the thesis says, point by point, and what was measured: verdicts and reasons follow from the
 // figures.
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ struct Point {
 };
 
 std::string table(const std::vector<Point>& points) {
-  std::string text = "| the source says | we measured | does it hold? | why |\n|---|---|---|---|\n";
+  std::string text = "| the thesis says | we measured | does it hold? | why |\n|---|---|---|---|\n";
   for (const Point& p : points)
     text += fmt::format("| {} | {} | **{}** | {} |\n", p.claim, p.measured, p.verdict, p.why);
   return text;
@@ -76,11 +76,10 @@ void add_second_scan(const MeasuredFace& face, std::vector<Point>& points) {
        over                        ? "yes"
        : own.over_below_chin > 0.5 ? "not there, but below the chin"
                                    : "no",
-       fmt::format(
-           "the second scan holds the very pose of the recording, where the source's person "
-           "had to repeat it; of what is farther than 10 mm, {:.0f} % lies below the chin, "
-           "where the tracked mesh ends",
-           100 * own.over_below_chin)});
+       fmt::format("the second scan holds the very pose of the recording, where the thesis' person "
+                   "had to repeat it; of what is farther than 10 mm, {:.0f} % lies below the chin, "
+                   "where the tracked mesh ends",
+                   100 * own.over_below_chin)});
   const double seen = cheeks.moved_mm / cheeks.truth_moved_mm;
   points.push_back(
       {"the spreading of the cheeks is real, and the tracked mesh cannot see it",
@@ -89,7 +88,7 @@ void add_second_scan(const MeasuredFace& face, std::vector<Point>& points) {
            "{:.2f} mm are left in the mean",
            cheeks.truth_moved_mm, cheeks.moved_mm, cheeks.corresponding.mean_mm),
        std::abs(seen - 1) < 0.25 ? "no, it is seen" : "yes",
-       fmt::format("{} tracked points with depth, where the source had 121", face.points)});
+       fmt::format("{} tracked points with depth, where the thesis had 121", face.points)});
   const double fault = mouth.corresponding.max_mm / std::max(mouth_true.corresponding.max_mm, 1e-9);
   points.push_back(
       {"faults around the mouth, from wrong correspondences",
@@ -339,11 +338,11 @@ std::string in_short(const Experiments& all) {
     if (!face.ways.empty())
       text += fmt::format(
           "Measured deformation lies {:.1f} mm from a second scan around the mouth, where the "
-          "source "
+          "thesis "
           "reports about 2. ",
           part_of(face.ways[0], "mouth").closest.mean_mm);
   text += fmt::format(
-      "With the source's parameters viscosity shifts the tissue by {:.1f} ms at most, of a frame's "
+      "With the thesis' parameters viscosity shifts the tissue by {:.1f} ms at most, of a frame's "
       "33. ",
       longest_lag_ms(all.physics));
   double share = 1, eta = 0;
@@ -371,7 +370,7 @@ std::string point_by_point(const Experiments& all) {
   add_maps(all.models, third);
   add_curves(all.models, longest_lag_ms(all.physics), third);
   return in_short(all) +
-         "## Point by point\nIn brackets: what the source does not report, and one would ask.\n\n"
+         "## Point by point\nIn brackets: what the thesis does not report, and one would ask.\n\n"
          "**Experiment 1, measured deformation**\n\n" +
          table(first) + "\n**Experiment 2, mouth opening by physics**\n\n" + table(second) +
          "\n**Experiment 3, three tissues**\n\n" + table(third);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The source's three experiments, and twin experiments with muscles: bench/experiments/run.sh BUILD
+# The thesis' three experiments, and twin experiments with muscles: bench/experiments/run.sh BUILD
 # Runs the scenes, each into its folder of out/experiments, then measures what docs/experiments.md
 # says and writes that page. Without subject A's data the page goes to out/experiments instead, as it
 # would lose what was measured on it.
@@ -48,7 +48,7 @@ say "twin experiments with muscles"
 
 say "done. Open"
 echo "  $PWD/docs/twins.md    the page: activations and changed tissue found again"
-echo "  $PWD/$page    the page: what the source says, what we measured"
+echo "  $PWD/$page    the page: what the thesis says, what we measured"
 for face in "${faces[@]}"; do
   for experiment in 1 2 3; do
     echo "  $PWD/$out/experiment_${experiment}_$face/report.html"

@@ -96,7 +96,7 @@ std::string same_forces_section(const std::vector<SameForcesFace>& faces) {
   std::string page =
       "\n### The same forces in three tissues\n"
       "`hyperex run examples/experiment_3_embedded.toml --set drive.by=muscles`. "
-      "The source prescribes where points go, in every tissue: what differs is only the skin "
+      "The thesis prescribes where points go, in every tissue: what differs is only the skin "
       "between them. The same scenes with\n`drive.by = \"muscles\"` ([muscles.md](muscles.md)) "
       "find "
       "forces of muscles and jaw in model 1, which meet the recording there, and let\nmodels 2 and "

@@ -23,7 +23,7 @@ struct SameForcesFace {
   DrivenWay by_displacement, by_muscles;
 };
 
-/// Experiment 3 as the source does it, points prescribed in each tissue, and with the forces of
+/// Experiment 3 as the thesis does it, points prescribed in each tissue, and with the forces of
 /// muscles that model 1 needs.
 std::vector<SameForcesFace> hyper_expression_by_muscles(const Setting& setting);
 

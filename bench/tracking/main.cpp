@@ -141,13 +141,13 @@ void run(const Options& options) {
       "# Scores of tracking\n\nWritten by `cmake --build build/release --target tracking_scores` "
       "at "
       "commit {}: every number\nbelow comes from that run, none is typed. {}.\n\n"
-      "Medians / 95th percentiles against the truth, as `hyperex track --score` gives them "
-      "([tracking](tracking.md)):\nrotation and translation of the head and deformation of lips "
+      "Medians / 95th percentiles against the truth, by `hyperex track --score` "
+      "([tracking](tracking.md)). Rotation and\ntranslation of the head and deformation of lips "
       "and "
-      "chin, each relative to the first frame;\ncorrelation of the jaw's unit with the true "
-      "`jawOpen`; jitter over frames in which nothing moves. *Spoiled* frames\nshow the face "
-      "elsewhere or not at all and are not scored; *given up* are those of them that the tracker "
-      "says are\nnot valid.\n\n## Canonical face\n",
+      "chin are relative to the first frame. *Jaw* is the correlation of\nthe jaw's unit with the "
+      "true `jawOpen`; jitter is taken over frames in which nothing moves. *Spoiled* frames show "
+      "the\nface elsewhere or not at all and are not scored; *given up* are those of them that the "
+      "tracker marks as not valid.\n\n## Canonical face\n",
       options.commit, options.machine);
   page += trial_tables(folders, expression::canonical_model(), test::standard_trials(0).size());
   if (candide)
