@@ -11,6 +11,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -524,8 +525,8 @@ json Session::save(const json& fields) {
     send_scene();
     return done(file);
   }
-  if (what == "landmarks") {
-    const fs::path file = free(into / (name + ".mrk.json"));
+  if (what == "landmarks" || what == "landmarks_json") {
+    const fs::path file = free(into / (name + (what == "landmarks" ? ".mrk.json" : ".json")));
     io::write_landmarks(file, face_->inputs().landmarks, face_->inputs().scan.unit);
     return done(file);
   }
@@ -688,6 +689,7 @@ void Session::send_motion(Stopwatch& watch) {
     for (const auto& [name, place] : face_->inputs().landmarks)
       landmarks.push_back(
           {{"name", name},
+           {"other", face::mirrored_landmark(name)},
            {"position", {place.x(), place.y(), place.z()}},
            {"found", given.empty() || std::count(placed.begin(), placed.end(), name) > 0}});
     head["landmarks"] = landmarks;

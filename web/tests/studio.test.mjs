@@ -223,7 +223,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     const studio = await startStudio();
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
-    await page.click('#landmarks-panel > .quiet');
+    await page.getByRole('button', { name: 'Correct them' }).click();
     const names = await page.locator('.landmark-choice option').allInnerTexts();
     assert.ok(names.length > 60 && new Set(names).size === names.length, `${names.length} points, each once`);
     // Where the cheek of the embedded face lies at rest.

@@ -118,6 +118,8 @@ async function stroke(page, from, to, steps = 8) {
   await page.mouse.up();
 }
 
+const untilText = (page, text) => page.waitForFunction((wanted) => document.getElementById('scene-text').textContent.includes(wanted), text);
+
 describe('painting in the studio', { skip: program() ? false : 'the program is not built', concurrency: false }, () => {
   let browser;
   before(async () => (browser = await launch()));
@@ -250,6 +252,104 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
     assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((n) => n.target.join(' ')).join(', ')}`), []);
     await page.getByRole('button', { name: 'Mirror', exact: true }).click();
     await untilOther(page, second.file);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('landmarks: under a glass, step by step back, mirrored, as found; saved as JSON and loaded again', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.getByRole('button', { name: 'Correct them' }).click();
+    const tools = page.locator('.landmark-tools');
+    const press = (name) => tools.getByRole('button', { name, exact: true });
+    const { x, y, width, height } = await page.locator('#canvas-host').boundingBox();
+    const [cheekX, cheekY] = [x + 0.631 * width, y + 0.554 * height];
+    assert.ok(await press('Undo').isDisabled());
+    await page.mouse.move(cheekX, cheekY);
+    await page.mouse.down();
+    for (let i = 1; i <= 6; ++i) await page.mouse.move(cheekX + 6 * i, cheekY + 5 * i);
+    // The glass shows the point that is dragged, larger: its yellow in the middle, the cross aside.
+    const yellow = await page.locator('.magnifier').evaluate((glass) => {
+      const { width: size } = glass;
+      const { data } = glass.getContext('2d').getImageData(0, 0, size, size);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) if (data[i] > 220 && data[i + 1] > 180 && data[i + 2] < 60) ++count;
+      return count / (size * size);
+    });
+    assert.ok(yellow > 0.005 && yellow < 0.1, `${yellow} of the glass`);
+    await page.mouse.up();
+    assert.ok(await page.locator('.magnifier').isHidden());
+    await page.waitForFunction(() => document.querySelectorAll('.doubts li').length > 0);
+    const doubts = () => page.locator('.doubts').innerText();
+    const moved = await doubts();
+    assert.match(moved, /cheek_L/);
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction((text) => document.querySelector('.doubts').innerText !== text, moved);
+    assert.ok(await press('As found').isDisabled(), 'it lies where it was found');
+    assert.ok(!(await page.locator('#undo').isEnabled()), 'no step of the scene');
+    await page.keyboard.press('Control+Shift+z');
+    await page.waitForFunction((text) => document.querySelector('.doubts').innerText === text, moved);
+    await press('Mirror').click();
+    await page.waitForFunction((text) => document.querySelector('.doubts').innerText !== text, moved);
+    await press('Undo').click();
+    await page.waitForFunction((text) => document.querySelector('.doubts').innerText === text, moved);
+    assert.equal(await page.locator('.landmark-choice select').evaluate((select) => select.selectedOptions[0].text), 'Cheek, right');
+    await press('Redo').click();
+    await page.waitForFunction((text) => document.querySelector('.doubts').innerText !== text, moved);
+    await page.selectOption('.landmark-choice select', { label: 'Tip of the nose (pronasale)' });
+    assert.ok(await press('Mirror').isDisabled(), 'the middle has no other side');
+    await page.evaluate(axe);
+    const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+    assert.deepEqual(violations.map(({ id }) => id), []);
+    await press('Use them').click();
+    await untilText(page, 'landmarks-1.mrk.json');
+    await settled(page);
+
+    await page.click('#save-menu');
+    await page.fill('#save-name', 'points');
+    await page.click('[data-save=landmarks_json]');
+    await page.waitForSelector('.told:has-text("points.json")');
+    await page.click('[data-save=landmarks]');
+    await page.waitForSelector('.told:has-text("points.mrk.json")');
+    await page.keyboard.press('Escape');
+    const saved = JSON.parse(await readFile(join(studio.folder, 'points.json'), 'utf8'));
+    const [right, left] = [saved.points.cheek_R, saved.points.cheek_L];
+    assert.ok(Math.hypot(right[0] + left[0], right[1] - left[1], right[2] - left[2]) < 0.02 * Math.hypot(...left), `${right} mirrors ${left}`);
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => !document.getElementById('scene-text').textContent.includes('landmarks'));
+    for (const name of ['points.json', 'points.mrk.json']) {
+      await page.locator('#landmarks-picker').setInputFiles(join(studio.folder, name));
+      await untilText(page, name);
+      await settled(page);
+    }
+    await page.locator('#landmarks-picker').setInputFiles({ name: 'torn.json', mimeType: 'application/json', buffer: Buffer.from('{"points": ') });
+    await page.waitForSelector('#landmarks-panel .problem:not([hidden])');
+    assert.match(await page.locator('#landmarks-panel .problem').innerText(), /torn\.json/);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('each muscle of either side has its curve, which follows its strength; base stays to compare', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('.muscle-group summary >> nth=1');
+    const row = page.locator('.muscle-group >> nth=1').locator('.strength', { hasText: 'Levator anguli oris' });
+    const most = async (i) => Number(/at most (-?[\d.]+)/.exec(await row.locator('.activation svg').nth(i).getAttribute('aria-label'))[1]);
+    const [right, left] = [await most(0), await most(1)];
+    assert.ok(right > 0.05 && left > 0.05, `${right} and ${left}`);
+    assert.equal(await row.locator('.base').first().getAttribute('points'), '');
+    const half = row.locator('[data-gain=lao_R], [data-gain$=_R]').first();
+    await half.focus();
+    for (let i = 0; i < 5; ++i) await page.keyboard.press('PageDown');
+    await page.waitForFunction(() => /gain = \{/.test(document.getElementById('scene-text').textContent));
+    await page.waitForFunction(() => document.querySelector('.tab-name[data-face="1"]'));
+    await settled(page);
+    const gain = Number(/"\w+_R" = ([\d.]+)/.exec(await sceneText(page))?.[1] ?? 0);
+    assert.ok(Math.abs((await most(0)) - gain * right) < 0.011, `${await most(0)} of ${right} at ${gain}`);
+    assert.ok(Math.abs((await most(1)) - left) < 0.011);
+    assert.notEqual(await row.locator('.base').first().getAttribute('points'), '');
     assert.deepEqual(complaints, []);
     await close();
   });

@@ -5,9 +5,11 @@ import { at, button, element } from '../page/dom';
 import { Undoing } from '../page/listeners';
 import { landmarkName, naturally, upper } from '../page/format';
 import type { Vec3 } from '../replay/data';
+import { nearestVertex } from '../replay/face/deform';
 import { Marks } from '../replay/face/marks';
 import type { FaceViewer } from '../replay/face/viewer';
 import { Refused, type Connection } from './connection';
+import { Magnifier } from './magnifier';
 import type { LandmarkInfo } from './messages';
 import type { StudioState } from './studio_state';
 import { words } from './words';
@@ -25,6 +27,15 @@ function distinct(landmarks: LandmarkInfo[]): LandmarkInfo[] {
   return [...known, ...numbered.filter(({ position }) => !known.some((other) => near(other.position, position)))];
 }
 
+/** One point on its way from a place to another; a step of what can be undone. */
+interface Move {
+  i: number;
+  from: Vec3;
+  to: Vec3;
+}
+
+const samePlace = (a: Vec3, b: Vec3): boolean => a.every((x, k) => x === b[k]);
+
 export class LandmarksPanel {
   private landmarks: LandmarkInfo[] = [];
   private readonly count = element('p', '', 'why');
@@ -35,6 +46,14 @@ export class LandmarksPanel {
   private readonly problem = element('p', '', 'problem');
   private marks: Marks | null = null;
   private undoing = new Undoing();
+  private past: Move[][] = [];
+  private future: Move[][] = [];
+  private readonly undoOne = button(words.undo, 'quiet', () => void this.step(this.past, this.future));
+  private readonly redoOne = button(words.redo, 'quiet', () => void this.step(this.future, this.past));
+  private readonly resetOne = button(words.landmarkReset, 'quiet', () => void this.reset());
+  private readonly mirrorOne = button(words.landmarkMirror, 'quiet', () => void this.mirror());
+  private readonly load = button(words.landmarksLoad, 'quiet', () => this.picker.click());
+  private readonly picker = element('input');
 
   constructor(
     private readonly state: StudioState, private readonly connection: Connection, private readonly into: HTMLElement,
@@ -47,15 +66,30 @@ export class LandmarksPanel {
     done.title = words.landmarksDoneHint;
     const buttons = element('div', '', 'landmark-buttons');
     buttons.append(
-      done, button(words.landmarkReset, 'quiet', () => void this.move(this.chosen, null)),
+      done, this.undoOne, this.redoOne, this.resetOne, this.mirrorOne,
       button(words.landmarksLeave, 'quiet', () => void this.leave()));
-    this.doubts.setAttribute('role', 'status');
+    this.undoOne.title = words.landmarkUndoHint;
+    this.redoOne.title = words.landmarkRedoHint;
+    this.mirrorOne.title = words.landmarkMirrorHint;
+    this.load.title = words.landmarksLoadHint;
+    Object.assign(this.picker, { type: 'file', accept: '.json', hidden: true, id: 'landmarks-picker' });
+    this.picker.setAttribute('aria-label', words.landmarksLoad);
+    this.picker.addEventListener('change', () => {
+      const [file] = this.picker.files ?? [];
+      this.picker.value = '';
+      if (file) void this.loadFrom(file);
+    });
+    const told = element('div');
+    told.setAttribute('role', 'status');
+    told.append(this.doubts);
     this.problem.setAttribute('role', 'alert');
     this.problem.hidden = true;
-    this.tools.append(element('p', words.landmarksSay, 'why'), label, buttons, this.doubts);
+    this.tools.append(element('p', words.landmarksSay, 'why'), label, buttons, told);
     this.tools.hidden = true;
     this.select.addEventListener('change', () => this.choose(this.chosen));
-    into.append(this.count, this.begin, this.tools, this.problem);
+    const start = element('div', '', 'landmark-buttons');
+    start.append(this.begin, this.load, this.picker);
+    into.append(this.count, start, this.tools, this.problem);
   }
 
   /** Of a new face. */
@@ -82,8 +116,12 @@ export class LandmarksPanel {
     this.rest(viewer);
     this.choose(this.chosen);
     this.tools.hidden = false;
-    this.begin.hidden = true;
+    this.begin.hidden = this.load.hidden = true;
+    this.problem.hidden = true;
     this.doubts.replaceChildren();
+    this.past = [];
+    this.future = [];
+    this.tellSteps();
     this.listen(viewer);
     at('face').focus();
   }
@@ -98,12 +136,16 @@ export class LandmarksPanel {
     this.select.value = String(i);
     this.marks?.choose(i);
     this.viewer()?.redraw();
+    this.tellSteps();
   }
 
   private listen(viewer: FaceViewer): void {
     const canvas = at('face');
     const { signal } = this.undoing;
     let dragged = -1;
+    let from: Vec3 = [0, 0, 0];
+    const glass = new Magnifier(viewer);
+    this.undoing.add(() => glass.remove());
     // Before the view's own listeners: what takes a point does not turn the face.
     canvas.addEventListener('pointerdown', (event) => {
       dragged = this.nearest(viewer, event.clientX, event.clientY);
@@ -111,16 +153,22 @@ export class LandmarksPanel {
       viewer.turning = false;
       canvas.setPointerCapture(event.pointerId);
       this.choose(dragged);
+      from = [...this.marks!.points[dragged]];
+      glass.show(event.clientX, event.clientY);
     }, { signal, capture: true });
     canvas.addEventListener('pointermove', (event) => {
-      if (dragged >= 0) this.put(viewer, dragged, event.clientX, event.clientY);
+      if (dragged < 0) return;
+      this.put(viewer, dragged, event.clientX, event.clientY);
+      glass.show(event.clientX, event.clientY);
     }, { signal });
     const letGo = () => {
       if (dragged < 0) return;
       const moved = dragged;
       dragged = -1;
       viewer.turning = true;
-      void this.move(moved, this.marks!.points[moved]);
+      glass.hide();
+      const to = this.marks!.points[moved];
+      if (!samePlace(from, to)) void this.take([{ i: moved, from, to }]);
     };
     canvas.addEventListener('pointerup', letGo, { signal });
     canvas.addEventListener('pointercancel', letGo, { signal });
@@ -129,11 +177,95 @@ export class LandmarksPanel {
       if (!(event.key in steps) || event.shiftKey || event.ctrlKey || !this.marks) return;
       event.preventDefault();
       event.stopPropagation(); // else they step through the frames
-      const from = viewer.inWindow(this.marks.points[this.chosen]);
+      const before: Vec3 = [...this.marks.points[this.chosen]];
+      const seen = viewer.inWindow(before);
       const [x, y] = steps[event.key];
-      if (this.put(viewer, this.chosen, from.x + stepPx * x, from.y + stepPx * y))
-        void this.move(this.chosen, this.marks.points[this.chosen]);
+      if (this.put(viewer, this.chosen, seen.x + stepPx * x, seen.y + stepPx * y))
+        void this.take([{ i: this.chosen, from: before, to: this.marks.points[this.chosen] }]);
     }, { signal });
+    // While points are moved, undo is of them.
+    document.addEventListener('keydown', (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+      const key = event.key.toLowerCase();
+      if (key !== 'z' && key !== 'y') return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      void (key === 'y' || event.shiftKey ? this.step(this.future, this.past) : this.step(this.past, this.future));
+    }, { signal, capture: true });
+  }
+
+  /** Something was moved: a step. */
+  private async take(moves: Move[]): Promise<void> {
+    this.past.push(moves);
+    this.future = [];
+    for (const move of moves) await this.move(move.i, move.to);
+    this.tellSteps();
+  }
+
+  /** Takes back the last step of `from`, which goes to `to`. */
+  private async step(from: Move[][], to: Move[][]): Promise<void> {
+    const moves = from.pop();
+    if (!moves || !this.marks) return;
+    to.push(moves.map(({ i, from: there, to: here }) => ({ i, from: here, to: there })).reverse());
+    for (const { i, from: back } of moves) await this.move(i, back);
+    this.choose(moves[0].i);
+  }
+
+  private async reset(): Promise<void> {
+    const i = this.chosen;
+    const [from, to] = [this.marks!.points[i], this.landmarks[i].position];
+    if (!samePlace(from, to)) await this.take([{ i, from: [...from], to }]);
+  }
+
+  /** The point's own place of the other side, where the chosen point's mirror image lies. */
+  private async mirror(): Promise<void> {
+    const other = this.otherOf(this.chosen);
+    const image = this.marks && this.imageOf(this.marks.points[this.chosen]);
+    if (other < 0 || !image) return;
+    await this.take([{ i: other, from: [...this.marks!.points[other]], to: image }]);
+  }
+
+  private otherOf(i: number): number {
+    const { name, other } = this.landmarks[i] ?? { name: '', other: '' };
+    return other === name ? -1 : this.landmarks.findIndex((one) => one.name === other);
+  }
+
+  private imageOf(point: Vec3): Vec3 | null {
+    const { mirror, points } = this.state.source.replay;
+    if (!mirror) return null;
+    const { vertex } = nearestVertex(points, point);
+    const image = [0, 0, 0];
+    let all = 0;
+    for (let k = 3 * vertex; k < 3 * vertex + 3; ++k) {
+      const v = mirror.vertices[k];
+      if (v < 0) continue;
+      all += mirror.weights[k];
+      for (let c = 0; c < 3; ++c) image[c] += mirror.weights[k] * points[3 * v + c];
+    }
+    if (all === 0) return null;
+    // What the point lies off its vertex, mirrored.
+    const off = point.map((x, c) => x - points[3 * vertex + c]);
+    const along = 2 * off.reduce((sum, x, c) => sum + x * mirror.normal[c], 0);
+    return image.map((x, c) => x / all + off[c] - along * mirror.normal[c]) as Vec3;
+  }
+
+  private tellSteps(): void {
+    this.undoOne.disabled = this.past.length === 0;
+    this.redoOne.disabled = this.future.length === 0;
+    const point = this.marks?.points[this.chosen];
+    this.resetOne.disabled = !point || samePlace(point, this.landmarks[this.chosen].position);
+    this.mirrorOne.disabled = this.otherOf(this.chosen) < 0 || !this.state.source.replay.mirror;
+  }
+
+  /** Landmarks of a file take the place of those found. */
+  private async loadFrom(file: File): Promise<void> {
+    this.problem.hidden = true;
+    try {
+      const name = await this.connection.upload(file);
+      await this.connection.ask('set', { changes: { 'scan.landmarks': name, 'scan.landmarks_unit': null }, face: 0, live: false, time_s: 0 });
+    } catch (error) {
+      this.tell(error);
+    }
   }
 
   private nearest(viewer: FaceViewer, x: number, y: number): number {
@@ -154,16 +286,17 @@ export class LandmarksPanel {
     return true;
   }
 
-  /** null: where it was found. */
-  private async move(i: number, position: Vec3 | null): Promise<void> {
+  private async move(i: number, position: Vec3): Promise<void> {
     this.problem.hidden = true;
+    const found = samePlace(position, this.landmarks[i].position);
     try {
-      const answer = await this.connection.ask('move_landmark', { name: this.landmarks[i].name, ...(position && { position }) });
+      const answer = await this.connection.ask('move_landmark', { name: this.landmarks[i].name, ...(!found && { position }) });
       const { marks } = this;
       if (!marks) return;
       marks.points[i] = answer.position as Vec3;
       marks.place(i);
       this.viewer()?.redraw();
+      this.tellSteps();
       this.doubts.replaceChildren(...(answer.warnings as string[]).map((text) => element('li', upper(text))));
     } catch (error) {
       this.tell(error);
@@ -206,6 +339,6 @@ export class LandmarksPanel {
       viewer.showLive(null);
     }
     this.tools.hidden = true;
-    this.begin.hidden = false;
+    this.begin.hidden = this.load.hidden = false;
   }
 }

@@ -15,7 +15,7 @@ import { Connection, takeToken, type LineState } from './connection';
 import { Edits } from './edits';
 import { FiguresPanel } from './figures_panel';
 import { LandmarksPanel } from './landmarks_panel';
-import { isRecord, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type Region, type SceneKey, type SceneNow, type StifferTissue } from './messages';
+import { isRecord, type Activations, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type Region, type SceneKey, type SceneNow, type StifferTissue } from './messages';
 import { LivePanel } from './live';
 import { MessagesPanel } from './messages_panel';
 import { MusclesPanel } from './muscles_panel';
@@ -88,20 +88,22 @@ class Studio {
       at('unsaved').hidden = saved;
       this.compareTexts();
     });
-    connection.on('face', ({ replay, muscles, landmarks, block }) => {
+    connection.on('face', ({ replay, muscles, landmarks, activations, block }) => {
       const manifest = replay as Manifest & { palette?: Palette };
       if (manifest.palette) defineColours(manifest.palette);
       this.withOptions(manifest.summary);
       state.muscles = isRecord(muscles) ? (muscles.muscles as MuscleInfo[]) : [];
+      this.muscles.curves.take(activations as Activations | null, block);
       state.source.setFace(replayOf(manifest, block));
       this.landmarks.build(landmarks as LandmarkInfo[]);
       this.movedText = state.scene?.text ?? null;
       this.compareTexts();
     });
-    connection.on('motion', ({ replay, block, seconds, bands }) => {
+    connection.on('motion', ({ replay, activations, block, seconds, bands }) => {
       if (!state.source.open) return;
       const manifest = replay as MovingManifest;
       this.withOptions(manifest.summary);
+      this.muscles.curves.take(activations as Activations | null, block);
       state.source.setMotion(movingOf(manifest, block));
       this.movedText = state.scene?.text ?? null;
       this.compareTexts();
@@ -188,6 +190,7 @@ class Studio {
     shown.setCount(source.replay.faces.length);
     this.stage?.refresh();
     this.paint.refresh();
+    this.muscles.curves.draw();
     this.figures.refresh();
     this.rewireKeys();
     this.showTime();
@@ -204,6 +207,7 @@ class Studio {
     if (!source.open) return;
     this.stage?.moveTo(frameAt(source.replay.timeS, playback.timeS), playback);
     this.figures.mark();
+    this.muscles.curves.mark(playback.timeS);
     this.showTransport();
   }
 

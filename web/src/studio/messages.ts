@@ -93,6 +93,8 @@ export interface MuscleInfo {
 
 export interface LandmarkInfo {
   name: string;
+  /** That of the other side; its own in the middle. */
+  other: string;
   position: Vec3;
   found: boolean;
 }

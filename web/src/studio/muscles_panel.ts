@@ -3,6 +3,7 @@
 // lights up on the face while its slider is in hand.
 import { button, element } from '../page/dom';
 import { upper } from '../page/format';
+import { ActivationCurves } from './activation_curves';
 import type { Edits } from './edits';
 import { isRecord, type MuscleInfo } from './messages';
 import { linear, Slider } from './slider';
@@ -27,6 +28,7 @@ interface Handle {
 
 export class MusclesPanel {
   readonly element = element('div', '', 'panel muscles-panel');
+  readonly curves: ActivationCurves;
   private readonly handles = new Map<string, Handle>();
   private gain: Slider | null = null;
   private readonly resetAll = button(words.resetMuscles, 'quiet', () => this.set({}));
@@ -39,6 +41,7 @@ export class MusclesPanel {
   constructor(
     private readonly state: StudioState, private readonly edits: Edits, private readonly light: (names: ReadonlySet<string>) => void,
   ) {
+    this.curves = new ActivationCurves(state, this.element);
     state.sceneChanged.add(() => this.update());
     state.shown.onChange(() => this.update());
   }
@@ -46,6 +49,7 @@ export class MusclesPanel {
   /** Once the muscles of the face are known. */
   build(): void {
     this.handles.clear();
+    this.curves.clear();
     this.element.replaceChildren();
     const known = this.state.keys.get(motionGain);
     if (known) {
@@ -72,6 +76,7 @@ export class MusclesPanel {
     }
     this.element.append(this.resetAll);
     this.update();
+    this.curves.draw();
   }
 
   private head(): HTMLElement {
@@ -118,6 +123,7 @@ export class MusclesPanel {
     const handle: Handle = { slider };
     const box = element('div', '', `strength-side side-${side}`);
     box.append(slider.element);
+    if (mute) box.append(this.curves.add(name, said));
     const lines = new Set(moves.map((muscle) => `${muscle.name}_${side}`));
     const lit = () => this.light(lines);
     const dark = () => {

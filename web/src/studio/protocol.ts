@@ -188,8 +188,11 @@ export type LiveTakeAnswer = Record<string, never>;
 
 /** Writes into the folder that the studio was started with; never over a file that it did not write. */
 export interface SaveRequest {
-  /** scene: the scene file and what it names; run: all that hyperex run writes */
-  what: 'scene' | 'run' | 'report' | 'landmarks';
+  /**
+   * scene: the scene file and what it names; run: all that hyperex run writes; landmarks: for 3D Slicer;
+   * landmarks_json: as hyperex has them
+   */
+  what: 'scene' | 'run' | 'report' | 'landmarks' | 'landmarks_json';
   /** of the file or folder, without an ending */
   name: string;
 }
@@ -240,7 +243,10 @@ export interface SceneEvent {
 export interface FaceEvent {
   /** the manifest of a report (web/src/replay/manifest.ts), its stretches in this message's block */
   replay: unknown;
-  /** of the scan: name, position (m), found (whether by the program) */
+  /**
+   * of the scan: name, other (that of the other side, or its own), position (m), found (whether by the
+   * program)
+   */
   landmarks: unknown;
   /** names, branches and sides that gains may name */
   muscles: unknown;

@@ -13,6 +13,7 @@ const kinds: { what: SaveRequest['what']; name: string; hint: string }[] = [
   { what: 'report', name: words.saveReport, hint: words.saveReportHint },
   { what: 'run', name: words.saveRun, hint: words.saveRunHint },
   { what: 'landmarks', name: words.saveLandmarks, hint: words.saveLandmarksHint },
+  { what: 'landmarks_json', name: words.saveLandmarksJson, hint: words.saveLandmarksJsonHint },
 ];
 
 export class SaveMenu {

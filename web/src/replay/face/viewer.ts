@@ -312,6 +312,38 @@ export class FaceViewer {
     return copy;
   }
 
+  /** Draws what lies about a place of the stage, in its pixels, `zoom` times as large into a square of `size`, with a
+   *  cross in its middle. Of the one face that is shown. */
+  magnify(x: number, y: number, size: number, zoom: number, into: HTMLCanvasElement): void {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    const half = size / (2 * zoom);
+    const ratio = Math.min(window.devicePixelRatio, 2);
+    into.width = into.height = Math.round(size * ratio);
+    into.style.width = into.style.height = `${size}px`;
+    this.camera.setViewOffset(width, height, x - half, y - half, 2 * half, 2 * half);
+    const side = Math.min(size, width, height);
+    this.renderer.setScissorTest(false);
+    this.renderer.clear();
+    this.renderer.setViewport(0, 0, side, side);
+    this.renderer.render(this.scene, this.camera);
+    const pen = into.getContext('2d')!;
+    const drawn = side * this.renderer.getPixelRatio();
+    pen.drawImage(this.canvas, 0, this.canvas.height - drawn, drawn, drawn, 0, 0, into.width, into.height);
+    this.camera.clearViewOffset();
+    this.draw();
+    const [middle, arm] = [into.width / 2, 9 * ratio];
+    for (const [colour, wide] of [['#000a', 3], ['#fff', 1.2]] as const) {
+      pen.strokeStyle = colour;
+      pen.lineWidth = wide * ratio;
+      pen.beginPath();
+      for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+        pen.moveTo(middle + 0.35 * arm * dx, middle + 0.35 * arm * dy);
+        pen.lineTo(middle + arm * dx, middle + arm * dy);
+      }
+      pen.stroke();
+    }
+  }
+
   private body(i: number): FaceBody {
     if (!this.bodies[i]) {
       const body = new FaceBody(this.replay, this.motion, this.replay.faces[0], this.materials);
