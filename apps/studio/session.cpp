@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "hyperex/capture/mirrored.hpp"
@@ -20,6 +21,7 @@
 #include "hyperex/scene/grammar/new_scene.hpp"
 #include "hyperex/scene/grammar/scene_text.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
+#include "hyperex/scene/grammar/variant_names.hpp"
 #include "hyperex/scene/grammar/variant_presets.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
 #include "hyperex/scene/stages/drive_choice.hpp"
@@ -143,6 +145,35 @@ std::string without_folder(std::string text, const fs::path& folder) {
   return text;
 }
 
+/// A name for a face, in words for whoever gave it; `others`: all variants but the one that it is
+/// for.
+void check_face_name(const std::string& name, const std::vector<json>& others) {
+  if (!scene::is_variant_name(name))
+    throw InputError(
+        "a face's name: expected letters a to z and digits, spaces and any of -_.,;:+=%&'()[]");
+  if (name == "base")
+    throw InputError("a face's name: expected another; \"base\" is the scene itself");
+  for (const json& other : others)
+    if (other.is_object() && other.value("name", "") == name)
+      throw InputError(fmt::format("another face is called \"{}\": expected another name", name));
+}
+
+/// What a session left behind, and when.
+json rescued_json(const fs::path& folder) {
+  const fs::path file = folder / "scene.toml";
+  std::error_code error;
+  if (folder.empty() || !fs::exists(file, error)) return nullptr;
+  std::string title;
+  try {
+    title = scene::parse_toml(read_file(file)).root.value("title", "");
+  } catch (const std::exception&) {
+    // Opening it will say what is wrong.
+  }
+  const auto age = fs::file_time_type::clock::now() - fs::last_write_time(file, error);
+  return {{"title", title},
+          {"seconds_ago", std::chrono::duration<double>(error ? age.zero() : age).count()}};
+}
+
 /// A name for a file or folder in the folder that the studio writes to.
 void check_name(const std::string& name) {
   if (!is_upload_name(name))
@@ -224,7 +255,7 @@ json Session::hello() {
           {"regions", regions_json()},
           {"places",
            {{"started", options_.started.empty() ? json() : json(options_.started.filename())},
-            {"autosave", options_.rescued.empty() ? json() : json("unsaved work")},
+            {"autosave", rescued_json(options_.rescued)},
             {"folder", options_.save_into},
             {"save_into", options_.save_into},
             {"device", options_.device.empty() ? json() : json(options_.device)},
@@ -394,6 +425,7 @@ json Session::add_variant(const json& fields) {
   const std::size_t like = fields.at("like");
   if (like > blocks.size()) throw InputError("like: no such face");
   json block = like > 0 ? blocks[like - 1] : json::object();
+  check_face_name(fields.at("name"), blocks);
   block["name"] = fields.at("name");
   if (const std::string preset = fields.value("preset", ""); !preset.empty())
     block["preset"] = preset;
@@ -416,6 +448,9 @@ json Session::rename_variant(const json& fields) {
   std::vector<json> blocks = scene::variant_blocks(now_.text);
   const std::size_t face = fields.at("face");
   if (face > blocks.size()) throw InputError("face: no such variant");
+  std::vector<json> others = blocks;
+  others.erase(others.begin() + std::ptrdiff_t(face) - 1);
+  check_face_name(fields.at("name"), others);
   blocks[face - 1]["name"] = fields.at("name");
   commit(scene::with_variants(now_.text, blocks));
   return json::object();

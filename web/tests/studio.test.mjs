@@ -68,6 +68,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.deepEqual(await faces(page), ['Base']);
     await weaker(page, 'R', 30);
     assert.deepEqual(await faces(page), ['Base', 'Right side 30 % weaker']);
+    assert.equal(await page.evaluate(() => document.activeElement.dataset.face), '1', 'the face that was made has the focus');
     assert.equal(await page.locator('#canvas-host').getAttribute('data-mode'), 'side-by-side');
     const [baseR, ownR] = [await cornerMm(page, 0, 'right'), await cornerMm(page, 1, 'right')];
     assert.ok(ownR < baseR - 1 && ownR > 0.5 * baseR, `${baseR} to ${ownR} mm`);
@@ -153,6 +154,11 @@ describe('the studio', { skip, concurrency: false }, () => {
     await factor.fill('-5');
     await factor.press('Enter');
     assert.ok(!(await factor.evaluate((input) => input.validity.valid)), 'what is out of range is not sent');
+    await factor.blur();
+    assert.equal(await factor.inputValue(), '1', 'and does not stay');
+    await factor.fill('');
+    await factor.press('Enter');
+    assert.equal(await factor.inputValue(), '1', 'nor does nothing');
     assert.doesNotMatch(await sceneText(page), /young_factor/);
 
     // A muscle, by keys alone; its line lights up.
@@ -277,6 +283,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     t.after(() => next.stop());
     await page.waitForSelector('#banner:has-text("does not let this page in")');
     const again = await openStudio(browser, next.address);
+    assert.match(await again.page.locator('.rescue').innerText(), /“Mine”, of \w+ \d+, \d{4}/);
     await again.page.click('.rescue button >> nth=0');
     await again.page.waitForFunction(() => /side_R/.test(document.getElementById('scene-text').textContent));
     await settled(again.page);

@@ -280,6 +280,24 @@ TEST_F(StudioSession, UndoesAndRedoesEachStep) {
   work();
 }
 
+TEST_F(StudioSession, AFacesNameIsRefusedInWordsAndNotByAPlaceInTheFile) {
+  open();
+  ask("add_variant", {{"name", "weak"}, {"like", 0}});
+  ask("add_variant", {{"name", "stiff"}, {"like", 0}});
+  const auto refusal = [&](const std::string& name) {
+    const std::string renamed =
+        ask("rename_variant", {{"face", 2}, {"name", name}}).value("error", "");
+    EXPECT_EQ(ask("add_variant", {{"name", name}, {"like", 0}}).value("error", ""), renamed);
+    EXPECT_EQ(renamed.find("variant["), std::string::npos) << renamed;
+    return renamed;
+  };
+  EXPECT_THAT(refusal("weak"), HasSubstr("another face is called \"weak\""));
+  EXPECT_THAT(refusal("base"), HasSubstr("expected another"));
+  EXPECT_THAT(refusal("M\xc3\xbcller"), HasSubstr("expected letters"));
+  EXPECT_FALSE(ask("rename_variant", {{"face", 2}, {"name", "stiff"}}).contains("error"))
+      << "its own name is not taken";
+}
+
 TEST_F(StudioSession, AWrongValueChangesNothingAndSaysOneSentence) {
   open();
   const json before = ask("hello");

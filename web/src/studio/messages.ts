@@ -46,7 +46,8 @@ export interface Places {
   started: string | null;
   /** A camera that the command named. */
   device: string | null;
-  autosave: string | null;
+  /** What a session that ended has left, and when. */
+  autosave: { title: string; seconds_ago: number } | null;
   /** Where "save" writes. */
   folder: string;
   /** Whether a face is open already, as after the page was loaded again. */

@@ -48,7 +48,7 @@ export class OpenPanel {
       this.rescue.hidden = true;
       this.ask('autosave');
     });
-    this.rescue.replaceChildren(element('p', words.autosave), open, leave);
+    this.rescue.replaceChildren(element('p', places.autosave ? words.autosave(places.autosave.title, new Date(Date.now() - 1e3 * places.autosave.seconds_ago)) : ''), open, leave);
     if (!places.open) void this.open(started ? 'started' : 'embedded');
   }
 
@@ -66,10 +66,13 @@ export class OpenPanel {
 
   private async open(what: string, recording?: string): Promise<void> {
     this.tell('');
+    const before = this.opened;
     try {
       this.opened = what === 'started' ? this.places?.started ?? '' : what;
       await this.connection.ask('open', { what, ...(recording && { recording }) });
     } catch (error) {
+      this.opened = before; // that is still open
+      if (this.state.scene) this.now.textContent = this.called();
       if (error instanceof Refused) this.tell(error.message);
     }
   }

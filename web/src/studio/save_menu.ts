@@ -20,6 +20,8 @@ export class SaveMenu {
   readonly menu: Menu;
   folder = '';
   private name = '';
+  /** Of the scene that the name was offered for. */
+  private named = '';
 
   constructor(private readonly state: StudioState, private readonly connection: Connection, private readonly done: (text: string) => void) {
     this.menu = menuOf(at('save-menu'), words.save, (sheet) => this.fill(sheet));
@@ -27,6 +29,9 @@ export class SaveMenu {
 
   private fill(sheet: HTMLElement): void {
     sheet.classList.add('save-sheet');
+    const title = this.state.scene?.title ?? '';
+    if (title !== this.named) this.name = '';
+    this.named = title;
     this.name ||= fileName(this.state.scene?.title || 'hyperex', '').replace(/\.$/, '');
     const field = element('input');
     Object.assign(field, { type: 'text', value: this.name, maxLength: 60, id: 'save-name' });

@@ -147,7 +147,11 @@ export class Slider {
     range.addEventListener('dblclick', () => this.back.click());
     digits.addEventListener('change', () => {
       const value = Number(digits.value);
-      if (digits.value === '' || !(value >= options.low && value <= options.high)) {
+      if (digits.value === '') {
+        this.restore();
+        return;
+      }
+      if (!(value >= options.low && value <= options.high)) {
         this.refuse(value);
         return;
       }
@@ -155,7 +159,16 @@ export class Slider {
       this.show(value);
       options.done(value);
     });
+    // What was not taken does not stay there.
+    digits.addEventListener('blur', () => {
+      if (digits.value === '' || !digits.validity.valid) this.restore();
+    });
     this.back.addEventListener('click', () => options.done(null));
+  }
+
+  private restore(): void {
+    this.digits.setCustomValidity('');
+    this.show(this.value);
   }
 
   private refuse(value: number): void {

@@ -123,8 +123,13 @@ export class Tabs {
     }
     sheet.append(list, element('h3', words.emptyTitle), button(words.emptyAdd, 'entry', () => {
       close();
-      this.try(() => this.edits.addFace(words.newVariant, this.state.edited));
+      this.try(async () => this.focus(await this.edits.addFace(words.newVariant, this.state.edited)));
     }));
+  }
+
+  /** What was made is where one goes on. */
+  private focus(face: number): void {
+    at('tabs').querySelector<HTMLElement>(`.tab-name[data-face="${face}"]`)?.focus();
   }
 
   private presetButton({ name }: Preset, close: () => void): HTMLButtonElement {
@@ -133,7 +138,7 @@ export class Tabs {
     const called = side ? words.ofSide(stem.replaceAll('_', ' '), side) : stem.replaceAll('_', ' ');
     const made = button(side ?? words.presetAdd, 'quiet', () => {
       close();
-      this.try(() => this.edits.addFace(called, this.state.edited, name));
+      this.try(async () => this.focus(await this.edits.addFace(called, this.state.edited, name)));
     });
     made.setAttribute('aria-label', side ? upper(called) : `${words.presetAdd}: ${called}`);
     made.dataset.preset = name;
@@ -163,6 +168,7 @@ export class Tabs {
       this.try(async () => {
         const name = words.weakerName(words.sideNames[chosen], percent);
         const face = await this.edits.addFace(name, 0);
+        this.focus(face);
         await this.edits.change(face, { 'muscles.gain': { [`side_${chosen}`]: Number((1 - percent / 100).toFixed(3)) } });
       });
     });

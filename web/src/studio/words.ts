@@ -195,7 +195,8 @@ const en = {
   drop: 'or drop here: a scan (PLY, OBJ, STL, GLB), a recording (CSV, TRC, video, ARKit, OpenFace), a scene (TOML)',
   uploading: (name: string) => `Reading ${name}`,
   opening: 'Opening',
-  autosave: 'Unsaved work of a session that ended is still here.',
+  autosave: (title: string, when: Date) =>
+    `Unsaved work of a session that ended is still here${title ? `: “${title}”` : ''}, of ${when.toLocaleString('en', { dateStyle: 'medium', timeStyle: 'short' })}. If you leave it, it is offered again.`,
   autosaveOpen: 'Open it',
   autosaveLeave: 'Leave it',
   tooManyScans: 'One scan at a time: expected a scan, a recording, or both, or a scene.',
