@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Examples and the licence, where Debian's packages have them. Left out are scenes that name data beside
+# Examples, the licence, third-party notices and the changelog, where Debian's packages have them. Left out are scenes that name data beside
 # the source tree, and the study, which writes beside itself.
 set(examples ${PROJECT_SOURCE_DIR}/examples)
 set(examples_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex/examples)
@@ -10,6 +10,8 @@ if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
           DESTINATION ${examples_folder} COMPONENT program)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex
           RENAME copyright COMPONENT program)
+  install(FILES ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex COMPONENT program)
 endif()
 install(DIRECTORY ${examples}/cpp DESTINATION ${examples_folder} COMPONENT dev
         FILES_MATCHING PATTERN *.cpp PATTERN CMakeLists.txt)
