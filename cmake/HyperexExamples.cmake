@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Examples, the licence, third-party notices and the changelog, where Debian's packages have them. Left out are scenes that name data beside
-# the source tree, and the study, which writes beside itself.
+# Examples, the licence, third-party notices and the changelog, where Debian's packages have them.
+# Left out are scenes that name data beside the source tree, and the study, which writes beside itself.
 set(examples ${PROJECT_SOURCE_DIR}/examples)
 set(examples_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex/examples)
 if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
