@@ -73,15 +73,16 @@ FIXED_ADDRESSES := $(shell setarch -R true 2> /dev/null && echo setarch -R)
 # with the sanitizer, starts no threads of its own, and so only ours are judged.
 ONE_CORE := $(shell taskset -c 0 true 2> /dev/null && echo taskset -c 0)
 tsan: export TSAN_OPTIONS = suppressions='$(CURDIR)/tests/support/races.supp' print_suppressions=0
-tsan: ## capture, live tracking, interrupts and simulators side by side under the thread sanitizer
+tsan: ## capture, live tracking, the studio, interrupts and simulators side by side under the thread sanitizer
 	scripts/setup.sh --tests
 	cmake --preset tsan -DHYPEREX_TESTS=ON
 	$(FIXED_ADDRESSES) cmake --build --preset tsan --parallel $(JOBS) --target \
-	  hyperex test_core test_capture test_capture_openni test_tracking_live test_reenact test_apps
+	  hyperex test_core test_capture test_capture_openni test_tracking_live test_reenact test_apps \
+	  test_studio test_studio_live
 	$(FIXED_ADDRESSES) ctest --preset tsan --parallel $(JOBS) --no-tests=error \
 	  -R '^(core|capture|capture_openni|tracking_live)\.' -E '^capture_openni\.OniFile'
 	$(ONE_CORE) $(FIXED_ADDRESSES) ctest --preset tsan --no-tests=error \
-	  -R '^apps\.(Interrupted|TrackLive)|^reenact\.SimulatorOfAFace\.CopiesRun'
+	  -R '^apps\.(Interrupted|TrackLive)|^reenact\.SimulatorOfAFace\.CopiesRun|^studio\.(StudioServer|RequestQueue)|^studio_live\.LiveFace'
 
 coverage: ## which lines the tests run: a table by room, build/coverage/report/index.html in full
 	scripts/setup.sh --lint
