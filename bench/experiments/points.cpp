@@ -353,7 +353,7 @@ std::string in_short(const Experiments& all) {
   text += fmt::format(
       "Of what three tissues differ by, at least {:.0f} % lies within 25 mm of the point where "
       "they "
-      "differ; the difference of viscosities alone makes {:.1f} % of what S(t) sees of it, the "
+      "differ. The difference of viscosities alone makes {:.1f} % of what S(t) sees of it; the "
       "rest "
       "is stiffness.\n\n",
       100 * share, 100 * eta);

@@ -112,7 +112,7 @@ std::string same_forces_section(const std::vector<SameForcesFace>& faces) {
     page +=
         row_of(f.name, "displacement", f.by_displacement) + row_of(f.name, "muscles", f.by_muscles);
   page +=
-      "\nDistances stay of that size either way: a mouth is opened by the jaw, whose pose is part "
+      "\nDistances stay of that size either way. A mouth is opened by the jaw, whose pose is part "
       "of "
       "what is held and the same in all three models,\nand tissue at one point of the upper lip "
       "has "
