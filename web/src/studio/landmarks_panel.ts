@@ -126,10 +126,19 @@ export class LandmarksPanel {
     at('face').focus();
   }
 
-  /** The points lie on the face at rest: whatever else is chosen ends this. */
+  /** The points lie on the face at rest: whatever else is chosen ends this; what only comes in does not. */
   private rest(viewer: FaceViewer): void {
-    viewer.showLive({ face: 0, displacement: new Float32Array(this.state.source.replay.points.length) });
-    this.undoing.add(this.state.shown.onChange(() => this.end()), this.state.playback.onChange(() => this.end()));
+    const { state } = this;
+    const { shown, playback, source } = state;
+    const still = () => viewer.showLive({ face: 0, displacement: new Float32Array(source.replay.points.length) });
+    const end = () => {
+      const same = shown.mode === 'single' && shown.first === 0 && !playback.playing && playback.timeS === source.replay.timeS[0];
+      if (!same) this.end();
+    };
+    still();
+    this.undoing.add(shown.onChange(end), playback.onChange(end), source.onChange((change) => {
+      if (change === 'motion') still();
+    }));
   }
 
   private choose(i: number): void {
