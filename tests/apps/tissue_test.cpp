@@ -47,7 +47,7 @@ Spread near(const Eigen::VectorXf& values, const Points& at, const Vec3& place, 
 }
 
 TEST_F(Tissue, AStiffCheekMovesMoreEvenlyAndLessTowardsTheJaw) {
-  const Eigen::VectorXf same = peak_mm("demo"), stiff = peak_mm("stiff_cheek");
+  const Eigen::VectorXf same = peak_mm("mouth_open"), stiff = peak_mm("stiff_cheek");
   const tissue::EmbeddedFace face = tissue::embedded_face();
   const Points& at = face.mesh.points;
   ASSERT_EQ(stiff.size(), same.size());
@@ -73,7 +73,7 @@ TEST_F(Tissue, AStiffCheekMovesMoreEvenlyAndLessTowardsTheJaw) {
   EXPECT_DOUBLE_EQ(summary["tissue"]["young_kpa"][1], 962);
   EXPECT_EQ(summary["options"]["tissue"]["region"][0]["name"], "cheek_R");
   EXPECT_GT(read_file(in("stiff_cheek/tissue_map.png")).size(), 5000u);
-  EXPECT_FALSE(std::filesystem::exists(in("demo/tissue_map.png")));
+  EXPECT_FALSE(std::filesystem::exists(in("mouth_open/tissue_map.png")));
 }
 
 TEST_F(Tissue, PresetsAreListedWithTheirSources) {

@@ -25,7 +25,7 @@ test('Firefox: a landmark corrected, a muscle weakened, compared, saved and run 
   await page.until(() => document.documentElement.dataset.ready === 'true');
   assert.equal(await page.evaluate(() => document.getElementById('no-webgl').hidden), true, 'WebGL, in software');
 
-  await page.click('#landmarks-panel > .quiet');
+  await page.click('#landmarks-panel > .landmark-buttons > .quiet');
   const box = await page.evaluate(() => document.getElementById('canvas-host').getBoundingClientRect().toJSON());
   const [x, y] = [box.x + 0.631 * box.width, box.y + 0.554 * box.height];
   await page.press([x, y], [x + 2, y + 1], [x + 5, y + 3], [x + 8, y + 5]);

@@ -44,7 +44,9 @@ class SymmetryTables : public testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(file_); }
   std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) / "hyperex_symmetry_tables_test.csv";
+      std::filesystem::path(testing::TempDir()) /
+      (std::string("hyperex_symmetry_tables_") +
+       testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv");
 };
 
 TEST_F(SymmetryTables, CurvesOfAnExactMotionHaveNoNoiseFloor) {
