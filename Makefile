@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build install python deb asan tsan coverage lint fresh fuzz bench experiments fidelity mutations interop clean setup
+.PHONY: help demo test build install python deb asan tsan coverage lint fresh docs fuzz bench experiments fidelity mutations interop clean setup
 
 # Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
 ifneq ($(shell test -w "$$HOME" && echo yes),yes)
@@ -121,6 +121,12 @@ experiments: build ## the thesis' three experiments and twin experiments: report
 fidelity: build ## errors against true faces, into the table of docs/fidelity.md (needs the data in ../shared)
 	cmake --build --preset release --parallel $(JOBS) --target test_fidelity
 	HYPEREX_FIDELITY_PAGE=$(CURDIR)/docs/fidelity.md build/release/bin/test_fidelity --gtest_filter=Fidelity.TableIsWritten
+
+docs: setup ## the documentation as a site that needs no network: build/docs/html/index.html
+	scripts/setup.sh --docs
+	cmake --preset release -DHYPEREX_PYTHON=ON $(CMAKE_OPTIONS)
+	cmake --build --preset release --parallel $(JOBS) --target hyperex_python
+	docs/site/build.sh build/docs build/release/python
 
 mutations: ## perturb formulas one at a time and show that a test fails for each (ONLY=name: some)
 	tests/mutations/run.sh $(ONLY)

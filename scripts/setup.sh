@@ -5,6 +5,7 @@
 #   scripts/setup.sh --video   also to read video files and webcams and to write --preview videos
 #   scripts/setup.sh --python  also to build and use the Python module
 #   scripts/setup.sh --deb     also to make Debian packages (with --python)
+#   scripts/setup.sh --docs    also to make the documentation's site (with --python)
 #   scripts/setup.sh --tests   also what the tests take (--video, --python, a browser, CalculiX)
 #   scripts/setup.sh --fuzz    also clang and libFuzzer
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
@@ -35,6 +36,9 @@ video=(libopencv-videoio-dev)  # FFmpeg, GStreamer and GDAL: 150 packages
 python=(pybind11-dev python3-dev python3-numpy)
 deb=(file dpkg-dev  # what cpack asks which libraries the packages need
      help2man)      # manual pages of the help texts
+docs=(python3-sphinx python3-myst-parser furo  # the site from the Markdown pages
+      libjs-mathjax node-normalize.css        # its formulas and styles, without a network
+      doxygen)                                # the pages of the C++ library
 tests=(python3-matplotlib libgtest-dev libgmock-dev libopencv-imgcodecs-dev calculix-ccx)
 
 say() { printf 'setup: %s\n' "$*"; }
@@ -45,6 +49,7 @@ case "${1:-}" in
   --video) packages+=("${video[@]}") ;;
   --python) packages+=("${python[@]}") ;;
   --deb) packages+=("${python[@]}" "${deb[@]}") ;;
+  --docs) packages+=("${python[@]}" "${docs[@]}") ;;
   --tests | --lint)
     packages+=("${video[@]}" "${python[@]}" "${tests[@]}")
     [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
@@ -54,8 +59,8 @@ case "${1:-}" in
   --fuzz) packages+=(clang libclang-rt-14-dev) ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
   --interop) packages+=(paraview python3-paraview blender python3-numpy snakemake slurm-wlm) ;;
-  -h | --help) sed -n '3,14s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) die "unknown option $1 (there are --video, --python, --deb, --tests, --fuzz, --bench, --interop and --lint)" ;;
+  -h | --help) sed -n '3,15s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) die "unknown option $1 (there are --video, --python, --deb, --docs, --tests, --fuzz, --bench, --interop and --lint)" ;;
 esac
 
 node_is_enough() {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks the words of the pages for people: README.md, the other pages at the root, and docs/*.md.
+"""Checks the words of the pages for people: README.md, the other pages at the root, and docs/**/*.md.
 
     scripts/words.py                 both checks, over all pages; ends with 1 where one fails
     scripts/words.py --count         how many long sentences each page has, exceptions included
@@ -32,7 +32,7 @@ LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]*(?:\([^()]*\)[^(
 
 def pages():
     return [ROOT / "README.md"] + sorted(p for p in ROOT.glob("*.md") if p.name != "README.md") + sorted(
-        ROOT.glob("docs/*.md"))
+        ROOT.glob("docs/**/*.md"))
 
 
 def blank_code(lines):

@@ -106,6 +106,12 @@ case "$2" in
     expect_all_packages pybind11-dev file dpkg-dev
     expect_not libgtest-dev
     ;;
+  docs)
+    run_setup --docs
+    [[ $status == 0 ]] || fail "status $status"
+    expect_all_packages pybind11-dev python3-sphinx python3-myst-parser furo libjs-mathjax doxygen
+    expect_not libgtest-dev
+    ;;
   sudo)
     as_ordinary_user
     run_setup
