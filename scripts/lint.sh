@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Formatting (.clang-format) and a small set of checks (.clang-tidy) over the C++ of this repository;
-# words: the length of sentences and the links of the pages for people (scripts/words.py), spelling (codespell).
+# words: the length of sentences and the links of the pages for people (scripts/words.py), gathered
+# figures (scripts/figures.py), spelling (codespell).
 #   scripts/lint.sh                    all, over everything (the checks take some 30 minutes of CPU)
 #   scripts/lint.sh --format           formatting alone (seconds)
 #   scripts/lint.sh --words            words alone (seconds)
@@ -26,6 +27,7 @@ format() {
 
 # Misspelt on purpose: the inputs of tests. Not ours: the list of packages of npm.
 words() {
+  scripts/figures.py || die "figures of docs/how_good.md that stand nowhere else (above)"
   scripts/words.py || die "sentences or links to mend (above); exceptions: scripts/words_allowed.txt"
   if ! command -v codespell > /dev/null; then
     echo "lint: SKIPPED spelling: codespell is missing (scripts/setup.sh --lint)"
@@ -58,6 +60,6 @@ case "${1:-}" in
   --tidy) shift; tidy "$@" ;;
   --words) words ;;
   '') format; words; tidy ;;
-  -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" ;;
+  -h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" ;;
   *) die "unknown option $1 (there are --format, --words and --tidy)" ;;
 esac
