@@ -4,6 +4,7 @@
 
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/version.hpp"
 #include "hyperex/reenact/simulator.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
@@ -37,7 +38,7 @@ void bind_errors(py::module_& m) {
 
 PYBIND11_MODULE(_hyperex, m) {
   using namespace hyperex::python;
-  m.attr("__version__") = HYPEREX_VERSION;
+  m.attr("__version__") = std::string(version());
   bind_errors(m);
   bind_log(m);
   bind_meshes(m);

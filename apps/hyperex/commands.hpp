@@ -5,6 +5,8 @@
 // InputError (exit status 2); a computation that failed: any other exception (exit status 1).
 #include <CLI/CLI.hpp>
 
+#include <string>
+
 namespace hyperex::cli {
 
 void add_check(CLI::App& program);
@@ -19,5 +21,8 @@ void add_studio(CLI::App& program);
 void add_sweep(CLI::App& program);
 void add_symmetry(CLI::App& program);
 void add_track(CLI::App& program);
+
+/// The lines of `hyperex --version`.
+std::string version_text();
 
 }  // namespace hyperex::cli

@@ -169,7 +169,8 @@ int main(int argc, char** argv) {
   CLI::App program{
       "Recorded expressions, re-enacted on scanned faces through simulated soft tissue.",
       "hyperex"};
-  program.set_version_flag("--version", "hyperex " HYPEREX_VERSION);
+  program.set_version_flag("--version", hyperex::cli::version_text,
+                           "The release, its commit and its libraries");
   program.require_subcommand(1);
   program.footer("hyperex SUBCOMMAND --help tells more, with an example.");
   add_subcommands(program);

@@ -9,6 +9,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/version.hpp"
 
 namespace hyperex::cli {
 
@@ -59,7 +60,7 @@ void add_studio(CLI::App& program) {
     check_device(options->device, *mirrored);
     options->mirrored = *mirrored == "yes";
     options->open_browser = !*no_browser;
-    options->version = HYPEREX_VERSION;
+    options->version = version();
     if (!*no_cache) options->kept = KeptResults(user_cache_folder());
     studio::run_studio(*options);
   });

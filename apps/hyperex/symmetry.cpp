@@ -115,10 +115,21 @@ std::optional<double> jitter_of_run(const fs::path& folder) {
   return 1e-3 * summary[at].get<double>();
 }
 
+/// The number of --jitter-mm; none where it is "auto".
+std::optional<double> stated_jitter_mm(const Options& options) {
+  if (options.jitter_mm == "auto") return std::nullopt;
+  const auto value = io::parse_number(options.jitter_mm);
+  if (!value || !(*value >= 0) || !(*value <= 20))
+    throw InputError(InputProblem{"symmetry", 0, "--jitter-mm", options.jitter_mm,
+                                  "a number from 0 to 20 (mm) or \"auto\""});
+  return value;
+}
+
 /// `steady`: head pose out. `run`: the folder of a run, or empty.
 scene::RecordedJitter jitter_of(const Options& options, const motion::Motion& steady,
                                 const fs::path& run) {
-  if (options.jitter_mm == "auto") {
+  const auto stated = stated_jitter_mm(options);
+  if (!stated) {
     const auto told = run.empty() ? std::nullopt : jitter_of_run(run);
     if (told && *told >= 0)
       return {*told, true,
@@ -126,15 +137,11 @@ scene::RecordedJitter jitter_of(const Options& options, const motion::Motion& st
                           1e3 * *told)};
     return scene::recorded_jitter(steady);
   }
-  const auto value = io::parse_number(options.jitter_mm);
-  if (!value || !(*value >= 0) || !(*value <= 20))
-    throw InputError(InputProblem{"symmetry", 0, "--jitter-mm", options.jitter_mm,
-                                  "a number from 0 to 20 (mm) or \"auto\""});
-  return {1e-3 * *value, true,
-          *value > 0 ? fmt::format("jitter of the recorded points, as --jitter-mm states it: "
-                                   "{:.2f} mm",
-                                   *value)
-                     : "points taken as exact, as --jitter-mm 0 states it"};
+  return {1e-3 * *stated, true,
+          *stated > 0 ? fmt::format("jitter of the recorded points, as --jitter-mm states it: "
+                                    "{:.2f} mm",
+                                    *stated)
+                      : "points taken as exact, as --jitter-mm 0 states it"};
 }
 
 /// One loud line where no figure can be called undecided.
@@ -233,6 +240,7 @@ void check_outputs_of(const Options& options, const std::vector<fs::path>& input
 }
 
 void run(const Options& options) {
+  stated_jitter_mm(options);  // a wrong one is told before the work, not after
   std::optional<io::LengthUnit> unit;
   if (!options.unit.empty()) unit = io::length_unit(options.unit);
   fs::path file = options.motion, run_folder;

@@ -48,7 +48,11 @@ class Program : public ProgramTest {
 TEST_F(Program, TellsItsVersionAndHelp) {
   const Outcome version = call("--version");
   EXPECT_EQ(version.status, 0);
-  EXPECT_THAT(version.out, StartsWith("hyperex "));
+  EXPECT_THAT(version.out, testing::MatchesRegex(
+                               "hyperex [0-9]+\\.[0-9]+\\.[0-9]+( \\(commit [0-9a-f]{12}\\+?\\))?\n"
+                               "Compiled by .*Eigen 3\\..*\n"
+                               "Runs with CHOLMOD [0-9.]+, OpenBLAS .*Embree [0-9.]+, OpenCV .*\n"
+                               "Licence: GPL-3.0-or-later.*\n"));
   for (const char* command : {"compare", "symmetry"}) {
     const Outcome help = call(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);

@@ -51,7 +51,7 @@ TEST_F(TrackLive, EndsAfterSomeSecondsAndSaysWhatWasDropped) {
     const double frame = std::stod(pose[i].back()), time_s = std::stod(pose[i][0]);
     EXPECT_GT(frame, last);
     EXPECT_NEAR(time_s, frame / 30, 1e-3) << "a frame keeps its time whatever was dropped";
-    EXPECT_LT(time_s, 2.1);
+    EXPECT_LT(time_s, 3) << "ends with the frame that is awaited at 2 s, late on a busy machine";
     last = frame;
   }
 }

@@ -7,6 +7,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/named_file.hpp"
 #include "hyperex/core/sha256.hpp"
+#include "hyperex/core/version.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/scene/grammar/file_names.hpp"
 
@@ -89,7 +90,7 @@ std::string ContentHashes::of_companions(const fs::path& scan) {
 
 std::string hash_of(const scene::Scene& scene, ContentHashes& contents) {
   json text = described(scene, contents);
-  text["hyperex"] = HYPEREX_VERSION;
+  text["hyperex"] = version();
   for (const scene::Variant& variant : scene.variants) {
     json one = described(variant.scene, contents);
     one["name"] = variant.name;

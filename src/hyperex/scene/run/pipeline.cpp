@@ -13,6 +13,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/core/version.hpp"
 #include "hyperex/metrics/mouth_outline.hpp"
 #include "hyperex/metrics/roughness.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
@@ -64,7 +65,7 @@ Json summary_of(const Results& r, const SkinOff& off) {
   const auto& p = r.simulation.performance;
   Json s;
   s["program"] = "hyperex";
-  s["version"] = HYPEREX_VERSION;
+  s["version"] = version();
   s["title"] = r.scene.title;
   s["nodes"] = p.nodes.rows();
   s["tets"] = p.tets.rows();

@@ -9,6 +9,7 @@
 
 #include "hyperex/core/packed.hpp"
 #include "hyperex/core/sha256.hpp"
+#include "hyperex/core/version.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::scene {
@@ -26,7 +27,7 @@ void add_matrix(Sha256& hash, const Matrix& matrix) {
 Sha256 hash_for(const char* what) {
   Sha256 hash;
   hash.add_text(what);
-  hash.add_text(HYPEREX_VERSION);
+  hash.add_text(version());
   hash.add_text(program_identity());
   return hash;
 }
