@@ -131,9 +131,13 @@ docs: setup ## the documentation as a site that needs no network: build/docs/htm
 mutations: ## perturb formulas one at a time and show that a test fails for each (ONLY=name: some)
 	tests/mutations/run.sh $(ONLY)
 
-interop: build ## open what a run writes in ParaView and Blender, check Slicer's landmarks, run a study by Snakemake and Slurm
+interop: build ## what a run writes opened in ParaView and Blender, Slicer's landmarks, the tutorials, a study by Snakemake and Slurm
 	scripts/setup.sh --interop
+	cmake --preset release -DHYPEREX_PYTHON=ON $(CMAKE_OPTIONS)
+	cmake --build --preset release --parallel $(JOBS) --target hyperex_python
 	tests/interop/run.sh $(PROGRAM)
+	for page in docs/tutorials/*.md; do \
+	  /usr/bin/python3 tests/docs/run_page.py $$page --bin build/release/bin --module build/release/python || exit 1; done
 	tests/schedulers/snakemake_test.sh $(PROGRAM)
 	tests/schedulers/slurm_test.sh $(PROGRAM)
 

@@ -58,7 +58,9 @@ case "${1:-}" in
     ;;
   --fuzz) packages+=(clang libclang-rt-14-dev) ;;
   --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
-  --interop) packages+=(paraview python3-paraview blender python3-numpy snakemake slurm-wlm) ;;
+  --interop)
+    packages+=("${python[@]}" paraview python3-paraview blender python3-matplotlib xvfb snakemake slurm-wlm)
+    ;;
   -h | --help) sed -n '3,15s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) die "unknown option $1 (there are --video, --python, --deb, --docs, --tests, --fuzz, --bench, --interop and --lint)" ;;
 esac

@@ -178,13 +178,24 @@ def documentation(found):
     return re.sub(r"\n{3,}", "\n\n", "\n".join(lines)).strip()
 
 
+def escape(line):
+    """A line as it is read; `code` stays code."""
+    parts = re.split(r"`([^`\\]+)`", line)
+    for k, part in enumerate(parts):
+        if k % 2:
+            parts[k] = f"``{part.strip()}``\\ "
+        else:
+            parts[k] = re.sub(r"([\\*`_|])", r"\\\1", part)
+    return "".join(parts)
+
+
 def as_block(text, by):
     """Words as they stand: paragraphs, and lines that belong together, as a line block."""
     if not text:
         return ""
     out = []
     for paragraph in text.split("\n\n"):
-        escaped = [re.sub(r"([\\*`_|])", r"\\\1", line) for line in paragraph.splitlines()]
+        escaped = [escape(line) for line in paragraph.splitlines()]
         if any(line.startswith("  ") for line in paragraph.splitlines()):
             out.append("\n".join(f"| {line}" for line in escaped))
         else:
