@@ -42,8 +42,19 @@ done
 
 HYPEREX_DOCS_OUT=$out /usr/bin/python3 -m sphinx -b html -c docs/site -d "$out/doctrees" -W --keep-going -q \
   "$source" "$out/html"
-# Debian's build of the theme asks a web server for this style sheet.
-cp /usr/share/javascript/normalize.css/normalize.css "$out/html/_static/"
-sed -i 's|@import url(/javascript/normalize.css/normalize.css)|@import url(../normalize.css)|' \
-  "$out/html/_static/styles/furo.css"
+# Debian's build of the theme asks a web server for a style sheet, and its script imports another one, which no browser
+# does in a plain script.
+static=$out/html/_static
+cp /usr/share/javascript/normalize.css/normalize.css "$static/"
+sed -i 's|@import url(/javascript/normalize.css/normalize.css)|@import url(../normalize.css)|' "$static/styles/furo.css"
+if grep -q '^import Gumshoe' "$static/scripts/furo.js"; then
+  { cat "$static/scripts/gumshoe-patched.js"; sed '/^import Gumshoe/d' "$static/scripts/furo.js"; } > "$out/furo.js"
+  mv "$out/furo.js" "$static/scripts/furo.js"
+fi
+# What a page loads must stand beside it; links that a reader follows may lead out.
+if grep -rlE '(src|srcset)="https?:|<link[^>]+(stylesheet|icon)[^>]+https?:|@import[^;]*https?:' "$out/html" \
+  --include='*.html' --include='*.css' | grep -v /mathjax/; then
+  echo "docs: the pages above load something from the network" >&2
+  exit 1
+fi
 echo "docs: $(find "$out/html" -name '*.html' | wc -l) pages, $(du -sh "$out/html" | cut -f1): $out/html/index.html"
