@@ -38,7 +38,7 @@ void bind_errors(py::module_& m) {
 
 PYBIND11_MODULE(_hyperex, m) {
   using namespace hyperex::python;
-  m.attr("__version__") = std::string(version());
+  m.attr("__version__") = std::string(hyperex::version());
   bind_errors(m);
   bind_log(m);
   bind_meshes(m);

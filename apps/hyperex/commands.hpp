@@ -4,7 +4,6 @@
 // what the subcommand does is its callback, run once all options are parsed. Wrong input: throw
 // InputError (exit status 2); a computation that failed: any other exception (exit status 1).
 #include <CLI/CLI.hpp>
-
 #include <string>
 
 namespace hyperex::cli {
