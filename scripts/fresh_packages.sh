@@ -54,6 +54,8 @@ installed_packages() { in_root "dpkg-query --show --showformat '\${Package}\n'" 
 
 try_packages() {
   step "make deb" as_root "make deb"
+  step "lintian" as_root "apt-get install --yes --quiet=2 --no-install-recommends lintian &&
+    lintian --fail-on error build/deb/*.deb"
   mkdir "$work/packages"
   cp "$root$repository"/build/deb/*.deb "$work/packages/"
   root=$work/user_root

@@ -17,12 +17,12 @@ void add_check(CLI::App& program) {
     std::vector<std::string> overrides;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "check",
-      "Read what a scene names and report every problem; track, find and simulate nothing (it says "
-      "what it did not check)");
+  CLI::App* command =
+      program.add_subcommand("check",
+                             "Check a scene and the files it names, and report every problem. "
+                             "Nothing is tracked or simulated; what was not checked is listed");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
-  command->add_option("--set", options->overrides, "Override a key of the scene: KEY=VALUE")
+  command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->footer("Example: hyperex check examples/demo.toml");

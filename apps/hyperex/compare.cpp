@@ -276,26 +276,26 @@ void add_compare(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
       "compare",
-      "Distance from surface A to surface B, or between vertices of the same index, overall and by "
-      "region of the face, as a table or JSON, and on demand as a coloured picture.");
+      "Distance from surface A to surface B, or between vertices of the same index: overall and by "
+      "region of the face, as a table, JSON or a coloured picture.");
   command->add_option("A", options->a, "Surface that is scored (PLY, OBJ, STL, glTF)")->required();
   command->add_option("B", options->b, "Surface that it is measured against")->required();
   command->add_option("--landmarks", options->landmarks,
                       "Landmarks of the scan at rest, for the regions");
   command->add_flag("--corresponding", options->corresponding,
                     "Between vertices of the same index, not to the closest point");
-  command->add_option(
-      "--rest", options->rest,
-      "Scan at rest, on which the regions are taken (default: A); vertices of A or B "
-      "beyond its number are taken as appended and left out");
-  command->add_flag("--json", options->json, "Print JSON and nothing else on standard output");
+  command->add_option("--rest", options->rest,
+                      "Scan at rest, on which the regions are defined (default: A). Vertices of A "
+                      "or B beyond its number are ignored");
+  command->add_flag("--json", options->json, "Print only JSON on standard output");
   command->add_option("--picture", options->picture,
                       "Write a coloured picture of the distance here (.png)");
   command->add_option("--unit", options->unit, "Unit of the surfaces (default: guessed by size)")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
-  command->add_flag("--baseline", options->baseline,
-                    "Also score standing still and radial-basis warps of the scan at rest by the "
-                    "landmarks' true displacement (with --corresponding, --rest and --landmarks)");
+  command->add_flag(
+      "--baseline", options->baseline,
+      "Also score two baselines: no motion, and radial-basis warps of the scan at rest by the true "
+      "displacement of the landmarks (with --corresponding, --rest and --landmarks)");
   command->footer(
       "Example:\n  hyperex compare --corresponding --rest scan.ply out/a/skin_peak.ply truth.ply "
       "--landmarks landmarks.json --picture distance.png");

@@ -71,15 +71,15 @@ void run(const Options& options) {
 
 void add_landmarks(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "landmarks",
-      "Find the landmarks of a scan, however it is turned: the 68 iBUG points and the anatomical "
-      "ones (docs/landmarks.md)");
+  CLI::App* command =
+      program.add_subcommand("landmarks",
+                             "Find the landmarks of a scan in any orientation: the 68 iBUG points "
+                             "and anatomical points (docs/landmarks.md)");
   command->add_option("SCAN", options->scan, "PLY, OBJ, STL, glTF or GLB, with or without colour")
       ->required();
   command->add_option("--out", options->out, "Where to write them (.json)")->required();
   command->add_option("--picture", options->picture, "Draw them on the scan (.png) here");
-  command->add_option("--unit", options->unit, "Unit of the scan, where it should not be guessed")
+  command->add_option("--unit", options->unit, "Unit of the scan (default: guessed)")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command->footer(
       "Example: hyperex landmarks scan.ply --out scan_landmarks.json --picture scan_landmarks.png");

@@ -172,7 +172,7 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", hyperex::cli::version_text,
                            "The release, its commit and its libraries");
   program.require_subcommand(1);
-  program.footer("hyperex SUBCOMMAND --help tells more, with an example.");
+  program.footer("Run hyperex SUBCOMMAND --help for its options and an example.");
   add_subcommands(program);
   const int status = status_of(program, argc, argv);
   const hyperex::Printed printed = hyperex::flush_standard_output();

@@ -105,8 +105,8 @@ void run(const Options& options) {
 
 void add_mesh(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      program.add_subcommand("mesh", "Make the soft-tissue volume under a scan, with its quality");
+  CLI::App* command = program.add_subcommand(
+      "mesh", "Make the soft-tissue mesh under a scan and report its quality");
   command->add_option("SCAN", options->scan, "PLY, OBJ, STL, glTF or GLB")->required();
   command->add_option("--out", options->out, "Where to write it (.vtu)")->required();
   command->add_option("--landmarks", options->landmarks,
@@ -124,11 +124,12 @@ void add_mesh(CLI::App& program) {
       ->check(CLI::Range(1, 8));
   command
       ->add_option("--thickness-mm", options->thickness_mm,
-                   "Thickness everywhere (mm); 0: published depths")
+                   "Uniform thickness (mm); 0: published depths")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 40.0));
   command
-      ->add_option("--trim-border-mm", options->trim_border_mm, "Taken off the outer border (mm)")
+      ->add_option("--trim-border-mm", options->trim_border_mm,
+                   "Width of the strip removed at the outer border (mm)")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 50.0));
   command->footer("Example: hyperex mesh scan.ply --out tissue.vtu");

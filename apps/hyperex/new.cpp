@@ -66,7 +66,7 @@ void add_new(CLI::App& program) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "new", "Write a scene with comments, to begin with, of a scan and a recording");
+      "new", "Write a first scene, with comments, for a scan and a recording");
   command
       ->add_option("SCAN", options->scan,
                    "PLY, OBJ, STL, glTF or GLB; or embedded, the face that comes with the program")

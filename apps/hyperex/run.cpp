@@ -156,23 +156,19 @@ void add_run(CLI::App& program) {
       program.add_subcommand("run", "Re-enact a recorded expression on a scanned face");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
   command
-      ->add_option(
-          "--out", options->out,
-          "Folder for the outputs, new, empty or of an earlier run; appears complete or not "
-          "at all")
+      ->add_option("--out", options->out,
+                   "Folder for the outputs: new, empty, or from an earlier run. It is written "
+                   "completely or not at all")
       ->required();
-  command
-      ->add_option("--set", options->overrides,
-                   "Override a key of the scene: KEY=VALUE, as often as needed")
+  command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_flag("--verify", options->verify,
-                    "Run the full model too and tell the reduced one's true error");
-  command->add_flag(
-      "--no-cache", options->no_cache,
-      "Find landmarks, track recordings and make meshes anew; without it what was found before in "
-      "the same files by the same program is taken from $XDG_CACHE_HOME/hyperex (or "
-      "~/.cache/hyperex, at most 256 MB)");
+                    "Run the full model too and report the true error of the reduced one");
+  command->add_flag("--no-cache", options->no_cache,
+                    "Compute landmarks, tracked motion and meshes again. Without this option, "
+                    "earlier results of the same program on the same files are taken from "
+                    "$XDG_CACHE_HOME/hyperex (or ~/.cache/hyperex, at most 256 MB)");
   command->footer(
       "Example: hyperex run examples/demo.toml --out out/demo --set tissue.young_kpa=300");
   command->callback([options] { run(*options); });

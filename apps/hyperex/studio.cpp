@@ -35,24 +35,24 @@ void add_studio(CLI::App& program) {
   auto mirrored = std::make_shared<std::string>();
   auto no_browser = std::make_shared<bool>(false), no_cache = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand(
-      "studio", "Open a face in the browser, change its tissue and muscles, and see what follows");
+      "studio",
+      "Open a face in the browser, change its tissue and muscles, and see the effect at once");
   command->add_option("SCENE", options->started,
                       "Scene file or scan; without one the face that comes with the program");
   command->add_option("--save-into", options->save_into,
-                      "Folder that saved files go into; none is ever overwritten but those that "
-                      "the same studio wrote [default: the current folder]");
+                      "Folder for saved files. Only files that this studio wrote are ever "
+                      "overwritten [default: the current folder]");
   command->add_option("--port", options->port, "Port on this machine [default: one that is free]");
   command->add_option("--device", options->device,
-                      "A camera to follow a face with, live: kinect, openni, openni:URI, webcam:N, "
-                      "or play:RECORDING, which plays one at its own pace");
+                      "A camera to track a face with, live: kinect, openni, openni:URI, webcam:N, "
+                      "or play:RECORDING, which plays a recording at its own pace");
   command
       ->add_option("--mirrored", *mirrored,
-                   "yes: the camera's pictures show the world as a mirror does; no: they do not. A "
-                   "webcam must be said")
+                   "Whether the camera's pictures are mirrored. Required for a webcam")
       ->check(CLI::IsMember({"yes", "no"}))
       ->option_text("yes|no");
-  command->add_flag("--no-browser", *no_browser, "Print the address and open no browser");
-  command->add_flag("--no-cache", *no_cache, "Keep and take no results of earlier runs");
+  command->add_flag("--no-browser", *no_browser, "Print the address, but do not open a browser");
+  command->add_flag("--no-cache", *no_cache, "Neither keep nor use results of earlier runs");
   command->footer("Example: hyperex studio examples/demo.toml");
   command->callback([=] {
     take_library_memory();

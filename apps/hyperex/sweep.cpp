@@ -199,23 +199,23 @@ void sweep(const Options& options) {
 
 void add_sweep(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "sweep",
-      "Run a study: one scene with many values of its keys, and one table of the measures");
+  CLI::App* command = program.add_subcommand("sweep",
+                                             "Run a parameter study: one scene with many values of "
+                                             "its keys, and one table of the results");
   command->add_option("STUDY", options->study, "Study file (docs/studies.md)")->required();
-  command->add_option("--out", options->out,
-                      "Folder of the study, new, empty or of an earlier sweep; otherwise as the "
-                      "study says");
+  command->add_option(
+      "--out", options->out,
+      "Folder of the study: new, empty, or from an earlier sweep (default: as the study states)");
   command
       ->add_option("--jobs", options->jobs,
-                   "Cases at once; otherwise as many as processors and memory allow")
+                   "Cases at a time (default: as many as processors and memory allow)")
       ->check(CLI::Range(1, 1024));
   std::vector<CLI::Option*> ways = {
       command->add_flag("--list", options->list, "Print number, state, hash and name of each case"),
       command->add_option("--case", options->one,
-                          "Run this case alone, given by number or name, and make no table"),
+                          "Run only this case, given by number or name, and make no table"),
       command->add_flag("--collect", options->collect,
-                        "Run nothing; make the table of what is finished"),
+                        "Run nothing; make the table of the finished cases"),
       command->add_flag("--slurm", options->slurm, "Print a script that runs the study with Slurm"),
       command->add_flag("--snakemake", options->snakemake,
                         "Print a Snakefile that runs the study with Snakemake")};

@@ -289,36 +289,36 @@ void add_symmetry(CLI::App& program) {
       ->required();
   command->add_option("--out", options->out, "Write the curves (CSV) here");
   command->add_option("--excursions", options->excursions,
-                      "Write a row a pair of points (CSV) here");
+                      "Write one row per pair of points (CSV) here");
   command->add_option("--picture", options->picture, "Write a plot (PNG) here");
   command->add_option("--map", options->map,
-                      "Of surfaces: draw the frame of largest asymmetry (PNG) here");
+                      "For surfaces: draw the frame of largest asymmetry (PNG) here");
   command->add_option("--map-ply", options->map_ply,
-                      "Of surfaces: write it with the attribute asymmetry_mm (PLY) here");
+                      "For surfaces: write that frame with the attribute asymmetry_mm (PLY) here");
   command->add_option("--landmarks", options->landmarks,
-                      "Of surfaces: landmarks of the first (JSON)");
-  command->add_option("--rate-hz", options->rate_hz, "Of surfaces: frames a second")
+                      "For surfaces: landmarks of the first (JSON)");
+  command->add_option("--rate-hz", options->rate_hz, "For surfaces: frames per second")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command
       ->add_option("--floor", options->floor,
-                   "Least |xi_L - xi_R| told apart; S stops at its logarithm")
+                   "Least |xi_L - xi_R| that is resolved; S stops at its logarithm")
       ->capture_default_str();
   command
       ->add_option("--jitter-mm", options->jitter_mm,
-                   "Jitter of the points (standard deviation a coordinate, mm), which sets the "
-                   "noise floor; auto: of a run's folder that of its summary.json, else estimated "
-                   "from the points' fourth differences in time, as a run does; 0: exact")
+                   "Jitter of the points (standard deviation per coordinate, mm), which sets the "
+                   "noise floor. auto: for a run's folder the value in its summary.json, else "
+                   "estimated from the fourth differences of the points in time; 0: exact points")
       ->capture_default_str();
   command
       ->add_option("--lowpass-hz", options->lowpass_hz,
-                   "Cut-off of the zero-phase low-pass that speeds and paths are smoothed by where "
-                   "there is jitter; 0: not smoothed")
+                   "Cut-off frequency (Hz) of the zero-phase low-pass filter for speeds and paths "
+                   "where there is jitter; 0: no filter")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   command->add_flag("--keep-head", options->keep_head,
-                    "Do not take the head's pose out before excursions are measured");
-  command->add_option("--unit", options->unit, "Unit of the motion, where it should not be guessed")
+                    "Do not remove the head pose before measuring excursions");
+  command->add_option("--unit", options->unit, "Unit of the motion (default: guessed)")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command->footer(
       "Example:\n  hyperex symmetry recording.csv --out symmetry.csv --picture "

@@ -221,22 +221,22 @@ void run(const Options& options) {
 
 void add_track(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand(
-      "track",
-      "Follow a face through a recording of colour and depth: its motion in millimetres in the "
-      "face's frame, head pose and action units apart. The face should be at rest at first.");
+  CLI::App* command =
+      program.add_subcommand("track",
+                             "Track a face through a recording of colour and depth: its motion in "
+                             "millimetres in the face's frame, and separately head pose and action "
+                             "units. The face should be at rest at the start.");
   command->add_option(
       "RECORDING", options->recording,
       "A folder in TUM's layout, a video, or a device; with --score alone the truth's "
       "own folder");
   command
-      ->add_option(
-          "--device", options->device,
-          "Follow the face before a camera, live: kinect, openni, openni:URI, webcam:N, or "
-          "play:RECORDING, which plays one at its own pace. Ctrl-C ends it, and what was "
-          "tracked is written")
+      ->add_option("--device", options->device,
+                   "Track the face before a camera, live: kinect, openni, openni:URI, webcam:N, or "
+                   "play:RECORDING, which plays a recording at its own pace. Ctrl-C ends it and "
+                   "writes what was tracked")
       ->excludes("RECORDING");
-  command->add_option("--seconds", options->seconds, "With a camera: end after so many seconds")
+  command->add_option("--seconds", options->seconds, "With a camera: end after this many seconds")
       ->check(CLI::PositiveNumber);
   add_output_options(*command, options->outputs);
   command->add_option("--plots", options->plots,
@@ -252,17 +252,19 @@ void add_track(CLI::App& program) {
         return said == "yes" || said == "no" ? "" : "expected yes or no, not \"" + said + "\"";
       })
       ->option_text("yes|no");
-  command->add_flag("--no-depth", options->no_depth, "Leave the depth out");
-  command->add_option("--camera", options->camera, "camera.toml that goes before the recording's");
+  command->add_flag("--no-depth", options->no_depth, "Ignore the depth");
+  command->add_option("--camera", options->camera,
+                      "A camera.toml used instead of the recording's own");
   command
-      ->add_option("--eye-distance-mm", options->eye_distance_mm,
-                   "Outer eye corner to outer eye corner, for the scale where there is no depth")
+      ->add_option(
+          "--eye-distance-mm", options->eye_distance_mm,
+          "Distance between the outer eye corners, which sets the scale where there is no depth")
       ->check(CLI::Range(50.0, 150.0))
       ->capture_default_str();
   command->add_option("--score", options->score,
                       "Compare with the truth in this folder (truth_pose.csv, "
                       "truth_landmarks68_camera_m.csv, truth_weights.csv)");
-  command->add_flag("--json", options->json, "Print the score as JSON and nothing else");
+  command->add_flag("--json", options->json, "Print only the score, as JSON");
   command->footer(
       "Examples:\n"
       "  hyperex track recording --out out/motion.csv --preview out/preview.mp4\n"

@@ -62,15 +62,15 @@ void add_output_options(CLI::App& command, TrackOutputs& outputs) {
       "Write the motion (CSV) here, and beside it .pose.csv (with validity, faults and residuals), "
       ".units.csv, .arkit.csv");
   command.add_option("--trc", outputs.trc, "Write the motion as TRC here");
-  command.add_option("--preview", outputs.preview,
-                     "Write a video (.mp4) of the recording with mesh, landmarks, pose and units "
-                     "drawn in");
+  command.add_option(
+      "--preview", outputs.preview,
+      "Write a video (.mp4) of the recording with mesh, landmarks, pose and units overlaid");
   command.add_option(
       "--glb", outputs.glb,
-      "Write the moving face here (.glb), the head's pose in the animation of its node");
+      "Write the moving face here (.glb), with the head pose as the animation of its node");
   command.add_option("--livelink", outputs.live_link,
                      "Write ARKit's blend-shape weights here as Live Link Face records them (CSV)");
-  command.add_flag("--vertices", outputs.vertices, "The model's vertices too, as vertex_K");
+  command.add_flag("--vertices", outputs.vertices, "Write the model's vertices too, as vertex_K");
 }
 
 std::unique_ptr<tracking::PreviewMovie> preview_of(const TrackOutputs& outputs,

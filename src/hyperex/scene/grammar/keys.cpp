@@ -51,9 +51,9 @@ std::vector<std::pair<std::string, MaybeUnit>> units_or(const std::string& other
 std::vector<Key> input_keys() {
   return {
       text<Scene>("title", AT(title), 0, "Heads the report."),
-      source<Scene>("scan.file", AT(scan.source), true,
-                    "The scan: PLY, OBJ, STL, glTF or GLB; or the canonical face that the program "
-                    "carries inside."),
+      source<Scene>(
+          "scan.file", AT(scan.source), true,
+          "The scan: PLY, OBJ, STL, glTF or GLB; or the face that comes with the program."),
       choice<Scene, MaybeUnit>("scan.unit", AT(scan.unit), units_or("guess"),
                                "The scan's unit of length. A guess takes the one that makes the "
                                "face 10 to 30 cm wide, and says so."),
@@ -64,11 +64,11 @@ std::vector<Key> input_keys() {
       choice<Scene, MaybeUnit>("scan.landmarks_unit", AT(scan.landmarks_unit), units_or("file"),
                                "The landmarks' unit of length, where it is not the one that their "
                                "file states."),
-      source<Scene>("motion.file", AT(motion.source), false,
-                    "The recording of named points: CSV or TRC; or the mouth opening of 2.7 s that "
-                    "the program carries inside. This, motion.recording, motion.openface or "
-                    "motion.arkit is required; one given by --set takes the place of another in "
-                    "the file."),
+      source<Scene>(
+          "motion.file", AT(motion.source), false,
+          "The recording, as named points over time: CSV or TRC; or the mouth opening of 2.7 s "
+          "that comes with the program. One of motion.file, motion.recording, motion.openface and "
+          "motion.arkit is required; one given by --set replaces the one in the file."),
       path<Scene>(
           "motion.recording", AT(motion.recording),
           "The recording of a camera, colour and depth: a folder in TUM's layout, a video or .oni "
@@ -79,21 +79,22 @@ std::vector<Key> input_keys() {
                   "videos do) and are turned back; a video does not tell, and left and right "
                   "depend on it."),
       path<Scene>("motion.openface", AT(motion.openface),
-                  "Intensities of action units over time, a CSV of OpenFace 2: they move the face "
-                  "model, and its points are the recording."),
+                  "Action-unit intensities over time: a CSV file of OpenFace 2. They move the face "
+                  "model, whose points are then the recording."),
       path<Scene>("motion.arkit", AT(motion.arkit),
-                  "Weights of ARKit's blend shapes over time, a CSV with a column time_s or as "
-                  "Live Link Face writes it: they move the face model likewise."),
+                  "ARKit blend-shape weights over time: a CSV file with a column time_s, or as "
+                  "Live Link Face writes it. They move the face model in the same way."),
       path<Scene>("motion.candide", AT(motion.candide),
                   "CANDIDE-3's .wfm file, to be the face model for motion.recording, "
                   "motion.openface and motion.arkit. Empty: the canonical face."),
       choice<Scene, MaybeUnit>("motion.unit", AT(motion.unit), units_or("file"),
                                "The recording's unit of length, where it is not the one that the "
                                "file states."),
-      names<Scene>("motion.rigid_points", AT(motion.rigid_points), 3,
-                   "Points that move with the skull: the head's pose is found from them and taken "
-                   "out. Empty: all landmarks of the face, each weighed by how much it moves in "
-                   "life; at least three eye corners, bridge of the nose or temples are needed."),
+      names<Scene>(
+          "motion.rigid_points", AT(motion.rigid_points), 3,
+          "Points that move with the skull: the head pose is estimated from them and removed. "
+          "Empty: all landmarks of the face, each with a weight that falls with how much it moves "
+          "in life; at least three of eye corners, bridge of the nose and temples are needed."),
       time_or_stretch<Scene>(
           "motion.rest_s", seconds, AT(motion.rest_s), {0, 3600},
           "When the face is at rest, from the recording's start: a time, or [from, to], over which "
@@ -110,8 +111,9 @@ std::vector<Key> input_keys() {
           {text<motion::PointGain>("point", AT(point), 1, "A point of the recording."),
            number<motion::PointGain>("gain", none, AT(gain), {0, 5},
                                      "Multiplies its displacement.")},
-          "A gain on one point, besides motion.gain. Other points keep their motion; the skin "
-          "between takes its share as it does of every driven point's, and so does the jaw."),
+          "A gain on one point, in addition to motion.gain. Other points keep their motion; the "
+          "skin between them and the jaw follow the changed point as they follow every driven "
+          "point."),
       number<Scene>("motion.time_scale", none, AT(motion.time_scale), {0.05, 20},
                     "Stretches the recording in time: 2 plays it twice as slowly. Gaps and "
                     "jitter are judged as recorded; times of time and output are not stretched."),
@@ -120,14 +122,14 @@ std::vector<Key> input_keys() {
           {{"nonrigid", AlignmentMethod::nonrigid},
            {"similarity", AlignmentMethod::similarity},
            {"normalised", AlignmentMethod::normalised}},
-          "How the recording is laid on the scan: by a similarity of the landmarks and a smooth "
-          "correction, by the similarity alone, or by the widths and heights of face parts about "
-          "the nose apex."),
+          "How the recording is aligned with the scan: by a similarity transform of the landmarks "
+          "and a smooth correction, by the similarity transform alone, or by the widths and "
+          "heights of parts of the face about the nose apex."),
       choice<Scene, Measured>(
           "region.measured", AT(region.measured),
           {{"none", Measured::none}, {"all", Measured::all}, {"points", Measured::points}},
-          "Which part of the face follows the recording directly, the rest being physical: none, "
-          "all of it, or the surroundings of region.measured_points."),
+          "Which part of the face follows the recording directly, while the rest is simulated: "
+          "none, all of it, or the surroundings of region.measured_points."),
       names<Scene>("region.measured_points", AT(region.measured_points), 0,
                    "Points whose surroundings are measured. At least one where region.measured is "
                    "\"points\"."),
@@ -136,7 +138,7 @@ std::vector<Key> input_keys() {
                     "How far the surroundings of a measured point reach."),
       number<Scene>("region.blend_mm", millimetres, AT(region.blend_m),
                     in(Region::blend_m_in, millimetres),
-                    "Width of the transition from measured to physical."),
+                    "Width of the transition from measured to simulated."),
   };
 }
 
@@ -196,19 +198,19 @@ std::vector<Field<tissue::TissueRegion>> region_columns() {
       optional(text<Row>("name", AT(name), 1,
                          "A part of the face, as cheek_R or lips (hyperex presets lists them).")),
       optional(names<Row>("scar", AT(scar), 2,
-                          "In its place: landmarks along a scar, laid straight on the skin between "
-                          "them.")),
+                          "Instead of name: landmarks along a scar, whose straight segments are "
+                          "projected onto the skin.")),
       optional(places<Row>("scar_points_mm", millimetres, AT(scar_points_m),
-                           "In their place: places along a scar, in the scan's axes.")),
-      optional(
-          path<Row>("painted", AT(painted),
-                    "In their place: the scan painted red where it applies (PLY, OBJ, GLB with "
-                    "vertex colours), or a CSV or PLY with a weight from 0 to 1 a vertex.")),
+                           "Instead: points along a scar, in the scan's coordinates.")),
+      optional(path<Row>(
+          "painted", AT(painted),
+          "Instead: the scan painted red where the change applies (PLY, OBJ, GLB with vertex "
+          "colours), or a CSV or PLY file with one weight from 0 to 1 per vertex.")),
       optional(number<Row>("width_mm", millimetres, AT(width_m), {0.5, 100},
                            "Width of a scar; 4 where not given.")),
-      optional(number<Row>("blend_mm", millimetres, AT(blend_m), {0, 100},
-                           "Width over which the change sets in, half of it outside; 4 where not "
-                           "given."))};
+      optional(number<Row>(
+          "blend_mm", millimetres, AT(blend_m), {0, 100},
+          "Width of the transition at the rim, half of it outside; 4 where not given."))};
   for (auto& column : given_parameters<Row>()) columns.push_back(std::move(column));
   columns.push_back(maybe_number<Row>("young_factor", none, AT(factor[young]), factor_range,
                                       "Multiplies Young's modulus there."));
@@ -247,8 +249,8 @@ std::vector<Key> model_keys() {
            number<tissue::DepthAt>("thickness_mm", millimetres, AT(depth_m),
                                    in(Mesh::thickness_m_in, millimetres),
                                    "Thickness of the soft tissue there.")},
-          "Thickness at a landmark, in the place of the published depth there; interpolated in "
-          "between. Only where mesh.thickness_mm is 0."),
+          "Thickness at a landmark, instead of the published depth there; interpolated in between. "
+          "Only where mesh.thickness_mm is 0."),
       uniform_parameter("tissue.young_kpa", kilopascals, tissue::young, "Young's modulus E."),
       uniform_parameter(
           "tissue.poisson", none, tissue::poisson,
@@ -259,8 +261,8 @@ std::vector<Key> model_keys() {
       choice<Scene, fem::ViscousForm>(
           "tissue.viscous_form", AT(model.viscous_form),
           {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
-          "The viscous tensor: Stokes' law, or the tensor printed in the source, which is not "
-          "isotropic."),
+          "The viscous tensor: Stokes' law, or the tensor printed in the thesis (docs/tissue.md), "
+          "which is not isotropic."),
       choice<Scene, fem::ElementKind>(
           "tissue.element", AT(model.element),
           {{"tet4", fem::ElementKind::tet4}, {"tet4-star", fem::ElementKind::tet4_star}},
@@ -269,15 +271,15 @@ std::vector<Key> model_keys() {
       choice<Scene, reenact::Strain>(
           "tissue.strain", AT(model.strain),
           {{"linear", reenact::Strain::linear}, {"finite", reenact::Strain::finite}},
-          "Small strain and rotation, for which one factorisation serves all steps, or any strain "
-          "and rotation by a hyperelastic law, some ten times as slow (docs/mechanics.md)."),
+          "Small strain and rotation, where one factorisation serves all steps; or finite strain "
+          "and rotation with a hyperelastic law, about ten times as slow (docs/mechanics.md)."),
       choice<Scene, fem::HyperelasticLaw>(
           "tissue.law", AT(model.law.law),
           {{"neo-hookean", fem::HyperelasticLaw::neo_hookean},
            {"isochoric-neo-hookean", fem::HyperelasticLaw::isochoric_neo_hookean},
            {"yeoh", fem::HyperelasticLaw::yeoh},
            {"mooney-rivlin", fem::HyperelasticLaw::mooney_rivlin}},
-          "The hyperelastic law where tissue.strain = \"finite\"; its stiffness at rest is "
+          "The hyperelastic law where tissue.strain = \"finite\". Its stiffness at small strain is "
           "that of tissue.young_kpa and tissue.poisson."),
       number<Scene>("tissue.yeoh_c20", none, AT(model.law.c20), {-10, 100},
                     "C20 / C10 of tissue.law = \"yeoh\". The default is of facial tissue (2.5 "
@@ -288,74 +290,78 @@ std::vector<Key> model_keys() {
                     "C01 / C10 of tissue.law = \"mooney-rivlin\"."),
       rows<Scene, fem::MaxwellBranch>(
           "tissue.maxwell", AT(model.law.branches),
-          {number<fem::MaxwellBranch>("ratio", none, AT(ratio), {0, 100},
-                                      "Stress of the branch at once, over that of the law."),
+          {number<fem::MaxwellBranch>(
+               "ratio", none, AT(ratio), {0, 100},
+               "Instantaneous stress of the branch, as a ratio to that of the law."),
            number<fem::MaxwellBranch>("relaxation_s", seconds, AT(relaxation_s), {1e-6, 1e6},
-                                      "The time in which it falls to 1/e at a held stretch.")},
-          "A spring and a dashpot in line, beside law and viscosity: tissue held at a stretch "
-          "relaxes. tissue.young_kpa is what remains in the end. Only where tissue.strain = "
-          "\"finite\"."),
+                                      "Relaxation time: the time in which that stress falls to 1/e "
+                                      "at a constant stretch.")},
+          "A Maxwell branch (a spring and a dashpot in series), parallel to the law and the "
+          "viscosity: tissue held at a stretch relaxes. tissue.young_kpa is the long-term "
+          "stiffness. Only where tissue.strain = \"finite\"."),
       text<Scene>("tissue.preset", AT(tissue.preset), 0,
                   "Published parameters by name (hyperex presets lists them with their sources); "
-                  "keys that are given here take the place of its values. Empty: none."),
+                  "keys given here replace its values. Empty: none."),
       choice<Scene, tissue::Interpolation>(
           "tissue.interpolation", AT(tissue.interpolation),
           {{"harmonic", tissue::Interpolation::harmonic},
            {"linear", tissue::Interpolation::linear}},
-          "How parameters at points are spread over the face: as a smooth harmonic field on the "
-          "skin, or linearly over triangles of points seen from in front (docs/tissue.md)."),
+          "How parameters at points are interpolated over the face: as a harmonic field on the "
+          "skin, or linearly over triangles of points in the frontal view (docs/tissue.md)."),
       flag<Scene>("tissue.mirror", AT(tissue.mirror),
-                  "What [[tissue.point]] and [[tissue.region]] say of one side holds for the other "
-                  "too."),
+                  "Entries of [[tissue.point]] and [[tissue.region]] for one side are mirrored to "
+                  "the other."),
       path<Scene>("tissue.per_vertex", AT(tissue.per_vertex),
-                  "Parameters a vertex of the scan: a CSV with columns young_kpa, viscosity_pa_s, "
-                  "poisson or density_kg_m3 and a row a vertex, or a PLY with such vertex "
-                  "properties. Empty cells (nan) are left as they are otherwise."),
+                  "Parameters for each vertex of the scan: a CSV file with columns young_kpa, "
+                  "viscosity_pa_s, poisson or density_kg_m3 and one row per vertex, or a PLY file "
+                  "with such vertex properties. An empty cell (in PLY: nan) keeps the value that "
+                  "the other keys give."),
       rows<Scene, tissue::TissuePoint>(
           "tissue.point", AT(tissue.points), point_columns(),
-          "Parameters at a landmark, interpolated over the face in the place of the uniform ones. "
-          "At least one of them is given."),
+          "Parameters at a landmark, interpolated over the face instead of the uniform ones. At "
+          "least one of them must be given."),
       rows<Scene, tissue::TissueRegion>(
           "tissue.region", AT(tissue.regions), region_columns(),
-          "A change within a part of the face, applied after points, in the order of the file: "
-          "values or factors in a region by name or along a scar."),
+          "A change within a part of the face, applied after the points and in the order of the "
+          "file: values or factors in a named region or along a scar."),
       choice<Scene, bool>("support.border", AT(support.border_held),
                           {{"held", true}, {"free", false}},
                           "The tissue's outer border, from the skin to the inner surface."),
-      choice<Scene, Hold>(
-          "support.skull", AT(support.skull),
-          {{"sliding", Hold::sliding}, {"held", Hold::held}, {"free", Hold::free}},
-          "The inner surface over the skull: slides on it on a loose layer, is held, or is free."),
-      number<Scene>(
-          "support.skull_across_kpa_per_mm", stiffness, AT(support.skull_layer.across_pa_per_m),
-          in(Support::stiffness_pa_per_m_in, stiffness),
-          "Stiffness of the loose layer over the skull across it: pressure that parts the "
-          "tissue from the bone by a millimetre."),
+      choice<Scene, Hold>("support.skull", AT(support.skull),
+                          {{"sliding", Hold::sliding}, {"held", Hold::held}, {"free", Hold::free}},
+                          "The inner surface over the skull: slides on a loose layer (an elastic "
+                          "foundation), is fixed, or is free."),
+      number<Scene>("support.skull_across_kpa_per_mm", stiffness,
+                    AT(support.skull_layer.across_pa_per_m),
+                    in(Support::stiffness_pa_per_m_in, stiffness),
+                    "Stiffness of the loose layer over the skull, normal to the bone: the pressure "
+                    "for a displacement of one millimetre."),
       number<Scene>("support.skull_along_kpa_per_mm", stiffness,
                     AT(support.skull_layer.along_pa_per_m),
                     in(Support::stiffness_pa_per_m_in, stiffness),
-                    "The same along it: shear that lets the tissue slide by a millimetre."),
+                    "The same tangential to the bone: the shear stress for a displacement of one "
+                    "millimetre."),
       choice<Scene, Mandible>(
           "support.mandible", AT(support.mandible),
           {{"follow", Mandible::follow}, {"held", Mandible::held}, {"free", Mandible::free}},
-          "The inner surface over the mandible: follows the jaw as a rigid "
-          "bone, is held, or is free."),
+          "The inner surface over the mandible: follows the jaw as a rigid bone, is fixed, or is "
+          "free."),
       number<Scene>("support.mandible_across_kpa_per_mm", stiffness,
                     AT(support.mandible_layer.across_pa_per_m),
                     in(Support::stiffness_pa_per_m_in, stiffness),
-                    "As support.skull_across_kpa_per_mm, over the mandible that is followed."),
+                    "As support.skull_across_kpa_per_mm, over a mandible that moves."),
       number<Scene>("support.mandible_along_kpa_per_mm", stiffness,
                     AT(support.mandible_layer.along_pa_per_m),
                     in(Support::stiffness_pa_per_m_in, stiffness),
-                    "As support.skull_along_kpa_per_mm, over the mandible that is followed."),
+                    "As support.skull_along_kpa_per_mm, over a mandible that moves."),
       number<Scene>(
           "support.field_kpa_per_mm", stiffness, AT(support.field_pa_per_m),
           in(Support::stiffness_pa_per_m_in, stiffness),
-          "Stiffness of an elastic foundation under the tissue, save over the mandible: its "
-          "ground follows the motion interpolated between the driven points. 0: none."),
-      names<Scene>("support.jaw_points", AT(support.jaw_points), 0,
-                   "Points whose motion turns the jaw. Empty: those of the chin that the recording "
-                   "has."),
+          "Stiffness of an elastic foundation under the tissue, except over the mandible. Its base "
+          "follows the motion interpolated between the driven points. 0: none."),
+      names<Scene>(
+          "support.jaw_points", AT(support.jaw_points), 0,
+          "Points whose motion rotates the jaw. Empty: those of the chin that the recording has."),
   };
 }
 
@@ -386,15 +392,14 @@ std::vector<Key> run_keys() {
           "Radius of the patch of skin that a driven point moves where the lips part; half "
           "as much again where they stay closed. 0 takes the nearest node alone."),
       names<Scene>("drive.still_points", AT(drive.still_points), 0,
-                   "Points that are held still on the skin."),
+                   "Points of the skin that are fixed."),
       path<Scene>(
           "muscles.file", AT(muscles_file),
-          "Muscles of your own, as tables [[muscle]] (docs/muscles.md): one with the name of "
-          "one of the program's takes its place, others are added. The same for all "
-          "variants."),
-      names<Scene>("muscles.without", AT(muscles_without), 0,
-                   "Muscles that are left out, by their names without side. The same for all "
-                   "variants."),
+          "Your own muscles, as tables [[muscle]] (docs/muscles.md): one with the name of a muscle "
+          "of the program replaces it, others are added. The same for all variants."),
+      names<Scene>(
+          "muscles.without", AT(muscles_without), 0,
+          "Muscles to leave out, by their names without the side. The same for all variants."),
       factors<Scene, reenact::MuscleGain>(
           "muscles.gain", AT(muscles.gains), &reenact::MuscleGain::muscle,
           &reenact::MuscleGain::gain, muscles::gain_names(),
@@ -403,47 +408,44 @@ std::vector<Key> run_keys() {
           "facial nerve moves on one side, or of a side; 0 is a palsy. Several multiply."),
       flag<Scene>("muscles.mirrored", AT(muscles.mirrored),
                   "Each muscle takes the activation of its counterpart on the other side."),
-      choice<Scene, TeethShape>(
-          "teeth.shape", AT(teeth.shape), {{"arch", TeethShape::arch}, {"none", TeethShape::none}},
-          "What stands in a jaw of which no scan is given: average teeth, laid behind lips and "
-          "cheeks (docs/teeth.md), or nothing."),
+      choice<Scene, TeethShape>("teeth.shape", AT(teeth.shape),
+                                {{"arch", TeethShape::arch}, {"none", TeethShape::none}},
+                                "The teeth of a jaw without a scan of its own: an average dental "
+                                "arch fitted behind lips and cheeks (docs/teeth.md), or none."),
       path<Scene>("teeth.upper", AT(teeth.upper),
-                  "A scan of the upper teeth with their gum, in the frame of the face's scan: PLY, "
-                  "OBJ, STL, glTF or GLB. Borders are filled."),
+                  "A scan of the upper teeth with their gums, in the coordinates of the face scan: "
+                  "PLY, OBJ, STL, glTF or GLB. Holes are filled."),
       path<Scene>("teeth.lower", AT(teeth.lower),
-                  "The same of the lower teeth, where they are at rest: they go along with the "
-                  "jaw."),
-      choice<Scene, MaybeUnit>("teeth.unit", AT(teeth.unit), units_or("scan"),
-                               "The unit of length of these scans, where it is not that of the "
-                               "face's."),
-      flag<Scene>(
-          "contact.lips", AT(contact.lips),
-          "The lips may touch but not pass through each other, without friction. Each frame "
-          "is corrected by itself, in static equilibrium. Recorded points then end where "
-          "they are recorded only as far as no lip is in their way."),
+                  "The same for the lower teeth, in the position at rest. They move with the jaw."),
+      choice<Scene, MaybeUnit>(
+          "teeth.unit", AT(teeth.unit), units_or("scan"),
+          "The unit of length of these scans, where it is not that of the face scan."),
+      flag<Scene>("contact.lips", AT(contact.lips),
+                  "The lips may touch but not pass through each other, without friction. Each "
+                  "frame is corrected separately, in static equilibrium. Recorded points then end "
+                  "where they are recorded only as far as no lip is in their way."),
       flag<Scene>("contact.teeth", AT(contact.teeth),
-                  "The mouth's side of lips and cheeks may touch the teeth of both jaws, the lower "
-                  "ones going along with the jaw, but not pass through them, in the same way."),
+                  "The inner side of lips and cheeks may touch the teeth of both jaws but not pass "
+                  "through them, in the same way. The lower teeth move with the jaw."),
       flag<Scene>("contact.eyes", AT(contact.eyes),
                   "The lids may touch eyeballs, which are fitted behind them, but not pass through "
                   "them, in the same way."),
       choice<Scene, SolverMethod>(
           "solver.method", AT(solver.method),
           {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},
-          "Projected onto the motions that the input makes, to solver.tolerance; or all unknowns "
-          "at "
-          "every step."),
+          "A reduced model: the equations projected onto the modes that the input excites, to "
+          "solver.tolerance; or all degrees of freedom at every step."),
       choice<Scene, fem::LinearSolver>(
           "solver.linear", AT(solver.linear),
           {{"auto", fem::LinearSolver::automatic},
            {"cholesky", fem::LinearSolver::cholesky},
            {"iterative", fem::LinearSolver::iterative}},
-          "How linear systems are solved: by a Cholesky factor; by conjugate gradients on "
-          "overlapping subdomains, which takes less memory and more time; or the first where it "
-          "fits the memory, else the second."),
+          "How linear systems are solved: by Cholesky factorisation; by conjugate gradients "
+          "preconditioned with overlapping subdomains, which takes less memory and more time; or "
+          "by the first where it fits into memory, else the second."),
       number<Scene>("solver.tolerance", none, AT(solver.tolerance), in(Solver::tolerance_in, none),
-                    "Error allowed to the reduced model by its own estimate, over the largest "
-                    "displacement."),
+                    "Allowed error of the reduced model by its own estimate, relative to the "
+                    "largest displacement."),
       number<Scene>("solver.newmark_beta", none, AT(solver.newmark_beta),
                     in(Solver::newmark_beta_in, none), "beta of Newmark's method."),
       number<Scene>("solver.newmark_gamma", none, AT(solver.newmark_gamma),
@@ -451,68 +453,69 @@ std::vector<Key> run_keys() {
                     "gamma (delta) of Newmark's method; above 0.5 it damps. At most twice "
                     "solver.newmark_beta."),
       flag<Scene>("solver.verify", AT(solver.verify),
-                  "Run the full model beside the reduced one and tell its true error."),
+                  "Run the full model too and report the true error of the reduced one."),
       number<Scene>("solver.finite_step_s", seconds, AT(solver.finite_step_s),
                     in(Solver::finite_step_s_in, seconds),
                     "The time step where tissue.strain = \"finite\"; it is halved where it does "
                     "not converge. 0: the time between frames."),
-      number<Scene>("solver.finite_tolerance", none, AT(solver.finite_tolerance),
-                    in(Solver::finite_tolerance_in, none),
-                    "Error of a step's iterations at finite strain, over the greatest "
-                    "displacement."),
-      flag<Scene>("solver.full_newton", AT(solver.full_newton),
-                  "Factor the matrix in each iteration at finite strain, not once a step."),
+      number<Scene>(
+          "solver.finite_tolerance", none, AT(solver.finite_tolerance),
+          in(Solver::finite_tolerance_in, none),
+          "Error of a step's iterations at finite strain, relative to the largest displacement."),
+      flag<Scene>(
+          "solver.full_newton", AT(solver.full_newton),
+          "At finite strain, factorise the matrix in each iteration and not once per step."),
       number<Scene>("time.step_s", seconds, AT(time.step_s), in(Time::step_s_in, seconds),
                     "The time step."),
       number<Scene>("time.end_s", seconds, AT(time.end_s), in(Time::end_s_in, seconds),
-                    "Where the simulation ends; the last sample of the recording is held. 0: at "
+                    "When the simulation ends; after the recording its last sample is kept. 0: at "
                     "the end of the recording."),
       number<Scene>("time.frame_rate_hz", {"Hz"}, AT(time.frame_rate_hz),
                     in(Time::frame_rate_hz_in, none),
-                    "Frames written a second; frames need not fall on steps."),
+                    "Frames written per second. They need not coincide with time steps."),
       number<Scene>("output.peak_time_s", seconds, AT(time.peak_time_s),
                     in(Time::peak_time_s_in, seconds),
-                    "Time of skin_peak.ply. Below 0: where the driven points have moved most in "
-                    "the mean."),
+                    "Time of skin_peak.ply. Below 0: when the mean displacement of the driven "
+                    "points is greatest."),
       flag<Scene>(
           "output.vtu", AT(output.vtu),
           "Write frames.pvd and frames/: the tissue over time, for ParaView. The points are "
           "at rest in every frame; the filter Warp By Vector moves them."),
       integer<Scene>("output.vtu_every", AT(output.vtu_every), {1, 10000},
-                     "Write only every so many frames there: 3 takes a third of the space."),
+                     "Write only every n-th frame there: 3 takes a third of the space."),
       flag<Scene>("output.vtu_strain", AT(output.vtu_strain),
-                  "Write the tensors of strain there; at finite strain also those of stress, and "
-                  "stretches."),
+                  "Write the strain tensors there; at finite strain also stress tensors and "
+                  "principal stretches."),
       flag<Scene>("output.variants_vtu", AT(output.variants_vtu),
-                  "Write the same for each variant, into its folder."),
+                  "Write them for each variant too, into its folder."),
       flag<Scene>("output.glb", AT(output.glb),
                   "Write performance.glb, of each variant too: the moving skin for Blender and "
                   "other programs that read glTF."),
       number<Scene>("output.glb_tolerance_mm", millimetres, AT(output.glb_tolerance_m), {0.01, 10},
-                    "How far any vertex of performance.glb may be from its computed place in any "
-                    "frame. A larger tolerance takes fewer shape keys and a smaller file."),
+                    "The greatest allowed error of any vertex of performance.glb in any frame. A "
+                    "larger tolerance needs fewer shape keys and makes a smaller file."),
       number<Scene>("output.glb_max_mb", {"MB"}, AT(output.glb_max_mb), {0.1, 10000},
-                    "The largest performance.glb. Where output.glb_tolerance_mm needs more, keys "
-                    "are left out, and a warning tells the error that remains."),
+                    "The largest size of performance.glb. Where output.glb_tolerance_mm needs "
+                    "more, shape keys are left out and a warning states the remaining error."),
       flag<Scene>("output.report", AT(output.report), "Write report.html."),
-      flag<Scene>("output.full_paths", AT(output.full_paths),
-                  "Write whole paths of the input files into summary.json and report.html. Names "
-                  "of folders may tell a patient's name, so that only file names are written "
-                  "otherwise."),
+      flag<Scene>(
+          "output.full_paths", AT(output.full_paths),
+          "Write full paths of the input files into summary.json and report.html. By default only "
+          "file names are written, since folder names may contain a patient's name."),
       number<Scene>("output.symmetry_floor", none, AT(output.symmetry_floor), {0, 1, true},
-                    "The least difference of xi that S(t) tells apart; perfect symmetry would be "
-                    "minus infinity."),
+                    "The least difference of xi that S(t) resolves; at perfect symmetry it would "
+                    "be minus infinity."),
       number<Scene>("output.jitter_mm", millimetres, AT(output.jitter_m), {-1, 20},
-                    "Jitter of the recorded points, a standard deviation a coordinate, which "
-                    "sets the noise floor of S(t) (docs/symmetry.md). Below 0: what "
-                    "the points' fourth differences in time tell."),
+                    "Jitter of the recorded points (standard deviation per coordinate), which sets "
+                    "the noise floor of S(t) (docs/symmetry.md). Below 0: estimated from the "
+                    "fourth differences of the points in time."),
       number<Scene>("output.lowpass_hz", none, AT(output.lowpass_hz), {0, 100},
-                    "Cut-off (Hz) of the zero-phase low-pass that speeds and paths of points with "
-                    "jitter are smoothed by (docs/symmetry.md). 0: not smoothed."),
+                    "Cut-off frequency of the zero-phase low-pass filter for speeds and paths of "
+                    "points with jitter (docs/symmetry.md). 0: no filter."),
       numbers<Scene>("output.contact_times_s", seconds, AT(time.still_times_s),
                      in(Time::still_times_s_in, seconds), 0, 12,
-                     "Times of the pictures in contact_sheet.png. None: five spread over the run, "
-                     "the peak among them."),
+                     "Times of the pictures in contact_sheet.png. None: five times over the run, "
+                     "with the peak among them."),
   };
 }
 #undef AT
@@ -524,15 +527,16 @@ const std::vector<Section>& sections() {
       {"", "At the top of the file, before any section."},
       {"scan", "The face at rest."},
       {"motion", "The recorded expression."},
-      {"alignment", "How the recording is carried to the scan."},
-      {"region", "What is measured and what is physical."},
+      {"alignment", "How the recording is transferred to the scan."},
+      {"region", "What follows the recording directly and what is simulated."},
       {"mesh", "The volume of soft tissue."},
       {"tissue", "The material."},
-      {"support", "What holds the tissue from within and at its border."},
+      {"support", "What holds the tissue on its inner surface and at its border."},
       {"drive", "What moves it."},
       {"muscles", "Muscles, where they are what moves it (`drive.by`)."},
-      {"teeth", "What stands behind the lips. It is drawn; with contact.teeth tissue touches it."},
-      {"contact", "What may not pass through each other."},
+      {"teeth",
+       "The teeth behind the lips. They are drawn; with contact.teeth the tissue touches them."},
+      {"contact", "Which surfaces may not pass through each other."},
       {"solver", "How the equations of motion are solved."},
       {"time", "Steps and frames."},
       {"output", "What is written."},
