@@ -5,6 +5,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
+#include "hyperex/scene/grammar/scene_text.hpp"
 #include "hyperex/scene/output/report_page.hpp"
 #include "hyperex/scene/run/variants.hpp"
 #include "hyperex/scene/stages/drive_choice.hpp"
@@ -133,14 +134,20 @@ void OpenFace::take(scene::Scene next) {
   scene_ = std::move(next);
   field_ = std::move(field);
   const bool same_base = simulator_ && simulator_->options() == options;
-  if (!simulator_)
+  if (!simulator_) {
     simulator_.emplace(face_.mesh, inputs.landmarks, inputs.motion, options);
-  else if (!same_base)
+  } else if (next_base_ && next_base_->options() == options) {
+    simulator_ = std::move(next_base_);
+  } else if (!same_base) {
     simulator_->set_options(options);
+    next_variant_.reset();
+  }
+  next_base_.reset();
   if (contact_of(scene_) != touched_) {
     // Built where a scene or a variant first asks for it: a grid of distances takes a moment.
     touched_ = contact_of(scene_);
     simulator_->set_obstacles(scene::obstacles_of(scene_, inputs, *face_.mesh, teeth_.get()));
+    next_variant_.reset();
   }
   stale_ = stale_ || !same_base;
   std::vector<scene::VariantRun> old_runs = std::exchange(runs_, std::move(runs));
@@ -173,13 +180,41 @@ reenact::Simulator& OpenFace::simulator_of(std::size_t face) {
   std::optional<reenact::Simulator>& own = standing_.at(face - 1).simulator;
   if (!own) {
     const scene::VariantRun& run = runs_[face - 1];
-    simulator_->still(0);  // finds the forces, where there are none yet
-    reenact::Simulator made = *simulator_;
+    if (!next_variant_) simulator_->still(0);  // finds the forces, where there are none yet
+    reenact::Simulator made = next_variant_ ? std::move(*next_variant_) : *simulator_;
+    next_variant_.reset();
     made.hold_load();
     made.set_options(options_of(run.scene, run.inputs, run.field));
     own = std::move(made);
   }
   return *own;
+}
+
+void OpenFace::expect_variant() {
+  // At finite strain the run of base itself completes what a variant keeps.
+  if (!runs_.empty() || next_variant_ || scene_.model.strain == reenact::Strain::finite) return;
+  const scene::Scene next = scene::read_scene_text(
+      scene::with_variants(text_, {{{"name", "next"}, {"motion", {{"gain", scene_.drive.gain}}}}}),
+      scene_.file);
+  scene::Scene base = next;
+  base.drive.by = scene::drive_choice(next, inputs_).by;
+  scene::Inputs& inputs = inputs_;
+  std::vector<std::string> before =
+      std::exchange(inputs.driven, scene::driven_points(base, inputs.motion.motion));
+  reenact::SimulationOptions options = options_of(base, inputs, field_);
+  inputs.driven = std::move(before);
+  if (!(options == simulator_->options())) {
+    next_base_ = *simulator_;
+    next_base_->set_options(std::move(options));
+    next_base_->still(0);
+  }
+  next_variant_ = next_base_ ? *next_base_ : *simulator_;
+  next_variant_->hold_load();
+  next_variant_->still(0);
+}
+
+bool OpenFace::ready(std::size_t face) const {
+  return face == 0 || next_variant_ || standing_.at(face - 1).simulator;
 }
 
 PointsF OpenFace::still(std::size_t face, double time_s) {

@@ -43,6 +43,12 @@ class OpenFace {
   /// sound scene.
   bool set_text(const std::string& text);
 
+  /// What the first change of a first variant needs beside base's motion, so that it need not wait
+  /// for that: where points drive base, the muscles' forces that a variant keeps are found. To be
+  /// called once all is up to date; does nothing where there are variants.
+  void expect_variant();
+  /// Whether still() has all but what the change itself asks for.
+  bool ready(std::size_t face) const;
   /// Of the skin, m, in static equilibrium at an instant.
   PointsF still(std::size_t face, double time_s);
 
@@ -94,6 +100,9 @@ class OpenFace {
   std::unique_ptr<scene::TissueFields> fields_;
   std::optional<tissue::TissueField> field_;
   std::optional<reenact::Simulator> simulator_;
+  /// Of expect_variant(): base as it is once there is a variant, none where it stays as it is; and
+  /// that variant's.
+  std::optional<reenact::Simulator> next_base_, next_variant_;
   std::vector<bool> touched_{false, false};  ///< whether obstacles are set for teeth, for eyes
   bool stale_ = true;
   reenact::SimulationResult simulation_;

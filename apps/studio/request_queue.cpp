@@ -2,11 +2,12 @@
 #include "request_queue.hpp"
 
 namespace hyperex::studio {
-namespace {
 
 bool is_live(const Request& request) {
   return request.name == "set" && request.fields.at("live").get<bool>();
 }
+
+namespace {
 
 /// Whether `later` leaves nothing of `request` to be seen.
 bool replaces(const Request& later, const Request& request) {
@@ -24,9 +25,14 @@ bool RequestQueue::push(Request request) {
   return true;
 }
 
-std::optional<Request> RequestQueue::pop(bool wait, std::vector<Request>& superseded) {
+std::optional<Request> RequestQueue::pop(std::chrono::milliseconds wait,
+                                         std::vector<Request>& superseded) {
   std::unique_lock lock(mutex_);
-  if (wait) changed_.wait(lock, [&] { return closed_ || !waiting_.empty(); });
+  const auto ready = [&] { return closed_ || !waiting_.empty(); };
+  if (wait == kForever)
+    changed_.wait(lock, ready);
+  else
+    changed_.wait_for(lock, wait, ready);
   if (closed_ || waiting_.empty()) return std::nullopt;
   Request request = std::move(waiting_.front());
   waiting_.pop_front();

@@ -10,6 +10,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/io/zip.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
 #include "hyperex/scene/grammar/scene_text.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
@@ -119,11 +120,46 @@ std::string with_uploads(const std::string& text, const fs::path& uploads) {
   const auto taken = [&](json& path) {
     // A scene that the studio saved names its files in a folder beside it.
     const std::string name = fs::path(path.get<std::string>()).filename().string();
-    if (!is_upload_name(name) || !fs::is_regular_file(uploads / name))
+    if (!is_upload_name(name) || !fs::exists(uploads / name))
       throw InputError(fmt::format("the scene names {}: open that file together with it", name));
     path = (uploads / name).string();
   };
   return with_paths(text, taken);
+}
+
+fs::path unpacked_recording(const fs::path& zip, const fs::path& uploads) {
+  constexpr std::uint64_t kMost = std::uint64_t(4) << 30U;  // bytes of all uploads, unpacked
+  constexpr int kDeepest = 2;                               // of the folder in the zip
+  std::uint64_t used = 0;
+  for (const fs::directory_entry& one : fs::recursive_directory_iterator(uploads))
+    if (one.is_regular_file()) used += one.file_size();
+  const fs::path all = uploads / (".unpacked-" + zip.filename().string());
+  io::UnzipLimits limits;
+  limits.most_bytes = kMost - std::min(kMost, used);
+  io::unzip(zip, all, limits);
+  const auto remove_all = [](const fs::path& path) {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  };
+  std::vector<fs::path> found;
+  if (fs::exists(all / "rgb.txt")) found.push_back(all);
+  for (fs::recursive_directory_iterator it(all), end; it != end && found.empty(); ++it) {
+    if (it.depth() >= kDeepest) it.disable_recursion_pending();
+    if (it->is_directory() && fs::exists(it->path() / "rgb.txt")) found.push_back(it->path());
+  }
+  if (found.empty()) {
+    remove_all(all);
+    throw InputError(zip.filename(),
+                     "holds no recording: expected a folder with rgb.txt and its pictures");
+  }
+  const std::string own = found[0].filename().string();
+  const std::string name = found[0] != all && is_upload_name(own) ? own : zip.stem().string();
+  fs::path folder = uploads / name;
+  for (int i = 2; fs::exists(folder); ++i) folder = uploads / fmt::format("{}-{}", name, i);
+  fs::rename(found[0], folder);
+  remove_all(all);
+  remove_all(zip);
+  return folder;
 }
 
 std::vector<std::string> paths_of(const json& options) {
@@ -146,7 +182,10 @@ void save_scene(const std::string& text, const fs::path& from, const std::vector
                     [&](const fs::path& one) { return lies_in(file, one); })) {
       fs::create_directories(target / files);
       const fs::path copy = target / files / file.filename();
-      write_file_atomically(copy, [&](std::ostream& out) { out << read_file(file); });
+      if (fs::is_directory(file))
+        fs::copy(file, copy, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+      else
+        write_file_atomically(copy, [&](std::ostream& out) { out << read_file(file); });
       value = (fs::path(files) / file.filename()).generic_string();
     } else if (relative && fs::absolute(folder).lexically_normal() != target.lexically_normal()) {
       value = fs::absolute(file).lexically_normal().lexically_proximate(target).generic_string();

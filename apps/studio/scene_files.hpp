@@ -23,6 +23,10 @@ nlohmann::json with_uploads(const std::string& key, nlohmann::json value,
                             const std::vector<std::string>& known);
 /// The same for all that a scene that was uploaded names.
 std::string with_uploads(const std::string& text, const std::filesystem::path& uploads);
+/// Unpacks a zip with a recording's folder (rgb.txt in it) into `uploads` and removes the zip: that
+/// folder, by its own name or, where the files lie bare in it, the zip's. Throws InputError.
+std::filesystem::path unpacked_recording(const std::filesystem::path& zip,
+                                         const std::filesystem::path& uploads);
 /// Every path that a scene's values hold (options_json()).
 std::vector<std::string> paths_of(const nlohmann::json& options);
 

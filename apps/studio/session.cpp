@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 
@@ -174,6 +175,12 @@ json rescued_json(const fs::path& folder) {
           {"seconds_ago", std::chrono::duration<double>(error ? age.zero() : age).count()}};
 }
 
+bool is_zip(const fs::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".zip";
+}
+
 /// A name for a file or folder in the folder that the studio writes to.
 void check_name(const std::string& name) {
   if (!is_upload_name(name))
@@ -284,7 +291,9 @@ json Session::open(const json& fields) {
     if (name.empty()) return fs::path();
     const fs::path file = uploads() / name;
     if (!fs::is_regular_file(file)) throw InputError(name + ": no such upload");
-    return file;
+    if (!is_zip(file)) return file;
+    tell("unpacking the recording");
+    return unpacked_recording(file, uploads());
   };
   if (what == "embedded") {
     write_smile();
@@ -301,6 +310,7 @@ json Session::open(const json& fields) {
     saved_ = false;
     send_scene();
   } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
+    static_cast<void>(uploaded(recording));  // which the scene names
     open_text(with_uploads(read_file(file), uploads()), file);
   } else {
     open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");
@@ -668,18 +678,20 @@ json Session::live_take(const json& fields) {
 bool Session::has_work() const {
   // A live face needs the processors itself.
   const bool following = live_ && !live_->ended();
-  return face_ && (motion_due_ || (bands_due_ && !following && face_->up_to_date()));
+  return face_ &&
+         (motion_due_ || ((variant_due_ || bands_due_) && !following && face_->up_to_date()));
 }
 
 void Session::work(const std::function<bool()>& cancelled) {
   Stopwatch watch;
-  if (!motion_due_) return find_bands(cancelled);
+  if (!motion_due_) return variant_due_ ? expect_variant() : find_bands(cancelled);
   reenact::RunCallbacks callbacks;
   callbacks.cancelled = cancelled;
   callbacks.progress = [&](double share) { tell("simulating", share); };
   try {
     face_->run(callbacks);
     motion_due_ = false;
+    variant_due_ = true;
     bands_due_ = options_.bands && !face_->bands_known();
     send_motion(watch);
   } catch (const reenact::Cancelled&) {
@@ -689,6 +701,16 @@ void Session::work(const std::function<bool()>& cancelled) {
     say("error", without_folder(error.what(), options_.folder));
   }
   tell("");
+}
+
+/// Not broken off by a request: most likely that needs it.
+void Session::expect_variant() {
+  variant_due_ = false;
+  try {
+    face_->expect_variant();
+  } catch (const std::exception&) {
+    // Who makes a variant hears why there can be none.
+  }
 }
 
 /// Without a word of what is done: nobody waits for it.
@@ -761,7 +783,10 @@ void Session::send_scene() {
 void Session::send_shape(std::size_t face, double time_s) {
   Stopwatch watch;
   if (face >= face_->faces()) throw InputError("face: there is none of this number");
+  const bool first = !face_->ready(face);
+  if (first) tell("finding the forces that move the face");
   const PointsF shape = face_->still(face, time_s);
+  if (first) tell("");
   report::BinaryBlock block;
   json head = {{"event", "shape"}, {"face", face}, {"time_s", time_s}};
   add_shape(shape, block, head);

@@ -93,6 +93,7 @@ class Session {
   std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
   void send_scene();
   void send_shape(std::size_t face, double time_s);
+  void expect_variant();
   void find_bands(const std::function<bool()>& cancelled);
   void send_motion(Stopwatch& watch);
   void tell(const std::string& stage, double share = -1);
@@ -104,8 +105,8 @@ class Session {
   std::unique_ptr<OpenFace> face_;
   Step now_;  // what was committed last; the face may be ahead of it while a slider is dragged
   std::vector<Step> undo_, redo_;
-  bool face_sent_ = false, motion_due_ = false, bands_due_ = false, saved_ = true,
-       keeps_rescued_ = true;
+  bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
+       saved_ = true, keeps_rescued_ = true;
   std::vector<std::filesystem::path> written_;
   std::optional<SurfaceTree> scan_;  ///< of the face that is open, once a landmark was moved
   io::Landmarks moved_;              ///< since the last landmarks_done()

@@ -58,11 +58,20 @@ void open_browser(std::string address) {
   posix_spawn_file_actions_destroy(&quiet);
 }
 
+/// A slider that is held goes on within this time, or is let go, which is another request. Until
+/// then the whole motion would only be in the way of the next shape.
+constexpr std::chrono::milliseconds kHeldFor{500};
+
 /// Takes requests out of the queue and works while none waits.
 void answer_all(RequestQueue& queue, Session& session, Server& server) {
+  bool held = false;
   while (!queue.closed()) {
     std::vector<Request> superseded;
-    const auto request = queue.pop(!session.has_work(), superseded);
+    const auto wait = !session.has_work() ? RequestQueue::kForever
+                      : held              ? kHeldFor
+                                          : std::chrono::milliseconds(0);
+    const auto request = queue.pop(wait, superseded);
+    held = request && is_live(*request);
     for (const Request& old : superseded)
       server.send(json{{"answer", old.id}, {"superseded", true}}.dump(), false);
     if (request)

@@ -11,6 +11,7 @@ import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { launch } from './browser.mjs';
 import { openStudio, program, run, startStudio } from './studio_server.mjs';
+import { zipOf, zipOfFolder } from './zip.mjs';
 
 const recording = join(dirname(fileURLToPath(import.meta.url)), '..', '..', '..', 'shared', 'data', 'rgbd', 'subject_A_mouth_open');
 const skip = !program() ? 'the program is not built' : !existsSync(recording) ? 'no recordings beside the checkout' : false;
@@ -64,6 +65,29 @@ describe('the studio live', { skip, concurrency: false }, () => {
     const own = summary.symmetry.excursions.find(({ point }) => point === 'cheilion' || point === 'ibug68_48/54').excursion_mm;
     for (const [side, name] of [['right', 'R'], ['left', 'L']])
       assert.ok(Math.abs((await mm(side)) - own[name]) <= 1e-6 * own[name], `${side}: ${await mm(side)} here, ${own[name]} by hyperex run`);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('a scan is moved by the recording in a zip, which goes along with the saved scene', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    const scan = join(recording, '..', '..', 'ict', 'subject_A_neutral_scan.ply');
+    const choose = async (name, zip) => page.locator('#file-picker').setInputFiles([
+      { name: 'me.ply', mimeType: 'model/ply', buffer: await readFile(scan) }, { name, mimeType: 'application/zip', buffer: zip }]);
+    await choose('bad.zip', zipOf([['../rgb.txt', Buffer.from('x')]]));
+    await page.waitForSelector('#open-panel .problem:has-text("leads elsewhere")');
+    await choose('talk.zip', zipOfFolder(recording, 'opening'));
+    await page.waitForFunction(() => /recording = ".*opening"/.test(document.getElementById('scene-text').textContent));
+    await page.waitForFunction(() => document.documentElement.dataset.current === 'true');
+    await page.click('#save-menu');
+    await page.fill('#save-name', 'zipped');
+    await page.click('[data-save=scene]');
+    await page.waitForSelector('.told:has-text("zipped.toml")');
+    assert.ok(existsSync(join(studio.folder, 'zipped_files', 'opening', 'rgb.txt')));
+    assert.match(await readFile(join(studio.folder, 'zipped.toml'), 'utf8'), /recording = "zipped_files\/opening"/);
+    await run(['check', join(studio.folder, 'zipped.toml')], studio);
     assert.deepEqual(complaints, []);
     await close();
   });

@@ -113,19 +113,36 @@ Eigen::Index jaw_row(const HeldLoad& load) {
   return (load.wide_bands ? 2 : 1) * Eigen::Index(load.muscles.names.size());
 }
 
-fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
-                    double tolerance, Eigen::Index prescribed) {
+namespace {
+
+/// The course after mirroring and gains.
+Eigen::MatrixXd changed_course(const HeldLoad& load, const MuscleOptions& options) {
   Eigen::MatrixXd course = load.course;
   const auto& names = load.muscles.names;
-  if (!names.empty()) {
-    const Eigen::VectorXd factor = muscle_gains(names, options.gains, options.table());
-    const auto count = static_cast<Eigen::Index>(names.size());
-    for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * count; ++m) {
-      const Eigen::Index own = m % count;
-      const int from = options.mirrored ? counterpart(names, std::size_t(own)) : int(own);
-      course.row(m) = factor[own] * load.course.row(m - own + from);
-    }
+  if (names.empty()) return course;
+  const Eigen::VectorXd factor = muscle_gains(names, options.gains, options.table());
+  const auto count = static_cast<Eigen::Index>(names.size());
+  for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * count; ++m) {
+    const Eigen::Index own = m % count;
+    const int from = options.mirrored ? counterpart(names, std::size_t(own)) : int(own);
+    course.row(m) = factor[own] * load.course.row(m - own + from);
   }
+  return course;
+}
+
+}  // namespace
+
+Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, double time_s) {
+  const Eigen::VectorXd now = at_times(load.time_s, changed_course(load, options), {time_s});
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(load.force.rows());
+  for (Eigen::Index k = 0; k < now.size(); ++k)  // most muscles are at rest
+    if (now[k] != 0) out += now[k] * load.force.col(k);
+  return out;
+}
+
+fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
+                    double tolerance, Eigen::Index prescribed) {
+  Eigen::MatrixXd course = changed_course(load, options);
   // Each row as large as the force that it stands for.
   const Eigen::VectorXd size = load.force.colwise().norm().transpose().cwiseMax(1e-12);
   course = size.asDiagonal() * course;

@@ -51,6 +51,10 @@ Eigen::MatrixXd course_at(const HeldLoad& load, Eigen::Index first_row, Eigen::I
 /// column by column, then its slide. Of a load of muscles.
 Eigen::Index jaw_row(const HeldLoad& load);
 
+/// Of the load at an instant, with mirroring and gains: 3 |nodes|, N. Between samples by the C2
+/// cubic spline, before the first and after the last as there.
+Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, double time_s);
+
 /// The load over a run as few shapes, in the form of compressed_drive(); between samples by the C2
 /// cubic spline, after the last it is held. Nothing prescribed moves.
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,

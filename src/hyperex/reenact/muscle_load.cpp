@@ -124,7 +124,8 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 /// Forces that hold the patches' nodes so displaced (columns), the rest of the face being in
 /// equilibrium without.
 Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patches,
-                               const Eigen::MatrixXd& displaced) {
+                               const Eigen::MatrixXd& displaced,
+                               const std::function<void()>& between) {
   const std::vector<int>& held = model.boundary().prescribed();
   const std::vector<int> prescribed = with_nodes(held, patches.nodes);
   fem::PartitionedFactor factor(
@@ -140,7 +141,7 @@ Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patch
     for (fem::SparseMatrix::InnerIterator it(model.stiffness(), unknown(row)); it; ++it)
       if (place[it.row()] >= 0) right.row(place[it.row()]) -= it.value() * held_at.row(row);
   Eigen::MatrixXd free = right;
-  factor.solve(free);
+  factor.solve(free, between);
   right = free;
   // Of the rest the forces are zero.
   Rows moved = Rows::Zero(model.stiffness().rows(), displaced.cols());
@@ -164,7 +165,7 @@ Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patch
 /// how the skin moves: of each column its `tissue_share` of the one and the rest of the other.
 Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
                           const Eigen::MatrixXd& left_over, const Eigen::VectorXd& tissue_share,
-                          Eigen::Index points) {
+                          Eigen::Index points, const std::function<void()>& between) {
   const Eigen::Index rows = model.force().rows();
   const Eigen::Index columns =
       model.force().cols() + model.wide_force().cols() + model.jaw_force().cols();
@@ -175,7 +176,7 @@ Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, c
   displaced << field_less_tissue(patches, driven, moved, points) *
                    (1 - tissue_share.array()).matrix().asDiagonal(),
       field_in_patches(patches, driven, left_over, points);
-  Eigen::MatrixXd out = holding_forces(model, patches, displaced);
+  Eigen::MatrixXd out = holding_forces(model, patches, displaced, between);
   out.leftCols(own.cols()) += own;
   return out;
 }
@@ -250,18 +251,21 @@ void stiffen_lips(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks
 
 MuscleModel muscle_model(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                          const SimulationOptions& options, const fem::SparseMatrix& stiffness,
-                         std::shared_ptr<const fem::NodeOrder> order) {
+                         std::shared_ptr<const fem::NodeOrder> order,
+                         const std::function<void()>& between) {
   return {mesh,
           landmarks,
           stiffness,
           options.muscles.table(),
           model_options(options),
-          std::move(order)};
+          std::move(order),
+          between};
 }
 
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const AlignedMotion& motion, const MeasuredRegion& region,
-                     const SimulationOptions& options, const MuscleModel& model) {
+                     const SimulationOptions& options, const MuscleModel& model,
+                     const std::function<void()>& between) {
   // First, since it says what is wrong with the points.
   const Driven driven(mesh, motion, options.drive);
   DriveOptions drive = options.drive;
@@ -287,6 +291,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
   Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
   for (Eigen::Index k = 0; k < samples; ++k) {
+    if (between) between();
     load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
     const Points moved = options.drive.gain * (motion.motion.positions[std::size_t(k)] -
                                                motion.motion.positions.front());
@@ -312,8 +317,9 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Eigen::MatrixXd directions = directions_of(left_over);
   load.course.resize(course.rows() + directions.cols(), samples);
   load.course << course, directions.transpose() * left_over;
-  load.force = forces_of(model, patches, driven, directions,
-                         tissue_shares(model, driven.few(), options.muscles), motion.rest.rows());
+  load.force =
+      forces_of(model, patches, driven, directions,
+                tissue_shares(model, driven.few(), options.muscles), motion.rest.rows(), between);
   load.patch_nodes = patches.nodes;
   return load;
 }

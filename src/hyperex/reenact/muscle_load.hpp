@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <memory>
 
 #include "hyperex/fem/solve/node_order.hpp"
@@ -27,15 +28,19 @@ void stiffen_lips(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks
 /// points becomes forces too: those that hold patches of skin around the points (driven_skin) where
 /// the muscles put them, plus the left-over interpolated. In static equilibrium the driven points
 /// end where patches would put them, and nothing is prescribed.
-/// `model`: muscle_model() with these options.
+/// `model`: muscle_model() with these options. `between` (may be empty): called again and again;
+/// may throw, which ends it.
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const AlignedMotion& motion, const MeasuredRegion& region,
-                     const SimulationOptions& options, const MuscleModel& model);
+                     const SimulationOptions& options, const MuscleModel& model,
+                     const std::function<void()>& between = {});
 
 /// What muscles and jaw make of a face as these options have it, whatever its motion. `stiffness`:
 /// assembled, without springs. `order`: of the same pattern and held nodes; null: found here.
+/// `between`: as above.
 MuscleModel muscle_model(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                          const SimulationOptions& options, const fem::SparseMatrix& stiffness,
-                         std::shared_ptr<const fem::NodeOrder> order);
+                         std::shared_ptr<const fem::NodeOrder> order,
+                         const std::function<void()>& between = {});
 
 }  // namespace hyperex::reenact

@@ -11,7 +11,8 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
                          const fem::SparseMatrix& stiffness,
                          const std::vector<muscles::TemplateMuscle>& muscles,
                          const MuscleModelOptions& options,
-                         std::shared_ptr<const fem::NodeOrder> order)
+                         std::shared_ptr<const fem::NodeOrder> order,
+                         const std::function<void()>& between)
     : lines_(muscles::muscle_lines(muscles, mesh, landmarks)),
       boundary_(mesh, landmarks, options.support),
       stiffness_(stiffness),
@@ -31,10 +32,10 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
     });
   };
   forces(1, force_);
-  scale_to_unit(options.unit_m, force_, response_);
+  scale_to_unit(options.unit_m, between, force_, response_);
   if (options.widening != 1) {
     forces(options.widening, wide_force_);
-    scale_to_unit(options.unit_m, wide_force_, wide_response_);
+    scale_to_unit(options.unit_m, between, wide_force_, wide_response_);
   }
   jaw_force_.resize(unknowns, 12);
   for (int k = 0; k < 12; ++k) {
@@ -42,11 +43,12 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
     (k < 9 ? unit.turn.data()[k] : unit.slide[k - 9]) = 1;
     jaw_force_.col(k) = boundary_.forces_of_jaw(unit);
   }
-  jaw_response_ = solve(jaw_force_);
+  jaw_response_ = solve(jaw_force_, between);
 }
 
-void MuscleModel::scale_to_unit(double unit_m, Eigen::MatrixXd& force, Eigen::MatrixXd& response) {
-  response = solve(force);
+void MuscleModel::scale_to_unit(double unit_m, const std::function<void()>& between,
+                                Eigen::MatrixXd& force, Eigen::MatrixXd& response) {
+  response = solve(force, between);
   const Eigen::Index skin = mesh_.volume.surface_nodes();
   for (Eigen::Index m = 0; m < force.cols(); ++m) {
     const double most =
@@ -57,9 +59,10 @@ void MuscleModel::scale_to_unit(double unit_m, Eigen::MatrixXd& force, Eigen::Ma
   }
 }
 
-Eigen::MatrixXd MuscleModel::solve(const Eigen::MatrixXd& force) {
+Eigen::MatrixXd MuscleModel::solve(const Eigen::MatrixXd& force,
+                                   const std::function<void()>& between) {
   Eigen::MatrixXd free = force(factor_->free(), Eigen::all);
-  factor_->solve(free);
+  factor_->solve(free, between);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(force.rows(), force.cols());
   all(factor_->free(), Eigen::all) = free;
   return all;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,12 +23,14 @@ struct MuscleModelOptions {
 /// factorisation of the stiffness without driven points, a solution for each.
 class MuscleModel {
  public:
-  /// `stiffness`: assembled, without the springs, which are added here.
+  /// `stiffness`: assembled, without the springs, which are added here. `between` (may be empty):
+  /// called again and again; may throw, which ends it.
   MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
               const fem::SparseMatrix& stiffness,
               const std::vector<muscles::TemplateMuscle>& muscles,
               const MuscleModelOptions& options,
-              std::shared_ptr<const fem::NodeOrder> order = nullptr);
+              std::shared_ptr<const fem::NodeOrder> order = nullptr,
+              const std::function<void()>& between = {});
 
   const std::vector<muscles::MuscleLine>& lines() const { return lines_; }
   const Boundary& boundary() const { return boundary_; }
@@ -43,15 +46,15 @@ class MuscleModel {
   const Eigen::MatrixXd& jaw_force() const { return jaw_force_; }
   const Eigen::MatrixXd& jaw_response() const { return jaw_response_; }
 
-  /// Displacements (3 |nodes| x n) under forces.
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& force);
-
  private:
   std::vector<muscles::MuscleLine> lines_;
   Boundary boundary_;
   fem::SparseMatrix stiffness_;
   std::optional<fem::PartitionedFactor> factor_;
-  void scale_to_unit(double unit_m, Eigen::MatrixXd& force, Eigen::MatrixXd& response);
+  /// Displacements (3 |nodes| x n) under forces.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& force, const std::function<void()>& between);
+  void scale_to_unit(double unit_m, const std::function<void()>& between, Eigen::MatrixXd& force,
+                     Eigen::MatrixXd& response);
   const tissue::TissueMesh& mesh_;
   Eigen::MatrixXd force_, response_, wide_force_, wide_response_, jaw_force_, jaw_response_;
 };

@@ -112,6 +112,7 @@ PointsF Simulator::step(const Points& displacement_m) {
 }
 
 void Simulator::prepare() {
+  impl_->callbacks = {};
   impl_->prepare();
 }
 

@@ -357,10 +357,14 @@ PointsF Simulator::Impl::still(double time_s) {
   if (options.region.measured != Measured::all) {
     need_boundary();
     need_assembler();
-    need_input(points);
+    // Forces of one instant need no courses over all steps.
+    by_forces() ? need_load(points) : need_input(points);
     need_reduced();
-    const Eigen::MatrixXd d = reduced->at_rest(
-        input->drive, {std::clamp(time_s / options.time.step_s, 0.0, double(steps()))});
+    const Eigen::MatrixXd d =
+        by_forces()
+            ? reduced->at_rest(force_at(*load, options.muscles, time_s))
+            : reduced->at_rest(input->drive,
+                               {std::clamp(time_s / options.time.step_s, 0.0, double(steps()))});
     nodes = Eigen::Map<const Points>(d.data(), nodes.rows(), 3);
   }
   if (report.forces_found_anew) {  // told by the next run

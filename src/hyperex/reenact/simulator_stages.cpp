@@ -180,8 +180,9 @@ const MuscleModel& Simulator::Impl::need_muscles() {
   if (!known_muscles || !(known_muscles->of == of)) {
     fem::System system;
     assembler->assemble(material(), system);
-    known_muscles = std::make_shared<const KnownMuscles>(KnownMuscles{
-        of, muscle_model(*mesh, *landmarks, options, system.stiffness, known_order())});
+    known_muscles = std::make_shared<const KnownMuscles>(
+        KnownMuscles{of, muscle_model(*mesh, *landmarks, options, system.stiffness, known_order(),
+                                      [this] { ask(); })});
   }
   keep_order(known_muscles->model.order());
   return known_muscles->model;
@@ -194,8 +195,8 @@ void Simulator::Impl::need_load(const PointCurve& points) {
                      "forces cannot drive a face of which a region follows the recording "
                      "(region.measured): expected drive.by = \"displacement\"");
   if (options.drive.by == DriveBy::muscles) {
-    load = std::make_shared<const HeldLoad>(
-        muscle_load(*mesh, *landmarks, *motion, *region, options, need_muscles()));
+    load = std::make_shared<const HeldLoad>(muscle_load(
+        *mesh, *landmarks, *motion, *region, options, need_muscles(), [this] { ask(); }));
     note_found_anew();
     return;
   }

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 namespace hyperex::studio {
 namespace {
+
+constexpr std::chrono::milliseconds kNow{0};
 
 Request set(std::int64_t id, int face, bool live) {
   return {id,
@@ -19,17 +23,28 @@ TEST(RequestQueue, OfLiveChangesOfOneFaceTheLastCounts) {
   queue.push(set(6, 2, false));
   queue.push(set(7, 2, true));
   std::vector<Request> superseded;
-  EXPECT_EQ(queue.pop(false, superseded)->id, 4);
+  EXPECT_EQ(queue.pop(kNow, superseded)->id, 4);
   EXPECT_EQ(superseded.size(), 3U);
   superseded.clear();
-  EXPECT_EQ(queue.pop(false, superseded)->id, 6)
-      << "what is let go makes what was dragged needless";
+  EXPECT_EQ(queue.pop(kNow, superseded)->id, 6) << "what is let go makes what was dragged needless";
   ASSERT_EQ(superseded.size(), 1U);
   EXPECT_EQ(superseded[0].id, 5);
   superseded.clear();
-  EXPECT_EQ(queue.pop(false, superseded)->id, 7) << "what is let go itself stays";
+  EXPECT_EQ(queue.pop(kNow, superseded)->id, 7) << "what is let go itself stays";
   EXPECT_TRUE(superseded.empty());
-  EXPECT_FALSE(queue.pop(false, superseded));
+  EXPECT_FALSE(queue.pop(kNow, superseded));
+}
+
+TEST(RequestQueue, WaitsForWhatComesInTime) {
+  RequestQueue queue;
+  std::vector<Request> superseded;
+  EXPECT_FALSE(queue.pop(std::chrono::milliseconds(1), superseded));
+  std::thread late([&] { queue.push(set(1, 1, true)); });
+  const auto came = queue.pop(std::chrono::minutes(1), superseded);
+  late.join();
+  ASSERT_TRUE(came);
+  EXPECT_TRUE(is_live(*came));
+  EXPECT_FALSE(is_live(set(2, 1, false)));
 }
 
 TEST(RequestQueue, TakesNoMoreThanItHolds) {
@@ -38,7 +53,7 @@ TEST(RequestQueue, TakesNoMoreThanItHolds) {
   EXPECT_FALSE(queue.push({1, "undo", {}}));
   queue.close();
   std::vector<Request> superseded;
-  EXPECT_FALSE(queue.pop(true, superseded));
+  EXPECT_FALSE(queue.pop(RequestQueue::kForever, superseded));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
+#include "support/zip_writer.hpp"
 #include "unit/studio/own_folder.hpp"
 
 namespace hyperex::studio {
@@ -340,6 +341,56 @@ TEST_F(StudioSession, MusclesMoveASceneThatSaysDisplacementAgainAndAgain) {
     EXPECT_FALSE(set({{"muscles.gain", {{"side_R", gain}}}}, 0, true).contains("error"));
   EXPECT_FALSE(set({{"muscles.gain", {{"side_R", 0.7}}}}, 0).contains("error"));
   EXPECT_EQ(event("scene")->head["drive"], "muscles");
+}
+
+TEST_F(StudioSession, WhatAFirstVariantNeedsIsMadeAheadAndChangesNoNumber) {
+  // Points drive base here, muscles both once there is a variant.
+  std::ofstream(folder_.path() / "own" / "uploads" / "mouth.toml")
+      << "[scan]\nfile = \"embedded\"\n[motion]\nfile = \"embedded\"\n";
+  const auto first_shape = [&](bool ahead) {
+    EXPECT_FALSE(ask("open", {{"what", "mouth.toml"}}).contains("error"));
+    EXPECT_EQ(event("scene")->head["drive"], "displacement");
+    session_->work([] { return false; });  // the motion
+    EXPECT_TRUE(session_->has_work()) << "what a variant needs";
+    if (ahead) work();
+    EXPECT_NE(session_->has_work(), ahead);
+    EXPECT_EQ(ask("add_variant", {{"name", "other"}, {"like", 0}})["face"], 1);
+    EXPECT_EQ(event("scene")->head["drive"], "muscles");
+    peak_s_ = 0.5;
+    set({{"tissue.young_kpa", 300}}, 1, true);
+    const bool told = event("progress") && event("shape");
+    EXPECT_NE(told, ahead) << "said only where it takes long";
+    return event("shape") ? event("shape")->block : "";
+  };
+  const std::string made_then = first_shape(false);
+  EXPECT_FALSE(made_then.empty());
+  EXPECT_EQ(first_shape(true), made_then);
+}
+
+TEST_F(StudioSession, OpensTheRecordingInAZipAndNothingElse) {
+  const fs::path uploads = folder_.path() / "own" / "uploads";
+  const auto opened = [&](const std::vector<hyperex::test::Zipped>& files) {
+    fs::remove_all(uploads);
+    fs::create_directory(uploads);
+    std::ofstream(uploads / "me.ply") << "ply\n";
+    std::ofstream(uploads / "rec.zip", std::ios::binary) << hyperex::test::zip_of(files);
+    return ask("open", {{"what", "me.ply"}, {"recording", "rec.zip"}}).value("error", "");
+  };
+  const auto names = [&] {
+    std::vector<std::string> out;
+    for (const auto& one : fs::directory_iterator(uploads))
+      out.push_back(one.path().filename().string());
+    return out;
+  };
+  EXPECT_THAT(opened({{"a.txt", "1"}}), HasSubstr("holds no recording"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec.zip"));
+  EXPECT_THAT(opened({{"../../scene.toml", "1"}, {"rgb.txt", ""}}), HasSubstr("leads elsewhere"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec.zip"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "own" / "scene.toml"));
+  EXPECT_THAT(opened({{"talk/rgb.txt", ""}}), HasSubstr("me.ply")) << "the scan is no scan";
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "talk"));
+  EXPECT_THAT(opened({{"rgb.txt", ""}}), HasSubstr("me.ply"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec"));
 }
 
 TEST_F(StudioSession, AVariantThatCannotBeRunIsNotShownAsBase) {

@@ -8,6 +8,7 @@ import { words } from './words';
 
 const scans = /\.(ply|obj|stl|glb|gltf)$/i;
 const scenes = /\.toml$/i;
+const zips = /\.zip$/i;
 
 export class OpenPanel {
   private places: Places | null = null;
@@ -98,7 +99,9 @@ export class OpenPanel {
         names.set(file, await this.connection.upload(file));
       }
       const [main] = [...scene, ...scan];
-      const recording = scene.length === 0 && others[0] ? names.get(others[0]) : undefined;
+      // A scene names its files itself; of a zip the server must know that it is one.
+      const [other] = scene.length === 0 ? others : others.filter(({ name }) => zips.test(name));
+      const recording = other && names.get(other);
       await this.open(names.get(main)!, recording);
     } catch (error) {
       this.tell(error instanceof Error ? error.message : String(error));

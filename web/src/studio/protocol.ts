@@ -42,7 +42,7 @@ export interface HelloAnswer {
 export interface OpenRequest {
   /** "embedded", "started" (what the command named), "autosave" or the name of an upload */
   what: string;
-  /** name of an upload, for a scan */
+  /** name of an upload, for a scan; a zip, for a scene too */
   recording?: string;
 }
 export type OpenAnswer = Record<string, never>;

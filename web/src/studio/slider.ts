@@ -58,7 +58,6 @@ export class Slider {
   private held = false;
   private moved = false;
   private rest = 0;
-  private queued = 0;
 
   constructor(private readonly options: SliderOptions) {
     const { name, unit, hint, bare } = options;
@@ -128,10 +127,7 @@ export class Slider {
       digits.value = String(Number(this.value.toPrecision(6)));
       this.tell();
       if (!this.held) this.restKeys();
-      this.queued ||= requestAnimationFrame(() => {
-        this.queued = 0;
-        if (this.moved) options.live(this.value);
-      });
+      options.live(this.value);
     });
     const letGo = () => {
       this.held = false;
@@ -186,8 +182,6 @@ export class Slider {
   }
 
   private finish(): void {
-    cancelAnimationFrame(this.queued);
-    this.queued = 0;
     if (!this.moved) return;
     this.moved = false;
     this.options.done(this.value);

@@ -192,7 +192,7 @@ const en = {
   embedded: 'Face that comes with Hyperex',
   startedWith: (name: string) => `Again ${name}`,
   chooseFiles: 'Choose files…',
-  drop: 'or drop here: a scan (PLY, OBJ, STL, GLB), a recording (CSV, TRC, video, ARKit, OpenFace), a scene (TOML)',
+  drop: 'or drop here: a scan (PLY, OBJ, STL, GLB), a recording (CSV, TRC, video, ARKit, OpenFace, a folder of pictures as ZIP), a scene (TOML)',
   uploading: (name: string) => `Reading ${name}`,
   opening: 'Opening',
   autosave: (title: string, when: Date) =>

@@ -284,6 +284,12 @@ Eigen::MatrixXd ReducedModel::at_rest(const Drive& drive,
   return d;
 }
 
+Eigen::MatrixXd ReducedModel::at_rest(const Eigen::MatrixXd& force) {
+  Eigen::MatrixXd x = free_rows(force, factor_.partition());
+  factor_.solve(x);
+  return with_zeros(x, factor_.free(), force.rows());
+}
+
 Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {
   HX_ASSERT(drive.steps() >= 1 && options.tolerance > 0);
   HX_ASSERT(drive.prescribed.rows() == static_cast<Eigen::Index>(factor_.prescribed().size()));

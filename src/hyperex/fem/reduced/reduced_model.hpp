@@ -71,6 +71,9 @@ class ReducedModel {
   /// viscosity, all unknowns: 3 |nodes| x |times|. One solution a time, no basis.
   Eigen::MatrixXd at_rest(const Drive& drive, const std::vector<double>& times_in_steps);
 
+  /// The same for forces (3 |nodes| x n, N) where nothing that is prescribed moves.
+  Eigen::MatrixXd at_rest(const Eigen::MatrixXd& force);
+
   /// That of the stiffness, for other static answers with the values given last.
   PartitionedFactor& static_factor() { return factor_; }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/stopwatch.hpp"
@@ -111,6 +113,18 @@ void PartitionedFactor::solve(Eigen::VectorXd& x_o) {
 
 void PartitionedFactor::solve(Eigen::MatrixXd& x_o) {
   cholesky_ ? cholesky_->solve(x_o) : iterative_->solve(x_o);
+}
+
+void PartitionedFactor::solve(Eigen::MatrixXd& x_o, const std::function<void()>& between) {
+  constexpr Eigen::Index kColumns = 32;  // enough for the products' speed
+  const Eigen::Index step = cholesky_ ? kColumns : std::max<Eigen::Index>(x_o.cols(), 1);
+  for (Eigen::Index from = 0; from < x_o.cols(); from += step) {
+    if (between) between();
+    auto some = x_o.middleCols(from, std::min(step, x_o.cols() - from));
+    Eigen::MatrixXd part = some;
+    solve(part);
+    some = part;
+  }
 }
 
 void PartitionedFactor::solve(Eigen::VectorXd& x_o, const Eigen::VectorXd& guess) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +60,9 @@ class PartitionedFactor {
   /// x_o := A_oo^-1 x_o. With Cholesky nothing is allocated.
   void solve(Eigen::VectorXd& x_o);
   void solve(Eigen::MatrixXd& x_o);
+  /// The same for many columns, some at a time: `between` (may be empty) is called before each part
+  /// and may throw, which ends it.
+  void solve(Eigen::MatrixXd& x_o, const std::function<void()>& between);
   /// The same for a solution expected near `guess`: saves iterations.
   void solve(Eigen::VectorXd& x_o, const Eigen::VectorXd& guess);
 

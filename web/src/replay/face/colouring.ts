@@ -25,6 +25,8 @@ export interface Painting {
   /** Writes a number from 0 (least) to 1 (greatest) a vertex; may leave that range; NaN: no value. `other`: the
    *  other face of two. */
   fill(shape: FaceShape, out: Float32Array, other: FaceShape | null): void;
+  /** Whether a face's colours tell of the other face too. */
+  together?: boolean;
   /** A word on what a face shows, where the colours alone would not say. */
   note(face: Face): string;
 }
@@ -80,6 +82,7 @@ function difference(replay: Replay): Colouring {
         const from = between && other ? other.displacement : shape.scene.displacement;
         distances(shape.displacement, from, 1e3 / greatest, out);
       },
+      together: between,
       note: (face) => (face.difference || between ? '' : '0 mm everywhere by definition'),
     };
   };

@@ -9,10 +9,13 @@ import { linearOf, rampBytes, type RampName } from './colour';
 import type { Painting } from './colouring';
 import type { Face, Replay } from '../data';
 import { FaceShape, type SceneMotion } from './deform';
+import { LevelOfDetail } from './level_of_detail';
 import { disposeOverlay, litMuscles, overlaysOf, type Overlay, type OverlayName } from './overlays';
 import { Teeth } from './teeth';
 
 const rampSize = 256;
+/** Skin with more triangles is drawn with fewer while it moves, where the processor draws. */
+const manyTriangles = 30_000;
 
 /** A place on the skin, wherever it has moved to. */
 export interface SkinHit {
@@ -73,6 +76,7 @@ export class FaceBody {
   private readonly ramp: BufferAttribute;
   private readonly visible = new Set<OverlayName>();
   private lit: Overlay | null = null;
+  private detail: LevelOfDetail | null = null;
 
   constructor(private readonly replay: Replay, scene: SceneMotion, face: Face, private readonly materials: FaceMaterials) {
     this.shape = new FaceShape(replay, scene, face);
@@ -106,6 +110,23 @@ export class FaceBody {
     this.overlays = overlaysOf(this.replay);
     for (const { name, object } of this.overlays) object.visible = this.visible.has(name);
     this.object.add(...this.overlays.map(({ object }) => object));
+  }
+
+  /** With few triangles, for a picture in motion. */
+  set coarse(on: boolean) {
+    if (!on && !this.detail) return;
+    this.detail ??= this.levels();
+    this.detail.use(on);
+  }
+
+  private levels(): LevelOfDetail {
+    const levels = new LevelOfDetail();
+    if (this.mesh.geometry.getIndex()!.count > 3 * manyTriangles) levels.add(this.mesh, 1);
+    for (const { object } of [this.backing, this.teeth])
+      object.traverse((one) => {
+        if (one instanceof Mesh) levels.add(one as Mesh, 2);
+      });
+    return levels;
   }
 
   get face(): Face {

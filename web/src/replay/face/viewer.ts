@@ -56,7 +56,12 @@ export class FaceViewer {
   private playing = false;
   private wipe = 0.5;
   private stale = true; // shapes are not those of `frame` and `shown`
-  private queued = false;
+  private queued = 0;
+  /** The canvas holds a picture drawn since the page was last put on the screen. */
+  private fresh = false;
+  /** Everything but what is live is as it was drawn. */
+  private whole = false;
+  private liveStale = false; // the live shape alone is to be taken
   private disposed = false;
   /** Then pictures in motion are drawn with as few pixels as do, and those at rest once more with all. */
   private readonly software = drawsInSoftware();
@@ -78,7 +83,8 @@ export class FaceViewer {
     private readonly shown: Shown,
     private painting: Painting,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: true });
+    // What is kept need not be drawn again: of two faces that which is changed alone is.
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: true, preserveDrawingBuffer: this.software });
     this.renderer.toneMapping = NoToneMapping;
     this.renderer.setClearColor(0, 0);
     this.renderer.autoClear = false;
@@ -128,8 +134,20 @@ export class FaceViewer {
   /** A face at this instant, in metres from rest, until the next motion or `null`. */
   showLive(live: { face: number; displacement: Float32Array } | null): void {
     if (!live && !this.live) return;
+    const same = live?.face === this.live?.face;
     this.live = live;
-    this.touch();
+    if (!live || this.fresh || document.hidden) {
+      this.touch();
+      return;
+    }
+    // Not in the next frame but for it: what comes in between is not waited for twice.
+    this.stale ||= !same;
+    this.liveStale = true;
+    cancelAnimationFrame(this.queued);
+    this.queued = 0;
+    this.fresh = true;
+    requestAnimationFrame(() => (this.fresh = false));
+    this.show();
   }
 
   /** Points over the face alone that is shown, until null. */
@@ -322,6 +340,7 @@ export class FaceViewer {
     into.style.width = into.style.height = `${size}px`;
     this.camera.setViewOffset(width, height, x - half, y - half, 2 * half, 2 * half);
     const side = Math.min(size, width, height);
+    for (const body of this.bodies) body.coarse = false;
     this.renderer.setScissorTest(false);
     this.renderer.clear();
     this.renderer.setViewport(0, 0, side, side);
@@ -435,13 +454,13 @@ export class FaceViewer {
     ];
   }
 
-  private draw(): void {
-    const height = this.host.clientHeight;
+  /** `coarse`: with few triangles. */
+  private draw(coarse = false): void {
     const passes = this.passes();
-    if (this.stale) {
-      this.stale = false;
+    const bodies = passes.map(({ body }) => body);
+    if (this.stale || this.liveStale) {
+      this.stale = this.liveStale = false;
       const { faces } = this.replay;
-      const bodies = passes.map(({ body }) => body);
       const { live } = this;
       this.shown.visible.forEach((face, i) =>
         bodies[i].moveTo(faces[face], this.frame, live?.face === face ? live.displacement : null));
@@ -449,15 +468,36 @@ export class FaceViewer {
     }
     this.renderer.setScissorTest(false);
     this.renderer.clear();
-    this.renderer.setScissorTest(true);
-    for (const { body, x, width, from, to } of passes) {
-      if (to <= from) continue;
-      for (const other of this.bodies) other.object.visible = other === body;
-      this.renderer.setViewport(x, 0, width, height);
-      this.renderer.setScissor(from, 0, to - from, height);
-      this.renderer.render(this.scene, this.camera);
-    }
+    for (const pass of passes) this.drawPass(pass, coarse);
+    this.whole = true;
     this.drawn.tell();
+  }
+
+  /** What is live again, where all else is as it was drawn; false: all must be drawn. */
+  private drawLive(): boolean {
+    const { live, shown, painting } = this;
+    if (!this.software || !live || this.stale || !this.whole || painting.together) return false;
+    const at = shown.visible.indexOf(live.face);
+    if (at < 0 || at !== shown.visible.lastIndexOf(live.face)) return false;
+    const pass = this.passes()[at];
+    this.liveStale = false;
+    pass.body.moveTo(this.replay.faces[live.face], this.frame, live.displacement);
+    pass.body.paint(painting, null);
+    this.drawPass(pass, true, true);
+    this.drawn.tell();
+    return true;
+  }
+
+  private drawPass({ body, x, width, from, to }: Pass, coarse: boolean, clear = false): void {
+    if (to <= from) return;
+    const height = this.host.clientHeight;
+    for (const other of this.bodies) other.object.visible = other === body;
+    body.coarse = coarse;
+    this.renderer.setScissorTest(true);
+    this.renderer.setViewport(x, 0, width, height);
+    this.renderer.setScissor(from, 0, to - from, height);
+    if (clear) this.renderer.clear();
+    this.renderer.render(this.scene, this.camera);
   }
 
   private touch(): void {
@@ -466,22 +506,31 @@ export class FaceViewer {
   }
 
   private queue(): void {
+    this.whole = false;
     if (this.queued) return;
-    this.queued = true;
     this.canvas.dataset.atRest = 'false';
-    requestAnimationFrame(() => {
-      this.queued = false;
-      if (this.disposed) return;
-      const before = performance.now();
-      if (this.renderer.getPixelRatio() !== this.ratio) this.renderer.setPixelRatio(this.ratio);
-      this.draw();
-      this.canvas.dataset.atRest = String(!this.software);
-      if (this.software) this.refineAtRest(before - this.drawnAt);
-      // For whoever watches from outside: what was drawn, and what it took.
-      this.canvas.dataset.frame = this.frame.toFixed(3);
-      this.canvas.dataset.faces = this.shown.visible.join(' ');
-      this.canvas.dataset.drawMs = (performance.now() - before).toFixed(2);
+    this.queued = requestAnimationFrame(() => {
+      this.queued = 0;
+      this.show();
     });
+  }
+
+  /** A picture in motion, and soon after the last one that at rest. */
+  private show(): void {
+    if (this.disposed) return;
+    const before = performance.now();
+    this.canvas.dataset.atRest = 'false';
+    if (this.renderer.getPixelRatio() !== this.ratio) {
+      this.renderer.setPixelRatio(this.ratio);
+      this.whole = false;
+    }
+    if (!this.drawLive()) this.draw(this.software);
+    this.canvas.dataset.atRest = String(!this.software);
+    if (this.software) this.refineAtRest(before - this.drawnAt);
+    // For whoever watches from outside: what was drawn, and what it took.
+    this.canvas.dataset.frame = this.frame.toFixed(3);
+    this.canvas.dataset.faces = this.shown.visible.join(' ');
+    this.canvas.dataset.drawMs = (performance.now() - before).toFixed(2);
   }
 
   private get ratio(): number {
@@ -501,6 +550,7 @@ export class FaceViewer {
       if (this.queued) return;
       this.renderer.setPixelRatio(2);
       this.draw();
+      this.whole = false; // the next one has other pixels
       this.canvas.dataset.atRest = 'true';
     }, this.live ? 700 : 150); // a hand that rests on a slider goes on soon
   }
