@@ -48,7 +48,7 @@ python: ## the Python module into PREFIX, where Debian's python3 finds it (docs/
 deb: ## Debian packages of program, C++ library and Python module: build/deb/*.deb
 	scripts/setup.sh --deb
 	cmake --preset release -B build/deb -DHYPEREX_TESTS=OFF -DHYPEREX_PYTHON=ON \
-	  -DHYPEREX_PYTHON_FOLDER=lib/python3/dist-packages $(CMAKE_OPTIONS)
+	  -DHYPEREX_PYTHON_FOLDER=lib/python3/dist-packages -DHYPEREX_DEB=ON $(CMAKE_OPTIONS)
 	cmake --build build/deb --parallel $(JOBS) --target hyperex libhyperex hyperex_python man
 	rm -f build/deb/*.deb
 	cd build/deb && cpack --config CPackConfig.cmake && rm -rf _CPack_Packages

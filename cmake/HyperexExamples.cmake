@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Examples, the licence, third-party notices and the changelog, where Debian's packages have them.
+# Examples, the licence, third-party notices and changelogs, where Debian's packages have them.
 # Left out are scenes that name data beside the source tree, and the study, which writes beside itself.
+include(HyperexDebian)
 set(examples ${PROJECT_SOURCE_DIR}/examples)
 set(examples_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex/examples)
 if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
@@ -8,19 +9,15 @@ if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
                 ${examples}/demo.toml ${examples}/smile_arkit.csv
                 ${examples}/one_sided_smile.toml ${examples}/one_sided_smile.csv
           DESTINATION ${examples_folder} COMPONENT program)
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex
-          RENAME copyright COMPONENT program)
-  install(FILES ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+  hx_debian_documents(hyperex program)
+  install(FILES ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
           DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex COMPONENT program)
 endif()
 install(DIRECTORY ${examples}/cpp DESTINATION ${examples_folder} COMPONENT dev
         FILES_MATCHING PATTERN *.cpp PATTERN CMakeLists.txt)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/libhyperex-dev
-        RENAME copyright COMPONENT dev)
+hx_debian_documents(libhyperex-dev dev)
 if(TARGET hyperex_python)
   install(DIRECTORY ${examples}/python DESTINATION ${examples_folder}
           COMPONENT python EXCLUDE_FROM_ALL FILES_MATCHING PATTERN *.py)
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
-          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-hyperex
-          RENAME copyright COMPONENT python EXCLUDE_FROM_ALL)
+  hx_debian_documents(python3-hyperex python EXCLUDE_FROM_ALL)
 endif()
