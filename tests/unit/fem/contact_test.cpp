@@ -33,6 +33,17 @@ TEST(Complementarity, DoesNothingWhereNothingTouches) {
   EXPECT_EQ(z.norm(), 0);
 }
 
+TEST(Complementarity, SweepsFindWhatTheActiveSetMisses) {
+  Eigen::Matrix3d a;
+  a << 4, 5, -5, 5, 9, -5, -5, -5, 7;
+  const Eigen::Vector3d q(-2, -1, 3);  // sets {1, 2}, {1, 3}, {}, and so z = 0 again
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(3);
+  const Complementarity how = solve_complementarity(a, q, 1e-12, 9, z);
+  EXPECT_GT(how.sweeps, 0);
+  EXPECT_LE(how.residual, 1e-12);
+  EXPECT_LT((z - Eigen::Vector3d(0.5, 0, 0)).norm(), 1e-12);
+}
+
 TEST(Complementarity, TellsWhereItWasNotSolved) {
   Eigen::MatrixXd a(2, 2);
   a << 1, -1, -1, 1;  // no z makes both w >= 0
