@@ -55,7 +55,10 @@ class LayerBuilder {
     visible_ = visibility_of(outer_);
     inward_ = -(thickness.asDiagonal() * normals_);
     smooth_all(8, 0.5);
-    wanted_ = inward_.rowwise().norm();
+    // Opposite directions cancel in a mean, as at the corners of the mouth, where the layer would
+    // become a membrane: what is smoothed is the direction.
+    for (Eigen::Index v = 0; v < inward_.rows(); ++v) set_length(v, thickness[v]);
+    wanted_ = thickness;
   }
 
   int untangle();
@@ -79,6 +82,9 @@ class LayerBuilder {
     }
   }
 
+  void set_length(Eigen::Index v, double length) {
+    if (const double now = inward_.row(v).norm(); now > 0) inward_.row(v) *= length / now;
+  }
   Vec3 point(int f, int k) const { return outer_.points.row(outer_.triangles(f, k)); }
   bool sound(int f) const;
   std::vector<char> unsound_vertices(const std::vector<char>& changed);
@@ -142,6 +148,8 @@ int LayerBuilder::untangle() {
       const double length = old.row(v).norm();
       const double thinner = length > thinnest_share * wanted_[v] ? 0.97 : 1;
       inward_.row(v) = thinner * (0.5 * old.row(v) + 0.5 * target.transpose());
+      const double kept = std::min(length, thinnest_share * wanted_[v]);
+      if (inward_.row(v).norm() < kept) set_length(v, kept);
     }
   }
   std::vector<int> left;

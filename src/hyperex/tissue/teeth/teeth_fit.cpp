@@ -105,12 +105,11 @@ struct Placed {
 };
 
 Points outer_places(const Teeth& teeth) {
-  // Half of the vertices are enough: they lie a millimetre apart.
   std::vector<Vec3> places;
   for (const TriMesh* part :
        {&teeth.upper.crowns, &teeth.upper.gum, &teeth.lower.crowns, &teeth.lower.gum}) {
     const Points normals = vertex_normals(*part);
-    for (Index v = 0; v < part->points.rows(); v += 2) {
+    for (Index v = 0; v < part->points.rows(); ++v) {
       const Vec3 p = part->points.row(v), n = normals.row(v);
       // Only what faces lips and cheeks, not the tongue: outwards from the arch's inside.
       if (n.dot(Vec3(p.x(), 0, p.z() + 0.035).normalized()) > 0.3) places.push_back(p);
