@@ -148,7 +148,7 @@ TEST_F(Fidelity, RimOfTheOpenMouthIsSmooth) {
     const auto found =
         nlohmann::json::parse(read_file(in("out/summary.json"))).at("mouth_outline_at_peak");
     EXPECT_NEAR(found.at("turning_deg").get<double>() / wanted->turning_deg, 1, 0.15) << c.title;
-    EXPECT_LT(found.at("largest_jump_mm").get<double>(), 2.2) << c.title;
+    EXPECT_LT(found.at("largest_jump_mm").get<double>(), 1.6) << c.title;
     fmt::print("{}: turning {:.0f} of {:.0f} degrees, largest jump {:.2f} of {:.2f} mm\n", c.title,
                found.at("turning_deg").get<double>(), wanted->turning_deg,
                found.at("largest_jump_mm").get<double>(), wanted->largest_jump_mm);

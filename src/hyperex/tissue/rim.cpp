@@ -19,8 +19,8 @@ constexpr double kWhole_m = 0.002, kNone_m = 0.005;  // walk to the rim: the fie
 constexpr double kOverhang_m = 0.001;  // from a closest point on a border: the field alone
 constexpr double kNear_m =
     0.006;  // of a hole's border: a farther border of the skin is no rim of it
-constexpr double kWidth_m = 0.006;  // of the weights, exp(-(walk / width)^2)
-constexpr double kReach_m = 0.012;  // nodes farther are not looked at
+constexpr double kWidth_m = 0.008;  // of the weights, exp(-(walk / width)^2)
+constexpr double kReach_m = 0.016;  // nodes farther are not looked at
 constexpr double kRidge = 0.05;     // against gradients that the nodes hardly show
 constexpr std::size_t kLeastNodes = 6;
 constexpr double kLeastWeight =
