@@ -24,6 +24,7 @@ void bind_log(py::module_& m);
 void bind_meshes(py::module_& m);
 void bind_motion(py::module_& m);
 void bind_tissue(py::module_& m);
+void bind_obstacles(py::module_& m);
 void bind_simulator_options(py::module_& m);
 void bind_performance(py::module_& m);
 void bind_simulator(py::module_& m);

@@ -44,6 +44,7 @@ PYBIND11_MODULE(_hyperex, m) {
   bind_meshes(m);
   bind_motion(m);
   bind_tissue(m);
+  bind_obstacles(m);
   bind_simulator_options(m);
   bind_performance(m);
   bind_simulator(m);

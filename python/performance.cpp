@@ -74,6 +74,15 @@ void bind_report(py::module_& m) {
           "Greatest depth by which the lips pass through each other, each vertex over its rest.")
       .def_readonly("lip_gap_mm", &SimulationReport::lip_gap_mm,
                     "Greatest distance between the lips, over rest.")
+      .def_property_readonly(
+          "contact_frames", [](const SimulationReport& r) { return r.contact.frames; },
+          "In which something touches that would pass through without contact.")
+      .def_property_readonly(
+          "in_teeth_mm", [](const SimulationReport& r) { return r.contact.teeth_left_mm; },
+          "With contact at the teeth: greatest depth of tissue in them, over rest.")
+      .def_property_readonly(
+          "in_eyes_mm", [](const SimulationReport& r) { return r.contact.eyes_left_mm; },
+          "Of lids in eyeballs, likewise.")
       .def_readonly("notes", &SimulationReport::notes, "A sentence each.")
       .def("__repr__", [](const SimulationReport& r) {
         return fmt::format(

@@ -8,10 +8,13 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
 #include "hyperex/scene/stages/drive_choice.hpp"
+#include "hyperex/scene/stages/obstacles.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
+#include "hyperex/scene/stages/teeth.hpp"
 #include "hyperex/scene/stages/thinned_scan.hpp"
 #include "hyperex/scene/stages/tissue_fields.hpp"
 #include "meshes.hpp"
+#include "obstacles.hpp"
 
 namespace hyperex::python {
 namespace {
@@ -45,6 +48,7 @@ struct ReadyScene {
   Face face;
   SharedTissueMesh mesh;
   reenact::SimulationOptions options;
+  Obstacles obstacles;  ///< that the scene or one of its variants may touch
   std::vector<std::pair<std::string, reenact::SimulationOptions>> variants;
 };
 
@@ -67,6 +71,8 @@ std::unique_ptr<ReadyScene> made_ready(const Path& file, const std::vector<std::
     return options;
   };
   ready->options = options_of(ready->scene, inputs, "");
+  const auto teeth = scene::teeth_of(ready->scene, inputs, *ready->mesh, inputs.notes);
+  ready->obstacles.all = scene::obstacles_of(ready->scene, inputs, *ready->mesh, teeth.get());
   for (std::size_t i = 0; i < ready->scene.variants.size(); ++i) {
     const scene::Variant& variant = ready->scene.variants[i];
     ready->variants.emplace_back(
@@ -94,6 +100,8 @@ void bind_scene(py::module_& m) {
       .def_property_readonly("motion", [](const ReadyScene& s) { return s.inputs.motion; })
       .def_property_readonly(
           "options", [](const ReadyScene& s) { return s.options; }, "SimulationOptions, a copy.")
+      .def_readonly("obstacles", &ReadyScene::obstacles,
+                    "Teeth and eyeballs, where contact.teeth or contact.eyes asks for them.")
       .def_property_readonly(
           "variants",
           [](const ReadyScene& s) {
@@ -110,7 +118,9 @@ void bind_scene(py::module_& m) {
       .def(
           "simulator",
           [simulator = py::object(m.attr("Simulator"))](const ReadyScene& s) {
-            return simulator(s.mesh, s.inputs.landmarks, s.inputs.motion, s.options);
+            py::object made = simulator(s.mesh, s.inputs.landmarks, s.inputs.motion, s.options);
+            made.attr("set_obstacles")(s.obstacles);
+            return made;
           },
           "A Simulator of the scene, without its variants.");
   m.def("run_scene", &run, "file"_a, "out"_a, "changes"_a = py::dict(),

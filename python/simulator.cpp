@@ -12,6 +12,7 @@
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
 #include "meshes.hpp"
+#include "obstacles.hpp"
 #include "performance.hpp"
 
 namespace hyperex::python {
@@ -205,6 +206,14 @@ void bind_simulator(py::module_& m) {
           "hold_load", [](S& self) { self.change([](auto& s) { s.hold_load(); }); },
           "The forces found by the last run (else the next one), by muscles or reactions, are kept "
           "whatever tissue and support are set from now on.")
+      .def(
+          "set_obstacles",
+          [](S& self, const Obstacles& obstacles) {
+            self.change([&](auto& s) { s.set_obstacles(obstacles.all); });
+          },
+          "obstacles"_a,
+          "Teeth and eyeballs that the tissue stays out of where ContactOptions.teeth and eyes ask "
+          "for it.")
       .def(
           "set_motion",
           [](S& self, const AlignedMotion& motion) {

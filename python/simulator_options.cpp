@@ -106,6 +106,15 @@ void bind_solver(py::module_& m) {
       .field("full_newton", &SolverOptions::full_newton, "Factor in each of them, not once a step.")
       .field("verify", &SolverOptions::verify,
              "Run the full model too and measure the reduced one's error.");
+  OptionsClass<ContactOptions>(m, "ContactOptions", "What the tissue may not pass through.")
+      .field("lips", &ContactOptions::lips, "The lips each other.")
+      .field("teeth", &ContactOptions::teeth, "Tissue and teeth (Simulator.set_obstacles).")
+      .field("eyes", &ContactOptions::eyes, "Lids and eyeballs, likewise.")
+      .field("patch_pa_per_m", &ContactOptions::patch_pa_per_m,
+             "Springs that hold driven patches where something touches, 1e5 to 1e12 Pa/m.")
+      .field("point_give", &ContactOptions::point_give,
+             "Where forces drive: how far driven points yield, over the tissue's own compliance, "
+             "1e-6 to 1e6.");
   OptionsClass<TimeOptions>(m, "TimeOptions", "Steps and frames.")
       .field("step_s", &TimeOptions::step_s, "1e-6 to 0.1 s.")
       .field("end_s", &TimeOptions::end_s, "0: the end of the motion.")
@@ -128,6 +137,7 @@ void bind_simulator_options(py::module_& m) {
       .field("region", &SimulationOptions::region, "RegionOptions.")
       .field("model", &SimulationOptions::model, "ModelOptions.")
       .field("solver", &SimulationOptions::solver, "SolverOptions.")
+      .field("contact", &SimulationOptions::contact, "ContactOptions.")
       .field("time", &SimulationOptions::time, "TimeOptions.");
 }
 

@@ -183,6 +183,46 @@ class Forces(unittest.TestCase):
             simulator.set_options(simulator.options.replace(muscles=weak))
 
 
+class Contact(unittest.TestCase):
+    def test_lips(self):
+        drive = small_simulator().options.drive.replace(gain=-1)  # shut farther than they are
+        passing = small_simulator(drive=drive).run().report
+        touching = small_simulator(drive=drive, contact=hyperex.ContactOptions(lips=True)).run().report
+        self.assertEqual(passing.contact_frames, 0)
+        self.assertGreater(touching.contact_frames, 0)
+        self.assertGreater(passing.lip_overlap_mm, 0.5)
+        self.assertLess(touching.lip_overlap_mm, 0.05)
+
+    def test_teeth(self):
+        obstacles = hyperex.obstacles(mesh(), face().landmarks)
+        self.assertEqual((obstacles.rows_of_teeth, obstacles.eyes), (2, 2))
+        rest = face().landmarks
+        lips = [f"ibug68_{k}" for k in range(48, 68)]
+        names = sorted(rest)
+        back = np.array([[0, 0, -0.006] if name in lips else [0, 0, 0] for name in names])
+        at_rest = np.array([rest[name] for name in names])
+        pressed = hyperex.Motion(names, [k / 30 for k in range(7)],
+                                 [at_rest + k / 6 * back for k in range(7)])
+        simulator = hyperex.Simulator(
+            mesh(), rest, hyperex.prepare_motion(pressed, rest),
+            hyperex.SimulationOptions(drive=hyperex.DriveOptions(points=lips)))
+        simulator.set_obstacles(obstacles)
+        free = simulator.run()
+        self.assertEqual(free.report.contact_frames, 0)
+        options = simulator.options
+        options.contact = hyperex.ContactOptions(teeth=True)
+        simulator.set_options(options)
+        touching = simulator.run()
+        self.assertGreater(touching.report.contact_frames, 0)
+        self.assertLess(touching.report.in_teeth_mm, 0.1)
+        self.assertGreater(
+            np.abs(touching.skin_displacement_m - free.skin_displacement_m).max(), 1e-5)
+
+    def test_refused(self):
+        with self.assertRaisesRegex(hyperex.InputError, "contact.patch_pa_per_m|patch_pa_per_m"):
+            small_simulator(contact=hyperex.ContactOptions(patch_pa_per_m=-1))
+
+
 class Stream(unittest.TestCase):
     def test_skin_follows_samples(self):
         simulator = small_simulator()
