@@ -131,7 +131,7 @@ docs: setup ## the documentation as a site that needs no network: build/docs/htm
 mutations: ## perturb formulas one at a time and show that a test fails for each (ONLY=name: some)
 	tests/mutations/run.sh $(ONLY)
 
-interop: build ## what a run writes opened in ParaView and Blender, Slicer's landmarks, the tutorials, a study by Snakemake and Slurm
+interop: build ## every example opened in ParaView, VTK and Blender, its glTF and Slicer landmarks checked; the tutorials, a study by Snakemake and Slurm
 	scripts/setup.sh --interop
 	cmake --preset release -DHYPEREX_PYTHON=ON $(CMAKE_OPTIONS)
 	cmake --build --preset release --parallel $(JOBS) --target hyperex_python

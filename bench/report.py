@@ -312,7 +312,7 @@ def whole_run_section(results):
         return ""
     r = json.loads((results / "whole_run.json").read_text())
     text = f"""## A whole run
-`hyperex run examples/{r['scene']}`, the command itself with all of its outputs, measured by
+`hyperex run {r['scene']}`, the command itself with all of its outputs, measured by
 `bench/whole_run.py`: the median of {r['first']['runs']}. "First": the cache folder is empty, and landmarks are looked for on
 the scan, to check those given. "Again": what the first run found is taken from there. "Processor" is
 the time of all cores together.

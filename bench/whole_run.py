@@ -23,7 +23,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SCAN = ROOT / "../shared/data/ict/subject_A_neutral_scan.ply"
-SCENE = ROOT / "examples" / ("subject_a_mouth_open.toml" if SCAN.exists() else "mouth_open.toml")
+SCENE = ROOT / ("bench/scenes/subject_a_mouth_open.toml" if SCAN.exists()
+                else "examples/mouth_open.toml")
 
 
 def run(program, scene, folder, options, cache):
@@ -79,7 +80,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         found = {
-            "scene": SCENE.name,
+            "scene": str(SCENE.relative_to(ROOT)),
             "first": case(program, SCENE, folder, [], repeats, False),
             "again": case(program, SCENE, folder, [], repeats, True),
             "first_no_frames": case(program, SCENE, folder, no_frames, repeats, False),

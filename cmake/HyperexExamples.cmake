@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Examples, the licence, third-party notices and changelogs, where Debian's packages have them.
-# Left out are scenes that name data beside the source tree, and the study, which writes beside itself.
+# Left out are the scenes of the thesis' experiments, and the study, which writes beside itself. The
+# last three take data that `hyperex sample out/sample` makes beside a copy of the examples.
 include(HyperexDebian)
 set(examples ${PROJECT_SOURCE_DIR}/examples)
 set(examples_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex/examples)
@@ -8,6 +9,8 @@ if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
   install(FILES ${examples}/mouth_open.toml ${examples}/stiff_cheek.toml ${examples}/variants.toml
                 ${examples}/demo.toml ${examples}/smile_arkit.csv
                 ${examples}/one_sided_smile.toml ${examples}/one_sided_smile.csv
+                ${examples}/second_face.toml ${examples}/flawed_scan.toml
+                ${examples}/recorded_smile.toml
           DESTINATION ${examples_folder} COMPONENT program)
   hx_debian_documents(hyperex program)
   install(FILES ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md

@@ -46,7 +46,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   hyperex::bench::Options options;
   CLI::App program("The thesis' three experiments, as a page");
-  program.add_option("--examples", options.setting.examples, "Folder of the scenes")->required();
+  program.add_option("--source", options.setting.source, "Folder of examples/ and bench/scenes/")
+      ->required();
   program.add_option("--data", options.setting.data,
                      "Folder with ict/ and rgbd/; without it subject A is left out");
   program.add_option("--pictures", options.setting.pictures, "Folder for pictures")->required();

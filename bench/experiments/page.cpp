@@ -7,7 +7,8 @@ namespace hyperex::bench {
 std::string measured_section(const std::vector<MeasuredFace>& faces, const std::string& pictures) {
   std::string page = fmt::format(
       "\n## Experiment 1: measured deformation\n"
-      "`examples/experiment_1_embedded.toml`, `examples/experiment_1_subject_a.toml`. Every vertex "
+      "`examples/experiment_1_embedded.toml`, `bench/scenes/experiment_1_subject_a.toml`. Every "
+      "vertex "
       "follows the tracked\ntriangle that it is matched to; nothing is simulated.\n\n"
       "![Displacement at the peak]({}/experiment_1_displacement.jpg)\n\n"
       "| | vertices | frames | tracked points | peak, s | largest displacement, mm |\n"
@@ -48,7 +49,7 @@ std::string measured_section(const std::vector<MeasuredFace>& faces, const std::
 std::string physics_section(const std::vector<PhysicsFace>& faces, const std::string& pictures) {
   std::string page = fmt::format(
       "\n## Experiment 2: mouth opening by physics\n"
-      "`examples/experiment_2_embedded.toml`, `examples/experiment_2_subject_a.toml`.\n\n"
+      "`examples/experiment_2_embedded.toml`, `bench/scenes/experiment_2_subject_a.toml`.\n\n"
       "![The mouth at the thesis' five times]({}/experiment_2_times.jpg)\n\n"
       "Red: the driven points; blue: some of the nodes that are held. Which points the thesis "
       "drives and holds is not\nlegible; ours are the seven of `drive.points`, a held border and "
@@ -95,7 +96,8 @@ std::string physics_section(const std::vector<PhysicsFace>& faces, const std::st
 std::string models_section(const std::vector<ModelsFace>& faces, const std::string& pictures) {
   std::string page =
       "\n## Experiment 3: three tissues\n"
-      "`examples/experiment_3_embedded.toml`, `examples/experiment_3_subject_a.toml`: the preset "
+      "`examples/experiment_3_embedded.toml`, `bench/scenes/experiment_3_subject_a.toml`: the "
+      "preset "
       "`source_model_1` and two\nvariants, which differ at the right crista philtri superior "
       "(cphs) "
       "alone. The thesis' \"cheek\" is not among its\nlandmarks; ours is `cheek_L` and `cheek_R`, "

@@ -31,15 +31,17 @@ machine="On $(date +%F), $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head
 for face in "${faces[@]}"; do
   for experiment in 1 2 3; do
     name=experiment_${experiment}_$face
-    say "hyperex run examples/$name.toml"
-    "$build/bin/hyperex" run "examples/$name.toml" --out "$out/$name" > "$out/$name.log" 2>&1 || {
+    folder=examples
+    [[ $face == embedded ]] || folder=bench/scenes
+    say "hyperex run $folder/$name.toml"
+    "$build/bin/hyperex" run "$folder/$name.toml" --out "$out/$name" > "$out/$name.log" 2>&1 || {
       cat "$out/$name.log" >&2
       exit 1
     }
   done
 done
 say "measuring what the page says"
-"$build/bin/experiments_study" --examples examples "${options[@]}" --pictures "$pictures" \
+"$build/bin/experiments_study" --source . "${options[@]}" --pictures "$pictures" \
   --out "$page" --commit "$commit" \
   --machine "$machine"
 

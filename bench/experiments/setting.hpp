@@ -8,13 +8,14 @@ namespace hyperex::bench {
 
 /// Where things are, and on which faces the experiments run.
 struct Setting {
-  std::filesystem::path examples;  ///< scenes
+  std::filesystem::path source;    ///< of this program: examples/ and bench/scenes/ lie there
   std::filesystem::path data;      ///< subject A's; empty: its part is left out
   std::filesystem::path pictures;  ///< folder that pictures are written to
 
   std::filesystem::path scene(int experiment, bool subject_a) const {
-    return examples / ("experiment_" + std::to_string(experiment) +
-                       (subject_a ? "_subject_a.toml" : "_embedded.toml"));
+    return source / (subject_a ? "bench/scenes" : "examples") /
+           ("experiment_" + std::to_string(experiment) +
+            (subject_a ? "_subject_a.toml" : "_embedded.toml"));
   }
   /// false: the embedded face; true: subject A.
   std::vector<bool> faces() const {

@@ -13,12 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 
 scene::Scene scene_of(Face face) {
-  const fs::path examples = fs::path(HYPEREX_SOURCE_DIR) / "examples";
   const fs::path scan =
       fs::path(HYPEREX_SOURCE_DIR) / "../shared/data/ict/subject_A_neutral_scan.ply";
   const bool subject_a = face == Face::subject_a_if_there && fs::exists(scan);
-  return scene::read_scene(examples /
-                           (subject_a ? "subject_a_mouth_open.toml" : "mouth_open.toml"));
+  return scene::read_scene(
+      fs::path(HYPEREX_SOURCE_DIR) /
+      (subject_a ? "bench/scenes/subject_a_mouth_open.toml" : "examples/mouth_open.toml"));
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ build() {  # FOLDER FLAGS
     > "$1.log" 2>&1 && cmake --build "$1" "${@:3}" >> "$1.log" 2>&1 || { cat "$1.log"; exit 1; }
 }
 build build ""
+for program in programs/*.cpp; do  # those that are run below
+  [[ " first_run own_mesh stiffness_sweep " == *" $(basename "$program" .cpp) "* ]] || said "$program is not run here"
+done
 build/first_run > first.txt 2> /dev/null
 build/stiffness_sweep > sweep.csv
 build/own_mesh > own.txt

@@ -13,7 +13,13 @@ for component in program library dev; do
     program)
       "$prefix/bin/hyperex" --version > /dev/null
       [[ ! -e "$prefix/include" ]] || said "headers with the program"
-      for scene in "$prefix"/share/doc/hyperex/examples/*.toml; do
+      # A user's copy, with the data that the examples' comments tell to make.
+      copy=$(mktemp -d)
+      trap 'rm -rf "$copy"' EXIT
+      cp -r "$prefix/share/doc/hyperex/examples" "$copy/"
+      (cd "$copy" && "$prefix/bin/hyperex" sample out/sample > "$build/install_check.log" 2>&1) ||
+        { cat "$build/install_check.log"; said "no sample data"; }
+      for scene in "$copy"/examples/*.toml; do
         "$prefix/bin/hyperex" check "$scene" > "$build/install_check.log" 2>&1 ||
           { cat "$build/install_check.log"; said "$scene names what is not installed"; }
       done ;;

@@ -27,6 +27,10 @@ class Examples(unittest.TestCase):
         for example in EXAMPLES.glob("*.py"):
             self.assertLess(len(example.read_text().splitlines()), 40, example)
 
+    def test_each_is_run_here(self):
+        tested = {"first_steps.py", "stiffness_sweep.py", "second_scan.py"}
+        self.assertEqual({example.name for example in EXAMPLES.glob("*.py")}, tested)
+
     def test_first_steps_give_the_numbers_of_the_program(self):
         said = run("first_steps.py", self.folder / "face.glb")
         with open(DEMO / "excursions.csv") as file:

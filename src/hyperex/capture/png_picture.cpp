@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 #include <vector>
 
 namespace hyperex::capture {
 namespace {
 
 /// libpng leaves by longjmp where it fails: nothing with a destructor may be made between
-/// png_jmpbuf and there, so all of that stands here.
+/// png_jmpbuf and there, so all of that stands here and in Writing.
 struct Reading {
   std::span<const unsigned char> left;
   PngPicture result;
@@ -66,6 +67,30 @@ void read(png_structp png, png_infop info, PngAs as, double most_pixels, Reading
   png_read_end(png, nullptr);
 }
 
+struct Writing {
+  std::string bytes, fault;
+};
+
+void fail_writing(png_structp png, png_const_charp words) {
+  static_cast<Writing*>(png_get_error_ptr(png))->fault = words;
+  png_longjmp(png, 1);
+}
+void take_bytes(png_structp png, png_bytep from, std::size_t count) {
+  static_cast<Writing*>(png_get_io_ptr(png))
+      ->bytes.append(reinterpret_cast<const char*>(from), count);
+}
+void no_flush(png_structp) {}
+
+void write(png_structp png, png_infop info, const cv::Mat& grey, Writing& writing) {
+  png_set_write_fn(png, &writing, take_bytes, no_flush);
+  png_set_IHDR(png, info, png_uint_32(grey.cols), png_uint_32(grey.rows), 16, PNG_COLOR_TYPE_GRAY,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  png_set_swap(png);  // stored with the high byte first
+  for (int y = 0; y < grey.rows; ++y) png_write_row(png, grey.ptr(y));
+  png_write_end(png, info);
+}
+
 }  // namespace
 
 bool is_png(std::span<const unsigned char> bytes) {
@@ -92,6 +117,21 @@ PngPicture read_png(std::span<const unsigned char> bytes, PngAs as, double most_
   png_destroy_read_struct(&png, &info, nullptr);
   if (!reading.result.fault.empty()) reading.result.picture.release();
   return std::move(reading.result);
+}
+
+std::string png_of_grey(const cv::Mat& picture) {
+  if (picture.type() != CV_16UC1) throw std::invalid_argument("png_of_grey: expected CV_16UC1");
+  Writing writing;
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &writing, fail_writing, keep_quiet);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  if (info == nullptr)
+    writing.fault = "no memory";
+  else if (setjmp(png_jmpbuf(png)) == 0)
+    write(png, info, picture, writing);
+  png_destroy_write_struct(&png, &info);
+  if (!writing.fault.empty()) throw std::runtime_error("PNG: " + writing.fault);
+  return std::move(writing.bytes);
 }
 
 }  // namespace hyperex::capture

@@ -23,4 +23,7 @@ cv::Size png_size(std::span<const unsigned char> bytes);
 /// So is one of more than `most_pixels`.
 PngPicture read_png(std::span<const unsigned char> bytes, PngAs as, double most_pixels);
 
+/// The file of a CV_16UC1 picture, kept as it is. std::runtime_error where libpng fails.
+std::string png_of_grey(const cv::Mat& picture);
+
 }  // namespace hyperex::capture

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "hyperex/capture/tum_writer.hpp"
 #include "hyperex/core/error.hpp"
 #include "recording.hpp"
 
@@ -332,6 +333,33 @@ TEST(RecordedSubject, IsReadFasterThanItWasTaken) {
 #ifndef __SANITIZE_ADDRESS__
   EXPECT_LT(seconds, 1.3);
 #endif
+}
+
+TEST(TumWriter, WritesWhatIsReadBack) {
+  const Folder folder;
+  const Intrinsics camera{300, 300, 31.5, 23.5, 64, 48};
+  Frame frame;
+  frame.time_s = 1.25;
+  frame.colour = cv::Mat(48, 64, CV_8UC3, cv::Scalar(40, 90, 200));
+  frame.depth_m = cv::Mat::zeros(48, 64, CV_32F);
+  for (int x = 10; x < 60; ++x) frame.depth_m.at<float>(20, x) = 0.5F + 0.00117F * float(x);
+  TumWriter writer(folder.path() / "made", camera);
+  writer.add(frame);
+  frame.colour.release();
+  EXPECT_THROW(writer.add(frame), std::invalid_argument);
+  writer.finish();
+  const auto source = open_tum_folder(folder.path() / "made", {.read_ahead_frames = 0});
+  EXPECT_EQ(source->intrinsics().fx_px, camera.fx_px);
+  EXPECT_EQ(source->intrinsics().cy_px, camera.cy_px);
+  const auto read = source->next();
+  ASSERT_TRUE(read && read->valid) << (read ? read->fault : "no frame");
+  EXPECT_DOUBLE_EQ(read->time_s, 1.25);
+  const auto colour = read->colour.at<cv::Vec3b>(20, 30);
+  EXPECT_NEAR(colour[0], 40, 3);
+  EXPECT_NEAR(colour[1], 90, 3);
+  EXPECT_NEAR(colour[2], 200, 3);
+  EXPECT_LT(cv::norm(read->depth_m, frame.depth_m, cv::NORM_INF), 0.6 / 5000) << "0.1 mm";
+  EXPECT_FALSE(source->next());
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 Scene example(const std::string& name, const std::vector<std::string>& changes = {}) {
-  return read_scene(HYPEREX_SOURCE_DIR "/examples/" + name, changes);
+  const bool shared = name.starts_with("subject_a");
+  return read_scene(
+      HYPEREX_SOURCE_DIR + std::string(shared ? "/bench/scenes/" : "/examples/") + name, changes);
 }
 DriveChoice choice(const std::string& name, const std::vector<std::string>& changes = {}) {
   const Scene scene = example(name, changes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every scene of examples/ can be run, and those of the source's experiments say what the source
-// says.
+// The scenes of the source's experiments say what the source says, and those whose data are not
+// part of the project can be run where the data are. All of examples/ are run by tests/examples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,13 +16,12 @@ namespace hyperex::scene {
 namespace {
 namespace fs = std::filesystem;
 
-const fs::path kExamples = fs::path(HYPEREX_SOURCE_DIR) / "examples";
+const fs::path kExamples = fs::path(HYPEREX_SOURCE_DIR) / "examples",
+               kScenes = fs::path(HYPEREX_SOURCE_DIR) / "bench/scenes";
 
-std::vector<fs::path> all_examples() {
+std::vector<fs::path> all_scenes() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(kExamples))
-    if (entry.path().extension() == ".toml" && entry.path().stem() != "study")
-      files.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(kScenes)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -33,9 +32,9 @@ bool data_is_missing(const fs::path& file) {
          !fs::exists(kExamples / "../../shared/data");
 }
 
-class Example : public testing::TestWithParam<fs::path> {};
+class SharedScene : public testing::TestWithParam<fs::path> {};
 
-TEST_P(Example, IsSound) {
+TEST_P(SharedScene, IsSound) {
   if (data_is_missing(GetParam())) GTEST_SKIP() << "no ../shared/data";
   EXPECT_NO_THROW(check_scene(read_scene(GetParam())));
 }
@@ -47,12 +46,14 @@ std::string name_of(const testing::TestParamInfo<fs::path>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Example, testing::ValuesIn(all_examples()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, SharedScene, testing::ValuesIn(all_scenes()), name_of);
 
 class Experiment : public testing::TestWithParam<const char*> {
  protected:
   fs::path file(int experiment) const {
-    return kExamples / ("experiment_" + std::to_string(experiment) + "_" + GetParam() + ".toml");
+    const std::string face = GetParam();
+    return (face == "embedded" ? kExamples : kScenes) /
+           ("experiment_" + std::to_string(experiment) + "_" + face + ".toml");
   }
 };
 

@@ -15,7 +15,7 @@ namespace hyperex::scene {
 namespace {
 namespace fs = std::filesystem;
 
-const fs::path kExamples = fs::path(HYPEREX_SOURCE_DIR) / "examples";
+const fs::path kSource = HYPEREX_SOURCE_DIR;
 
 nlohmann::ordered_json run_of(const fs::path& file, std::vector<std::string> overrides) {
   Progress::silence(true);
@@ -34,11 +34,11 @@ class SymmetricMotion : public testing::TestWithParam<Case> {};
 
 TEST_P(SymmetricMotion, EndsWhereItIsDrivenAndIsUndecided) {
   const auto& [file, points, element_mm] = GetParam();
-  if (std::string(file).starts_with("subject_a") && !fs::exists(kExamples / "../../shared/data"))
+  if (std::string(file).starts_with("bench") && !fs::exists(kSource / "../shared/data"))
     GTEST_SKIP() << "no ../shared/data";
   std::vector<std::string> overrides{std::string("mesh.element_size_mm=") + element_mm};
   if (*points) overrides.push_back(std::string("drive.points=") + points);
-  const auto summary = run_of(kExamples / file, overrides);
+  const auto summary = run_of(kSource / file, overrides);
   EXPECT_LT(summary.at("driven_points_off_mm").get<double>(), 0.1);
   const auto& symmetry = summary.at("symmetry");
   EXPECT_TRUE(symmetry.at("mesh_floor").at("known").get<bool>());
@@ -47,7 +47,8 @@ TEST_P(SymmetricMotion, EndsWhereItIsDrivenAndIsUndecided) {
   EXPECT_TRUE(corners.at("undecided").get<bool>());
   EXPECT_NEAR(corners.at("excursion_ratio_R_L").get<double>(), 1, 0.005);
   EXPECT_GT(corners.at("excursion_mm").at("L").get<double>(), 3);
-  if (std::string(file) == "mouth_open.toml") {  // a symmetric face: 0.0104 is the resolution
+  if (std::string(file) ==
+      "examples/mouth_open.toml") {  // a symmetric face: 0.0104 is the resolution
     EXPECT_LT(symmetry.at("mesh_floor").at("xi_there").get<double>(), 2 * 0.0104)
         << "the mesh adds no more than the resolution";
   }
@@ -55,17 +56,18 @@ TEST_P(SymmetricMotion, EndsWhereItIsDrivenAndIsUndecided) {
     EXPECT_TRUE(pair.at("undecided").get<bool>()) << pair;
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, SymmetricMotion,
-                         testing::Values(Case{"mouth_open.toml", "", "3.3"},
-                                         Case{"mouth_open.toml", "", "4"},
-                                         Case{"mouth_open.toml", "all", "4"},
-                                         Case{"subject_a_mouth_open.toml", "", "3.3"},
-                                         Case{"subject_a_mouth_open_all.toml", "", "3.3"},
-                                         Case{"subject_a_mouth_open_all.toml", "", "2.5"}),
-                         [](const auto& c) { return "case_" + std::to_string(c.index); });
+INSTANTIATE_TEST_SUITE_P(
+    Meshes, SymmetricMotion,
+    testing::Values(Case{"examples/mouth_open.toml", "", "3.3"},
+                    Case{"examples/mouth_open.toml", "", "4"},
+                    Case{"examples/mouth_open.toml", "all", "4"},
+                    Case{"bench/scenes/subject_a_mouth_open.toml", "", "3.3"},
+                    Case{"bench/scenes/subject_a_mouth_open_all.toml", "", "3.3"},
+                    Case{"bench/scenes/subject_a_mouth_open_all.toml", "", "2.5"}),
+    [](const auto& c) { return "case_" + std::to_string(c.index); });
 
 TEST(OneSidedMotion, IsDecided) {
-  const auto summary = run_of(kExamples / "one_sided_smile.toml", {});
+  const auto summary = run_of(kSource / "examples/one_sided_smile.toml", {});
   const auto& symmetry = summary.at("symmetry");
   EXPECT_FALSE(symmetry.at("commissure").at("undecided").get<bool>());
   EXPECT_EQ(symmetry.at("verdict").get<std::string>().find("undecided"), std::string::npos);

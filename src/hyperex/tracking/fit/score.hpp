@@ -23,6 +23,9 @@ struct Truth {
 };
 /// Throws InputError: a file missing or malformed, times that differ between the files.
 Truth read_truth(const std::filesystem::path& folder);
+/// Writes the three files: times and landmarks to a micrometre and a microsecond. Throws InputError
+/// where they cannot be written.
+void write_truth(const std::filesystem::path& folder, const Truth& truth);
 
 struct Quantiles {
   double median = 0, p95 = 0;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Geometry>
+
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/render/render.hpp"
+#include "hyperex/tissue/canonical_face.hpp"
+
+namespace hyperex::sample {
+
+struct ScanFlaws {
+  double edge_m = 0.0016;   ///< edges of the scan's triangles
+  double noise_m = 0.0002;  ///< standard deviation of each vertex along its normal
+  double hole_radius_m = 0.005;
+  int holes = 3;              ///< forehead, right cheek, left jaw; at most 3
+  double ragged_share = 0.3;  ///< of the border's triangles that break off, in each of four rounds
+};
+
+/// A scan as a scanner leaves it, and where it truly was.
+struct FlawedScan {
+  TriMesh mesh;  ///< metres, in the scanner's frame
+  render::VertexColours colours;
+  Eigen::Isometry3d scan_from_face;
+  io::Landmarks landmarks;  ///< where they truly are, in the scanner's frame
+};
+
+/// A scan of `face` with faults: the lips are joined by triangles across the slit, the border is
+/// ragged, there are holes and noise, other triangles than the face's, and the axes are the
+/// scanner's (z up, 0.4 m off). The same every time.
+FlawedScan flawed_scan(const tissue::EmbeddedFace& face, const ScanFlaws& flaws = {});
+
+}  // namespace hyperex::sample

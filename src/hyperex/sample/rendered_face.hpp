@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "hyperex/capture/source.hpp"
+#include "hyperex/sample/person.hpp"
+#include "hyperex/tracking/fit/score.hpp"
+
+namespace hyperex::sample {
+
+/// A frame of a clip.
+struct Moment {
+  Pose pose;
+  Eigen::Isometry3d camera_from_head;
+};
+
+struct ClipOptions {
+  capture::Intrinsics camera;  ///< centred, fx = fy (colour_of)
+  double rate_hz = 30;
+  double depth_noise_m = 0.001;  ///< standard deviation of each reading
+  double colour_noise = 2;       ///< of each channel, of 255
+};
+
+/// A clip of a person, drawn by the render room as a camera of colour and depth sees it, and what
+/// the face truly did. Noise depends on the frame's index alone: the same clip every time.
+class RenderedFace : public capture::FrameSource {
+ public:
+  RenderedFace(Person person, std::vector<Moment> moments, const ClipOptions& options);
+
+  const capture::Intrinsics& intrinsics() const override { return options_.camera; }
+  bool has_depth() const override { return true; }
+  bool live() const override { return false; }
+  std::optional<std::size_t> frame_count() const override { return moments_.size(); }
+  std::optional<capture::Frame> next() override;
+
+  /// Of all frames; jaw_open is the jaw's angle as a share of its peak.
+  tracking::Truth truth() const;
+
+ private:
+  Person person_;
+  std::vector<Moment> moments_;
+  ClipOptions options_;
+  std::size_t next_ = 0;
+};
+
+/// The head before a camera, upright and looking at it from `distance_m`; turned by `yaw_deg` to
+/// its left and nodding by `nod_deg`, moved by `right_m` and `back_m` in the camera's frame.
+struct HeadPlace {
+  double distance_m = 0.6, yaw_deg = 0, nod_deg = 0, right_m = 0, back_m = 0;
+};
+Eigen::Isometry3d camera_from_head(const HeadPlace& place);
+
+}  // namespace hyperex::sample

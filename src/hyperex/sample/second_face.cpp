@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/sample/second_face.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "hyperex/sample/bumps.hpp"
+
+namespace hyperex::sample {
+namespace {
+
+const Vec3 kProportions(0.96, 1.035, 1.0);
+
+/// x to the subject's left, y up, z forward; mm.
+const std::vector<Bump> kShape = {
+    // jaw
+    {"pogonion", {0, -6, 1.5}, 24},
+    {"ibug68_5", {-3, -3, 0}, 22},
+    {"ibug68_11", {3, -3, 0}, 22},
+    {"ibug68_3", {-3, 0, 0}, 24},
+    {"ibug68_13", {3, 0, 0}, 24},
+    // mouth
+    {"cheilion_R", {-2.5, 0, -0.5}, 13},
+    {"cheilion_L", {2.5, 0, -0.5}, 13},
+    {"labiale_inferius", {0, -0.4, 0.8}, 10},
+    // nose
+    {"pronasale", {0, -2, 2.5}, 10},
+    {"ibug68_28", {0, 0, 2.5}, 9},
+    {"alare_R", {-1.2, 0, 0}, 8},
+    {"alare_L", {1.2, 0, 0}, 8},
+    // cheekbones and brows
+    {"cheek_R", {-1, 2, -1.5}, 16},
+    {"cheek_L", {1, 2, -1.5}, 16},
+    {"ibug68_19", {0, 1, 2}, 13},
+    {"ibug68_24", {0, 1, 2}, 13},
+    // what differs from side to side
+    {"pronasale", {1.0, 0, 0}, 12},
+    {"cheilion_R", {0, -1.0, 0}, 12},
+    {"pogonion", {-1.5, 0, 0}, 20},
+    {"cheek_R", {-0.5, 0, 1.2}, 16},
+    {"ibug68_24", {0, 1.2, 0}, 12},
+};
+
+constexpr double kClosed = 0.85;            // of the gap between the embedded face's lips
+constexpr double kLowerLipReach_m = 0.015;  // below it nothing rises
+
+/// The lips from corner to corner, x rising: where they end above and below the gap.
+struct Gap {
+  std::vector<Vec3> upper, lower;
+
+  explicit Gap(const Points& points) {
+    const auto& contour = face::lip_contour();  // the upper lip, then the lower one back
+    for (std::size_t i = 0; i <= contour.size() / 2; ++i) {
+      upper.push_back(points.row(contour[i]).transpose());
+      lower.push_back(points.row(contour[(contour.size() - i) % contour.size()]).transpose());
+    }
+  }
+  /// How far a point rises: the lower lip's edge by its share of the gap, what is below it less.
+  double rise(const Vec3& p) const {
+    if (p.x() <= lower.front().x() || p.x() >= lower.back().x()) return 0;
+    std::size_t k = 1;
+    while (k + 1 < lower.size() && lower[k].x() < p.x()) ++k;
+    const double t = (p.x() - lower[k - 1].x()) / (lower[k].x() - lower[k - 1].x());
+    const double low = (1 - t) * lower[k - 1].y() + t * lower[k].y();
+    const double high = (1 - t) * upper[k - 1].y() + t * upper[k].y();
+    if (p.y() > (low + high) / 2) return 0;
+    const double below = (p.y() - low) / kLowerLipReach_m;
+    return kClosed * (high - low) * std::exp(-below * below / 2);
+  }
+};
+
+}  // namespace
+
+tissue::EmbeddedFace second_face() {
+  tissue::EmbeddedFace face = tissue::embedded_face();
+  const Gap gap(face.mesh.points);
+  for (auto point : face.mesh.points.rowwise()) point.y() += gap.rise(point.transpose());
+  for (auto& [name, at] : face.landmarks) at.y() += gap.rise(at);
+  const Points moved = face.mesh.points + displacement(kShape, face.landmarks, face.mesh.points);
+  Points landmarks(Eigen::Index(face.landmarks.size()), 3);
+  Eigen::Index row = 0;
+  for (const auto& [name, at] : face.landmarks) landmarks.row(row++) = at.transpose();
+  landmarks += displacement(kShape, face.landmarks, landmarks);
+  row = 0;
+  for (auto& [name, at] : face.landmarks)
+    at = landmarks.row(row++).transpose().cwiseProduct(kProportions);
+  face.mesh.points = moved * kProportions.asDiagonal();
+  return face;
+}
+
+}  // namespace hyperex::sample

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What `hyperex sample` writes is read back by what reads a user's files, is the same every time
+// and replaces nothing of the user's.
+#include "hyperex/sample/sample_data.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "hyperex/capture/tum_folder.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/output_directory.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/io/scan.hpp"
+#include "hyperex/sample/second_face.hpp"
+
+namespace hyperex::sample {
+namespace {
+namespace fs = std::filesystem;
+
+class SampleData : public testing::Test {
+ protected:
+  SampleData() {
+    Progress::silence(true);
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~SampleData() override { fs::remove_all(folder_); }
+  fs::path in(const std::string& name) const { return folder_ / name; }
+
+ private:
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / ("hyperex_sample_" + std::to_string(::getpid()));
+};
+
+TEST_F(SampleData, IsReadBackAndTheSameEveryTime) {
+  write_sample_data(in("first"));
+  const tissue::EmbeddedFace face = second_face();
+  const io::Scan scan = io::read_scan(in("first/second_face.ply"));
+  EXPECT_EQ(scan.unit, io::LengthUnit::millimetre);
+  EXPECT_LT((scan.mesh.points - face.mesh.points).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_EQ(scan.vertex_colour.rows(), scan.mesh.points.rows());
+  const io::Landmarks landmarks = io::read_landmarks(in("first/second_face_landmarks.json"));
+  EXPECT_EQ(landmarks.size(), face.landmarks.size());
+  EXPECT_LT((landmarks.at("pronasale") - face.landmarks.at("pronasale")).norm(), 1e-6);
+  EXPECT_GT(io::read_scan(in("first/flawed_scan.ply")).mesh.points.rows(), 10000);
+
+  const auto recording = capture::open_tum_folder(in("first/recording"), {.read_ahead_frames = 0});
+  RenderedFace clip = sample_clip();
+  std::size_t frames = 0;
+  while (const auto frame = recording->next()) {
+    EXPECT_TRUE(frame->valid) << frame->fault;
+    ++frames;
+  }
+  EXPECT_EQ(frames, *clip.frame_count());
+  const tracking::Truth truth = tracking::read_truth(in("first/recording")), wanted = clip.truth();
+  ASSERT_EQ(truth.time_s.size(), wanted.time_s.size());
+  for (std::size_t k = 0; k < frames; ++k) {
+    EXPECT_NEAR(truth.time_s[k], wanted.time_s[k], 1e-6);
+    EXPECT_LT((truth.landmarks_m[k] - wanted.landmarks_m[k]).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_TRUE(truth.camera_from_face[k].isApprox(wanted.camera_from_face[k], 1e-8));
+    EXPECT_NEAR(truth.jaw_open[k], wanted.jaw_open[k], 1e-6);
+  }
+
+  write_sample_data(in("second"));
+  const auto files = files_below(in("first"));
+  EXPECT_EQ(files, files_below(in("second")));
+  std::uintmax_t bytes = 0;
+  for (const std::string& file : files) {
+    EXPECT_EQ(read_file(in("first") / file), read_file(in("second") / file)) << file;
+    bytes += fs::file_size(in("first") / file);
+  }
+  EXPECT_LT(bytes, 6U << 20U);
+}
+
+TEST_F(SampleData, ReplacesItsOwnFilesAndNoOthers) {
+  fs::create_directories(in("mine"));
+  std::ofstream(in("mine/thesis.txt")) << "years of work";
+  EXPECT_THROW(write_sample_data(in("mine")), InputError);
+  EXPECT_EQ(read_file(in("mine/thesis.txt")), "years of work");
+  EXPECT_EQ(files_below(in("mine")).size(), 1U);
+
+  fs::create_directories(in("own/recording"));
+  std::ofstream(in("own/recording/old.txt")) << "of an earlier version";
+  std::ofstream(in("own/sample.json"))
+      << R"({"program": "hyperex sample", "files": ["recording/old.txt", "sample.json"]})";
+  write_sample_data(in("own"));
+  EXPECT_FALSE(fs::exists(in("own/recording/old.txt")));
+  EXPECT_TRUE(fs::exists(in("own/second_face.ply")));
+}
+
+}  // namespace
+}  // namespace hyperex::sample
