@@ -15,8 +15,8 @@ What is behind the language of a block says what is done with it; blocks without
     ... needs=blender      only where there is this program; without it the block is skipped, and those that need it
 
 The folder holds a link `examples` to those of the repository. FOLDER of --bin is put into PATH, that of --module into
-PYTHONPATH. Every picture of the page below images/tutorials must have been written, under its name; --pictures takes
-it over into the page's folder. Ends with 1 where something fails, with 77 where all went well but a program was
+PYTHONPATH. Every picture of the page below images/tutorials must have been written, under its name (a .webp may be
+written as .png); --pictures takes it over into the page's folder, by python3-pil where the format changes. Ends with 1 where something fails, with 77 where all went well but a program was
 missing.
 """
 import argparse
@@ -32,6 +32,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 SKIPPED = 77
+WIDEST_PX = 1100
 
 
 def blocks(text):
@@ -69,6 +70,16 @@ def check_printed(place, expected, output):
         if at is None:
             sys.exit(f"{place}: not printed (in this order): {wanted}\n--- printed was:\n{output}")
         rest = rest[at + 1:]
+
+
+def take_over(picture, target):
+    if picture.suffix == target.suffix:
+        shutil.copyfile(picture, target)
+        return
+    from PIL import Image
+    image = Image.open(picture).convert("RGB")
+    image.thumbnail((WIDEST_PX, WIDEST_PX))
+    image.save(target, quality=80, method=6)
 
 
 def main():
@@ -124,11 +135,13 @@ def main():
     for target in re.findall(r"!\[[^\]]*\]\(([^)]*images/tutorials/[^)]*)\)", text):
         picture = folder / Path(target).name
         if not picture.exists():
+            picture = picture.with_suffix(".png")
+        if not picture.exists():
             if not missing:
-                sys.exit(f"{page.name}: no block has written {picture.name}")
+                sys.exit(f"{page.name}: no block has written {Path(target).name}")
         elif options.pictures:
-            shutil.copyfile(picture, page.parent / target)
-            print(f"{picture.name}: {picture.stat().st_size / 1e3:.0f} kB")
+            take_over(picture, page.parent / target)
+            print(f"{target}: {(page.parent / target).stat().st_size / 1e3:.0f} kB")
     print(f"{page.name}: {ran} blocks ran" + (f"; without {', '.join(sorted(missing))}" if missing else ""))
     sys.exit(SKIPPED if missing else 0)
 
