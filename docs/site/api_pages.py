@@ -103,9 +103,10 @@ class Headers:
             text = name
         else:
             return ""
-        if (kind, text) in self.written:
+        whole = (plain(node.find("qualifiedname")), kind, text)
+        if whole in self.written:
             return ""
-        self.written.add((kind, text))
+        self.written.add(whole)
         out = f"{' ' * by}.. cpp:{kind}:: {text}\n\n{comment}"
         for value in node.findall("enumvalue"):
             out += f"{' ' * (by + 3)}.. cpp:enumerator:: {plain(value.find('name'))}\n\n"
@@ -117,16 +118,17 @@ class Headers:
     def compound(self, reference, by=0):
         node = ElementTree.parse(self.xml / f"{reference}.xml").find("compounddef")
         bases = ", ".join(f"public {plain(base)}" for base in node.findall("basecompoundref"))
-        out = (f"{' ' * by}.. cpp:{node.get('kind')}:: {plain(node.find('compoundname'))}"
-               f"{' : ' + bases if bases else ''}\n\n")
+        name = plain(node.find("compoundname"))
+        if by:  # inside another one
+            name = name.rpartition("::")[2]
+        out = f"{' ' * by}.. cpp:{node.get('kind')}:: {name}{' : ' + bases if bases else ''}\n\n"
         out += as_block(self.comment(node.find("location")), by + 3)
-        scope = plain(node.find("compoundname")) + "::"
         for member in node.iter("memberdef"):
             if member.get("prot") == "public" and not plain(member.find("name")).startswith(("operator==", "~")):
-                out += self.member(member, by, scope)
+                out += self.member(member, by + 3)
         for inner in node.findall("innerclass"):
             if inner.get("prot") == "public":
-                out += self.compound(inner.get("refid"), by)
+                out += self.compound(inner.get("refid"), by + 3)
         return out
 
     def page_of(self, header):
@@ -145,6 +147,8 @@ class Headers:
             scope = plain(member.find("qualifiedname")).rpartition("::")[0]
             if not plain(member.find("name")).startswith("operator=="):
                 out += self.member(member, 0, scope + "::" if scope else "")
+        if ".. cpp:" not in out:
+            sys.exit(f"api_pages: doxygen found nothing in {header}")
         return out
 
 
@@ -240,6 +244,9 @@ def write_python(file, stub, module):
     page = [title("Python API"),
             ".. py:module:: hyperex\n\nThe names of ``import hyperex``, made from the module's type stub and its "
             "docstrings. How they are used, with programs: :doc:`/docs/python`. Arrays are NumPy's, in SI units.\n\n"]
+    short = [(node.targets[0].id, ast.unparse(node.value)) for node in ast.parse(text).body if isinstance(node, ast.Assign)]
+    page.append("Names that stand for longer types:\n\n"
+                + "".join(f"* ``{name}``: ``{meaning}``\n" for name, meaning in short) + "\n")
     seen = set()
     for node in ast.parse(text).body:
         for number in [n for n in groups if n < node.lineno]:

@@ -30,6 +30,7 @@ html_static_path = [str(Path(__file__).parent / "_static"), str(out / "static")]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
+html_show_copyright = False
 # Debian's build of the theme lacks its dark colours; these are the theme's own (furo, variables/_colors.scss).
 html_theme_options = {
     "navigation_with_keys": True,
