@@ -12,6 +12,7 @@ What is behind the language of a block says what is done with it; blocks without
     ```toml file=a.toml
     ```text printed        what the last block that ran prints: each line must be in its output, in this order; numbers
                            may differ by 2 % or 0.02 (processors round differently), and ... stands for anything
+    ```text printed within=10   the same; numbers may differ by 10 % (a tracking network magnifies such differences)
     ... needs=blender      only where there is this program; without it the block is skipped, and those that need it
 
 The folder holds a link `examples` to those of the repository. FOLDER of --bin is put into PATH, that of --module into
@@ -49,7 +50,7 @@ def blocks(text):
         at = end + 1
 
 
-def alike(expected, line):
+def alike(expected, line, percent):
     """A line of the output is the expected one, numbers within what processors may differ by."""
     words = [re.escape(part) for part in NUMBER.sub("\0", expected).replace("...", "\1").split("\0")]
     pattern = f"({NUMBER.pattern})".join(words).replace(re.escape("\1"), ".*").replace("\1", ".*")
@@ -57,16 +58,16 @@ def alike(expected, line):
     found = re.fullmatch(r"\s*" + pattern + r"\s*", line)
     if not found:
         return False
-    return all(abs(float(a) - float(b)) <= max(0.02, 0.02 * abs(float(a)))
+    return all(abs(float(a) - float(b)) <= max(0.02, percent / 100 * abs(float(a)))
                for a, b in zip(NUMBER.findall(expected), found.groups()))
 
 
-def check_printed(place, expected, output):
+def check_printed(place, expected, output, percent):
     rest = output.splitlines()
     for wanted in expected.splitlines():
         if wanted.strip() in ("", "..."):
             continue
-        at = next((k for k, line in enumerate(rest) if alike(wanted.strip(), line.strip())), None)
+        at = next((k for k, line in enumerate(rest) if alike(wanted.strip(), line.strip(), percent)), None)
         if at is None:
             sys.exit(f"{place}: not printed (in this order): {wanted}\n--- printed was:\n{output}")
         rest = rest[at + 1:]
@@ -129,7 +130,8 @@ def main():
             ran += 1
             print(f"{place}: {time.monotonic() - began:.1f} s", flush=True)
         elif "printed" in marks and output is not None:
-            check_printed(place, content, output)
+            within = next((float(mark[7:]) for mark in marks if mark.startswith("within=")), 2)
+            check_printed(place, content, output, within)
     if not ran:
         sys.exit(f"{page.name}: nothing to run")
     for target in re.findall(r"!\[[^\]]*\]\(([^)]*images/tutorials/[^)]*)\)", text):

@@ -42,6 +42,17 @@ echo 12.0 mm
 12.5 mm
 ```
 END
+page 1 "not printed (in this order): 11 mm" << 'END'
+```sh run
+echo 10 mm
+```
+```text printed within=10
+10.9 mm
+```
+```text printed within=5
+11 mm
+```
+END
 page 1 "page.md:1: ended with 3" << 'END'
 ```sh run
 exit 3
