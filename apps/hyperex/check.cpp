@@ -33,7 +33,7 @@ void add_check(CLI::App& program) {
     for (const auto& warning : checked.warnings)
       std::cout << "warning: " << printable(warning) << '\n';
     const auto count = checked.warnings.size();
-    std::cout << options->scene.string() << ": no problems found"
+    std::cout << options->scene.string() << ": no problems found in what was checked"
               << (count == 0   ? ""
                   : count == 1 ? ", but one warning"
                                : ", but " + std::to_string(count) + " warnings")

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "hyperex/capture/tum_folder.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/printable.hpp"
@@ -35,6 +36,7 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   };
   refuse_missing("a scan", scan);
   refuse_missing("a recording", motion);
+  if (fs::is_directory(motion)) capture::open_tum_folder(motion);  // says what is missing in it
   scene::NewScene made;
   if (scan != "embedded") {
     const io::Scan read = io::read_scan(scan);

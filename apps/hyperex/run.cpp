@@ -79,15 +79,24 @@ std::string corners_line(const nlohmann::ordered_json& summary) {
          "\n";
 }
 
-/// "9.7 to 7.9 mm, 1.8 mm less (+- 0.2)"; `band`: not a number where it is not known.
+/// Of the greatest excursion: "9.7 to 7.9 mm, 1.8 mm less (+- 0.2)"; `band`: not a number where it
+/// is not known.
 std::string change_text(double from, double to, double band) {
   const double change = to - from;
-  if (std::abs(change) < 0.05) return fmt::format("{:.1f} mm as before", to);
+  if (std::abs(change) < 0.05) return fmt::format("{:.1f} mm at most, as before", to);
   if (std::abs(change) < band)
     return fmt::format("{:.1f} to {:.1f} mm, undecided (+- {:.1f})", from, to, band);
   return fmt::format("{:.1f} to {:.1f} mm, {:.1f} mm {}", from, to, std::abs(change),
                      change < 0 ? "less" : "more") +
          (std::isnan(band) ? "" : fmt::format(" (+- {:.1f})", band));
+}
+
+/// Where the greatest excursions differ by much less than the paths do: "; up to 3.7 mm from base
+/// at 1.93 s".
+std::string path_text(double change, double band, double from_base_mm, double time_s) {
+  const double least = std::fmax(0.3, std::isnan(band) ? 0 : band);
+  if (!(from_base_mm > least) || from_base_mm < 1.5 * std::abs(change)) return "";
+  return fmt::format(", but up to {:.1f} mm from base at {:.2f} s", from_base_mm, time_s);
 }
 
 /// What each variant makes of the corners of the mouth, a line each.
@@ -100,8 +109,12 @@ std::string variant_lines(const nlohmann::ordered_json& summary) {
       const auto &from = table[0][corner + "_mm"], &to = table[i][corner + "_mm"],
                  &band = table[i][corner + "_band_mm"];
       if (!from.is_number() || !to.is_number()) return std::string("not known");
-      return change_text(from.get<double>(), to.get<double>(),
-                         band.is_number() ? band.get<double>() : std::nan(""));
+      const double before = from.get<double>(), now = to.get<double>();
+      const double band_mm = band.is_number() ? band.get<double>() : std::nan("");
+      return change_text(before, now, band_mm) +
+             path_text(now - before, band_mm,
+                       number_in(table[i], (corner + "_from_base_mm").c_str()),
+                       number_in(table[i], (corner + "_from_base_s").c_str()));
     };
     lines += fmt::format("  {}: corner of the mouth left {}; right {}\n",
                          table[i]["name"].get<std::string>(), side("commissure_L"),

@@ -113,6 +113,18 @@ ResponsePair response_pair(const reenact::Performance& base, const motion::Motio
   return pair;
 }
 
+DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Motion& run,
+                                    int column) {
+  DistanceFromBase farthest;
+  if (column < 0 || column >= int(base.names.size())) return farthest;
+  for (std::size_t k = 0; k < run.positions.size(); ++k) {
+    const double mm =
+        1e3 * (run.positions[k].row(column) - base.positions.at(k).row(column)).norm();
+    if (!(mm <= farthest.most_mm)) farthest = {mm, run.time_s[k]};
+  }
+  return farthest;
+}
+
 VariantComparison compare_variant(const std::string& name, const ComparedRun& base,
                                   const ComparedRun& run, const ComparedInputs& inputs,
                                   const ResponsePair& pair) {
@@ -151,6 +163,8 @@ VariantComparison compare_variant(const std::string& name, const ComparedRun& ba
       };
       c.commissure_left = change(Side::left);
       c.commissure_right = change(Side::right);
+      c.left_from_base = distance_from_base(own.landmarks, p.landmarks, left);
+      c.right_from_base = distance_from_base(own.landmarks, p.landmarks, excursions.pairs[i].right);
     }
   const Asymmetry& map = *run.symmetry.map;
   measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,16 @@ struct ResponsePair {
 ResponsePair response_pair(const reenact::Performance& base, const motion::Motion& recorded,
                            double clear_m);
 
+/// How far a point lies from its place in base at the same time, where that is most. It sees what
+/// the change of an excursion does not: a weaker smile while the jaw, which moves the point
+/// farther, opens.
+struct DistanceFromBase {
+  double most_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the point is not known
+  double time_s = std::numeric_limits<double>::quiet_NaN();   ///< of the run
+};
+DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Motion& run,
+                                    int column);
+
 /// A run against the scene's own. "Peak" is the scene's own.
 struct VariantComparison {
   std::string name;
@@ -49,6 +60,7 @@ struct VariantComparison {
   double mean_displacement_left_mm = 0, mean_displacement_right_mm = 0;
   /// How far the corners of the mouth travel; NaN where they are not known.
   ExcursionChange commissure_left, commissure_right;
+  DistanceFromBase left_from_base, right_from_base;  ///< of the same corners
   double asymmetry_mm = 0;  ///< at the peak, root mean square over the face
   /// What the variant adds to xi_L - xi_R, where it adds most.
   double added_xi_difference = 0;

@@ -119,6 +119,21 @@ TEST(ResponsePair, IsOfThoseThatMoveMostAndOffThePatches) {
   EXPECT_EQ(response_pair(c.base, c.motion, 1).response, "");
 }
 
+TEST(DistanceFromBase, IsOfOneTimeAndSeesWhatExcursionsDoNot) {
+  motion::Motion base, run;
+  base.names = run.names = {"corner"};
+  base.time_s = run.time_s = {0, 0.5, 1};
+  for (const double x_m : {0.0, 0.010, 0.004}) base.positions.push_back(Points{{x_m, 0, 0}});
+  run.positions = base.positions;
+  run.positions[2](0, 1) = 0.003;  // as far at most, elsewhere on the way
+  const DistanceFromBase found = distance_from_base(base, run, 0);
+  EXPECT_NEAR(found.most_mm, 3, 1e-12);
+  EXPECT_EQ(found.time_s, 1);
+  EXPECT_EQ(distance_from_base(base, base, 0).most_mm, 0);
+  EXPECT_TRUE(std::isnan(distance_from_base(base, run, -1).most_mm));
+  EXPECT_TRUE(std::isnan(distance_from_base(base, run, 1).most_mm)) << "no such column";
+}
+
 TEST(CompareVariant, IsKnownOfASquareOfSkin) {
   const VariantComparison c = Compared().comparison();
   EXPECT_NEAR(c.greatest_displacement_mm, 5, 1e-5);

@@ -12,6 +12,31 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
+TEST(GainsHardlyKnown, NamesAMuscleThatTheRecordingUsesLessThanItIsKnown) {
+  reenact::MuscleCourse base;
+  base.names = {"zyg_major_L", "zyg_major_R"};
+  base.activation = Eigen::MatrixXd{{0, 0.9}, {0.1, 0.2}};
+  base.sigma = Eigen::MatrixXd{{0.3, 0.3}, {0.4, 0.42}};
+  std::vector<VariantRun> runs(4);
+  const char* names[] = {"tissue alone", "weak right", "weak left", "weak both"};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].scene.title = names[i];
+    runs[i].simulation.performance.muscles = base;
+  }
+  const auto weaken = [&](std::size_t run, Eigen::Index muscle) {
+    runs[run].simulation.performance.muscles.activation.row(muscle) *= 0.3;
+  };
+  weaken(1, 1);
+  weaken(2, 0);
+  weaken(3, 0);
+  weaken(3, 1);
+  EXPECT_THAT(
+      gains_hardly_known(base, runs),
+      ElementsAre(StartsWith("variant weak right: in this recording zyg_major_R is active by "
+                             "at most 0.20 +- 0.42")));
+  EXPECT_THAT(gains_hardly_known({}, runs), ElementsAre());
+}
+
 TEST(ShownTimes, AreThoseWantedWhereTheRunIsLongEnough) {
   EXPECT_THAT(shown_times_s({0, 0.7, 2.7}, 2.7), ElementsAre(0, 0.7, 2.7));
 }

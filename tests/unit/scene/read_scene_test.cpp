@@ -177,10 +177,13 @@ TEST(ReadScene, VariantsAreTheSceneWithTheirChanges) {
 
 TEST(ReadScene, AScanOrARecordingIsNoScene) {
   const SceneFolder folder;
-  EXPECT_THAT(sentences(problems_of(folder / "face.ply")),
-              HasSubstr("this is a scan. Put scan = { file = 'face.ply' } into a file"));
+  EXPECT_THAT(
+      sentences(problems_of(folder / "face.ply")),
+      HasSubstr(
+          "this is a scan. hyperex new face.ply MOTION writes one, with scan.file = 'face.ply'"));
   EXPECT_THAT(sentences(problems_of(folder / "motion.csv")),
-              HasSubstr("this is a recording. Put motion = { file = 'motion.csv' }"));
+              HasSubstr("this is a recording. hyperex new SCAN motion.csv writes one, with "
+                        "motion.file = 'motion.csv'"));
 }
 
 TEST(ReadScene, PathsOfWindowsBelongBetweenSingleQuotes) {

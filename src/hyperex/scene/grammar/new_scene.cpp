@@ -81,7 +81,7 @@ std::string new_scene_text(const NewScene& of) {
       "\n# What if? The same muscle forces act in each variant of the scene.\n"
       "[[variant]]\n"
       "name = \"weak right zygomatic branch\"\n"
-      "muscles.gain = { zygomatic_R = 0.3 }  # 30 % of its strength\n"
+      "muscles.gain = { zygomatic_R = 0.3 }  # 30 % of its strength; one muscle: zyg_major_R\n"
       "\n# [[variant]]\n"
       "# name = \"stiff right cheek\"\n"
       "# tissue.region = [{ name = \"cheek_R\", young_factor = 5 }]\n"

@@ -9,6 +9,7 @@
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/fields.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/grammar/new_scene.hpp"
 #include "hyperex/scene/grammar/override.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
 #include "hyperex/scene/grammar/variant_names.hpp"
@@ -146,11 +147,13 @@ bool Reader::take_file() {
   if (!fs::exists(scene.file, error)) return fail(0, "an existing scene file");
   if (fs::is_directory(scene.file, error)) return fail(0, "a scene file; this is a folder");
   if (const std::string kind = other_kind(scene.file); !kind.empty())
-    return fail(
-        0, fmt::format("a scene file, which names a scan and a recording; this is a {}. "
-                       "Put {} = {{ file = '{}' }} into a file that ends in .toml "
-                       "(docs/scene.md)",
-                       kind, kind == "scan" ? "scan" : "motion", scene.file.filename().string()));
+    return fail(0, fmt::format("a scene file, which names a scan and a recording; this is a {0}. "
+                               "hyperex new {1} writes one, with {2} = '{3}'",
+                               kind,
+                               kind == "scan" ? scene.file.filename().string() + " MOTION"
+                                              : "SCAN " + scene.file.filename().string(),
+                               kind == "scan" ? "scan.file" : recording_key(scene.file),
+                               scene.file.filename().string()));
   try {
     return take_text(read_file(scene.file));
   } catch (const InputError&) {

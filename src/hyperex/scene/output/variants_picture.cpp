@@ -38,14 +38,23 @@ double draw_legend(render::Canvas& canvas, double left, double right, double y,
   return at + line_px - y;
 }
 
+/// The frame in which the variants, taken together, lie farthest from base.
+std::size_t frame_that_differs_most(const std::vector<metrics::VariantComparison>& compared) {
+  std::vector<double> sum(compared.front().difference.frame_max_m.size(), 0);
+  for (const auto& one : compared)
+    for (std::size_t f = 0; f < sum.size(); ++f) sum[f] += one.difference.frame_max_m[f];
+  return std::size_t(std::max_element(sum.begin(), sum.end()) - sum.begin());
+}
+
 }  // namespace
 
 void draw_variants(const Results& base, const std::vector<metrics::VariantComparison>& compared,
                    const std::vector<VariantRun>& runs, const std::filesystem::path& file) {
   const face::FaceFrame frame = face::face_frame(base.inputs.landmarks);
   const reenact::Performance& p = base.simulation.performance;
-  const auto skin_at_peak = [&](const reenact::Performance& of) {
-    const PointsF& d = of.skin_displacement_m[std::size_t(p.peak_frame)];
+  const std::size_t shown = frame_that_differs_most(compared);
+  const auto skin_then = [&](const reenact::Performance& of) {
+    const PointsF& d = of.skin_displacement_m[shown];
     return TriMesh{frame.local_points(p.skin_rest.points + d.cast<double>()),
                    p.skin_rest.triangles};
   };
@@ -61,15 +70,17 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   top = std::max(top, 0.1);  // equal faces are of one colour, not of their noise
   const render::RenderOptions size{.width_px = 300, .height_px = 380};
   const double aspect = double(size.width_px) / size.height_px;
-  const TriMesh own = skin_at_peak(p);
+  const TriMesh own = skin_then(p);
   Points framed(Eigen::Index(base.inputs.landmarks.size()), 3);
   Eigen::Index row = 0;
   for (const auto& [name, at] : base.inputs.landmarks)
     framed.row(row++) = frame.local(at).transpose();
   render::ContactSheet sheet;
   sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
-  sheet.note = fmt::format("the face at {:.2f} s; colour: greatest distance over time from base",
-                           p.frame_time_s[std::size_t(p.peak_frame)]);
+  sheet.note = fmt::format(
+      "the faces at {:.2f} s, where they differ most; colour: greatest distance over "
+      "time from base",
+      p.frame_time_s[shown]);
   sheet.columns = int(runs.size()) + 1;
   sheet.bar = render::ColourBar{{0, top}, "distance (mm)", capped};
   Vec3 oblique = render::three_quarter_view();  // sees the left side
@@ -81,7 +92,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   const auto drawn = [&](const render::Surface& skin, const reenact::Performance& own_run,
                          const render::Camera& camera) {
     const BackingSurfaces behind(backing, frame, skin.mesh.points, base.teeth,
-                                 own_run.jaw_now_from_rest[std::size_t(p.peak_frame)]);
+                                 own_run.jaw_now_from_rest[shown]);
     return render::render(behind.with(skin), camera, size);
   };
   std::array<render::Camera, 2> cameras;
@@ -98,7 +109,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
       return;
     }
     const std::size_t i = at % columns - 1;
-    const TriMesh skin = skin_at_peak(runs[i].simulation.performance);
+    const TriMesh skin = skin_then(runs[i].simulation.performance);
     const render::Surface surface{.mesh = skin,
                                   .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
                                   .range = {0, top}};

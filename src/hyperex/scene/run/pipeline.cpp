@@ -339,6 +339,7 @@ Json run_into(Scene scene, const std::filesystem::path& directory) {
   if (!variants.empty()) {
     warn(idle_variants(summary["variants"]["table"]), results);
     warn(lips_that_pass(variants, simulation.report.lip_overlap_mm), results);
+    warn(gains_hardly_known(simulation.performance.muscles, variants), results);
   }
   seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();

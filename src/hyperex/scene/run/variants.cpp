@@ -115,6 +115,34 @@ std::vector<std::string> lips_that_pass(const std::vector<VariantRun>& runs, dou
   return notes;
 }
 
+std::vector<std::string> gains_hardly_known(const reenact::MuscleCourse& base,
+                                            const std::vector<VariantRun>& runs) {
+  std::vector<std::string> notes;
+  for (const VariantRun& run : runs) {
+    const reenact::MuscleCourse& own = run.simulation.performance.muscles;
+    if (own.names != base.names || own.activation.cols() != base.activation.cols()) continue;
+    bool known = false;
+    Eigen::Index most = -1, when = 0;
+    for (Eigen::Index m = 0; m < base.activation.rows(); ++m) {
+      if (own.activation.row(m) == base.activation.row(m)) continue;
+      Eigen::Index at = 0;
+      const double greatest = base.activation.row(m).cwiseAbs().maxCoeff(&at);
+      known = known || greatest > base.sigma(m, at);
+      if (most < 0 || greatest > std::abs(base.activation(most, when))) most = m, when = at;
+    }
+    if (most >= 0 && !known)
+      notes.push_back(
+          fmt::format("variant {}: in this recording {} is active by at most {:.2f} +- {:.2f} (1 "
+                      "sigma), less than "
+                      "its uncertainty, so that what its strength changes is hardly known; a "
+                      "recording that uses it "
+                      "more, such as a broad smile, or the whole branch of the nerve tells more",
+                      run.scene.title, base.names[std::size_t(most)], base.activation(most, when),
+                      base.sigma(most, when)));
+  }
+  return notes;
+}
+
 namespace {
 
 struct Compared {

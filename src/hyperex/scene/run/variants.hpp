@@ -25,6 +25,11 @@ void simulate_variants(std::vector<VariantRun>& runs, const reenact::Simulator& 
 inline constexpr double kLipsPass_mm = 0.5;
 std::vector<std::string> lips_that_pass(const std::vector<VariantRun>& runs, double base_mm);
 
+/// A note for each variant that changes the strength of muscles none of which the recording uses by
+/// more than its own uncertainty (1 sigma): what such a variant changes is hardly known.
+std::vector<std::string> gains_hardly_known(const reenact::MuscleCourse& base,
+                                            const std::vector<VariantRun>& runs);
+
 /// Rows of base and its variants as "table" of "variants" in summary.json has them, without what is
 /// known only of written files: millimetres of the corners, what differs from base.
 nlohmann::ordered_json variant_table(const Results& base, const std::vector<VariantRun>& runs);

@@ -46,14 +46,27 @@ function headline(corners: Corners): HTMLElement {
   return line;
 }
 
-/** "0.8 mm less than base" of the side that changes more; empty where neither does. */
-function againstBase(own: Corners, base: Corners): string {
+/** "up to 3.7 mm from base at 1.93 s" of the side that lies farther: what greatest excursions may hide. */
+function onTheWay(row: VariantRow | undefined, changeMm: number): string {
+  const sides = (['L', 'R'] as const).map((side) => ({
+    side, mm: row?.[`commissure_${side}_from_base_mm`], s: row?.[`commissure_${side}_from_base_s`],
+  })).sort((a, b) => (Number(b.mm) || 0) - (Number(a.mm) || 0));
+  const [{ side, mm: far, s }] = sides;
+  if (!isNumber(far) || !isNumber(s) || far < 0.3 || far < 1.5 * Math.abs(changeMm)) return '';
+  return `${side === 'L' ? 'left' : 'right'} corner up to ${mm(far)} from base at ${s.toFixed(2)} s`;
+}
+
+/** "0.8 mm less than base (± 0.2 mm)" of the side that changes more; empty where neither does. */
+function againstBase(own: Corners, base: Corners, row: VariantRow | undefined): string {
   const change = { left: own.leftMm - base.leftMm, right: own.rightMm - base.rightMm };
   const side = Math.abs(change.left) > Math.abs(change.right) ? 'left' : 'right';
   const by = change[side];
-  if (Math.abs(by) < sameMm) return '';
+  const path = onTheWay(row, by);
+  if (Math.abs(by) < sameMm) return path && `greatest excursions as in base; ${path}`;
+  const band = row?.[side === 'left' ? 'commissure_L_band_mm' : 'commissure_R_band_mm'];
+  const width = isNumber(band) ? ` (± ${mm(band)})` : '';
   const goes = side === 'left' ? own.leftMm : own.rightMm;
-  return `${side} corner ${mm(goes)}, ${mm(Math.abs(by))} ${by < 0 ? 'less' : 'more'} than base`;
+  return `${side} corner ${mm(goes)}, ${mm(Math.abs(by))} ${by < 0 ? 'less' : 'more'} than base${width}${path && `; ${path}`}`;
 }
 
 /** Where the tissue shows when the corners are driven. */
@@ -67,11 +80,12 @@ function variantLines(replay: Replay, shown: Shown, base: Corners): HTMLElement 
   const variants = variantsOf(replay);
   if (!variants) return null;
   const all = replay.faces.map((_, i) => (i === 0 ? base : cornersOf(replay, i)));
-  const words = all.map((own, i) => (own && i > 0 ? againstBase(own, base) : ''));
+  const rowOf = (name: string) => variants.table.find((r) => r.name === name);
+  const words = all.map((own, i) => (own && i > 0 ? againstBase(own, base, rowOf(replay.faces[i].name)) : ''));
   const list = element('ul', '', 'variant-lines');
   replay.faces.forEach(({ name }, i) => {
     if (i === 0) return;
-    const row = variants.table.find((r) => r.name === name);
+    const row = rowOf(name);
     const item = element('li');
     const face = button('', 'face-name', () => chooseFace(shown, i));
     const dot = element('i');
