@@ -240,7 +240,8 @@ TEST_F(Outputs, WhatIsWrongIsSaidInWordsOfTheUsers) {
 }
 
 TEST_F(Outputs, WhatIsNoCommandOrSceneIsToldAsSuch) {
-  expect_refused("animate scene.toml", "\"animate\": expected a subcommand (new, sample, run, check, ");
+  expect_refused("animate scene.toml",
+                 "\"animate\": expected a subcommand (new, sample, run, check, ");
   expect_refused("simmetry motion.csv", "did you mean symmetry?");
   expect_refused("run face.ply --out out",
                  "this is a scan. hyperex new face.ply MOTION writes one");
