@@ -198,11 +198,9 @@ void OpenFace::expect_variant() {
       scene_.file);
   scene::Scene base = next;
   base.drive.by = scene::drive_choice(next, inputs_).by;
-  scene::Inputs& inputs = inputs_;
-  std::vector<std::string> before =
-      std::exchange(inputs.driven, scene::driven_points(base, inputs.motion.motion));
+  scene::Inputs inputs = inputs_;
+  inputs.driven = scene::driven_points(base, inputs.motion.motion);
   reenact::SimulationOptions options = options_of(base, inputs, field_);
-  inputs.driven = std::move(before);
   if (!(options == simulator_->options())) {
     next_base_ = *simulator_;
     next_base_->set_options(std::move(options));

@@ -342,6 +342,7 @@ void Session::make_face(const std::string& text, const fs::path& file) {
   scan_.reset();
   moved_.clear();
   face_sent_ = false;
+  variant_due_ = true;  // not again after each change of base, which more of them follow
   for (const std::string& warning : face_->warnings()) say("warning", warning);
 }
 
@@ -691,7 +692,6 @@ void Session::work(const std::function<bool()>& cancelled) {
   try {
     face_->run(callbacks);
     motion_due_ = false;
-    variant_due_ = true;
     bands_due_ = options_.bands && !face_->bands_known();
     send_motion(watch);
   } catch (const reenact::Cancelled&) {

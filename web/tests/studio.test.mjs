@@ -78,7 +78,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.ok(!(await page.locator('.no-band').count()));
 
     const [picture] = await Promise.all([page.waitForEvent('download'), page.click('#save-picture')]);
-    assert.match(picture.suggestedFilename(), /right-side-30-weaker.*\.png$/);
+    assert.match(picture.suggestedFilename(), /^a-smile-base-right-side-30-weaker.*\.png$/);
     assert.deepEqual([...(await readFile(await picture.path())).subarray(1, 4)].map((c) => String.fromCharCode(c)).join(''), 'PNG');
 
     // As a video: the motion once from its start.

@@ -2,7 +2,8 @@
 // A chart to take along: its values as CSV, and a picture of it with title and legend.
 import uPlot from 'uplot';
 import { chartOptions, lineOf, type Chart } from './chart_options';
-import { csvFile } from '../page/save';
+import { linesOf } from '../page/lines';
+import { csvFile, subject } from '../page/save';
 import { theme } from '../page/theme';
 
 /** A row a time; values are whole, not rounded as in the legend. */
@@ -33,17 +34,6 @@ function plotOf(chart: Chart, window: [number, number] | null): Promise<uPlot> {
 }
 
 const letters = (px: number, weight = '') => `${weight} ${px * scale}px system-ui, sans-serif`.trim();
-
-/** Breaks a text at blanks to lines of at most `most` pixels. */
-function linesOf(pen: CanvasRenderingContext2D, text: string, most: number): string[] {
-  const lines: string[] = [];
-  for (const word of text.split(' ')) {
-    const longer = lines.length > 0 ? `${lines[lines.length - 1]} ${word}` : word;
-    if (lines.length > 0 && pen.measureText(longer).width <= most) lines[lines.length - 1] = longer;
-    else lines.push(word);
-  }
-  return lines;
-}
 
 interface Entry {
   label: string;
@@ -86,7 +76,7 @@ export async function pictureOf(chart: Chart, window: [number, number] | null): 
   const canvas = document.createElement('canvas');
   const pen = canvas.getContext('2d')!;
   pen.font = letters(15, '600');
-  const title = linesOf(pen, `${document.title}: ${chart.title}`, width - 2 * margin);
+  const title = linesOf(pen, `${subject()}: ${chart.title}`, width - 2 * margin);
   pen.font = letters(12);
   const caption = chart.caption ? linesOf(pen, chart.caption, width - 2 * margin) : [];
   const entries = legendOf(pen, chart);

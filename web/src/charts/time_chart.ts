@@ -6,7 +6,7 @@ import './charts.css';
 import { csvOf, pictureOf } from './chart_export';
 import { chartOptions, type Chart } from './chart_options';
 import { button, element } from '../page/dom';
-import { fileName, save, saveButton } from '../page/save';
+import { fileName, save, saveButton, subject } from '../page/save';
 
 /** One chart in its card. Made anew when its curves or the colours of the page change. */
 export class TimeChart {
@@ -154,7 +154,7 @@ export class TimeChart {
     const tools = element('span', '', 'plot-tools');
     const add = (name: string, says: string, press: () => void) =>
       tools.append(saveButton(name, says, this.chart.title, press));
-    const file = (ending: string) => fileName(document.title, this.chart.title, ending);
+    const file = (ending: string) => fileName(subject(), this.chart.title, ending);
     add('CSV', 'Save the plotted values', () => save(csvOf(this.plotted), file('csv')));
     add('PNG', 'Save the plot as a picture', () => {
       void pictureOf(this.plotted, this.window).then((picture) => save(picture, file('png')));

@@ -2,6 +2,9 @@
 // Hands files that the page makes to the reader.
 import { button } from './dom';
 
+/** What the page shows, as pictures and files are called: its title, or what it is to be called in their place. */
+export const subject = (): string => document.documentElement.dataset.subject ?? document.title;
+
 /** "Smile, left", "Point tracks", "csv" is "smile-left-point-tracks.csv". */
 export function fileName(...parts: string[]): string {
   const ending = parts.pop()!;

@@ -81,6 +81,8 @@ class Studio {
       state.setScene(told as unknown as SceneNow);
       const { title, can_undo, can_redo, saved } = state.scene!;
       at('scene-title').textContent = title;
+      // Pictures and files are of the scene, not of the program.
+      document.documentElement.dataset.subject = title || words.title;
       document.title = title ? `${title} – ${words.title}` : words.title;
       at<HTMLButtonElement>('undo').disabled = !can_undo;
       at<HTMLButtonElement>('redo').disabled = !can_redo;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The view as a video: the motion once from its start, or what is live until it is ended. WebM, made by the browser.
 import { at } from '../page/dom';
-import { fileName, save } from '../page/save';
+import { fileName, save, subject } from '../page/save';
 import type { FaceViewer } from '../replay/face/viewer';
 import { theme } from '../page/theme';
 import { faceHue } from '../page/face_colour';
@@ -46,7 +46,7 @@ export class ViewVideo {
     recorder.onstop = () => {
       const { faces } = this.state.source.replay;
       const named = faces.length > 1 ? this.state.shown.visible.flatMap((i) => faces[i]?.name ?? []) : [];
-      save(new Blob(parts, { type: 'video/webm' }), fileName(document.title, ...named, 'webm'));
+      save(new Blob(parts, { type: 'video/webm' }), fileName(subject(), ...named, 'webm'));
     };
     const { playback } = this.state;
     const { loop } = playback;

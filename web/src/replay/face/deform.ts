@@ -91,8 +91,9 @@ export class FaceShape {
     this.normal = new Float32Array(replay.points.length);
   }
 
-  /** `live`: displacements that stand for those of the motion; null: the motion's own. */
-  moveTo(frame: number, live: Float32Array | null = null): void {
+  /** `live`: displacements that stand for those of the motion; null: the motion's own. `triangles`: that normals are
+   *  found from, where fewer are drawn. */
+  moveTo(frame: number, live: Float32Array | null = null, triangles: ArrayLike<number> = this.replay.triangles): void {
     const { displacement, position } = this;
     const { points } = this.replay;
     if (live) {
@@ -102,13 +103,12 @@ export class FaceShape {
       displace(this.replay, this.scene, this.face, frame, displacement);
     }
     for (let i = 0; i < position.length; ++i) position[i] = points[i] + displacement[i];
-    this.updateNormals();
+    this.updateNormals(triangles);
   }
 
   /** Area-weighted, not divided by their length: the vertex shader normalises. */
-  private updateNormals(): void {
+  private updateNormals(t: ArrayLike<number>): void {
     const { position: p, normal: n } = this;
-    const t = this.replay.triangles;
     n.fill(0);
     for (let i = 0; i < t.length; i += 3) {
       const a = 3 * t[i];

@@ -77,6 +77,8 @@ export class FaceBody {
   private readonly visible = new Set<OverlayName>();
   private lit: Overlay | null = null;
   private detail: LevelOfDetail | null = null;
+  private fewOfSkin: ArrayLike<number> | undefined;
+  private normalsOf: ArrayLike<number> | undefined;
 
   constructor(private readonly replay: Replay, scene: SceneMotion, face: Face, private readonly materials: FaceMaterials) {
     this.shape = new FaceShape(replay, scene, face);
@@ -117,14 +119,24 @@ export class FaceBody {
     if (!on && !this.detail) return;
     this.detail ??= this.levels();
     this.detail.use(on);
+    this.normalsOf = on ? this.fewOfSkin : undefined;
+  }
+
+  /** Whether normals of a picture in motion are of fewer triangles than those of one at rest. */
+  get coarsens(): boolean {
+    return this.fewOfSkin !== undefined;
   }
 
   private levels(): LevelOfDetail {
     const levels = new LevelOfDetail();
-    if (this.mesh.geometry.getIndex()!.count > 3 * manyTriangles) levels.add(this.mesh, 1);
+    const { split } = this;
+    if (this.mesh.geometry.getIndex()!.count > 3 * manyTriangles) {
+      const few = levels.add(this.mesh, 1);
+      this.fewOfSkin = split ? Uint32Array.from(few, (i) => split[i]) : few;
+    }
     for (const { object } of [this.backing, this.teeth])
       object.traverse((one) => {
-        if (one instanceof Mesh) levels.add(one as Mesh, 2);
+        if (one instanceof Mesh && one.geometry.getIndex()) levels.add(one as Mesh, 2);
       });
     return levels;
   }
@@ -136,7 +148,7 @@ export class FaceBody {
   /** `live`: displacements that stand for those of the motion. */
   moveTo(face: Face, frame: number, live: Float32Array | null = null): void {
     this.shape.face = face;
-    this.shape.moveTo(frame, live);
+    this.shape.moveTo(frame, live, this.normalsOf);
     this.copyOut(this.shape.position, this.position);
     this.copyOut(this.shape.normal, this.normal);
     this.backing.follow(this.shape.position);

@@ -56,11 +56,9 @@ export function coarser(triangles: Triangles, count: number): Uint32Array<ArrayB
 export class LevelOfDetail {
   private readonly meshes: { geometry: BufferGeometry; all: number; few: number }[] = [];
 
-  /** Each pass leaves about a quarter. */
-  add({ geometry }: Mesh, passes: number): void {
-    const index = geometry.getIndex();
-    if (!index) return;
-    const all = index.array;
+  /** Each pass leaves about a quarter. Returns those that are left. */
+  add({ geometry }: Mesh, passes: number): ArrayLike<number> {
+    const all = geometry.getIndex()!.array;
     let few: Triangles = all;
     for (let pass = 0; pass < passes; ++pass) few = coarser(few, geometry.getAttribute('position').count);
     // One behind the other in one buffer: changing over costs nothing.
@@ -70,6 +68,7 @@ export class LevelOfDetail {
     geometry.setIndex(new BufferAttribute(both, 1));
     geometry.setDrawRange(0, all.length);
     this.meshes.push({ geometry, all: all.length, few: few.length });
+    return few;
   }
 
   use(few: boolean): void {

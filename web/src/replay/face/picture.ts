@@ -3,6 +3,7 @@
 // page's own background.
 import { rampStops } from './colour';
 import { ticksOf, type Scale } from './colouring';
+import { linesOf } from '../../page/lines';
 
 export interface PictureParts {
   /** The faces as drawn, `scale` times the size of the stage. */
@@ -11,7 +12,7 @@ export interface PictureParts {
   title: string;
   time: string;
   /** One or two faces, left one first. */
-  faces: { name: string; changes: string; colour: string }[];
+  faces: { name: string; changes: string[]; colour: string }[];
   /** Where two faces are divided, from 0 to 1. */
   divided: number | null;
   colours: Scale | null;
@@ -21,6 +22,8 @@ const margin = 18;
 const headHeight = 58;
 const footHeight = 76;
 const remarkHeight = 16;
+/** Of what a face changes; the face is below. */
+const mostLines = 4;
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
 /** A pen that counts in the page's pixels. */
@@ -90,18 +93,19 @@ function drawName(pen: Pen, face: PictureParts['faces'][number], x: number, most
   const y = headHeight + 12;
   const small = most < 220; // no room for what differs
   const px = small ? 12 : 14;
-  const changes = small ? '' : face.changes;
   on.font = `600 ${px}px ${family}`;
   const nameWidth = on.measureText(face.name).width + 19;
   on.font = `400 12px ${family}`;
-  const inner = Math.min(Math.max(nameWidth, on.measureText(changes).width), most - 20);
+  const lines = small ? [] : face.changes.flatMap((text) => linesOf(on, text, most - 20));
+  if (lines.length > mostLines) lines.splice(mostLines - 1, Infinity, `${lines[mostLines - 1]} …`);
+  const inner = Math.min(Math.max(nameWidth, ...lines.map((line) => on.measureText(line).width)), most - 20);
   const left = right ? x + most - inner - 20 : x;
   on.globalAlpha = 0.85;
-  pen.fill(pen.colour('--card'), left, y, inner + 20, changes ? 46 : 29, 8);
+  pen.fill(pen.colour('--card'), left, y, inner + 20, lines.length > 0 ? 30 + 16 * lines.length : 29, 8);
   on.globalAlpha = 1;
   pen.fill(face.colour, left + 10, y + 9, 11, 11, 5.5);
   pen.text(face.name, left + 29, y + 15, px, pen.colour('--ink'), { weight: 600, most: inner - 18 });
-  if (changes) pen.text(changes, left + 10, y + 34, 12, pen.colour('--ink-soft'), { most: inner + 1 });
+  lines.forEach((line, i) => pen.text(line, left + 10, y + 34 + 16 * i, 12, pen.colour('--ink-soft'), { most: inner + 1 }));
 }
 
 function drawScale(pen: Pen, scale: Scale, top: number): void {

@@ -12,7 +12,7 @@ import type { Key } from '../keys';
 import { cornerFigures } from '../corners';
 import { drawPicture, pngOf } from './picture';
 import type { Playback } from '../playback';
-import { fileName, save } from '../../page/save';
+import { fileName, save, subject } from '../../page/save';
 import type { Shown } from '../shown';
 import { theme } from '../../page/theme';
 import { Readout } from './readout';
@@ -259,17 +259,17 @@ export class Stage {
     const picture = drawPicture({
       stage: this.viewer!.snapshot(pictureScale),
       scale: pictureScale,
-      title: document.title,
+      title: subject(),
       time: `${timeS.toFixed(3)} s`,
       faces: named.map((i) => ({
         name: faceWords(replay.faces, i),
-        changes: [cornerFigures(replay, i), ...changesOf(replay, i)].filter((text) => text).join(', '),
+        changes: [cornerFigures(replay, i), changesOf(replay, i).join(', ')].filter((text) => text),
         colour: palette[faceHue(i)],
       })),
       divided: shown.mode === 'single' ? null : shown.mode === 'wipe' ? wipe!.at : 0.5,
       colours: this.painting.scale,
     });
     const faces = named.map((i) => replay.faces[i].name);
-    save(await pngOf(picture), fileName(document.title, ...faces, `${timeS.toFixed(3)} s`, 'png'));
+    save(await pngOf(picture), fileName(subject(), ...faces, `${timeS.toFixed(3)} s`, 'png'));
   }
 }

@@ -62,6 +62,7 @@ export class FaceViewer {
   /** Everything but what is live is as it was drawn. */
   private whole = false;
   private liveStale = false; // the live shape alone is to be taken
+  private coarse = false; // as it was drawn
   private disposed = false;
   /** Then pictures in motion are drawn with as few pixels as do, and those at rest once more with all. */
   private readonly software = drawsInSoftware();
@@ -458,6 +459,10 @@ export class FaceViewer {
   private draw(coarse = false): void {
     const passes = this.passes();
     const bodies = passes.map(({ body }) => body);
+    for (const body of bodies) body.coarse = coarse;
+    // Their normals are those of the picture before.
+    this.stale ||= this.coarse !== coarse && bodies.some((body) => body.coarsens);
+    this.coarse = coarse;
     if (this.stale || this.liveStale) {
       this.stale = this.liveStale = false;
       const { faces } = this.replay;
@@ -468,7 +473,7 @@ export class FaceViewer {
     }
     this.renderer.setScissorTest(false);
     this.renderer.clear();
-    for (const pass of passes) this.drawPass(pass, coarse);
+    for (const pass of passes) this.drawPass(pass);
     this.whole = true;
     this.drawn.tell();
   }
@@ -481,18 +486,18 @@ export class FaceViewer {
     if (at < 0 || at !== shown.visible.lastIndexOf(live.face)) return false;
     const pass = this.passes()[at];
     this.liveStale = false;
+    pass.body.coarse = true;
     pass.body.moveTo(this.replay.faces[live.face], this.frame, live.displacement);
     pass.body.paint(painting, null);
-    this.drawPass(pass, true, true);
+    this.drawPass(pass, true);
     this.drawn.tell();
     return true;
   }
 
-  private drawPass({ body, x, width, from, to }: Pass, coarse: boolean, clear = false): void {
+  private drawPass({ body, x, width, from, to }: Pass, clear = false): void {
     if (to <= from) return;
     const height = this.host.clientHeight;
     for (const other of this.bodies) other.object.visible = other === body;
-    body.coarse = coarse;
     this.renderer.setScissorTest(true);
     this.renderer.setViewport(x, 0, width, height);
     this.renderer.setScissor(from, 0, to - from, height);

@@ -3,7 +3,7 @@
 import './tables.css';
 import { element } from '../../page/dom';
 import { signed } from '../../page/format';
-import { csvFile, fileName, save, saveButton } from '../../page/save';
+import { csvFile, fileName, save, saveButton, subject } from '../../page/save';
 
 export interface Column {
   key: string;
@@ -66,7 +66,7 @@ export function figureCard(
   body.open = roomy();
   const head = element('summary');
   const tools = element('span', '', 'table-tools');
-  const saveTable = () => save(csvFile(rows()), fileName(document.title, title, 'csv'));
+  const saveTable = () => save(csvFile(rows()), fileName(subject(), title, 'csv'));
   tools.append(saveButton('CSV', 'Save the table, figures not rounded', title, saveTable));
   head.append(element('h2', title));
   body.append(head, ...lines.map((line) => element('p', line)));
