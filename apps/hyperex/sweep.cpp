@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 #include "hyperex/core/interrupt.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/scene/grammar/override.hpp"
+#include "hyperex/scene/grammar/scene.hpp"
 #include "hyperex/study/run_cases.hpp"
 #include "hyperex/study/scheduler_scripts.hpp"
 #include "hyperex/study/study_folder.hpp"
@@ -145,12 +148,28 @@ void print_end(const study::Study& study, const std::vector<State>& states, std:
       study.out.string(), "study.csv", "cases/", "logs/");
 }
 
+/// Driven points follow the recording in every case, whatever its tissue: a flat line that may be
+/// taken for a finding.
+void warn_of_own_forces(const study::Study& study) {
+  const study::Case& first = study.cases.front();
+  const bool tissue = std::any_of(first.cells.begin(), first.cells.end(), [](const auto& cell) {
+    return cell.first.rfind("tissue", 0) == 0 || cell.first.rfind("support.", 0) == 0;
+  });
+  if (tissue && scene::read_scene_with(study.scene, first.overrides).variants.empty())
+    spdlog::warn(
+        "each case is a run of its own, in which the driven points follow the recording whatever "
+        "the "
+        "tissue; to see what the same forces do in other tissue, give the scene variants "
+        "(docs/studies.md)");
+}
+
 void run(const Options& options, const study::Study& study,
          const std::vector<study::PlannedCase>& planned) {
   study::check_study_folder(study.out);
   const std::vector<std::size_t> cases = to_run(study, planned, options.one);
   const std::size_t before = (options.one.empty() ? planned.size() : 1) - cases.size();
   check(study, cases);
+  if (options.one.empty()) warn_of_own_forces(study);
   study::make_study_folder(study.out);
   const bool all = options.one.empty();
   std::vector<State> states;

@@ -53,6 +53,7 @@ TEST_F(Sweep, RunsEachCaseOnceAndMakesATable) {
   ASSERT_EQ(first.status, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("2 cases: 2 finished, 0 failed, 0 not run\n"));
   EXPECT_THAT(first.err, HasSubstr("finished  viscosity_pa_s=5000 ("));
+  EXPECT_THAT(first.err, HasSubstr("the driven points follow the recording whatever the tissue"));
   EXPECT_THAT(column("tissue.viscosity_pa_s"), ElementsAre("0", "5000"));
   EXPECT_THAT(column("state"), ElementsAre("finished", "finished"));
   // The measures are those of a run with the same override.
