@@ -77,13 +77,6 @@ void add_coordinate(const io::CsvTable& table, Columns& columns, int column) {
              std::string("xyz").find(char(std::tolower(name.back()))) != std::string::npos) {
     axis = std::tolower(name.back()) - 'x';
     name.resize(name.size() - 2);
-  } else if (lower(name).rfind("mouthsmile", 0) == 0 || lower(name) == "jawopen" ||
-             lower(name) == "eyeblinkleft" || lower(name) == "au12_r") {
-    throw InputError(
-        {table.file, 1, "column", io::quotable(header),
-         std::string("points over time; these are weights of expressions, which a scene "
-                     "names as motion.") +
-             (lower(name) == "au12_r" ? "openface" : "arkit")});
   } else {
     throw InputError({table.file, 1, "column", io::quotable(header),
                       "time_s, x0, y0, z0, x1 ..., or NAME_x, NAME_y, NAME_z with an optional "
@@ -111,7 +104,7 @@ void refuse_other_tables(const io::CsvTable& table) {
     throw OptionError(table.file,
                       "a table of action units by OpenFace, not of points: expected it as ",
                       "openface", "");
-  if (has("jawopen"))
+  if (has("jawopen") || has("mouthsmileleft"))
     throw OptionError(table.file, "a table of ARKit's blend shapes, not of points: expected it as ",
                       "arkit", "");
 }

@@ -63,6 +63,8 @@ TEST(OptionError, OfATableOfExpressionsSaysWhichItIs) {
   const auto file = std::filesystem::path(testing::TempDir()) / "expressions.csv";
   std::ofstream(file) << "time_s,jawOpen,mouthSmileLeft\n0,0,0\n";
   EXPECT_EQ(thrown_by([&] { read_motion(file); }).option(), "arkit");
+  std::ofstream(file) << "time_s,mouthSmileLeft,mouthSmileRight\n0,0,0\n";  // no jaw among them
+  EXPECT_EQ(thrown_by([&] { read_motion(file); }).option(), "arkit");
   std::ofstream(file) << "Timecode,BlendShapeCount,EyeBlinkLeft\n16:07:12:05.613,61,0\n";
   EXPECT_EQ(thrown_by([&] { read_motion(file); }).option(), "arkit");
   std::ofstream(file) << "frame,timestamp,AU12_r,AU26_r\n1,0,0,0\n";
