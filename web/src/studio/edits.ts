@@ -42,30 +42,23 @@ export class Edits {
   }
 
   /** Let go. */
-  async commit(changes: Values): Promise<void> {
-    this.draft(changes);
-    this.waiting = null;
-    ++this.turn;
-    this.problem('');
-    try {
-      const face = await this.face();
-      await this.send(face, changes, false);
-    } catch (error) {
-      this.tell(error);
-    } finally {
-      this.target = null;
-    }
+  commit(changes: Values): Promise<void> {
+    return this.apply(changes, false);
   }
 
   /** A whole step at once: the frame shown follows first, then the motion. */
-  async step(changes: Values): Promise<void> {
+  step(changes: Values): Promise<void> {
+    return this.apply(changes, true);
+  }
+
+  private async apply(changes: Values, frameFirst: boolean): Promise<void> {
     this.draft(changes);
     this.waiting = null;
     ++this.turn;
     this.problem('');
     try {
       const face = await this.face();
-      await this.send(face, changes, true).catch(() => {}); // what is wrong the change itself tells
+      if (frameFirst) await this.send(face, changes, true).catch(() => {}); // what is wrong the change itself tells
       await this.send(face, changes, false);
     } catch (error) {
       this.tell(error);
