@@ -5,31 +5,18 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
-#include <cmath>
 
-#include "hyperex/capture/mirrored.hpp"
-#include "hyperex/capture/open_source.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
-#include "hyperex/core/stopwatch.hpp"
 #include "hyperex/face/canonical_face.hpp"
-#include "hyperex/face/same_place.hpp"
 #include "hyperex/io/landmarks.hpp"
-#include "hyperex/motion/read_motion.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
 #include "hyperex/scene/grammar/new_scene.hpp"
 #include "hyperex/scene/grammar/scene_text.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
-#include "hyperex/scene/grammar/variant_names.hpp"
-#include "hyperex/scene/grammar/variant_presets.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
 #include "hyperex/scene/stages/drive_choice.hpp"
-#include "hyperex/tissue/field/presets.hpp"
-#include "hyperex/tissue/field/regions.hpp"
-#include "hyperex/tissue/landmark_doubts.hpp"
-#include "painting.hpp"
 #include "scene_files.hpp"
 #include "server.hpp"
 #include "shape_message.hpp"
@@ -42,85 +29,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostSteps = 500;
-
-const char* kind_name(scene::Kind kind) {
-  using enum scene::Kind;
-  switch (kind) {
-    case flag:
-      return "flag";
-    case integer:
-      return "integer";
-    case number:
-      return "number";
-    case numbers:
-      return "numbers";
-    case text:
-      return "text";
-    case choice:
-      return "choice";
-    case path:
-      return "path";
-    case names:
-      return "names";
-    case places:
-      return "places";
-    case factors:
-      return "factors";
-    case rows:
-      return "rows";
-  }
-  return "";
-}
-
-json keys_json() {
-  const scene::Scene defaults;
-  json out = json::array();
-  for (const scene::Key& key : scene::keys()) {
-    json one = {{"name", key.name},
-                {"kind", kind_name(key.kind)},
-                {"unit", key.unit},
-                {"choices", key.choices},
-                {"description", key.description},
-                {"default", key.get ? key.get(defaults) : json()}};
-    if (key.range.low < key.range.high) {
-      one["low"] = key.range.low;
-      one["high"] = key.range.high;
-      one["above_low"] = key.range.above_low;
-      one["or_zero"] = key.range.or_zero;
-    }
-    out.push_back(std::move(one));
-  }
-  return out;
-}
-
-json presets_json() {
-  json out = json::array();
-  for (const scene::VariantPreset& preset : scene::variant_presets())
-    out.push_back({{"name", preset.name},
-                   {"summary", preset.summary},
-                   {"source", preset.source},
-                   {"assumed", preset.assumed},
-                   {"changes", preset.changes}});
-  return out;
-}
-
-json tissues_json() {
-  json out = json::array();
-  for (const tissue::TissuePreset& preset : tissue::tissue_presets())
-    if (const auto& factor = preset.factor[tissue::young])
-      out.push_back({{"name", preset.name},
-                     {"summary", preset.summary},
-                     {"source", preset.source},
-                     {"young_factor", *factor}});
-  return out;
-}
-
-json regions_json() {
-  json out = json::array();
-  for (const tissue::FacialRegion& region : tissue::facial_regions())
-    out.push_back({{"name", region.name}, {"meaning", region.meaning}});
-  return out;
-}
 
 json muscles_json(const muscles::MuscleTable& table) {
   json out = json::array();
@@ -144,35 +52,6 @@ std::string without_folder(std::string text, const fs::path& folder) {
   for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at))
     text.erase(at, path.size());
   return text;
-}
-
-/// A name for a face, in words for whoever gave it; `others`: all variants but the one that it is
-/// for.
-void check_face_name(const std::string& name, const std::vector<json>& others) {
-  if (!scene::is_variant_name(name))
-    throw InputError(
-        "a face's name: expected letters a to z and digits, spaces and any of -_.,;:+=%&'()[]");
-  if (name == "base")
-    throw InputError("a face's name: expected another; \"base\" is the scene itself");
-  for (const json& other : others)
-    if (other.is_object() && other.value("name", "") == name)
-      throw InputError(fmt::format("another face is called \"{}\": expected another name", name));
-}
-
-/// What a session left behind, and when.
-json rescued_json(const fs::path& folder) {
-  const fs::path file = folder / "scene.toml";
-  std::error_code error;
-  if (folder.empty() || !fs::exists(file, error)) return nullptr;
-  std::string title;
-  try {
-    title = scene::parse_toml(read_file(file)).root.value("title", "");
-  } catch (const std::exception&) {
-    // Opening it will say what is wrong.
-  }
-  const auto age = fs::file_time_type::clock::now() - fs::last_write_time(file, error);
-  return {{"title", title},
-          {"seconds_ago", std::chrono::duration<double>(error ? age.zero() : age).count()}};
 }
 
 bool is_zip(const fs::path& file) {
@@ -248,25 +127,6 @@ void Session::answer(const Request& request) {
   send_(out.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
   if (name == "hello" && face_) send_scene();
   if (name == "hello" && live_) live_->tell();
-}
-
-json Session::hello() {
-  face_sent_ = false;
-  motion_due_ = face_ != nullptr;
-  // A slider that was held when the page went is let go.
-  if (face_ && face_->text() != now_.text) apply(now_.text);
-  return {{"program", options_.program},
-          {"keys", keys_json()},
-          {"presets", presets_json()},
-          {"tissues", tissues_json()},
-          {"regions", regions_json()},
-          {"places",
-           {{"started", options_.started.empty() ? json() : json(options_.started.filename())},
-            {"autosave", rescued_json(options_.rescued)},
-            {"folder", options_.save_into},
-            {"save_into", options_.save_into},
-            {"device", options_.device.empty() ? json() : json(options_.device)},
-            {"open", face_ != nullptr}}}};
 }
 
 OpenFace& Session::need_face() {
@@ -431,65 +291,6 @@ json Session::set(const json& fields) {
   return {{"superseded", false}};
 }
 
-json Session::add_variant(const json& fields) {
-  std::vector<json> blocks = scene::variant_blocks(now_.text);
-  const std::size_t like = fields.at("like");
-  if (like > blocks.size()) throw InputError("like: no such face");
-  json block = like > 0 ? blocks[like - 1] : json::object();
-  check_face_name(fields.at("name"), blocks);
-  block["name"] = fields.at("name");
-  if (const std::string preset = fields.value("preset", ""); !preset.empty())
-    block["preset"] = preset;
-  if (block.size() == 1) block["motion"]["gain"] = values_of(need_face().scene())["motion.gain"];
-  blocks.push_back(block);
-  commit(scene::with_variants(now_.text, blocks));
-  return {{"face", blocks.size()}};
-}
-
-json Session::remove_variant(const json& fields) {
-  std::vector<json> blocks = scene::variant_blocks(now_.text);
-  const std::size_t face = fields.at("face");
-  if (face > blocks.size()) throw InputError("face: no such variant");
-  blocks.erase(blocks.begin() + std::ptrdiff_t(face) - 1);
-  commit(scene::with_variants(now_.text, blocks));
-  return json::object();
-}
-
-json Session::rename_variant(const json& fields) {
-  std::vector<json> blocks = scene::variant_blocks(now_.text);
-  const std::size_t face = fields.at("face");
-  if (face > blocks.size()) throw InputError("face: no such variant");
-  std::vector<json> others = blocks;
-  others.erase(others.begin() + std::ptrdiff_t(face) - 1);
-  check_face_name(fields.at("name"), others);
-  blocks[face - 1]["name"] = fields.at("name");
-  commit(scene::with_variants(now_.text, blocks));
-  return json::object();
-}
-
-json Session::paint(const json& fields) {
-  const tissue::TissueMesh& mesh = need_face().mesh();
-  return {{"file", write_painting(mesh, fields.at("vertices"), fields.at("shares"), uploads())}};
-}
-
-json Session::region_shares(const json& fields) {
-  need_face();
-  json row = fields.at("region");
-  if (!row.is_object()) throw InputError("region: expected a row of tissue.region");
-  for (const char* key : {"young_kpa", "viscosity_pa_s", "poisson", "density_kg_m3"})
-    row.erase(key);
-  row["young_factor"] = 2;  // some change; its share is asked for
-  const json rows = with_uploads("tissue.region", json::array({row}), uploads(), known_paths());
-  const Eigen::VectorXf shares =
-      face_->region_shares(scene::with_value(now_.text, "tissue.region", rows)).cast<float>();
-  report::BinaryBlock block;
-  const json head = {{"event", "shares"},
-                     {"key", fields.at("key")},
-                     {"values", block.add("float32", shares.data(), std::size_t(shares.size()))}};
-  send_(binary_message(head, block), true, "");
-  return json::object();
-}
-
 json Session::undo_or_redo(std::vector<Step>& from, std::vector<Step>& to) {
   if (from.empty()) return json::object();
   const Step step = from.back();
@@ -501,46 +302,6 @@ json Session::undo_or_redo(std::vector<Step>& from, std::vector<Step>& to) {
   saved_ = false;
   keep();
   send_scene();
-  return json::object();
-}
-
-json Session::move_landmark(const json& fields) {
-  const io::Landmarks& known = need_face().inputs().landmarks;
-  const std::string name = fields.at("name");
-  if (!known.count(name)) throw InputError(name + ": no landmark of this face");
-  const io::Scan& scan = face_->inputs().scan;
-  if (!scan_) scan_.emplace(scan.mesh);
-  std::vector<std::string> names{name};
-  if (const std::string other = face::other_name(name); known.count(other)) names.push_back(other);
-  for (const std::string& one : names) moved_.erase(one);
-  if (fields.contains("position")) {
-    const json& at = fields.at("position");
-    const bool sound =
-        at.is_array() && at.size() == 3 && std::all_of(at.begin(), at.end(), [](const json& x) {
-          return x.is_number() && std::abs(x.get<double>()) < 1e3;
-        });
-    if (!sound) throw InputError("position: expected [x, y, z] in metres");
-    const Vec3 place(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
-    for (const std::string& one : names) moved_[one] = scan_->query(place).point;
-  }
-  io::Landmarks all = known;
-  for (const auto& [one, place] : moved_) all[one] = place;
-  const Vec3 now = all.at(name);
-  if (names.size() > 1) all.erase(names[1]);  // said once, by the name that was asked for
-  return {{"position", {now.x(), now.y(), now.z()}},
-          {"warnings", tissue::landmark_doubts(all, scan.mesh)}};
-}
-
-json Session::landmarks_done() {
-  io::Landmarks all = need_face().inputs().landmarks;
-  for (const auto& [name, place] : moved_) all[name] = place;
-  // A name of its own each time: undo goes back to the one before.
-  const fs::path file = options_.folder / fmt::format("landmarks-{}.mrk.json", ++landmark_files_);
-  io::write_landmarks(file, all, face_->inputs().scan.unit);
-  std::string text = scene::with_value(now_.text, "scan.landmarks", file.string());
-  text = scene::with_value(text, "scan.landmarks_unit", nullptr);
-  commit(text);
-  moved_.clear();
   return json::object();
 }
 
@@ -592,88 +353,6 @@ json Session::save(const json& fields) {
   write_file_atomically(file, [&](std::ostream& out) { out << read_file(folder / "report.html"); });
   tell("");
   return done(file);
-}
-
-Live& Session::need_live() {
-  if (!live_) throw InputError("nothing is live: begin first");
-  return *live_;
-}
-
-void Session::end_live() {
-  std::unique_ptr<Live> gone;
-  {
-    const std::lock_guard lock(live_mutex_);
-    gone = std::move(live_);
-  }
-  if (!gone) return;
-  gone->stop();
-  gone->wait();
-  gone->tell();
-}
-
-void Session::drawn(std::int64_t frame) {
-  const std::lock_guard lock(live_mutex_);
-  if (live_) live_->drawn(frame);
-}
-
-void Session::refresh_live() {
-  if (!live_ || live_->ended()) return;
-  live_face_ = std::min(live_face_, face_->faces() - 1);
-  live_->set_options(face_->options_live(live_face_, live_points()), live_face_);
-}
-
-json Session::live_start(const json& fields) {
-  const scene::MotionOptions& motion = need_face().scene().motion;
-  const std::string what = fields.at("what");
-  const bool device = what == "device";
-  const std::string recording = motion.recording.string();
-  if (device && options_.device.empty())
-    throw InputError("no camera was named: start hyperex studio with --device");
-  if (!device && recording.empty())
-    throw InputError("motion.recording", "the scene has none that could be played");
-  end_live();
-  const std::size_t face = fields.at("face");
-  LiveSetup setup;
-  setup.mesh = face_->shared_mesh();
-  setup.landmarks = face_->inputs().landmarks;
-  setup.method = face_->scene().alignment.method;
-  setup.options = face_->options_live(face, live_points());
-  setup.face = face;
-  setup.source = capture::open_device(device ? options_.device : "play:" + recording);
-  if (device ? options_.mirrored : motion.mirrored)
-    setup.source = std::make_unique<capture::Mirrored>(std::move(setup.source));
-  for (const std::string& note : setup.source->notes()) say("note", note);
-  auto live = std::make_unique<Live>(std::move(setup), send_);
-  live_face_ = face;
-  const std::lock_guard lock(live_mutex_);
-  live_ = std::move(live);
-  return json::object();
-}
-
-json Session::live_take(const json& fields) {
-  const motion::Motion take = need_live().take(fields.at("from_s"), fields.at("to_s"));
-  // A name of its own each time: undo goes back to the one before.
-  const fs::path file = options_.folder / fmt::format("take-{}.csv", ++takes_);
-  motion::write_motion_csv(file, take);
-  std::string text = scene::with_value(now_.text, "motion.file", file.string());
-  // What belongs to the motion that was.
-  for (const char* key : {"recording", "arkit", "openface", "candide", "unit", "mirrored",
-                          "rigid_points", "rest_s", "time_scale"})
-    text = scene::with_value(text, fmt::format("motion.{}", key), nullptr);
-  text = scene::with_value(text, "time.end_s", nullptr);
-  // Where the tracker fell behind: said, and no reason to lose the take.
-  double gap_s = 0;
-  for (std::size_t k = 1; k < take.time_s.size(); ++k)
-    gap_s = std::max(gap_s, take.time_s[k] - take.time_s[k - 1]);
-  if (gap_s >= face_->scene().motion.max_gap_s) {
-    text = scene::with_value(text, "motion.max_gap_s", std::ceil(10 * gap_s + 1) / 10);
-    say("warning",
-        fmt::format("frames of the take were dropped for up to {:.1f} s: the motion between is a "
-                    "straight line",
-                    gap_s));
-  }
-  commit(text);
-  return json::object();
 }
 
 bool Session::has_work() const {

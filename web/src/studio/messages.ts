@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What protocol.json calls "json", as the server writes it (apps/studio/session.cpp).
+// What protocol.json calls "json", as the server writes it (apps/studio/session*.cpp).
 import type { Stretch } from '../page/page_data';
 import type { Vec3 } from '../replay/data';
 

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/grammar/toml_values.hpp"
+#include "hyperex/scene/grammar/variant_presets.hpp"
+#include "hyperex/tissue/field/presets.hpp"
+#include "hyperex/tissue/field/regions.hpp"
+#include "session.hpp"
+
+namespace hyperex::studio {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* kind_name(scene::Kind kind) {
+  using enum scene::Kind;
+  switch (kind) {
+    case flag:
+      return "flag";
+    case integer:
+      return "integer";
+    case number:
+      return "number";
+    case numbers:
+      return "numbers";
+    case text:
+      return "text";
+    case choice:
+      return "choice";
+    case path:
+      return "path";
+    case names:
+      return "names";
+    case places:
+      return "places";
+    case factors:
+      return "factors";
+    case rows:
+      return "rows";
+  }
+  return "";
+}
+
+json keys_json() {
+  const scene::Scene defaults;
+  json out = json::array();
+  for (const scene::Key& key : scene::keys()) {
+    json one = {{"name", key.name},
+                {"kind", kind_name(key.kind)},
+                {"unit", key.unit},
+                {"choices", key.choices},
+                {"description", key.description},
+                {"default", key.get ? key.get(defaults) : json()}};
+    if (key.range.low < key.range.high) {
+      one["low"] = key.range.low;
+      one["high"] = key.range.high;
+      one["above_low"] = key.range.above_low;
+      one["or_zero"] = key.range.or_zero;
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+json presets_json() {
+  json out = json::array();
+  for (const scene::VariantPreset& preset : scene::variant_presets())
+    out.push_back({{"name", preset.name},
+                   {"summary", preset.summary},
+                   {"source", preset.source},
+                   {"assumed", preset.assumed},
+                   {"changes", preset.changes}});
+  return out;
+}
+
+json tissues_json() {
+  json out = json::array();
+  for (const tissue::TissuePreset& preset : tissue::tissue_presets())
+    if (const auto& factor = preset.factor[tissue::young])
+      out.push_back({{"name", preset.name},
+                     {"summary", preset.summary},
+                     {"source", preset.source},
+                     {"young_factor", *factor}});
+  return out;
+}
+
+json regions_json() {
+  json out = json::array();
+  for (const tissue::FacialRegion& region : tissue::facial_regions())
+    out.push_back({{"name", region.name}, {"meaning", region.meaning}});
+  return out;
+}
+
+/// What a session left behind, and when.
+json rescued_json(const fs::path& folder) {
+  const fs::path file = folder / "scene.toml";
+  std::error_code error;
+  if (folder.empty() || !fs::exists(file, error)) return nullptr;
+  std::string title;
+  try {
+    title = scene::parse_toml(read_file(file)).root.value("title", "");
+  } catch (const std::exception&) {
+    // Opening it will say what is wrong.
+  }
+  const auto age = fs::file_time_type::clock::now() - fs::last_write_time(file, error);
+  return {{"title", title},
+          {"seconds_ago", std::chrono::duration<double>(error ? age.zero() : age).count()}};
+}
+
+}  // namespace
+
+json Session::hello() {
+  face_sent_ = false;
+  motion_due_ = face_ != nullptr;
+  // A slider that was held when the page went is let go.
+  if (face_ && face_->text() != now_.text) apply(now_.text);
+  return {{"program", options_.program},
+          {"keys", keys_json()},
+          {"presets", presets_json()},
+          {"tissues", tissues_json()},
+          {"regions", regions_json()},
+          {"places",
+           {{"started", options_.started.empty() ? json() : json(options_.started.filename())},
+            {"autosave", rescued_json(options_.rescued)},
+            {"folder", options_.save_into},
+            {"save_into", options_.save_into},
+            {"device", options_.device.empty() ? json() : json(options_.device)},
+            {"open", face_ != nullptr}}}};
+}
+
+}  // namespace hyperex::studio
