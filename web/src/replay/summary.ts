@@ -61,8 +61,8 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
     ['law', 'Law of the tissue'],
     ['solver', 'Solver'],
     ['basis_size', 'Modes of the basis'],
-    ['estimated_error', 'Estimated error of the reduced model', '(relative)'],
-    ['verified_error', 'Verified error of the reduced model', '(relative)'],
+    ['estimated_error', 'Estimated error', 'of the largest displacement'],
+    ['verified_error', 'Error against the full model', 'of the largest displacement'],
     ['steps', 'Steps'],
     ['dt_s', 'Step', 's'],
     ['seconds.total', 'Computing time', 's'],
@@ -171,7 +171,8 @@ export function fillNotes(notes: string[], warnings: unknown, into: HTMLElement)
   for (const note of all) {
     const item = element('li', '', first.includes(note) ? 'warning' : '');
     if (first.includes(note)) item.append(element('strong', 'Warning: '));
-    item.append(upper(note));
+    // A file's name stays as it is.
+    item.append(/^\S+\.\w/.test(note) ? note : upper(note));
     into.append(item);
   }
 }
