@@ -46,9 +46,11 @@ void FiniteCorrection::start() {
   newton_->start(d0_, Eigen::VectorXd::Zero(d0_.size()), force_);
 }
 
-const Eigen::VectorXd& FiniteCorrection::under(const Eigen::VectorXd& more) {
+const Eigen::VectorXd& FiniteCorrection::under(const Eigen::VectorXd& more,
+                                               const Eigen::VectorXd* guess) {
   try {
-    const fem::FiniteStepReport report = newton_->equilibrium(prescribed_, force_ + more);
+    const fem::FiniteStepReport report =
+        newton_->equilibrium(prescribed_, force_ + more, {}, guess);
     iterations_ += report.iterations;
     factorisations_ += report.factorisations;
   } catch (const NumericalError&) {

@@ -26,9 +26,10 @@ class FiniteCorrection {
 
   /// The moment: 3 |nodes|, m.
   void begin(const Eigen::VectorXd& d0);
-  /// The displacement under `more` (3 |nodes|, N), the iterations beginning where the last answer
-  /// was. Throws NumericalError where none is found; the next answer then begins at d0 again.
-  const Eigen::VectorXd& under(const Eigen::VectorXd& more);
+  /// The displacement under `more` (3 |nodes|, N), the iterations beginning at `guess` (m), or
+  /// without it where the last answer was. Throws NumericalError where none is found; the next
+  /// answer then begins at d0 again.
+  const Eigen::VectorXd& under(const Eigen::VectorXd& more, const Eigen::VectorXd* guess = nullptr);
 
   int iterations() const { return iterations_; }  ///< of all answers
   int factorisations() const { return factorisations_; }

@@ -190,6 +190,10 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
     }
     return deepest;
   };
+  // What contact did in the frame before, altogether and to first order at rest: where the frame
+  // after it begins.
+  std::size_t last = 0;
+  Eigen::VectorXd last_pushed, last_moved, guess;
   for (std::size_t i = 0; i < frames.which.size(); ++i) {
     ask();
     auto column = solution.displacement.col(Eigen::Index(frames.which[i]));
@@ -197,6 +201,12 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
     const Points points = frames.points.at(frames.shots[frames.which[i]].time_s);
     PointsF skin = frames.skin[i];
     std::vector<Points> sides = frames.at_sides[i];
+    const auto look_at = [&](const Eigen::VectorXd& d) {
+      const Eigen::Map<const Points> nodes(d.data(), mesh->volume.nodes.rows(), 3);
+      skin = readout->skin(*region, driven_points->rim, nodes, points);
+      for (std::size_t s = 0; s < touchable->size(); ++s)
+        sides[s] = (*touchable)[s]->moved(skin, nodes);
+    };
     double least_m = depth_of(i, skin, sides);
     if (least_m >= hopeless_m) {
       ++given_up;
@@ -205,13 +215,20 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
     tissue.begin(d0);
     double own_residual_m = 0;
     Eigen::VectorXd moved, more;
+    const bool follows = last_pushed.size() > 0 && frames.which[i] == last + 1;
+    if (follows) {
+      guess = d0 + last_pushed;
+      moved = last_moved;
+      look_at(guess);
+    }
+    last_pushed.resize(0);
     int idle = 0;  // rounds in a row that gain little
     for (int round = 0;
          round < kMostFiniteRounds && idle < kMostIdleRounds && least_m > kFiniteSettled_m;
          ++round) {
       // What the forces of the last round did, to first order at rest, is taken off; what they did
       // in the tissue as it stands and what they should have done then differ less and less.
-      if (round > 0) contact->take_off(moved, skin, sides);
+      if (round > 0 || follows) contact->take_off(moved, skin, sides);
       const MouthContact::Correction next =
           contact->correct({skin, sides, frames.jaw_now_from_rest[i]});
       more.setZero(d0.size());
@@ -220,23 +237,23 @@ double Simulator::Impl::correct_finite(const Touching& frames, Solution& solutio
       moved = next.moved;
       Eigen::VectorXd d;
       try {
-        d = tissue.under(more);
+        d = tissue.under(more, round == 0 && follows ? &guess : nullptr);
       } catch (const NumericalError&) {
         // The frame stays as the rounds before left it, and deeper ones are not tried.
         if (round == 0) hopeless_m = std::min(hopeless_m, least_m);
         given_up += round == 0;
         break;
       }
-      const Eigen::Map<const Points> nodes(d.data(), mesh->volume.nodes.rows(), 3);
-      skin = readout->skin(*region, driven_points->rim, nodes, points);
-      for (std::size_t s = 0; s < touchable->size(); ++s)
-        sides[s] = (*touchable)[s]->moved(skin, nodes);
+      look_at(d);
       const double depth_m = depth_of(i, skin, sides);
       idle = depth_m < 0.9 * least_m ? 0 : idle + 1;
       if (depth_m < least_m) {
         least_m = depth_m;
         column = d;
         own_residual_m = next.residual_m;
+        last = frames.which[i];
+        last_pushed = d - d0;
+        last_moved = moved;
       }
     }
     residual_m = std::max(residual_m, own_residual_m);
