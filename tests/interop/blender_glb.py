@@ -41,7 +41,9 @@ def import_and_check(run, glb, summary):
     bpy.ops.import_scene.gltf(filepath=os.path.join(run, 'performance.glb'))
     meshes = [o for o in bpy.data.objects if o.type == 'MESH']
     names = sorted(o.name for o in meshes)
-    check(names in (['face'], ['face', 'lower_teeth', 'upper_teeth']), f'a face and its teeth; found {names}')
+    eyes = ['eye_L', 'eye_R'] if 'eye_L' in names else []
+    check(names in (eyes + ['face'], eyes + ['face', 'lower_teeth', 'upper_teeth']),
+          f'a face, its eyes and its teeth; found {names}')
     face = bpy.data.objects['face']
     check(face.data.name == 'skin', f'the mesh of the face is called {face.data.name}')
 

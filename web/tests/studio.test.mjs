@@ -46,12 +46,13 @@ async function pull(page, range, to, steps = 8) {
   }
 }
 
+/** A variant whose muscles of a side keep so many per cent of their strength. */
 async function weaker(page, side, percent) {
   await page.click('#what-if');
-  await page.selectOption('.weaker select', side);
+  await page.selectOption('.weaker select', `side_${side}`);
   await page.fill('.weaker input', String(percent));
   await page.click('.weaker .primary');
-  await page.waitForFunction((by) => document.getElementById('scene-text').textContent.includes(`side_${by[0]}" = ${by[1]}`), [side, 1 - percent / 100]);
+  await page.waitForFunction((to) => document.getElementById('scene-text').textContent.includes(`side_${to[0]}" = ${to[1]}`), [side, percent / 100]);
   await settled(page);
 }
 
@@ -60,14 +61,14 @@ describe('the studio', { skip, concurrency: false }, () => {
   before(async () => (browser = await launch()));
   after(() => browser?.close());
 
-  test('what if the right side were 30 % weaker: beside base, in millimetres, as a picture, as a scene that runs', async (t) => {
+  test('what if the right side had 70 % of its strength: beside base, in millimetres, as a picture, as a scene that runs', async (t) => {
     const studio = await startStudio();
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
     assert.equal(new URL(page.url()).hash, '', 'the token is gone from the address');
     assert.deepEqual(await faces(page), ['Base']);
-    await weaker(page, 'R', 30);
-    assert.deepEqual(await faces(page), ['Base', 'Right side 30 % weaker']);
+    await weaker(page, 'R', 70);
+    assert.deepEqual(await faces(page), ['Base', 'Right side at 70 %']);
     assert.equal(await page.evaluate(() => document.activeElement.dataset.face), '1', 'the face that was made has the focus');
     assert.equal(await page.locator('#canvas-host').getAttribute('data-mode'), 'side-by-side');
     const [baseR, ownR] = [await cornerMm(page, 0, 'right'), await cornerMm(page, 1, 'right')];
@@ -77,13 +78,36 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.match(await page.locator('.corner-table tr[data-face="1"] td[data-side=right]').innerText(), /−\d\.\d mm \(± \d\.\d\) to base/);
     assert.ok(!(await page.locator('.no-band').count()));
 
+    // Where it differs most, by either button.
+    await page.click('#to-most');
+    const most = await page.locator('#frame-label').innerText();
+    await page.click('#to-peak');
+    await page.click('.seek-most');
+    assert.equal(await page.locator('#frame-label').innerText(), most);
+    assert.ok((await page.locator('.seek-most').innerText()).endsWith(`at ${/\d\.\d+ s$/.exec(most)[0]}`), most);
+
+    // What is written into the picture: figures of its time and of the whole motion, with what is uncertain.
+    await page.evaluate(() => {
+      window.written = [];
+      const write = CanvasRenderingContext2D.prototype.fillText;
+      CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+        window.written.push(text);
+        return write.call(this, text, ...rest);
+      };
+    });
     const [picture] = await Promise.all([page.waitForEvent('download'), page.click('#save-picture')]);
-    assert.match(picture.suggestedFilename(), /^a-smile-base-right-side-30-weaker.*\.png$/);
+    const written = await page.evaluate(() => window.written.join(' '));
+    const when = Number(/(\d\.\d+) s$/.exec(most)[1]).toFixed(3);
+    assert.match(written, new RegExp(`Corners of the mouth at ${when} s: right \\d+\\.\\d mm, left \\d+\\.\\d mm`));
+    assert.match(written, /At most, whole motion: right \d+\.\d mm, left \d+\.\d mm \(sides differ by \d\.\d ± \d\.\d mm/);
+    assert.match(written, new RegExp(`right ${ownR.toFixed(1)} mm \\(${(baseR - ownR).toFixed(1)} ± \\d\\.\\d mm less than base`));
+    assert.match(written, /±: 95 %, from mesh and jitter alone/);
+    assert.match(picture.suggestedFilename(), /^a-smile-base-right-side-at-70.*\.png$/);
     assert.deepEqual([...(await readFile(await picture.path())).subarray(1, 4)].map((c) => String.fromCharCode(c)).join(''), 'PNG');
 
     // As a video: the motion once from its start.
     const [video] = await Promise.all([page.waitForEvent('download'), page.click('#save-video')]);
-    assert.match(video.suggestedFilename(), /right-side-30-weaker\.webm$/);
+    assert.match(video.suggestedFilename(), /right-side-at-70\.webm$/);
     const film = await readFile(await video.path());
     assert.equal(film.readUInt32BE(0), 0x1a45dfa3, 'EBML, as WebM begins');
     assert.ok(film.length > 20_000, `${film.length} bytes`);
@@ -117,11 +141,15 @@ describe('the studio', { skip, concurrency: false }, () => {
     const { page, complaints, close } = await openStudio(browser, studio.address);
     await page.click('#tab-tissue');
     const young = page.locator('[data-key="tissue.young_kpa"] input[type=range]');
+    const place = () => young.evaluate((range) => range.getBoundingClientRect().top - document.getElementById('panels').scrollTop);
+    const placed = await place();
     const before = await page.locator('[data-key="tissue.young_kpa"] input[type=number]').inputValue();
     await pull(page, young, 0.8, 12);
     await page.waitForFunction(() => Number(document.documentElement.dataset.shapes ?? 0) > 0);
     assert.deepEqual(await faces(page), ['Base', 'What if']);
+    assert.equal(await place(), placed, 'nothing moves under the pointer while another face is made');
     await afterMotion(page, () => page.mouse.up());
+    assert.equal(await place(), placed);
     await page.waitForFunction(() => /young_kpa/.test(document.getElementById('scene-text').textContent));
     await settled(page);
     const stiff = Number(/young_kpa = ([\d.]+)/.exec(await sceneText(page))[1]);
@@ -161,6 +189,13 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.equal(await factor.inputValue(), '1', 'nor does nothing');
     assert.doesNotMatch(await sceneText(page), /young_factor/);
 
+    // Each panel opens where it was left.
+    await page.locator('#panels').evaluate((panels) => (panels.scrollTop = 60));
+    await page.click('#tab-paint');
+    assert.equal(await page.locator('#panels').evaluate((panels) => panels.scrollTop), 0);
+    await page.click('#tab-tissue');
+    assert.equal(await page.locator('#panels').evaluate((panels) => panels.scrollTop), 60);
+
     // A muscle, by keys alone; its line lights up.
     await page.click('#tab-muscles');
     await page.locator('[data-gain=zygomatic_R]').focus();
@@ -193,6 +228,19 @@ describe('the studio', { skip, concurrency: false }, () => {
     const studio = await startStudio();
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('#what-if');
+    await page.selectOption('.weaker select', { label: 'Zygomaticus major, right' });
+    await page.fill('.weaker input', '40');
+    await page.click('.weaker .primary');
+    await page.waitForFunction(() => /zyg_major_R" = 0\.4/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.deepEqual(await faces(page), ['Base', 'Zygomaticus major, right at 40 %']);
+    assert.match(await page.locator('#whose').innerText(), /It keeps what it has: Right zyg major at 40 %/);
+    await page.click('#undo');
+    await page.click('#undo');
+    await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 1);
+    await settled(page);
+
     await page.click('#what-if');
     await page.click('[data-preset=palsy_complete_L]');
     await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 2);
@@ -273,7 +321,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.waitForFunction(() => document.querySelectorAll('.corner-table tbody tr:not(.differs)').length === 2);
     assert.deepEqual(await faces(page), ['Base', 'stiff']);
     assert.equal(await count(page, 'motions'), motions, 'a face, not another motion');
-    await weaker(page, 'R', 20);
+    await weaker(page, 'R', 80);
     assert.deepEqual(complaints, []);
 
     await studio.kill();
@@ -288,7 +336,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     await again.page.click('.rescue button >> nth=0');
     await again.page.waitForFunction(() => /side_R/.test(document.getElementById('scene-text').textContent));
     await settled(again.page);
-    assert.deepEqual(await faces(again.page), ['Base', 'stiff', 'Right side 20 % weaker']);
+    assert.deepEqual(await faces(again.page), ['Base', 'stiff', 'Right side at 80 %']);
     assert.deepEqual(again.complaints, []);
     await again.close();
     await close();
@@ -301,11 +349,11 @@ describe('the studio', { skip, concurrency: false }, () => {
     await weaker(first.page, 'L', 50);
     await first.page.reload();
     await first.page.waitForSelector('html[data-ready]');
-    assert.deepEqual(await faces(first.page), ['Base', 'Left side 50 % weaker']);
+    assert.deepEqual(await faces(first.page), ['Base', 'Left side at 50 %']);
     const second = await openStudio(browser, studio.address);
     await first.page.waitForSelector('#banner:not([hidden])');
     assert.match(await first.page.locator('#banner').innerText(), /another window/);
-    assert.deepEqual(await faces(second.page), ['Base', 'Left side 50 % weaker']);
+    assert.deepEqual(await faces(second.page), ['Base', 'Left side at 50 %']);
     const stranger = await openStudio(browser, studio.address.replace(/#.*/, '#00112233445566778899aabbccddeeff'), { ready: false });
     await stranger.page.waitForSelector('#banner:not([hidden])');
     assert.match(await stranger.page.locator('#banner').innerText(), /does not let this page in/);
@@ -330,7 +378,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     for (const colorScheme of ['light', 'dark'])
       for (const [name, viewport] of [['small', { width: 1280, height: 720 }], ['large', { width: 2560, height: 1440 }], ['tablet', { width: 820, height: 1180 }]]) {
         const { page, complaints, close } = await openStudio(browser, studio.address, { colorScheme, viewport });
-        if (!made) await weaker(page, 'R', 30);
+        if (!made) await weaker(page, 'R', 70);
         made = true;
         await page.click('#modes [data-mode=side-by-side]');
         assert.ok((await tooWide(page)) <= 0, `${colorScheme} ${name}`);

@@ -111,6 +111,15 @@ FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks) {
   return backing;
 }
 
+FaceBacking face_backing(const reenact::Performance& performance) {
+  io::Landmarks landmarks;
+  const motion::Motion& tracks = performance.landmarks;
+  if (!tracks.positions.empty())
+    for (std::size_t i = 0; i < tracks.names.size(); ++i)
+      landmarks[tracks.names[i]] = tracks.positions.front().row(Index(i)).transpose();
+  return face_backing(performance.skin_rest, landmarks);
+}
+
 Eigen::VectorXd light_in_mouth(const TriMesh& part, const TriMesh& row, const Vec3& forward) {
   constexpr double dark_m = 0.035, least = 0.35;
   if (part.points.rows() == 0 || row.points.rows() == 0)

@@ -5,6 +5,7 @@
 
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/reenact/performance.hpp"
 #include "hyperex/tissue/eyeballs.hpp"
 
 namespace hyperex::report {
@@ -41,6 +42,8 @@ struct FaceBacking {
 /// whose middle lies between the outer corners of the eyes, but the longest, the skin's own end.
 /// Eyeballs: tissue::eyeballs_behind().
 FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks);
+/// Of the skin at rest, by the landmarks of the first sample.
+FaceBacking face_backing(const reenact::Performance& performance);
 
 /// How much of the light that falls on the lips reaches vertices of teeth and gum behind them, 0 to
 /// 1: all of it in front, 0.35 from 35 mm behind there on. `row`: the jaw's, for what is in front.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/gltf_parts.hpp"
 #include "hyperex/report/jaw_turns.hpp"
 #include "hyperex/report/skin_view.hpp"
@@ -87,6 +88,36 @@ int add_teeth(tinygltf::Model& model, GltfArrays& arrays, const tissue::JawTeeth
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
+/// A node for each eyeball, in the colours of the report's (web/src/replay/face/backing.ts), which
+/// are linear here.
+void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeball>& eyeballs) {
+  if (eyeballs.empty()) return;
+  const int first = static_cast<int>(model.materials.size());
+  model.materials.push_back(plain_material("sclera", {0.85, 0.82, 0.78, 1}, 0.35));
+  model.materials.push_back(plain_material("iris", {0.153, 0.105, 0.065, 1}, 0.35));
+  model.materials.push_back(plain_material("pupil", {0.007, 0.006, 0.005, 1}, 0.35));
+  for (std::size_t side = 0; side < eyeballs.size(); ++side) {
+    const Eyeball& eye = eyeballs[side];
+    tinygltf::Mesh mesh;
+    mesh.name = side == 0 ? "eye_R" : "eye_L";
+    for (const TriMesh& part : eyeball_parts(eye)) {
+      tinygltf::Primitive primitive;
+      primitive.mode = TINYGLTF_MODE_TRIANGLES;
+      const Points out = (part.points.rowwise() - eye.centre.transpose()) / eye.radius_m;
+      primitive.attributes["POSITION"] = arrays.vectors(part.points.cast<float>(), true);
+      primitive.attributes["NORMAL"] = arrays.vectors(out.cast<float>(), false);
+      primitive.indices = arrays.triangles(part.triangles);
+      primitive.material = first + static_cast<int>(mesh.primitives.size());
+      mesh.primitives.push_back(std::move(primitive));
+    }
+    tinygltf::Node node;
+    node.name = mesh.name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    model.meshes.push_back(std::move(mesh));
+    model.nodes.push_back(node);
+  }
+}
+
 /// Rotation and translation of a node as the jaw's in each frame.
 void animate_jaw(tinygltf::Model& model, GltfArrays& arrays, int node,
                  const reenact::Performance& performance, tinygltf::Animation& animation) {
@@ -147,12 +178,15 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
   model.nodes[0].name = "face";
   model.nodes[0].mesh = 0;
   model.meshes.emplace_back();
+  // Before the poses, which fill what the others leave of the file.
+  add_eyes(model, arrays, face_backing(performance).eyeballs);
   int lower_teeth = -1;
-  if (options.teeth) {  // before the poses, which fill what the others leave of the file
+  if (options.teeth) {
+    const int first = static_cast<int>(model.materials.size());
     model.materials.push_back(plain_material("teeth", {0.82, 0.74, 0.58, 1}, 0.35));
     model.materials.push_back(plain_material("gum", {0.48, 0.11, 0.11, 1}, 0.45));
-    add_teeth(model, arrays, options.teeth->upper, "upper_teeth", 1);
-    lower_teeth = add_teeth(model, arrays, options.teeth->lower, "lower_teeth", 1);
+    add_teeth(model, arrays, options.teeth->upper, "upper_teeth", first);
+    lower_teeth = add_teeth(model, arrays, options.teeth->lower, "lower_teeth", first);
   }
 
   tinygltf::Mesh mesh;

@@ -29,9 +29,9 @@ struct GlbReport {
 /// (vertices split at seams, the skin's order kept by extras.skin_vertices otherwise) or its vertex
 /// colours, else a plain skin tone. A performance without motion is written as a still mesh. Teeth
 /// are nodes of their own, upper_teeth and lower_teeth; the lower ones move by rotation and
-/// translation, as performance.jaw_now_from_rest has them. Throws
-/// InputError where the file cannot be written, std::invalid_argument where the performance and the
-/// scan do not belong together.
+/// translation, as performance.jaw_now_from_rest has them. The report's eyeballs, where landmarks
+/// tell of eyes, are eye_R and eye_L, which stand still. Throws InputError where the file cannot be
+/// written, std::invalid_argument where the performance and the scan do not belong together.
 GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options = {});
 

@@ -192,15 +192,20 @@ json variants_section(const ReportInput& input, BinaryBlock& block) {
   for (const ReportVariant& variant : input.variants) {
     const auto& displacement = variant.performance.skin_displacement_m;
     double difference_m = 0;
-    for (std::size_t f = 0; f < own.size(); ++f)
-      difference_m = std::max<double>(
-          difference_m, own[f].rows() ? (displacement[f] - own[f]).rowwise().norm().maxCoeff() : 0);
+    std::size_t most = 0;
+    for (std::size_t f = 0; f < own.size(); ++f) {
+      const double here_m =
+          own[f].rows() ? double((displacement[f] - own[f]).rowwise().norm().maxCoeff()) : 0;
+      if (here_m > difference_m) most = f;
+      difference_m = std::max(difference_m, here_m);
+    }
     section.push_back(
         {{"name", variant.name},
          {"changes", variant.changes},
          {"difference", modes_section(variant.difference, block)},
          {"max_displacement_mm", 1e3 * metrics::greatest_displacement_m(displacement)},
          {"max_difference_mm", 1e3 * difference_m},
+         {"max_difference_frame", most},
          {"symmetry", symmetry_section(variant.symmetry)},
          {"landmarks", positions_of(variant.performance.landmarks, block)},
          {"muscles", variant_muscles(input.performance.muscles.groups, variant.group_activation)},
@@ -287,12 +292,7 @@ json jaw_section(const reenact::Performance& performance, BinaryBlock& block) {
 
 /// "openings" and "eyeballs" of the skin at rest. Returns what is forward in it.
 Vec3 add_backing(const reenact::Performance& performance, BinaryBlock& block, json& manifest) {
-  std::map<std::string, Vec3> landmarks;
-  const motion::Motion& tracks = performance.landmarks;
-  if (!tracks.positions.empty())
-    for (std::size_t i = 0; i < tracks.names.size(); ++i)
-      landmarks[tracks.names[i]] = tracks.positions.front().row(Index(i)).transpose();
-  const FaceBacking backing = face_backing(performance.skin_rest, landmarks);
+  const FaceBacking backing = face_backing(performance);
   manifest["openings"] = json::array();
   for (const Opening& opening : backing.openings)
     manifest["openings"].push_back({{"loop", block.add(opening.loop)},

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/skin_view.hpp"
 #include "support/test_file.hpp"
 #include "unit/report/gltf_vectors.hpp"
@@ -215,6 +216,40 @@ TEST(Glb, TeethAreNodesOfWhichTheLowerMoveWithTheJaw) {
   const GlbReport without = write_glb(scratch("no_teeth.glb"), face.performance, face.scan);
   EXPECT_EQ(with.keys, without.keys);
   EXPECT_GT(with.bytes, without.bytes + 1e5);
+}
+
+TEST(Glb, EyesAreThoseOfTheReportAndStandStill) {
+  auto face = made_up_face(Surface::plain);
+  const auto teeth = testing::made_up_teeth();
+  write_glb(scratch("no_eyes.glb"), face.performance, face.scan);
+  EXPECT_EQ(read_back(scratch("no_eyes.glb")).nodes.size(), 1u) << "inner corners are not known";
+  testing::add_inner_eye_corners(face.performance);
+  const auto file = scratch("eyes.glb");
+  write_glb(file, face.performance, face.scan, {.teeth = &teeth});
+  const auto model = read_back(file);
+  const auto eyeballs = face_backing(face.performance).eyeballs;
+  ASSERT_EQ(eyeballs.size(), 2u);
+  ASSERT_EQ(model.nodes.size(), 5u);
+  const char* names[] = {"eye_R", "eye_L"};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto& node = model.nodes[1 + side];
+    EXPECT_EQ(node.name, names[side]);
+    const auto& mesh = model.meshes[std::size_t(node.mesh)];
+    ASSERT_EQ(mesh.primitives.size(), 3u);
+    const char* colours[] = {"sclera", "iris", "pupil"};
+    for (std::size_t part = 0; part < 3; ++part) {
+      const auto& primitive = mesh.primitives[part];
+      EXPECT_EQ(model.materials[std::size_t(primitive.material)].name, colours[part]);
+      const PointsF points = rows_of<float, 3>(model, primitive.attributes.at("POSITION"));
+      const PointsF normals = rows_of<float, 3>(model, primitive.attributes.at("NORMAL"));
+      const PointsF from = points.rowwise() - eyeballs[side].centre.cast<float>().transpose();
+      EXPECT_LT((from - float(eyeballs[side].radius_m) * normals).norm(), 1e-5);
+    }
+  }
+  const auto& crowns = model.meshes[std::size_t(model.nodes[3].mesh)].primitives[0];
+  EXPECT_EQ(model.materials[std::size_t(crowns.material)].name, "teeth");
+  for (const auto& channel : model.animations.at(0).channels)
+    EXPECT_TRUE(channel.target_node == 0 || channel.target_node == 4) << channel.target_node;
 }
 
 TEST(Glb, StillSkinHasNoAnimation) {

@@ -119,6 +119,13 @@ TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
     EXPECT_LT((sum - shown.skin_displacement_m[f]).rowwise().norm().maxCoeff(), 2.2e-5);
     EXPECT_NEAR(variants[i].at("max_displacement_mm").get<double>(),
                 1e3 * shown.skin_displacement_m[f].rowwise().norm().maxCoeff(), 1e-6);
+    const std::size_t most = variants[i].at("max_difference_frame");
+    EXPECT_NEAR(variants[i].at("max_difference_mm").get<double>(),
+                1e3 * (shown.skin_displacement_m[most] - face.performance.skin_displacement_m[most])
+                          .rowwise()
+                          .norm()
+                          .maxCoeff(),
+                1e-6);
     const auto& map = variants[i].at("tissue").at(0);
     const auto steps = stretch<std::uint8_t>(bytes, map.at("values"));
     const double step = (map["greatest"].get<double>() - map["least"].get<double>()) / 255;
@@ -135,6 +142,7 @@ TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
   EXPECT_EQ(twin.back(), -1) << "what the cut added has none";
   EXPECT_TRUE(variants[4].at("difference").at("modes").empty());
   EXPECT_EQ(variants[4].at("max_difference_mm"), 0);
+  EXPECT_EQ(variants[4].at("max_difference_frame"), 0);
   input.variants[0].tissue.clear();
   EXPECT_THROW(write_html_report(file, input), std::invalid_argument);
 }

@@ -163,6 +163,17 @@ void dress(Surface surface, const reenact::Performance& performance, io::Scan& s
 
 }  // namespace
 
+void add_inner_eye_corners(reenact::Performance& performance) {
+  motion::Motion& tracks = performance.landmarks;
+  for (const char* side : {"L", "R"}) tracks.names.push_back(std::string("endocanthion_") + side);
+  for (Points& frame : tracks.positions) {
+    frame.conservativeResize(frame.rows() + 2, 3);
+    for (int side = 0; side < 2; ++side)  // exocanthion_L and _R are the first
+      frame.row(frame.rows() - 2 + side) =
+          frame.row(side).cwiseProduct(Vec3(0.4, 1, 1).transpose());
+  }
+}
+
 MadeUpFace made_up_face(Surface surface, int side, int frames) {
   MadeUpFace face;
   build_skin(side, face.performance);

@@ -22,6 +22,9 @@ struct MadeUpFace {
 };
 MadeUpFace made_up_face(Surface surface, int side = 41, int frames = 31);
 
+/// Without them there are no eyeballs.
+void add_inner_eye_corners(reenact::Performance& performance);
+
 /// Average teeth behind the cut, the lower ones to be moved by performance.jaw_now_from_rest.
 tissue::Teeth made_up_teeth();
 

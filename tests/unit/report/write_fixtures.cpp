@@ -77,7 +77,9 @@ int main(int argc, char** argv) {
     const auto modes = displacement_modes(face.performance.skin_displacement_m);
     const auto teeth = testing::made_up_teeth();
     const auto* shown = surface == Surface::coloured ? &teeth : nullptr;
-    write_glb(folder / (std::string(name) + ".glb"), face.performance, face.scan, {.teeth = shown});
+    auto seeing = face.performance;
+    if (shown) testing::add_inner_eye_corners(seeing);
+    write_glb(folder / (std::string(name) + ".glb"), seeing, face.scan, {.teeth = shown});
     const nlohmann::json summary = {
         {"title", "made-up face"},
         {"dt_s", 0.002},

@@ -29,6 +29,8 @@ export interface Face {
   maxDisplacementMm: number;
   /** From base, over all vertices and frames. */
   maxDifferenceMm: number;
+  /** Where that is. */
+  maxDifferenceFrame: number;
   /** What is added to the scene's own displacement; null for base. */
   difference: { modes: Mode[]; weights: Float32Array; maxErrorMm: number } | null;
   symmetry: SymmetryCurve | null;
@@ -126,6 +128,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     changes: [],
     maxDisplacementMm: manifest.motion.max_displacement_mm,
     maxDifferenceMm: 0,
+    maxDifferenceFrame: 0,
     difference: null,
     symmetry: manifest.symmetry,
     landmarkPositions: block.float32(manifest.landmarks.positions),
@@ -138,6 +141,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     changes: variant.changes,
     maxDisplacementMm: variant.max_displacement_mm,
     maxDifferenceMm: variant.max_difference_mm,
+    maxDifferenceFrame: variant.max_difference_frame,
     difference: {
       modes: modesOf(variant.difference.modes, block),
       weights: block.float32(variant.difference.weights),

@@ -51,18 +51,19 @@ function start(): void {
   const stage = new Stage(replay, shown);
   const plots = new Plots(replay, shown, at('plots'), (t) => playback.seek(t));
   fillTables(replay, shown, at('tables'));
-  const showTransport = wireTransport(source, playback);
+  const showTransport = wireTransport(source, playback, shown);
   const show = () => {
     stage.moveTo(frameAt(timeS, playback.timeS), playback);
     plots.mark(playback.timeS);
     showTransport();
   };
-  const keys = [...transportKeys(source, playback), ...stage.keys()];
+  const keys = [...transportKeys(source, playback, shown), ...stage.keys()];
   wireKeys(keys, at<HTMLDialogElement>('help'), at<HTMLButtonElement>('open-help'), at<HTMLInputElement>('keys-on'));
   // What stands still shows most where most has moved.
   const still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
   if (still) playback.seek(timeS[replay.peakFrame] ?? 0);
   playback.onChange(show);
+  shown.onChange(showTransport);
   show();
   document.documentElement.dataset.ready = 'true';
   if (!still) playback.play();

@@ -59,6 +59,8 @@ export interface VariantData {
   max_displacement_mm: number;
   /** Greatest distance from the scene's own run, over all vertices and frames. */
   max_difference_mm: number;
+  /** Where that is; 0 where there is none. */
+  max_difference_frame: number;
   symmetry: SymmetryCurve | null;
   /** Samples x names x 3, of the names and times of the scene's landmarks. */
   landmarks: Stretch;

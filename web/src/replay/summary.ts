@@ -67,6 +67,7 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
     ['dt_s', 'Step', 's'],
     ['seconds.total', 'Computing time', 's'],
     ['version', 'Version of Hyperex'],
+    ['commit', 'Commit'],
   ]],
 ];
 

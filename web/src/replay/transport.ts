@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What moves the face: play, the time shown, speed; with the mouse and with keys.
-import type { Replay } from './data';
+import { mm, sameMm } from './corners';
+import type { Face, Replay } from './data';
 import { frameAt } from './face/deform';
 import { at, element } from '../page/dom';
 import type { Key } from './keys';
 import type { Playback } from './playback';
+import type { Shown } from './shown';
+
+/** Of the variants that are seen, else of all, the one that lies farthest from base at some time; null: none does. */
+function mostDifferent({ faces }: Replay, { visible }: Shown): Face | null {
+  const differing = faces.filter(({ maxDifferenceMm }) => maxDifferenceMm >= sameMm);
+  const seen = differing.filter((face) => visible.includes(faces.indexOf(face)));
+  const [most] = (seen.length > 0 ? seen : differing).sort((a, b) => b.maxDifferenceMm - a.maxDifferenceMm);
+  return most ?? null;
+}
+
+function seekMost({ replay }: { readonly replay: Replay }, playback: Playback, shown: Shown): void {
+  const most = mostDifferent(replay, shown);
+  if (most) playback.seek(replay.timeS[most.maxDifferenceFrame] ?? 0);
+}
 
 /** Wires the row below the face: play, time, speed; returns what shows the time. The replay may get other frames. */
-export function wireTransport(source: { readonly replay: Replay }, playback: Playback): () => void {
+export function wireTransport(source: { readonly replay: Replay }, playback: Playback, shown: Shown): () => void {
   const slider = at<HTMLInputElement>('frame');
   const label = at<HTMLOutputElement>('frame-label');
   const play = at<HTMLButtonElement>('play');
@@ -17,7 +32,13 @@ export function wireTransport(source: { readonly replay: Replay }, playback: Pla
   play.addEventListener('click', toggle);
   speed.addEventListener('change', () => (playback.speed = Number(speed.value)));
   at('to-peak').addEventListener('click', () => playback.seek(source.replay.timeS[source.replay.peakFrame]));
+  const toMost = at<HTMLButtonElement>('to-most');
+  toMost.addEventListener('click', () => seekMost(source, playback, shown));
   return () => {
+    const most = mostDifferent(source.replay, shown);
+    toMost.hidden = !most;
+    const hint = most ? `Where ${most.name} differs most from base: by ${mm(most.maxDifferenceMm)}` : '';
+    if (toMost.title !== hint) toMost.title = hint;
     const last = Math.max(source.replay.timeS.length - 1, 0);
     if (slider.max !== String(last)) slider.max = String(last);
     const frame = Math.round(frameAt(source.replay.timeS, playback.timeS));
@@ -31,7 +52,7 @@ export function wireTransport(source: { readonly replay: Replay }, playback: Pla
   };
 }
 
-export function transportKeys(source: { readonly replay: Replay }, playback: Playback): Key[] {
+export function transportKeys(source: { readonly replay: Replay }, playback: Playback, shown: Shown): Key[] {
   const step = (by: number) => {
     const { timeS } = source.replay;
     const last = timeS.length - 1;
@@ -52,6 +73,7 @@ export function transportKeys(source: { readonly replay: Replay }, playback: Pla
       shown: 'Home or End', does: 'first, last frame',
       when: ['Home', 'End'], act: ({ key }) => playback.seek(source.replay.timeS[key === 'Home' ? 0 : source.replay.timeS.length - 1]),
     },
+    { shown: 'd', does: 'where the variant shown differs most from base', when: ['d'], act: () => seekMost(source, playback, shown) },
     { shown: 'p', does: 'where the driven points moved most', when: ['p'], act: () => playback.seek(source.replay.timeS[source.replay.peakFrame]) },
   ];
 }

@@ -2,14 +2,14 @@
 // How far both corners of the mouth go, now and at most, in each face, and what is changed against base; the curves.
 import type { Chart } from '../charts/chart_options';
 import { TimeChart } from '../charts/time_chart';
-import { element } from '../page/dom';
+import { button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
 import { landmarkName, signed } from '../page/format';
-import { cornersOf, mm, type Corners } from '../replay/corners';
+import { changeBandMm, cornersOf, mm, sameMm, valueAt, type Corners } from '../replay/corners';
 import { cornerCurves } from '../replay/curves/corner_card';
 import { symmetryCurves } from '../replay/curves/symmetry_charts';
 import { chooseFace } from '../replay/face/face_chooser';
-import { frameAt, nearestVertex } from '../replay/face/deform';
+import { nearestVertex } from '../replay/face/deform';
 import { isNumber } from '../replay/tables/figure_table';
 import { variantsOf } from '../replay/variants';
 import { dark } from '../page/theme';
@@ -19,18 +19,8 @@ import { words } from './words';
 /** Until error bands are known: changes below this are not made to look like findings, mm. */
 const unsureMm = 0.5;
 
-/** A change below this is none, mm: half of what a figure here shows. */
-const sameMm = 0.05;
 const sides = ['right', 'left'] as const; // as one sees the face
 type SideName = (typeof sides)[number];
-
-/** The value at time t between samples; null where unknown. */
-function valueAt(timeS: number[], values: (number | null)[], t: number): number | null {
-  const at = frameAt(timeS, t);
-  const [i, share] = [Math.floor(at), at - Math.floor(at)];
-  const [a, b] = [values[i], values[Math.min(i + 1, values.length - 1)]];
-  return a === null || b === null ? null : a + share * (b - a);
-}
 
 const plus = (value: number): string => signed(`${value > 0 ? '+' : ''}${value.toFixed(1)} mm`);
 
@@ -169,8 +159,12 @@ export class FiguresPanel {
       below.style.setProperty('--face', faceColour(i));
       const cell = below.insertCell();
       cell.colSpan = 3;
-      cell.title = words.mostHint;
-      cell.textContent = differs;
+      const seek = button(differs, 'seek-most', () => {
+        const { replay } = this.state.source;
+        this.state.playback.seek(replay.timeS[replay.faces[i].maxDifferenceFrame] ?? 0);
+      });
+      seek.title = words.mostHint;
+      cell.append(seek);
     });
     if (this.state.source.replay.faces.length > 1 && !this.bandsKnown()) {
       const note = table.createTFoot().insertRow().insertCell();
@@ -189,7 +183,7 @@ export class FiguresPanel {
     cell.dataset.mm = String(of(own));
     if (i > 0) {
       const change = of(own) - of(base);
-      const band = this.bandOf(i, side);
+      const band = changeBandMm(this.state.source.replay, i, side);
       const same = Math.abs(change) < sameMm;
       const sure = Math.abs(change) >= (band ?? unsureMm);
       const text = band === null ? words.againstBase(plus(change))
@@ -203,16 +197,8 @@ export class FiguresPanel {
     return now;
   }
 
-  /** Of a face's change against base: what mesh and jitter make of it, 95 %, mm; null: not known. */
-  private bandOf(face: number, side: SideName): number | null {
-    const { replay } = this.state.source;
-    const row = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
-    const band = row?.[side === 'left' ? 'commissure_L_band_mm' : 'commissure_R_band_mm'];
-    return isNumber(band) ? band : null;
-  }
-
   private bandsKnown(): boolean {
-    return this.state.source.replay.faces.every((_, i) => i === 0 || this.bandOf(i, 'left') !== null);
+    return this.state.source.replay.faces.every((_, i) => i === 0 || changeBandMm(this.state.source.replay, i, 'left') !== null);
   }
 
   private differsMost(i: number): string {
@@ -221,7 +207,8 @@ export class FiguresPanel {
     if (i === 0 || !(most >= sameMm)) return '';
     const near = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[i].name)?.farthest_near;
     const place = typeof near === 'string' && near ? ` ${words.nearPoint(landmarkName(near))}` : '';
-    return `${words.most}: ${mm(most)}${place}`;
+    const when = words.atTime((replay.timeS[replay.faces[i].maxDifferenceFrame] ?? 0).toFixed(3));
+    return `${words.most}: ${mm(most)}${place} ${when}`;
   }
 
   private tellRemark(): void {

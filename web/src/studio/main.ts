@@ -25,7 +25,7 @@ import { Panels } from './panels';
 import { Progress } from './progress';
 import { SaveMenu } from './save_menu';
 import { ScenePanel } from './scene_panel';
-import { StudioState } from './studio_state';
+import { nested, StudioState } from './studio_state';
 import { Tabs } from './tabs';
 import { TissuePanel } from './tissue_panel';
 import { ViewVideo } from './video';
@@ -51,7 +51,7 @@ class Studio {
   /** The scene that the motion shown is of. */
   private movedText: string | null = null;
   private unwireKeys: Undo = () => {};
-  private readonly showTransport = wireTransport(this.state.source, this.state.playback);
+  private readonly showTransport = wireTransport(this.state.source, this.state.playback, this.state.shown);
 
   constructor() {
     new Panels(this.state, [
@@ -68,6 +68,9 @@ class Studio {
       else this.showMotion();
     });
     playback.onChange(() => this.showTime());
+    this.state.shown.onChange(() => {
+      if (source.open) this.showTransport();
+    });
     new ViewVideo(this.state, at<HTMLButtonElement>('save-video'), () => this.stage?.face ?? null, () => this.live.live);
     const loop = at<HTMLInputElement>('loop');
     loop.addEventListener('change', () => (playback.loop = loop.checked));
@@ -137,15 +140,7 @@ class Studio {
 
   /** What a report's summary says of base: from which its variants differ. */
   private withOptions(summary: Record<string, unknown>): void {
-    const options: Record<string, unknown> = {};
-    for (const [path, value] of Object.entries(this.state.valuesOf(0))) {
-      const parts = path.split('.');
-      const last = parts.pop()!;
-      let inner = options;
-      for (const part of parts) inner = (inner[part] ??= {}) as Record<string, unknown>;
-      inner[last] = value;
-    }
-    summary.options = options;
+    summary.options = nested(this.state.valuesOf(0));
   }
 
   private greeted({ program, keys, presets, tissues, regions, places }: Greeting): void {
@@ -217,7 +212,7 @@ class Studio {
     this.unwireKeys();
     const never = { when: () => false, act: () => {} };
     const keys: Key[] = [
-      ...transportKeys(this.state.source, this.state.playback), ...(this.stage?.keys() ?? []),
+      ...transportKeys(this.state.source, this.state.playback, this.state.shown), ...(this.stage?.keys() ?? []),
       { shown: 'n', does: words.keyWhatIf, when: ['n'], act: () => this.tabs.whatIf.open() },
       { shown: 'Ctrl+Z', does: words.keyUndo, ...never },
       { shown: 'Ctrl+Shift+Z', does: words.keyRedo, ...never },

@@ -63,6 +63,8 @@ export class MusclesPanel {
       this.element.append(this.gain.element);
     }
     const { muscles } = this.state;
+    this.note.textContent = words.noMuscles;
+    this.note.hidden = true;
     this.element.append(this.note, this.head());
     this.element.append(this.row(words.wholeSide, 'side', muscles, { palsy: true }));
     const branches = [...new Set(muscles.map(({ branch }) => branch))];
@@ -220,7 +222,9 @@ export class MusclesPanel {
     const gainBefore = state.edited === 0 ? 1 : Number(state.valuesOf(0)[motionGain] ?? 1);
     this.gain?.set(100 * Number(state.valuesOf(state.edited)[motionGain] ?? 1), 100 * gainBefore);
     this.resetAll.disabled = Object.keys(gains).length === 0;
-    this.note.textContent = state.scene.drive === 'muscles' ? '' : words.noMuscles;
-    this.note.hidden = this.note.textContent === '';
+    // Its place stays once the first change lets muscles drive: nothing is to move under the pointer.
+    const carried = state.scene.drive !== 'muscles';
+    this.note.hidden &&= !carried;
+    this.note.style.visibility = carried ? '' : 'hidden';
   }
 }

@@ -13,8 +13,12 @@ export interface Panel {
   seen?(now: boolean): void;
 }
 
+/** Of a variant's, that are told above the panels. */
+const mostChanges = 2;
+
 export class Panels {
   private readonly tabs: HTMLButtonElement[];
+  private readonly scrolled: number[] = [];
 
   constructor(private readonly state: StudioState, private readonly panels: Panel[]) {
     this.tabs = panels.map(({ key, title, element: panel }, i) => {
@@ -38,6 +42,9 @@ export class Panels {
   }
 
   private choose(chosen: number): void {
+    const scroller = at('panels');
+    const before = this.panels.findIndex(({ element: panel }) => !panel.hidden);
+    if (before >= 0) this.scrolled[before] = scroller.scrollTop;
     this.tabs.forEach((tab, i) => {
       tab.setAttribute('aria-selected', String(i === chosen));
       tab.tabIndex = i === chosen ? 0 : -1;
@@ -46,6 +53,8 @@ export class Panels {
       panel.hidden = i !== chosen;
       seen?.(i === chosen);
     });
+    // All panels share what scrolls: each stands where it was left.
+    scroller.scrollTop = this.scrolled[chosen] ?? 0;
   }
 
   private press(event: KeyboardEvent, i: number): void {
@@ -58,17 +67,19 @@ export class Panels {
     this.tabs[next].focus();
   }
 
+  /** What is said of base and of a variant stands in one place, of which one is seen: a press that makes a variant
+   *  must not move what is pressed. */
   private tellWhose(): void {
     const { state } = this;
     const { edited } = state;
     const whose = at('whose');
-    const dot = element('i');
-    dot.style.background = faceColour(edited);
-    if (edited > 0) {
-      whose.replaceChildren(dot, words.whose(state.nameOf(edited)));
-      return;
-    }
     const focused = whose.contains(document.activeElement);
+    const dot = (face: number) => {
+      const made = element('i');
+      made.style.background = faceColour(face);
+      return made;
+    };
+    const ofBase = element('span', '', edited > 0 ? 'out-of-sight' : '');
     const label = element('label', '', 'check');
     const box = element('input');
     Object.assign(box, { type: 'checkbox', checked: state.changeBase, id: 'change-base' });
@@ -77,7 +88,17 @@ export class Panels {
       state.sceneChanged.tell();
     });
     label.append(box, words.changeBase);
-    whose.replaceChildren(dot, element('span', state.changeBase ? words.whoseBaseItself : words.whoseBase), label);
+    ofBase.append(dot(0), state.changeBase ? words.whoseBaseItself : words.whoseBase, label);
+    const ofVariant = element('span', '', edited > 0 ? '' : 'out-of-sight');
+    if (edited > 0) {
+      const changes = state.changesOf(edited);
+      const more = changes.length - mostChanges;
+      const soFar = [...changes.slice(0, mostChanges), ...(more > 0 ? [words.whoseMore(more)] : [])].join(', ');
+      const said = soFar ? words.whoseSoFar(state.nameOf(edited), soFar) : words.whose(state.nameOf(edited));
+      ofVariant.append(dot(edited), said);
+      ofVariant.title = said;
+    }
+    whose.replaceChildren(ofBase, ofVariant);
     if (focused) box.focus();
   }
 }

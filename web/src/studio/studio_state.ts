@@ -5,7 +5,21 @@ import { ChangingSource } from '../replay/data_source';
 import type { Face } from '../replay/data';
 import { Playback } from '../replay/playback';
 import { Shown } from '../replay/shown';
+import { changeWords } from '../replay/change_words';
 import type { MuscleInfo, Region, SceneKey, SceneNow, Values } from './messages';
+
+/** {"tissue.young_kpa": 150} as a report's summary has it: {"tissue": {"young_kpa": 150}}. */
+export function nested(values: Values): Record<string, unknown> {
+  const out: Record<string, unknown> = {};
+  for (const [path, value] of Object.entries(values)) {
+    const parts = path.split('.');
+    const last = parts.pop()!;
+    let inner = out;
+    for (const part of parts) inner = (inner[part] ??= {}) as Record<string, unknown>;
+    inner[last] = value;
+  }
+  return out;
+}
 
 export class StudioState {
   readonly source = new ChangingSource();
@@ -33,6 +47,11 @@ export class StudioState {
     return this.scene?.faces[face]?.name ?? '';
   }
 
+  /** What differs from base in a variant, a sentence each. */
+  changesOf(face: number): string[] {
+    return changeWords(this.scene?.faces[face]?.changes ?? {}, nested(this.valuesOf(0)));
+  }
+
   /** A name that no face has yet. */
   freeName(wanted: string): string {
     const taken = new Set(this.scene?.faces.map(({ name }) => name));
@@ -50,7 +69,7 @@ export class StudioState {
   /** A face that moves like another until the server has computed its own motion. */
   addLike(like: number, name: string): void {
     const { replay } = this.source;
-    const face: Face = { ...replay.faces[like], name, changes: [], maxDifferenceMm: replay.faces[like].maxDifferenceMm };
+    const face: Face = { ...replay.faces[like], name, changes: [] };
     face.difference ??= { modes: [], weights: new Float32Array(0), maxErrorMm: 0 };
     this.source.setMotion({ ...replay, faces: [...replay.faces, face] });
   }

@@ -7,7 +7,7 @@ import { chooseFace } from '../replay/face/face_chooser';
 import { Refused, type Connection } from './connection';
 import type { Edits } from './edits';
 import { menuOf, type Menu } from './menu';
-import type { Preset } from './messages';
+import { isRecord, type Preset } from './messages';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
@@ -132,26 +132,27 @@ export class Tabs {
     at('tabs').querySelector<HTMLElement>(`.tab-name[data-face="${face}"]`)?.focus();
   }
 
+  /** Of base: beside other changes of the muscles, say, those of the preset would not hold. */
   private presetButton({ name }: Preset, close: () => void): HTMLButtonElement {
     const stem = stemOf(name);
     const side = name === stem ? null : words.sideNames[name.slice(-1) as 'L' | 'R'];
     const called = side ? words.ofSide(stem.replaceAll('_', ' '), side) : stem.replaceAll('_', ' ');
     const made = button(side ?? words.presetAdd, 'quiet', () => {
       close();
-      this.try(async () => this.focus(await this.edits.addFace(called, this.state.edited, name)));
+      this.try(async () => this.focus(await this.edits.addFace(called, 0, name)));
     });
     made.setAttribute('aria-label', side ? upper(called) : `${words.presetAdd}: ${called}`);
     made.dataset.preset = name;
     return made;
   }
 
-  /** The question that is asked most. */
+  /** The question that is asked most: of a side, a branch of the facial nerve or a muscle, in the words and per cents
+   *  of the muscles' panel. */
   private weaker(close: () => void): HTMLElement {
     const form = element('form', '', 'weaker');
-    const side = element('select');
-    for (const name of ['R', 'L'] as const) side.add(new Option(words.sideNames[name], name));
-    const by = element('input');
-    Object.assign(by, { type: 'number', min: '0', max: '100', step: '5', value: '30', required: true });
+    const what = this.muscleChooser();
+    const to = element('input');
+    Object.assign(to, { type: 'number', min: '0', max: '200', step: '5', value: '70', required: true, title: words.weakerToHint });
     const field = (text: string, control: HTMLElement, unit = '') => {
       const label = element('label');
       label.append(element('span', text), control, unit);
@@ -159,20 +160,39 @@ export class Tabs {
     };
     const add = element('button', words.weakerAdd, 'primary');
     add.type = 'submit';
-    form.append(field(words.weakerSide, side), field(words.weakerBy, by, ' %'), add);
+    form.append(field(words.weakerWhat, what), field(words.weakerTo, to, ' %'), add);
     form.addEventListener('submit', (event) => {
       event.preventDefault();
       close();
-      const chosen = side.value as 'L' | 'R';
-      const percent = Number(by.value);
+      const gain = what.value;
+      const percent = Number(to.value);
+      const called = what.selectedOptions[0].text;
       this.try(async () => {
-        const name = words.weakerName(words.sideNames[chosen], percent);
-        const face = await this.edits.addFace(name, 0);
+        const face = await this.edits.addFace(words.weakerName(called, percent), 0);
         this.focus(face);
-        await this.edits.change(face, { 'muscles.gain': { [`side_${chosen}`]: Number((1 - percent / 100).toFixed(3)) } });
+        const base = this.state.valuesOf(0)['muscles.gain'];
+        await this.edits.change(face, { 'muscles.gain': { ...(isRecord(base) ? base : {}), [gain]: Number((percent / 100).toFixed(3)) } });
       });
     });
     return form;
+  }
+
+  /** What muscles.gain may name. */
+  private muscleChooser(): HTMLSelectElement {
+    const { muscles } = this.state;
+    const select = element('select');
+    const group = (title: string, names: [stem: string, called: (side: string) => string][]) => {
+      const made = element('optgroup');
+      made.label = title;
+      for (const [stem, called] of names)
+        for (const side of ['R', 'L'] as const) made.append(new Option(upper(called(words.sideNames[side])), `${stem}_${side}`));
+      select.append(made);
+    };
+    group(words.wholeSide, [['side', words.weakerSide]]);
+    group(words.branches, [...new Set(muscles.map(({ branch }) => branch))].map((branch) => (
+      [branch, (side) => words.ofSide(words.weakerBranch(words.branchNames[branch] ?? upper(branch)), side)])));
+    group(words.weakerMuscles, muscles.map(({ name, latin }) => [name, (side) => words.ofSide(latin, side)]));
+    return select;
   }
 
   /** What the server refuses is told beside the tabs. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first figures of the page: both corners of the mouth in words and over time, and a line for each variant.
 import type { Chart } from '../../charts/chart_options';
-import { cornersOf, differenceWords, mm, type Corners } from '../corners';
+import { cornersOf, differenceWords, mm, sameMm, type Corners } from '../corners';
 import type { Replay } from '../data';
 import { button, element } from '../../page/dom';
 import type { Undo } from '../../page/listeners';
@@ -11,9 +11,6 @@ import { chooseFace } from '../face/face_chooser';
 import type { Shown } from '../shown';
 import { isNumber } from '../tables/figure_table';
 import { variantsOf, type VariantRow } from '../variants';
-
-/** A difference from base below this is none, mm: half of what a figure here shows. */
-const sameMm = 0.05;
 
 /** Where the floor comes from, in words. */
 function floorWords(replay: Replay, { floorMm, undecided }: Corners): string {

@@ -23,7 +23,8 @@ const headHeight = 58;
 const footHeight = 76;
 const remarkHeight = 16;
 /** Of what a face changes; the face is below. */
-const mostLines = 4;
+const mostLines = 8;
+const bandWords = '±: 95 %, from mesh and jitter alone.';
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
 /** A pen that counts in the page's pixels. */
@@ -154,12 +155,15 @@ export function drawPicture(parts: PictureParts): HTMLCanvasElement {
 
   const top = headHeight + stageHeight;
   if (parts.colours) drawScale(pen, parts.colours, top);
+  const uncertain = faces.some(({ changes }) => changes.some((text) => text.includes('±')));
   const words = narrow && parts.colours ? top + foot - 18 : top + 24;
   if (narrow) {
     pen.text('Made by Hyperex, a research tool and no medical device.', margin, words, 11, soft, { most: width - 2 * margin });
+    if (uncertain) pen.text(bandWords, margin, words + 13, 11, soft);
   } else {
     pen.text('Made by Hyperex', margin, words, 12, soft);
     pen.text('A research tool and no medical device.', margin, words + 20, 12, soft);
+    if (uncertain) pen.text(bandWords, margin, words + 40, 12, soft);
   }
   return pen.canvas;
 }

@@ -263,7 +263,7 @@ export class Stage {
       time: `${timeS.toFixed(3)} s`,
       faces: named.map((i) => ({
         name: faceWords(replay.faces, i),
-        changes: [cornerFigures(replay, i), changesOf(replay, i).join(', ')].filter((text) => text),
+        changes: [...cornerFigures(replay, i, timeS), changesOf(replay, i).join(', ')].filter((text) => text),
         colour: palette[faceHue(i)],
       })),
       divided: shown.mode === 'single' ? null : shown.mode === 'wipe' ? wipe!.at : 0.5,
