@@ -60,12 +60,6 @@ bool is_zip(const fs::path& file) {
   return ending == ".zip";
 }
 
-/// A name for a file or folder in the folder that the studio writes to.
-void check_name(const std::string& name) {
-  if (!is_upload_name(name))
-    throw InputError("name: expected letters, digits, spaces and any of -_.(), the first no dot");
-}
-
 }  // namespace
 
 Session::Session(SessionOptions options, Send send)
@@ -100,6 +94,10 @@ void Session::answer(const Request& request) {
       out = move_landmark(fields);
     else if (name == "landmarks_done")
       out = landmarks_done();
+    else if (name == "free_name")
+      out = free_name(fields);
+    else if (name == "discard_autosave")
+      out = discard_autosave();
     else if (name == "save")
       out = save(fields);
     else if (name == "live_start")
@@ -308,10 +306,9 @@ json Session::undo_or_redo(std::vector<Step>& from, std::vector<Step>& to) {
 json Session::save(const json& fields) {
   need_face();
   const std::string what = fields.at("what"), name = fields.at("name");
-  check_name(name);
+  check_save_name(name);
   const auto free = [&](const fs::path& path) {
-    if (fs::exists(fs::symlink_status(path)) &&
-        std::find(written_.begin(), written_.end(), path) == written_.end())
+    if (is_anothers(path))
       throw InputError(path,
                        "is there already, and the studio did not write it: expected another "
                        "name");

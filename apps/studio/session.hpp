@@ -68,7 +68,13 @@ class Session {
   nlohmann::json undo_or_redo(std::vector<Step>& from, std::vector<Step>& to);
   nlohmann::json move_landmark(const nlohmann::json& fields);
   nlohmann::json landmarks_done();
+  nlohmann::json free_name(const nlohmann::json& fields);
+  nlohmann::json discard_autosave();
   nlohmann::json save(const nlohmann::json& fields);
+  /// A name for a file or folder in the folder that the studio writes to; throws InputError.
+  static void check_save_name(const std::string& name);
+  /// Something of the user's, which is never replaced.
+  bool is_anothers(const std::filesystem::path& path) const;
   nlohmann::json live_start(const nlohmann::json& fields);
   nlohmann::json live_take(const nlohmann::json& fields);
   Live& need_live();

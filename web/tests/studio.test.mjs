@@ -101,7 +101,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.match(written, new RegExp(`Corners of the mouth at ${when} s: right \\d+\\.\\d mm, left \\d+\\.\\d mm`));
     assert.match(written, /At most, whole motion: right \d+\.\d mm, left \d+\.\d mm \(sides differ by \d\.\d ± \d\.\d mm/);
     assert.match(written, new RegExp(`right ${ownR.toFixed(1)} mm \\(${(baseR - ownR).toFixed(1)} ± \\d\\.\\d mm less than base`));
-    assert.match(written, /±: 95 %, from mesh and jitter alone/);
+    assert.match(written, /±: from jitter \(95 %\) and mesh \(one sample\) alone/);
     assert.match(picture.suggestedFilename(), /^a-smile-base-right-side-at-70.*\.png$/);
     assert.deepEqual([...(await readFile(await picture.path())).subarray(1, 4)].map((c) => String.fromCharCode(c)).join(''), 'PNG');
 
@@ -112,7 +112,9 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.equal(film.readUInt32BE(0), 0x1a45dfa3, 'EBML, as WebM begins');
     assert.ok(film.length > 20_000, `${film.length} bytes`);
     assert.ok(await page.locator('#unsaved').isVisible());
+    await writeFile(join(studio.folder, 'a-smile.toml'), 'not of the studio');
     await page.click('#save-menu');
+    await page.waitForFunction(() => document.getElementById('save-name').value === 'a-smile-2');
     await page.fill('#save-name', 'weaker');
     await page.click('[data-save=scene]');
     await page.waitForSelector('.told:has-text("weaker.toml")');
@@ -333,6 +335,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.waitForSelector('#banner:has-text("does not let this page in")');
     const again = await openStudio(browser, next.address);
     assert.match(await again.page.locator('.rescue').innerText(), /“Mine”, of \w+ \d+, \d{4}/);
+    assert.deepEqual(await again.page.locator('.rescue button').allInnerTexts(), ['Open it', 'Leave it', 'Delete it…']);
     await again.page.click('.rescue button >> nth=0');
     await again.page.waitForFunction(() => /side_R/.test(document.getElementById('scene-text').textContent));
     await settled(again.page);
@@ -340,6 +343,20 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.deepEqual(again.complaints, []);
     await again.close();
     await close();
+
+    // Left again, and deleted when the question is answered with yes.
+    await next.kill();
+    const last = await startStudio([], { port: studio.port, folder: studio.folder });
+    t.after(() => last.stop());
+    const third = await openStudio(browser, last.address);
+    third.page.on('dialog', (dialog) => dialog.accept());
+    await third.page.click('.rescue button >> nth=2');
+    await third.page.waitForSelector('.rescue', { state: 'hidden' });
+    await third.page.reload();
+    await third.page.waitForSelector('html[data-ready]');
+    assert.ok(!(await third.page.locator('.rescue').isVisible()));
+    assert.deepEqual(third.complaints, []);
+    await third.close();
   });
 
   test('a page that is loaded again goes on; another window takes over; a wrong token is turned away', async (t) => {

@@ -423,12 +423,44 @@ TEST_F(StudioSession, WritesOverNothingThatItDidNotWrite) {
   EXPECT_THAT(ask("save", {{"what", "scene"}, {"name", "theirs"}})["error"].get<std::string>(),
               HasSubstr("is there already"));
   EXPECT_EQ(read_file(folder_.path() / "mine" / "theirs.toml"), "mine");
+  fs::create_directory(folder_.path() / "mine" / "theirs-2");
+  EXPECT_EQ(ask("free_name", {{"name", "theirs"}})["name"], "theirs-3");
+  EXPECT_EQ(ask("free_name", {{"name", "nobody's"}}).contains("error"), true);
+  EXPECT_EQ(ask("free_name", {{"name", "ours"}})["name"], "ours");
   for (const char* name : {"../x", "a/b", ".x", ""})
     EXPECT_TRUE(ask("save", {{"what", "scene"}, {"name", name}}).contains("error")) << name;
   for (int i = 0; i < 2; ++i)
     EXPECT_FALSE(ask("save", {{"what", "scene"}, {"name", "ours"}}).contains("error"));
+  EXPECT_EQ(ask("free_name", {{"name", "ours"}})["name"], "ours") << "which may be written again";
   EXPECT_FALSE(ask("save", {{"what", "landmarks"}, {"name", "marks"}}).contains("error"));
   EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "marks.mrk.json"));
+}
+
+TEST(StudioSessionLeftovers, AreDeletedWhenAskedButNotWhileTheyAreOpen) {
+  const test::OwnFolder folder;
+  SessionOptions options;
+  options.save_into = options.folder = folder.path();
+  options.rescued = folder.path() / "left";
+  fs::create_directories(options.rescued);
+  fs::create_directories(options.folder / "uploads");
+  std::ofstream(options.rescued / "scene.toml")
+      << "scan.file = \"embedded\"\nmotion.file = \"embedded\"\n";
+  std::vector<json> answers;
+  Session session(options, [&](const std::string& message, bool binary, const std::string&) {
+    if (!binary && json::parse(message).contains("answer")) answers.push_back(json::parse(message));
+  });
+  session.answer({1, "open", {{"what", "autosave"}}});
+  session.answer({2, "discard_autosave", json::object()});
+  EXPECT_THAT(answers.back().value("error", ""), HasSubstr("is open"));
+  session.answer({3, "open", {{"what", "embedded"}}});
+  session.answer({4, "discard_autosave", json::object()});
+  EXPECT_FALSE(answers.back().contains("error")) << answers.back();
+  EXPECT_FALSE(fs::exists(options.rescued));
+  EXPECT_FALSE(session.keeps_rescued());
+  session.answer({5, "discard_autosave", json::object()});
+  EXPECT_TRUE(answers.back().contains("error"));
+  session.answer({6, "hello", {{"token", ""}, {"version", 1}}});
+  EXPECT_TRUE(answers.back()["places"]["autosave"].is_null());
 }
 
 TEST_F(StudioSession, MovesLandmarksOnTheSkinAndMakesTheFaceAnew) {

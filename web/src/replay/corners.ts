@@ -58,7 +58,7 @@ export const mm = (value: number): string => `${value.toFixed(1)} mm`;
 /** A difference from base below this is none, mm: half of what a figure here shows. */
 export const sameMm = 0.05;
 
-/** Of a variant's change against base: what mesh and jitter make of it, 95 %, mm; null: not known. */
+/** Of a variant's change against base: what mesh and jitter make of it, mm; null: not known. */
 export function changeBandMm(replay: Replay, face: number, side: 'left' | 'right'): number | null {
   const row = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
   const band = row?.[side === 'left' ? 'commissure_L_band_mm' : 'commissure_R_band_mm'];
@@ -91,7 +91,7 @@ function sidesFigures({ leftMm, rightMm, floorMm, undecided }: Corners): string 
 }
 
 /** How far the corners of the mouth are from rest at the time shown, and at most in the whole motion, with what is
- *  uncertain (95 %): a sentence each; none where that is not known. */
+ *  uncertain: a sentence each; none where that is not known. */
 export function cornerFigures(replay: Replay, face: number, t: number): string[] {
   const own = cornersOf(replay, face);
   if (!own) return [];

@@ -49,8 +49,19 @@ export class OpenPanel {
       this.rescue.hidden = true;
       this.ask('autosave');
     });
-    this.rescue.replaceChildren(element('p', places.autosave ? words.autosave(places.autosave.title, new Date(Date.now() - 1e3 * places.autosave.seconds_ago)) : ''), open, leave);
+    this.rescue.replaceChildren(element('p', places.autosave ? words.autosave(places.autosave.title, new Date(Date.now() - 1e3 * places.autosave.seconds_ago)) : ''), open, leave, button(words.autosaveDelete, 'quiet', () => void this.discard()));
     if (!places.open) void this.open(started ? 'started' : 'embedded');
+  }
+
+  /** What a session that ended has left goes for good. */
+  private async discard(): Promise<void> {
+    if (!window.confirm(words.autosaveDeleteSure)) return;
+    try {
+      await this.connection.ask('discard_autosave', {});
+      this.rescue.hidden = true;
+    } catch (error) {
+      if (error instanceof Refused) this.tell(error.message);
+    }
   }
 
   private called(): string {

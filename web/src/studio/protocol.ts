@@ -186,6 +186,20 @@ export interface LiveTakeRequest {
 }
 export type LiveTakeAnswer = Record<string, never>;
 
+/** A name under which nothing lies where save writes, but what the studio wrote there itself. */
+export interface FreeNameRequest {
+  /** the wanted one */
+  name: string;
+}
+export interface FreeNameAnswer {
+  /** that, or with a number behind it */
+  name: string;
+}
+
+/** Deletes what a session that ended has left (places.autosave of hello). Refused while it is open. */
+export type DiscardAutosaveRequest = Record<string, never>;
+export type DiscardAutosaveAnswer = Record<string, never>;
+
 /** Writes into the folder that the studio was started with; never over a file that it did not write. */
 export interface SaveRequest {
   /**
@@ -365,6 +379,8 @@ export interface Requests {
   live_record: { fields: LiveRecordRequest; answer: LiveRecordAnswer };
   live_drawn: { fields: LiveDrawnRequest; answer: LiveDrawnAnswer };
   live_take: { fields: LiveTakeRequest; answer: LiveTakeAnswer };
+  free_name: { fields: FreeNameRequest; answer: FreeNameAnswer };
+  discard_autosave: { fields: DiscardAutosaveRequest; answer: DiscardAutosaveAnswer };
   save: { fields: SaveRequest; answer: SaveAnswer };
 }
 

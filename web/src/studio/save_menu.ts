@@ -32,10 +32,12 @@ export class SaveMenu {
     const title = this.state.scene?.title ?? '';
     if (title !== this.named) this.name = '';
     this.named = title;
+    const proposed = this.name === '';
     this.name ||= fileName(this.state.scene?.title || 'hyperex', '').replace(/\.$/, '');
     const field = element('input');
     Object.assign(field, { type: 'text', value: this.name, maxLength: 60, id: 'save-name' });
     field.addEventListener('input', () => (this.name = field.value));
+    if (proposed) void this.propose(field);
     const label = element('label', '', 'save-name');
     label.append(element('span', words.saveName), field);
     const told = element('p', '', 'told');
@@ -50,6 +52,18 @@ export class SaveMenu {
       return made;
     });
     sheet.append(label, element('p', words.saveInto(this.folder), 'why'), ...buttons, told, problem);
+  }
+
+  /** A name that would be refused is none to begin with. */
+  private async propose(field: HTMLInputElement): Promise<void> {
+    const wanted = this.name;
+    try {
+      const { name } = await this.connection.ask('free_name', { name: wanted });
+      if (this.name !== wanted) return; // another one was typed meanwhile
+      this.name = field.value = name;
+    } catch {
+      // Saving says what is wrong with it.
+    }
   }
 
   private async save(what: SaveRequest['what'], buttons: HTMLButtonElement[], told: HTMLElement, problem: HTMLElement): Promise<void> {

@@ -24,7 +24,7 @@ const footHeight = 76;
 const remarkHeight = 16;
 /** Of what a face changes; the face is below. */
 const mostLines = 8;
-const bandWords = '±: 95 %, from mesh and jitter alone.';
+const bandWords = '±: from jitter (95 %) and mesh (one sample) alone.';
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
 /** A pen that counts in the page's pixels. */
