@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is measured of a motion: excursions, symmetry.
 #include <cmath>
+#include <optional>
 
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/metrics/excursion.hpp"
+#include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "options_class.hpp"
@@ -76,13 +78,52 @@ void bind_excursions(py::module_& m) {
       });
   m.def(
       "excursions_of",
-      [](const Motion& motion, double jitter_m, double lowpass_hz) {
+      [](const Motion& motion, double jitter_m, double lowpass_hz,
+         const std::optional<Motion>& twin) {
         refuse_unless(jitter_m >= 0, "jitter_m", jitter_m, "a number from 0 (m)");
         refuse_unless(lowpass_hz >= 0, "lowpass_hz", lowpass_hz, "a number from 0 (Hz)");
-        return excursions_of(motion, jitter_m, lowpass_hz);
+        Excursions excursions = excursions_of(motion, jitter_m, lowpass_hz);
+        if (!twin) return excursions;
+        if (twin->names != motion.names || twin->positions.size() != motion.positions.size())
+          throw InputError(
+              InputProblem{{}, 0, "twin", "another motion", "the names and samples of the motion"});
+        add_mesh_floor(excursions, motion, *twin);
+        return excursions;
       },
-      "motion"_a, "jitter_m"_a = 0.0, "lowpass_hz"_a = kUsualLowpass_hz, Unlocked(),
-      "How far both points of each pair travel. `jitter_m` is that of the recorded points.");
+      "motion"_a, "jitter_m"_a = 0.0, "lowpass_hz"_a = kUsualLowpass_hz, "twin"_a = py::none(),
+      Unlocked(),
+      "How far both points of each pair travel. `jitter_m` is that of the recorded points; `twin`: "
+      "the landmarks of a run of the mirrored motion (Scene.mirrored_motion), which tells what the "
+      "mesh makes of a figure.");
+  py::class_<ExcursionChange>(m, "ExcursionChange", "Of a side's excursion from run to run.")
+      .def_readonly("from_mm", &ExcursionChange::from_mm)
+      .def_readonly("to_mm", &ExcursionChange::to_mm)
+      .def_property_readonly("change_mm", &ExcursionChange::change_mm)
+      .def_readonly("band_mm", &ExcursionChange::band_mm,
+                    "What mesh (by the twins) and jitter (95 %) make of it; NaN without twins.")
+      .def_property_readonly(
+          "decided",
+          [](const ExcursionChange& self) -> py::object {
+            if (std::isnan(self.band_mm)) return py::none();
+            return py::bool_(self.decided() == 1);
+          },
+          "Whether the change is larger than its band; None without twins.")
+      .def("__repr__", [](const ExcursionChange& change) {
+        return fmt::format("<hyperex.ExcursionChange {:+.2f} ± {:.2f} mm>", change.change_mm(),
+                           change.band_mm);
+      });
+  m.def(
+      "change_of",
+      [](const PairExcursion& before, const PairExcursion& after, const std::string& side,
+         double jitter_m) {
+        if (side != "L" && side != "R")
+          throw InputError(InputProblem{{}, 0, "side", side, "\"L\" or \"R\""});
+        refuse_unless(jitter_m >= 0, "jitter_m", jitter_m, "a number from 0 (m)");
+        return change_of(before, after, side == "L" ? Side::left : Side::right, jitter_m);
+      },
+      "before"_a, "after"_a, "side"_a, "jitter_m"_a = 0.0,
+      "What the excursion of a side changes by from one run to another of the same recording, and "
+      "its band: the ± of `hyperex run`.");
   m.def("write_excursions_csv", &write_excursions_csv, "file"_a, "excursions"_a, Unlocked(),
         "A row a pair of points.");
   m.def(

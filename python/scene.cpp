@@ -8,7 +8,10 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/run/pipeline.hpp"
 #include "hyperex/scene/stages/drive_choice.hpp"
+#include "hyperex/scene/stages/mirrored_twin.hpp"
 #include "hyperex/scene/stages/obstacles.hpp"
+#include "hyperex/scene/stages/plausible.hpp"
+#include "hyperex/scene/stages/prepared_face.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
 #include "hyperex/scene/stages/teeth.hpp"
 #include "hyperex/scene/stages/thinned_scan.hpp"
@@ -55,6 +58,9 @@ struct ReadyScene {
 std::unique_ptr<ReadyScene> made_ready(const Path& file, const std::vector<std::string>& changes) {
   auto ready = std::make_unique<ReadyScene>();
   ready->scene = scene::read_scene(file, changes);
+  // The program warns; here nobody may look at warnings.
+  if (const std::string idle = scene::idle_law_warning(ready->scene); !idle.empty())
+    throw InputError(file, idle + ": set tissue.strain = \"finite\", or leave them out");
   scene::Inputs& inputs = ready->inputs = scene::read_inputs(ready->scene);
   scene::choose_drive(ready->scene, inputs);
   ready->mesh = std::make_shared<tissue::TissueMesh>(
@@ -67,6 +73,8 @@ std::unique_ptr<ReadyScene> made_ready(const Path& file, const std::vector<std::
   const auto options_of = [&](const scene::Scene& s, const scene::Inputs& of,
                               const std::string& owner) {
     reenact::SimulationOptions options = scene::simulation_options(s, of);
+    // A law stands in base for a variant at finite strain.
+    if (options.model.strain != reenact::Strain::finite) options.model.law = {};
     if (const auto field = fields.of(s, owner)) options.tissue.element = field->element;
     return options;
   };
@@ -80,6 +88,15 @@ std::unique_ptr<ReadyScene> made_ready(const Path& file, const std::vector<std::
                                  "variant[" + std::to_string(i) + "]."));
   }
   return ready;
+}
+
+/// Each point moves as the mirror image of its counterpart.
+reenact::AlignedMotion mirrored(const ReadyScene& ready) {
+  std::string why_not;
+  const metrics::MidsagittalPlane plane = scene::rest_asymmetry(*ready.mesh, ready.inputs).plane;
+  auto motion = scene::mirrored_motion(ready.inputs.motion, plane, ready.inputs.driven, why_not);
+  if (!motion) throw InputError(ready.scene.file, "the motion has no mirror image: " + why_not);
+  return *motion;
 }
 
 }  // namespace
@@ -98,6 +115,9 @@ void bind_scene(py::module_& m) {
       .def_readonly("face", &ReadyScene::face)
       .def_readonly("mesh", &ReadyScene::mesh)
       .def_property_readonly("motion", [](const ReadyScene& s) { return s.inputs.motion; })
+      .def_property_readonly("mirrored_motion", &mirrored,
+                             "The motion mirrored in the face's midsagittal plane, for a "
+                             "simulator's twin: what `twin` of excursions_of() takes.")
       .def_property_readonly(
           "options", [](const ReadyScene& s) { return s.options; }, "SimulationOptions, a copy.")
       .def_readonly("obstacles", &ReadyScene::obstacles,

@@ -151,6 +151,13 @@ class PythonSimulator {
  private:
   std::size_t tets() const { return static_cast<std::size_t>(mesh_->volume.tets.rows()); }
   SimulationOptions with_all_values(SimulationOptions options) const {
+    if (const auto& model = options.model;
+        model.strain != reenact::Strain::finite && !(model.law == fem::Hyperelastic{}))
+      throw InputError(InputProblem{{},
+                                    0,
+                                    "model.law",
+                                    std::string(fem::to_string(model.law.law)),
+                                    "strain=\"finite\" beside it: small strain has no law"});
     options.tissue = completed(std::move(options.tissue), tets());
     return options;
   }

@@ -77,6 +77,22 @@ void bind_drive(py::module_& m) {
 }
 
 void bind_solver(py::module_& m) {
+  OptionsClass<fem::MaxwellBranch>(m, "MaxwellBranch", "A spring and a dashpot beside the law.")
+      .field("ratio", &fem::MaxwellBranch::ratio, "Its stress at once over the law's, 0 to 100.")
+      .field("relaxation_s", &fem::MaxwellBranch::relaxation_s,
+             "In which it falls to 1/e at a held stretch, 1e-6 to 1e6 s.");
+  OptionsClass<fem::Hyperelastic>(m, "Law", "The hyperelastic law at finite strain.")
+      .word("name", &fem::Hyperelastic::law,
+            {{"neo-hookean", fem::HyperelasticLaw::neo_hookean},
+             {"isochoric-neo-hookean", fem::HyperelasticLaw::isochoric_neo_hookean},
+             {"yeoh", fem::HyperelasticLaw::yeoh},
+             {"mooney-rivlin", fem::HyperelasticLaw::mooney_rivlin}},
+            "neo-hookean, isochoric-neo-hookean, yeoh or mooney-rivlin; its stiffness at small "
+            "strain is that of the Tissue.")
+      .field("c20", &fem::Hyperelastic::c20, "C20/C10 of yeoh; E = 4 (1 + poisson) C10.")
+      .field("c30", &fem::Hyperelastic::c30, "C30/C10 of yeoh.")
+      .field("c01", &fem::Hyperelastic::c01, "C01/C10 of mooney-rivlin.")
+      .list("maxwell", &fem::Hyperelastic::branches, "MaxwellBranch, parallel to the law.");
   OptionsClass<ModelOptions>(m, "ModelOptions", "The elements.")
       .word("element", &ModelOptions::element,
             {{"tet4-star", fem::ElementKind::tet4_star}, {"tet4", fem::ElementKind::tet4}},
@@ -85,7 +101,9 @@ void bind_solver(py::module_& m) {
             {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
             "isotropic or printed.")
       .word("strain", &ModelOptions::strain,
-            {{"linear", Strain::linear}, {"finite", Strain::finite}}, "linear or finite.");
+            {{"linear", Strain::linear}, {"finite", Strain::finite}}, "linear or finite.")
+      .field("law", &ModelOptions::law,
+             "A Law; other than the default only where strain is finite: small strain has none.");
   OptionsClass<SolverOptions>(m, "SolverOptions", "How the equations are solved.")
       .word("method", &SolverOptions::method,
             {{"reduced", SolverMethod::reduced}, {"direct", SolverMethod::direct}},

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/override.hpp"
 #include "hyperex/scene/grammar/toml_values.hpp"
 #include "hyperex/scene/grammar/variant_presets.hpp"
@@ -22,6 +23,16 @@ std::string values_of(const tissue::GivenParameters& given, const char* ending) 
                           *ending ? std::string("young_factor") : tissue::parameter_info(p).key,
                           *ending ? *given[p] : *given[p] / tissue::parameter_info(p).si);
   return text;
+}
+
+/// What muscles.gain may name.
+void print_muscles() {
+  std::cout
+      << "\nMuscles, for muscles.gain; with _L or _R the subject's own side. The branch of the "
+         "facial nerve, with _L or _R, stands for all its muscles on that side; side_L and "
+         "side_R for all of a side\n\n";
+  for (const muscles::TemplateMuscle& muscle : muscles::muscle_template())
+    std::cout << fmt::format("{:14} {:11} {}\n", muscle.name, muscle.branch, muscle.latin);
 }
 
 void print() {
@@ -47,6 +58,7 @@ void print() {
                "right half\n\n";
   for (const tissue::FacialRegion& region : tissue::facial_regions())
     std::cout << fmt::format("{:10} {}\n", region.name, region.meaning);
+  print_muscles();
 }
 
 }  // namespace
@@ -56,7 +68,7 @@ void add_presets(CLI::App& program) {
       .add_subcommand(
           "presets",
           "List published tissue parameters and presets of variants (palsies, scar, age) "
-          "with their sources, and the named regions of the face")
+          "with their sources, the named regions of the face, and the muscles")
       ->footer("Example: hyperex presets")
       ->callback(print);
 }

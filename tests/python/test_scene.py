@@ -55,6 +55,19 @@ class Scenes(unittest.TestCase):
         with self.assertRaisesRegex(hyperex.InputError, "tisue"):
             hyperex.check_scene(EXAMPLES / "mouth_open.toml", {"tisue.young_kpa": 3})
 
+    def test_a_law_needs_finite_strain(self):
+        with self.assertRaisesRegex(hyperex.InputError, "tissue.law.*tissue.strain = \"finite\""):
+            hyperex.Scene(EXAMPLES / "mouth_open.toml", {"tissue.law": "yeoh", **COARSE})
+        law = hyperex.Law(name="yeoh", c20=0.6, maxwell=[hyperex.MaxwellBranch(ratio=0.5)])
+        self.assertEqual(hyperex.ModelOptions(strain="finite", law=law).law.maxwell[0].ratio, 0.5)
+        options = hyperex.SimulationOptions(model=hyperex.ModelOptions(law=law))
+        simulator = small_simulator()
+        with self.assertRaisesRegex(hyperex.InputError, "model.law = yeoh: expected strain"):
+            simulator.set_options(options)
+        options.model.strain = "finite"
+        simulator.set_options(options)
+        self.assertEqual(simulator.options.model.law, law)
+
     def test_check(self):
         checked = hyperex.check_scene(EXAMPLES / "mouth_open.toml")
         self.assertEqual(checked["warnings"], [])
@@ -90,6 +103,34 @@ class Measures(unittest.TestCase):
             hyperex.distance_from_rest_mm(self.performance.landmarks, ["cheilion_L"]), far_mm, atol=1e-12)
         with self.assertRaises(hyperex.InputError):
             hyperex.distance_from_rest_mm(self.performance.landmarks, ["nobody"])
+
+    def test_change_of_an_excursion_and_its_band(self):
+        scene = hyperex.Scene(EXAMPLES / "mouth_open.toml", COARSE)
+        simulator = scene.simulator()
+        twin = hyperex.Simulator(scene.mesh, scene.face.landmarks, scene.mirrored_motion, scene.options)
+
+        def pairs(factor):
+            options = scene.options
+            options.tissue = options.tissue.replace(young_pa=factor * scene.options.tissue.young_pa)
+            for one in (simulator, twin):
+                one.set_options(options)
+            return hyperex.excursions_of(simulator.run().landmarks, 1e-4, twin=twin.run().landmarks)
+
+        soft, stiff = pairs(1), pairs(3)
+        for side in "LR":
+            change = hyperex.change_of(soft["cheek"], stiff["cheek"], side, 1e-4)
+            before, after = (getattr(p["cheek"], {"L": "left", "R": "right"}[side]).excursion_mm
+                             for p in (soft, stiff))
+            self.assertAlmostEqual(change.change_mm, after - before, 12)
+            self.assertGreater(change.band_mm, 0.1)
+            self.assertEqual(change.decided, abs(change.change_mm) > change.band_mm)
+        alone = hyperex.excursions_of(simulator.run().landmarks)["cheek"]
+        self.assertTrue(np.isnan(hyperex.change_of(alone, alone, "L").band_mm))
+        self.assertIsNone(hyperex.change_of(alone, alone, "L").decided)
+        with self.assertRaisesRegex(hyperex.InputError, "side"):
+            hyperex.change_of(alone, alone, "left")
+        with self.assertRaisesRegex(hyperex.InputError, "twin"):
+            hyperex.excursions_of(scene.motion.motion, twin=hyperex.Motion(["a"], [0, 1], np.zeros((2, 1, 3))))
 
     def test_symmetry(self):
         curve = hyperex.symmetry_of(self.performance.landmarks)

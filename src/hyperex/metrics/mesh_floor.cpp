@@ -62,6 +62,10 @@ void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::
                     const motion::Motion& twin) {
   curve.mesh_remainder = twin_remainders(run, twin);
   curve.mesh_noise = xi_mesh_floor(run, twin, curve.mesh_remainder);
+  add_mesh_floor(excursions, run, twin);
+}
+
+void add_mesh_floor(Excursions& excursions, const motion::Motion& run, const motion::Motion& twin) {
   for (PairExcursion& pair : excursions.pairs) {
     pair.mesh_floor_mm = excursion_mesh_floor_mm(run, twin, pair.left, pair.right);
     pair.twin_left_mm = greatest_mm(distance_from_rest_mm(twin, {pair.right}));

@@ -40,6 +40,9 @@ double excursion_mesh_floor_mm(const motion::Motion& run, const motion::Motion& 
 void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::Motion& run,
                     const motion::Motion& twin);
 
+/// Of the pairs alone.
+void add_mesh_floor(Excursions& excursions, const motion::Motion& run, const motion::Motion& twin);
+
 /// The floor of what a variant adds to xi_L - xi_R: with p the remainders of the variant less those
 /// of the base, the greatest over time of sum |p|: twice the bound for a symmetric motion in
 /// symmetric tissue, as there the difference may equal the bound. NaN where either has no twin.
@@ -50,8 +53,8 @@ enum class Side { left, right };
 /// What a side's excursion changes by from one run to another that answers the same recording.
 struct ExcursionChange {
   double from_mm = 0, to_mm = 0;
-  /// 95 %: what the mesh makes of the change, as far as the mirrored twins tell, and the
-  /// recording's jitter: |(to - from) - (to' - from')| of the twins, and 1.96 sqrt(2) jitter
+  /// What the mesh makes of the change, as far as the mirrored twins tell (one sample), and the
+  /// recording's jitter (95 %): |(to - from) - (to' - from')| of the twins, and 1.96 sqrt(2) jitter
   /// |to / from - 1|, as a changed face scales the jitter that both runs share; root of the sum of
   /// squares, and kResolution_m. NaN without twins. Neither wrong tissue nor wrong muscles are in
   /// it.

@@ -8,6 +8,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/static_solve.hpp"
 #include "hyperex/motion/resample.hpp"
+#include "hyperex/muscles/muscle_names.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/reenact/input_shapes.hpp"
 
@@ -62,9 +63,13 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
       factor[static_cast<Eigen::Index>(m)] *= gain.gain;
       found = true;
     }
-    if (!found)
-      throw InputError("muscles.gain", fmt::format("{} is no muscle; there are {}", gain.muscle,
-                                                   fmt::join(muscles::gain_names(table), ", ")));
+    if (found) continue;
+    const auto called = muscles::muscles_called(gain.muscle, table);
+    if (!called.empty())
+      throw InputError("muscles.gain", fmt::format("{} is no muscle; did you mean {}?", gain.muscle,
+                                                   fmt::join(called, " or ")));
+    throw InputError("muscles.gain", fmt::format("{} is no muscle; there are {}", gain.muscle,
+                                                 fmt::join(muscles::gain_names(table), ", ")));
   }
   return factor;
 }

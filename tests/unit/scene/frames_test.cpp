@@ -102,6 +102,9 @@ TEST(Frames, MarksElementsThatAreTurnedInsideOut) {
   EXPECT_NEAR(kpa.at("max_not_inverted").get<double>(), 1e-3 * std::sqrt(3.0) * kShear_pa * 0.01,
               1e-4);
   EXPECT_GT(kpa.at("max"), 100 * kpa.at("max_not_inverted").get<double>());
+  EXPECT_NEAR(summary.at("von_mises_max_over_p99").get<double>(),
+              kpa.at("max_not_inverted").get<double>() / kpa.at("p99").get<double>(), 1e-12)
+      << "inverted ones do not count";
   EXPECT_LE(kpa.at("median"), kpa.at("p95"));
   EXPECT_LE(kpa.at("p95"), kpa.at("p99"));
 }
@@ -124,6 +127,7 @@ TEST(Frames, PercentilesOfAnEvenStrainAreAllTheSame) {
     EXPECT_NEAR(summary["von_mises_stress_kpa"][share].get<double>(),
                 1e-3 * std::sqrt(3.0) * kShear_pa * 0.06, 1e-4);
   }
+  EXPECT_NEAR(summary["von_mises_max_over_p99"].get<double>(), 1, 1e-4);
   EXPECT_EQ(summary["inverted_tets"], 0);
   EXPECT_TRUE(stress_summary({}).is_null()) << "nothing was simulated";
 }

@@ -94,6 +94,8 @@ TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
             "zyg_major_L?");
   EXPECT_EQ(only_problem(by_muscles, {"muscles.gain={ side_l = 0.3 }"}),
             "--set: muscles.gain.side_l = 0.3: expected another name; did you mean side_L?");
+  EXPECT_THAT(only_problem(by_muscles, {"muscles.gain={ zygomaticus_R = 0.3 }"}),
+              HasSubstr("did you mean zyg_major_R or zyg_minor_R?"));
   EXPECT_THAT(only_problem(by_muscles + "[muscles]\ngain = { weather = 1 }\n"),
               HasSubstr("muscles.gain.weather = 1: expected one of buccal_L, buccal_R, "));
 }

@@ -115,6 +115,13 @@ TEST(ReadScene, UnknownKeysAndSections) {
               HasSubstr("[time] has step_s, end_s, frame_rate_hz"));
   EXPECT_EQ(only_problem(base, {"tissue.young_pa=5"}),
             "--set: tissue.young_pa = 5: expected a known key (did you mean tissue.young_kpa?)");
+  EXPECT_THAT(
+      only_problem(base, {"tissue.yeoh_c10_kpa=2.5"}),
+      HasSubstr("expected what it follows from: tissue.young_kpa = 4 (1 + tissue.poisson) C10"));
+  EXPECT_THAT(only_problem(base, {"tissue.yeoh_c20_kpa=1.175"}),
+              HasSubstr("tissue.yeoh_c20 = C20 / C10"));
+  EXPECT_THAT(only_problem(base, {"tissue.shear_modulus_kpa=5"}),
+              HasSubstr("2 (1 + tissue.poisson) mu"));
   for (const auto& [text, set] : {std::pair(base + "[support]\nmuscle_kpa_per_mm = 2\n", ""),
                                   std::pair(base, "support.muscle_kpa_per_mm=2")})
     EXPECT_THAT(

@@ -251,7 +251,10 @@ std::vector<Key> model_keys() {
                                    "Thickness of the soft tissue there.")},
           "Thickness at a landmark, instead of the published depth there; interpolated in between. "
           "Only where mesh.thickness_mm is 0."),
-      uniform_parameter("tissue.young_kpa", kilopascals, tissue::young, "Young's modulus E."),
+      uniform_parameter(
+          "tissue.young_kpa", kilopascals, tissue::young,
+          "Young's modulus E. The springs of [support] do not scale with it. Where drive.by = "
+          "\"muscles\", E rises towards the lips, up to 3.2 times this value (docs/muscles.md)."),
       uniform_parameter(
           "tissue.poisson", none, tissue::poisson,
           "Poisson's ratio. With tissue.element = \"tet4\" the tissue moves too little near 0.5."),
@@ -261,7 +264,7 @@ std::vector<Key> model_keys() {
       choice<Scene, fem::ViscousForm>(
           "tissue.viscous_form", AT(model.viscous_form),
           {{"isotropic", fem::ViscousForm::isotropic}, {"printed", fem::ViscousForm::printed}},
-          "The viscous tensor: Stokes' law, or the tensor printed in the thesis (docs/tissue.md), "
+          "The viscous tensor: Stokes' law, or the tensor printed in the thesis (docs/theory.md), "
           "which is not isotropic."),
       choice<Scene, fem::ElementKind>(
           "tissue.element", AT(model.element),
@@ -282,12 +285,14 @@ std::vector<Key> model_keys() {
           "The hyperelastic law where tissue.strain = \"finite\". Its stiffness at small strain is "
           "that of tissue.young_kpa and tissue.poisson."),
       number<Scene>("tissue.yeoh_c20", none, AT(model.law.c20), {-10, 100},
-                    "C20 / C10 of tissue.law = \"yeoh\". The default is of facial tissue (2.5 "
-                    "and 1.175 kPa)."),
+                    "C20 / C10 of tissue.law = \"yeoh\", a ratio. C10 is no key: it follows from "
+                    "tissue.young_kpa = 4 (1 + poisson) C10. The default is of facial tissue "
+                    "(C10 2.5 kPa, C20 1.175 kPa, so young_kpa = 15)."),
       number<Scene>("tissue.yeoh_c30", none, AT(model.law.c30), {0, 100},
-                    "C30 / C10 of tissue.law = \"yeoh\"."),
+                    "C30 / C10 of tissue.law = \"yeoh\", a ratio."),
       number<Scene>("tissue.mooney_c01", none, AT(model.law.c01), {0, 100},
-                    "C01 / C10 of tissue.law = \"mooney-rivlin\"."),
+                    "C01 / C10 of tissue.law = \"mooney-rivlin\", a ratio: tissue.young_kpa = "
+                    "4 (1 + poisson) (C10 + C01)."),
       rows<Scene, fem::MaxwellBranch>(
           "tissue.maxwell", AT(model.law.branches),
           {number<fem::MaxwellBranch>(

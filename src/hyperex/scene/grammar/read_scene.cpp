@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/muscles/muscle_names.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/grammar/fields.hpp"
 #include "hyperex/scene/grammar/keys.hpp"
@@ -325,9 +326,15 @@ muscles::MuscleTable Reader::muscles_of_scene() {
 
 void Reader::check_gains() {
   const std::vector<std::string> names = muscles::gain_names(scene.muscles.table());
-  for (const reenact::MuscleGain& gain : scene.muscles.gains)
-    if (std::find(names.begin(), names.end(), gain.muscle) == names.end())
-      complain_part("muscles.gain", "." + gain.muscle, gain.gain, one_of_names(gain.muscle, names));
+  for (const reenact::MuscleGain& gain : scene.muscles.gains) {
+    if (std::find(names.begin(), names.end(), gain.muscle) != names.end()) continue;
+    const auto called = muscles::muscles_called(gain.muscle, scene.muscles.table());
+    complain_part("muscles.gain", "." + gain.muscle, gain.gain,
+                  called.empty()
+                      ? one_of_names(gain.muscle, names)
+                      : fmt::format("another name; did you mean {}? (hyperex presets lists all)",
+                                    fmt::join(called, " or ")));
+  }
 }
 
 void Reader::check_strain() {

@@ -125,7 +125,7 @@ std::string variants_text() {
       "displacement's length (below 0: moves less), the mean displacement of the face's left and "
       "right and its asymmetry; how far the corners of the mouth travel, how much that is changed "
       "and "
-      "the band of the change (95 %, docs/muscles.md); what is added to xi_L - xi_R; share of the "
+      "the band of the change (docs/muscles.md); what is added to xi_L - xi_R; share of the "
       "summed squared distance "
       "within 25 mm of the outline of the lips; lag (ms) and hysteresis of a response point behind "
       "a "

@@ -66,13 +66,18 @@ nlohmann::ordered_json spread_of_sound(const Eigen::VectorXd& values,
   return spread_of(sound.head(count), std::vector<std::uint8_t>(std::size_t(count), 0));
 }
 
+/// Greatest stress of elements that are not inverted over the 99th percentile; null where there is
+/// none.
+nlohmann::ordered_json over_p99(const nlohmann::ordered_json& stress) {
+  if (!stress.is_object() || !(stress["p99"] > 0)) return nullptr;
+  return stress["max_not_inverted"].get<double>() / stress["p99"].get<double>();
+}
+
 nlohmann::ordered_json finite_summary(const Performance& p, const Points& d,
                                       const std::vector<std::uint8_t>& inverted) {
   const FiniteState state = FiniteTissue(p).at(d);
   nlohmann::ordered_json stress = spread_of_sound(1e-3 * state.von_mises_pa, inverted);
-  nlohmann::ordered_json over;
-  if (stress.is_object() && stress["p99"] > 0)
-    over = stress["max"].get<double>() / stress["p99"].get<double>();
+  nlohmann::ordered_json over = over_p99(stress);
   nlohmann::ordered_json volume = spread_of_sound(state.volume_ratio, inverted);
   if (volume.is_object()) {
     volume.erase("max_not_inverted");
@@ -169,8 +174,11 @@ nlohmann::ordered_json stress_summary(const Performance& p) {
   const auto inverted = fem::inverted_tets(p.nodes, p.tets, d);
   if (is_finite(p)) return finite_summary(p, d, inverted);
   const fem::VoigtRows strain = fem::ElementStrain(p.nodes, p.tets).at(d);
-  return {{"von_mises_stress_kpa",
-           spread_of(1e-3 * fem::von_mises_pa(strain, elastic_material(p)), inverted)},
+  nlohmann::ordered_json stress =
+      spread_of(1e-3 * fem::von_mises_pa(strain, elastic_material(p)), inverted);
+  nlohmann::ordered_json over = over_p99(stress);
+  return {{"von_mises_stress_kpa", std::move(stress)},
+          {"von_mises_max_over_p99", std::move(over)},
           {"greatest_principal_strain", spread_of(greatest_principal(strain), inverted)},
           {"inverted_tets", std::count(inverted.begin(), inverted.end(), 1)}};
 }

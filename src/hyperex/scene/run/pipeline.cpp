@@ -66,6 +66,7 @@ Json summary_of(const Results& r, const SkinOff& off) {
   Json s;
   s["program"] = "hyperex";
   s["version"] = version();
+  if (!commit().empty()) s["commit"] = commit();
   s["title"] = r.scene.title;
   s["nodes"] = p.nodes.rows();
   s["tets"] = p.tets.rows();
@@ -146,6 +147,22 @@ std::vector<std::string> warnings_of(const reenact::SimulationReport& report,
         report.inverted_tets, p.tets.rows(),
         p.model.strain == reenact::Strain::finite ? "these elements" : "linear strain"));
   return notes;
+}
+
+/// At finite strain: single elements whose volume changes much. Patches of them keep theirs, so
+/// that the skin's motion is hardly affected.
+std::vector<std::string> volume_warning(const Json& at_peak) {
+  constexpr double kMuch = 3;
+  if (!at_peak.is_object() || !at_peak.contains("volume_ratio")) return {};
+  const Json& volume = at_peak["volume_ratio"];
+  if (!volume.is_object()) return {};
+  const double least = volume["min"], most = volume["max"];
+  if (least * kMuch >= 1 && most <= kMuch) return {};
+  return {
+      fmt::format("at the peak the volume of single elements is {:.2f} to {:.2f} times that at "
+                  "rest (99 % below "
+                  "{:.2f}): their stress says little; use percentiles, or a finer mesh there",
+                  least, most, volume["p99"].get<double>())};
 }
 
 /// Variants that change nothing are a slip of the pen more often than a wish.
@@ -315,6 +332,7 @@ Json run_into(Scene scene, const std::filesystem::path& directory) {
   if (!twin.why_not.empty())
     results.notes.push_back("the mesh's own floor of symmetry is not known: " + twin.why_not);
   Json summary = summary_of(results, off);
+  warn(volume_warning(summary["at_peak"]), results);
   if (field) summary["tissue"] = tissue_json(*field);
   // The scene's own files are written on one core while its variants are simulated.
   std::optional<report::GlbReport> glb;

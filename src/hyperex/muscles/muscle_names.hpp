@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/muscles/muscle_template.hpp"
+
+namespace hyperex::muscles {
+
+/// Muscles that a wrong name of a gain ("zygomaticus_R", "frontalis medial part_L") may mean: those
+/// whose Latin name holds all words of it, with its side. Empty where it has no side or none does.
+std::vector<std::string> muscles_called(const std::string& name,
+                                        const MuscleTable& among = muscle_template());
+
+}  // namespace hyperex::muscles
