@@ -28,6 +28,8 @@ void check(const TissueMeshOptions& o) {
   in("layers", o.layers, o.layers_in);
   in("thickness_m", o.thickness_m, o.thickness_m_in, true);
   in("trim_border_m", o.trim_border_m, o.trim_border_m_in);
+  for (const tissue::DepthRegion& region : o.depth_regions)
+    in("depth_regions.depth_m", region.depth_m, o.thickness_m_in);
   if (!problems.empty()) throw InputError(problems);
 }
 
@@ -46,13 +48,21 @@ SharedTissueMesh of_surface(const TriMesh& mesh, const io::Landmarks& landmarks,
 }
 
 void bind_mesh_options(py::module_& m) {
+  using tissue::DepthRegion;
   using tissue::LipCut;
+  OptionsClass<DepthRegion>(m, "DepthRegion", "Thickness in a painted part of the skin.")
+      .field("painted", &DepthRegion::painted,
+             "A file of weights from 0 to 1, a row a vertex of the scan, or the scan painted red.")
+      .field("depth_m", &DepthRegion::depth_m, "Where the weight is 1: 0.001 to 0.04 m.");
   OptionsClass<TissueMeshOptions>(m, "TissueMeshOptions", "How the soft tissue is meshed.")
       .field("element_size_m", &TissueMeshOptions::element_size_m,
              "Edges at the mouth, 0.0005 to 0.03 m; they grow away from it.")
       .field("layers", &TissueMeshOptions::layers, "Of elements under the skin, 1 to 8.")
       .field("thickness_m", &TissueMeshOptions::thickness_m,
              "Of the tissue, 0.001 to 0.04 m; 0: published depths, interpolated.")
+      .field("depth_per_vertex", &TissueMeshOptions::depth_per_vertex,
+             "A file of thickness_mm, a row a vertex of the scan, where it gives any; empty: none.")
+      .list("depth_regions", &TissueMeshOptions::depth_regions, "DepthRegions, applied in turn.")
       .word("cut_lips", &TissueMeshOptions::cut_lips,
             {{"auto", LipCut::automatic}, {"always", LipCut::always}, {"never", LipCut::never}},
             "auto, always or never.")

@@ -65,7 +65,9 @@ void bind_parts(py::module_& m) {
   OptionsClass<TissueRegion> region(m, "TissueRegion", "A change within a part of the skin.");
   region.field("name", &TissueRegion::name, "Of facial_regions(); or")
       .list("scar", &TissueRegion::scar, "two or more landmarks along a line; or")
-      .list("scar_points_m", &TissueRegion::scar_points_m, "places along it, metres.")
+      .list("scar_points_m", &TissueRegion::scar_points_m, "places along it, metres; or")
+      .field("painted", &TissueRegion::painted,
+             "a file of weights from 0 to 1, a row a vertex of the scan, or the scan painted red.")
       .field("width_m", &TissueRegion::width_m, "Of a scar.")
       .field("blend_m", &TissueRegion::blend_m, "From nothing to the whole change.");
   given_values(region, &TissueRegion::value);

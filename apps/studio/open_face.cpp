@@ -15,6 +15,7 @@
 #include "hyperex/scene/stages/plausible.hpp"
 #include "hyperex/scene/stages/simulation_options.hpp"
 #include "hyperex/scene/stages/teeth.hpp"
+#include "hyperex/tissue/skin_depth.hpp"
 #include "live.hpp"
 
 namespace hyperex::studio {
@@ -36,9 +37,13 @@ std::vector<bool> contact_of(const scene::Scene& scene) {
   return out;
 }
 
-/// Whether one is read, meshed and aligned as the other.
-bool same_face(const scene::Scene& a, const scene::Scene& b) {
+/// Whether one is read, meshed and aligned as the other; but for the value of a key.
+bool same_face(const scene::Scene& a, const scene::Scene& b, const char* but = nullptr) {
   json one = values_of(a), other = values_of(b);
+  if (but) {
+    one.erase(but);
+    other.erase(but);
+  }
   for (json* values : {&one, &other})
     for (auto it = values->begin(); it != values->end();) {
       const std::string& key = it.key();
@@ -239,6 +244,19 @@ reenact::SimulationOptions OpenFace::options_live(std::size_t face,
 
 Eigen::VectorXd OpenFace::region_shares(const std::string& text) {
   return fields_->region_shares(scene::read_scene_text(text, scene_.file), 0);
+}
+
+Eigen::VectorXf OpenFace::unpainted_mm() const {
+  tissue::TissueMeshOptions options = scene_.mesh;
+  options.depth_regions.clear();
+  return (1e3 * tissue::skin_depth(*face_.mesh, inputs_.landmarks, options)).cast<float>();
+}
+
+bool OpenFace::same_skin(const OpenFace& other) const {
+  const TriMesh &own = mesh().skin, &others = other.mesh().skin;
+  return same_face(scene_, other.scene_, "mesh.thickness_region") &&
+         own.points.rows() == others.points.rows() && own.points == others.points &&
+         own.triangles.rows() == others.triangles.rows() && own.triangles == others.triangles;
 }
 
 bool OpenFace::up_to_date() const {

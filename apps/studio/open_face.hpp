@@ -61,6 +61,11 @@ class OpenFace {
   /// of the skin, 0 to 1. Throws InputError.
   Eigen::VectorXd region_shares(const std::string& text);
 
+  /// At each vertex of the skin, mm: how thick the tissue is to be, without mesh.thickness_region.
+  Eigen::VectorXf unpainted_mm() const;
+  /// Whether the other has the same skin, landmarks and motion: all but painted thickness.
+  bool same_skin(const OpenFace& other) const;
+
   bool up_to_date() const;
   /// Runs what is not up to date. Throws NumericalError, and reenact::Cancelled: what was done so
   /// far stays.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What is painted on the skin, as files that tissue.region names.
+// What is painted on the skin, as files that tissue.region and mesh.thickness_region name.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>

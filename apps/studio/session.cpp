@@ -196,10 +196,14 @@ void Session::make_face(const std::string& text, const fs::path& file) {
   auto made = std::make_unique<OpenFace>(text, file, options_.kept,
                                          [this](const std::string& stage) { tell(stage); });
   end_live();
+  // The same skin on other tissue: the page only hears how it moves.
+  const bool same_skin = face_ && face_->same_skin(*made);
   face_ = std::move(made);
-  scan_.reset();
-  moved_.clear();
-  face_sent_ = false;
+  if (!same_skin) {
+    scan_.reset();
+    moved_.clear();
+    face_sent_ = false;
+  }
   variant_due_ = true;  // not again after each change of base, which more of them follow
   for (const std::string& warning : face_->warnings()) say("warning", warning);
 }
@@ -427,6 +431,8 @@ void Session::send_motion(Stopwatch& watch) {
            {"found", given.empty() || std::count(placed.begin(), placed.end(), name) > 0}});
     head["landmarks"] = landmarks;
     head["muscles"] = muscles_json(face_->scene().muscles.table());
+    const Eigen::VectorXf thickness = face_->unpainted_mm();
+    head["thickness"] = block.add("float32", thickness.data(), std::size_t(thickness.size()));
   }
   send_(binary_message(head, block), true, "");
   face_sent_ = true;

@@ -103,13 +103,21 @@ def prepare_motion(motion: Motion, landmarks: _Landmarks, *, max_gap_s: float = 
 
 # Tissue
 
+class DepthRegion:
+    painted: _Path
+    depth_m: float
+    def __init__(self, *, painted: _Path = ..., depth_m: float = ...) -> None: ...
+    def replace(self, **fields: Any) -> DepthRegion: ...
+
 class TissueMeshOptions:
     element_size_m: float
     layers: int
     thickness_m: float
+    depth_per_vertex: _Path
+    depth_regions: Sequence[DepthRegion]
     cut_lips: str
     trim_border_m: float
-    def __init__(self, *, element_size_m: float = ..., layers: int = ..., thickness_m: float = ..., cut_lips: str = ..., trim_border_m: float = ...) -> None: ...
+    def __init__(self, *, element_size_m: float = ..., layers: int = ..., thickness_m: float = ..., depth_per_vertex: _Path = ..., depth_regions: Sequence[DepthRegion] = ..., cut_lips: str = ..., trim_border_m: float = ...) -> None: ...
     def replace(self, **fields: Any) -> TissueMeshOptions: ...
 
 class TissueMesh:
@@ -157,6 +165,7 @@ class TissueRegion:
     name: str
     scar: Sequence[str]
     scar_points_m: Sequence[Sequence[float]]
+    painted: _Path
     width_m: float
     blend_m: float
     young_pa: float | None

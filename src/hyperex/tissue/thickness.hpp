@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@ namespace hyperex::tissue {
 struct DepthAt {
   std::string landmark;
   double depth_m = 0;
+};
+
+/// Depth of the soft tissue in a part of the skin that was painted.
+struct DepthRegion {
+  std::filesystem::path painted;  ///< shares a vertex of the scan (field/per_vertex.hpp)
+  double depth_m = 0;             ///< where the share is 1
 };
 
 /// Mean depths of adult facial soft tissue, whole millimetres, after C. N. Stephan and E. K.

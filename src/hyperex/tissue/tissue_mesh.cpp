@@ -19,7 +19,9 @@
 #include "hyperex/geometry/remesh.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/lips.hpp"
+#include "hyperex/tissue/on_skin.hpp"
 #include "hyperex/tissue/skin_builder.hpp"
+#include "hyperex/tissue/skin_depth.hpp"
 #include "hyperex/tissue/unfold.hpp"
 
 namespace hyperex::tissue {
@@ -135,22 +137,25 @@ void anchor_skin(TissueMesh& out, const io::Landmarks& landmarks) {
   out.max_distance_mm = 1e3 * worst;
 }
 
-Eigen::VectorXd thickness_over(const TriMesh& outer, const io::Landmarks& landmarks,
+/// Thickness wanted under each vertex of `outer`. `skin_depth`: of the skin's vertices, where files
+/// say any; else empty.
+Eigen::VectorXd thickness_over(const TriMesh& outer, const TissueMesh& out,
+                               const Eigen::VectorXd& skin_depth, const io::Landmarks& landmarks,
                                const TissueMeshOptions& options) {
-  if (options.thickness_m > 0)
-    return Eigen::VectorXd::Constant(outer.points.rows(), options.thickness_m);
-  std::vector<DepthAt> depths = published_depths();
-  for (const DepthAt& own : options.depths) {
-    std::erase_if(depths, [&](const DepthAt& d) { return d.landmark == own.landmark; });
-    depths.push_back(own);
-  }
-  return depth_field(outer.points, depths, landmarks);
+  if (skin_depth.size() == 0) return unpainted_depth(outer.points, landmarks, options);
+  const SideTree tree = skin_tree(out, landmarks);
+  const std::vector<double> margin = upper_lip_margin(outer, landmarks);
+  Eigen::VectorXd thickness(outer.points.rows());
+  for (Eigen::Index v = 0; v < thickness.size(); ++v)
+    thickness[v] =
+        tree.query(outer.points.row(v).transpose(), margin[std::size_t(v)]).value(skin_depth);
+  return thickness;
 }
 
 /// The layer under `outer`; a few triangles folded into corners, under which none fits, are given
 /// up.
-VolumeMesh thicken(TriMesh outer, const io::Landmarks& landmarks, const TissueMeshOptions& options,
-                   const std::string& source, std::vector<std::string>& notes) {
+VolumeMesh thicken(TriMesh outer, const Eigen::VectorXd& skin_depth, const io::Landmarks& landmarks,
+                   const TissueMeshOptions& options, const std::string& source, TissueMesh& out) {
   VolumeMeshOptions volume;
   volume.layers = options.layers;
   constexpr double given_up_share = 0.01;
@@ -158,9 +163,10 @@ VolumeMesh thicken(TriMesh outer, const io::Landmarks& landmarks, const TissueMe
   std::size_t given_up = 0;
   while (true) {
     try {
-      VolumeMesh mesh = build_volume_mesh(outer, thickness_over(outer, landmarks, options), volume);
+      VolumeMesh mesh = build_volume_mesh(
+          outer, thickness_over(outer, out, skin_depth, landmarks, options), volume);
       if (given_up > 0)
-        notes.push_back(fmt::format(
+        out.notes.push_back(fmt::format(
             "{} triangles of the simulated skin were dropped: no layer fits under them", given_up));
       return mesh;
     } catch (const FoldedSurface& folded) {
@@ -195,6 +201,7 @@ TissueMeshBuilder::TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& l
     skin.cut(options.cut_lips);
     skin.thin(options.element_size_m, held);
     out.skin_upper_margin = skin.on_skin(upper_lip_margin(skin.mesh(), landmarks));
+    if (is_painted(options_)) skin_depth_ = skin_depth(out, landmarks, options_);
     working_copy_ = skin.mesh();
   });
 }
@@ -212,7 +219,7 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
     TriMesh outer = remesh_graded(mended, size);
     outer = clean_mesh(unfold(outer, out.notes), cleaned_again).mesh;
 
-    out.volume = thicken(outer, landmarks_, options_, source_, out.notes);
+    out.volume = thicken(outer, skin_depth_, landmarks_, options_, source_, out);
     out.notes.insert(out.notes.end(), out.volume.notes.begin(), out.volume.notes.end());
     out.quality = quality_of(out.volume.nodes, out.volume.tets);
     out.upper_margin = upper_lip_margin(out.volume.outer, landmarks_);

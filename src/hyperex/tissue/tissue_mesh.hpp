@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ struct TissueMeshOptions {
   double thickness_m = 0;  ///< > 0: the same everywhere; 0: published_depths(), interpolated
   /// Used where thickness_m is 0: in the place of the published depths at the same landmarks.
   std::vector<DepthAt> depths;
+  std::filesystem::path depth_per_vertex;  ///< instead, where it gives any: a row a scan vertex
+  std::vector<DepthRegion> depth_regions;  ///< applied in turn
   LipCut cut_lips = LipCut::automatic;
   double trim_border_m = 0;  ///< this much is taken off the scan's outer border
   static constexpr Bounds element_size_m_in{0.0005, 0.03}, layers_in{1, 8},
@@ -96,6 +99,7 @@ class TissueMeshBuilder {
   std::string source_;
   std::shared_ptr<TissueMesh> mesh_ = std::make_shared<TissueMesh>();
   TriMesh working_copy_;
+  Eigen::VectorXd skin_depth_;  ///< empty where no file gives any
 };
 
 /// Cleans a working copy, cuts joined lips, mends small holes, remeshes with a size that grows away

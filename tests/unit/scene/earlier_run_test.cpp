@@ -43,16 +43,20 @@ TEST(EarlierRun, WithoutAListTheNamesOfOutputsAreTaken) {
 
 TEST(EarlierRun, EveryFileOfASceneIsNamed) {
   const SceneFolder folder;
+  folder.write("depth.csv", "");
+  folder.write("paint.csv", "");
   const fs::path file =
       folder.write("scene.toml",
                    "scan = { file = \"face.ply\", landmarks = \"points.json\" }\n"
                    "motion = { file = \"motion.csv\" }\ntissue = { per_vertex = \"motion.csv\" }\n"
+                   "mesh = { thickness_per_vertex = \"depth.csv\", thickness_region = "
+                   "[{ painted = \"paint.csv\", thickness_mm = 9 }] }\n"
                    "[[variant]]\nname = \"a\"\n"
                    "tissue = { region = [{ painted = \"sub/../face.ply\", young_factor = 2 }] }\n");
   std::set<fs::path> named;
   for (const fs::path& path : files_named_by(read_scene(file))) named.insert(path);
-  EXPECT_THAT(
-      named, ElementsAre(folder / "face.ply", folder / "motion.csv", folder / "points.json", file));
+  EXPECT_THAT(named, ElementsAre(folder / "depth.csv", folder / "face.ply", folder / "motion.csv",
+                                 folder / "paint.csv", folder / "points.json", file));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ inline nlohmann::json other_value(const Key& key) {
     if (column.kind == Kind::number)
       row[column.name] = (column.range.low + column.range.high) / 2;
     else
-      row[column.name] = "chin";
+      row[column.name] = column.kind == Kind::path ? "face.ply" : "chin";
   return nlohmann::json::array({row});
 }
 

@@ -68,6 +68,34 @@ TEST_F(PreparedFaces, OfOtherOptionsAreMadeAnew) {
   EXPECT_EQ(kept().size(), 3u);
 }
 
+TEST_F(PreparedFaces, OfOtherPaintInTheSameFilesAreMadeAnew) {
+  const std::string plain = bytes_of(prepared());
+  const fs::path file = fs::path(testing::TempDir()) / ("painted_" + std::to_string(getpid()));
+  const Eigen::Index vertices = read_inputs(scene_).scan.mesh.points.rows();
+  const auto paint = [&](const char* column, double value, const char* ending) {
+    std::ofstream out(file.string() + ending);
+    out << column << "\n";
+    for (Eigen::Index v = 0; v < vertices; ++v) out << value << "\n";
+    return file.string() + ending;
+  };
+  scene_.mesh.depth_per_vertex = paint("thickness_mm", 9, ".csv");
+  const std::string nine = bytes_of(prepared());
+  EXPECT_NE(nine, plain);
+  EXPECT_EQ(bytes_of(prepared()), nine);
+  EXPECT_EQ(kept().size(), 2u);
+  paint("thickness_mm", 8, ".csv");
+  EXPECT_NE(bytes_of(prepared()), nine) << "another file of the same name";
+  EXPECT_EQ(kept().size(), 3u);
+  scene_.mesh.depth_regions = {{paint("weight", 0.5, "_region.csv"), 0.007}};
+  const std::string region = bytes_of(prepared());
+  scene_.mesh.depth_regions[0].depth_m = 0.01;
+  EXPECT_NE(bytes_of(prepared()), region);
+  paint("weight", 1, "_region.csv");
+  prepared();
+  EXPECT_EQ(kept().size(), 6u);
+  for (const char* ending : {".csv", "_region.csv"}) fs::remove(file.string() + ending);
+}
+
 TEST_F(PreparedFaces, ATornOneIsMadeAnew) {
   const std::string made = bytes_of(prepared());
   fs::resize_file(kept().front(), 1000);

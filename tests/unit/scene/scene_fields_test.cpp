@@ -44,12 +44,16 @@ layers = 6
 thickness_mm = 0
 cut_lips = "never"
 trim_border_mm = 37
+thickness_per_vertex = "points.json"
 [[mesh.thickness_point]]
 landmark = "gonion_L"
 thickness_mm = 11
 [[mesh.thickness_point]]
 thickness_mm = 9
 landmark = "menton"
+[[mesh.thickness_region]]
+painted = "motion.csv"
+thickness_mm = 12.5
 [tissue]
 young_kpa = 38.5
 poisson = 0.39
@@ -161,6 +165,10 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.mesh.depths[0].depth_m, 0.011);
   EXPECT_EQ(s.mesh.depths[1].landmark, "menton");
   EXPECT_EQ(s.mesh.depths[1].depth_m, 0.009);
+  EXPECT_EQ(s.mesh.depth_per_vertex, folder / "points.json");
+  ASSERT_EQ(s.mesh.depth_regions.size(), 1u);
+  EXPECT_EQ(s.mesh.depth_regions[0].painted, folder / "motion.csv");
+  EXPECT_EQ(s.mesh.depth_regions[0].depth_m, 0.0125);
   EXPECT_EQ(s.tissue.uniform[tissue::young], 38500);
   EXPECT_EQ(s.tissue.uniform[tissue::poisson], 0.39);
   EXPECT_EQ(s.tissue.uniform[tissue::viscosity], 40);

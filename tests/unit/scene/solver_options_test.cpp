@@ -96,6 +96,9 @@ void add_mesh(const tissue::TissueMeshOptions& o, Options& all) {
   std::string depths;
   for (const auto& d : o.depths) depths += d.landmark + "=" + shown(d.depth_m) + ";";
   all["mesh.depths"] = depths;
+  all["mesh.depth_per_vertex"] = o.depth_per_vertex.string();
+  for (const auto& r : o.depth_regions)
+    all["mesh.depth_regions"] += r.painted.string() + "=" + shown(r.depth_m) + ";";
 }
 
 std::string shown(const tissue::GivenParameters& given) {
@@ -148,6 +151,8 @@ const std::map<std::string, Targets>& targets() {
       {"mesh.cut_lips", {"mesh.cut_lips"}},
       {"mesh.trim_border_mm", {"mesh.trim_border_m"}},
       {"mesh.thickness_point", {"mesh.depths"}},
+      {"mesh.thickness_per_vertex", {"mesh.depth_per_vertex"}},
+      {"mesh.thickness_region", {"mesh.depth_regions"}},
       {"tissue.young_kpa", {"tissue.young_pa", "field.uniform"}},
       {"tissue.poisson", {"tissue.poisson", "field.uniform"}},
       {"tissue.viscosity_pa_s", {"tissue.viscosity_pa_s", "field.uniform"}},
@@ -207,7 +212,9 @@ Pair scenes_of(const SceneFolder& folder, const Key& key) {
   pair.before = pair.after;
   pair.before.origins.erase(key.name);
   if (key.kind == Kind::path)  // an empty path is what no file says
-    pair.before.tissue.per_vertex.clear();
+    (key.name == "tissue.per_vertex" ? pair.before.tissue.per_vertex
+                                     : pair.before.mesh.depth_per_vertex)
+        .clear();
   else
     EXPECT_TRUE(key.set(pair.before, key.get(Scene{}), {}).empty()) << key.name;
   return pair;

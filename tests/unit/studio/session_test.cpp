@@ -235,6 +235,95 @@ TEST_F(StudioSession, PaintedPatchesAreRunAgainFromTheSavedScene) {
                 table[1][corner].get<double>(), 1e-6);
 }
 
+TEST_F(StudioSession, PaintedThicknessMakesTheMeshAnewAndRunsAgainFromTheSavedScene) {
+  open();
+  const json& thickness = event("face")->head["thickness"];
+  std::vector<float> mm(thickness["count"].get<std::size_t>());
+  std::memcpy(mm.data(), event("face")->block.data() + thickness["offset"].get<std::size_t>(),
+              4 * mm.size());
+  EXPECT_GT(*std::ranges::min_element(mm), 2);
+  EXPECT_LT(*std::ranges::max_element(mm), 13);
+  ask("add_variant", {{"name", "weak"}, {"like", 0}});
+  set({{"muscles.gain", {{"side_R", 0.7}}}}, 1);
+  work();
+  ASSERT_NE(event("motion"), nullptr);
+  // At the peak, all of the skin, mm.
+  const auto shape = [&] {
+    set({{"tissue.young_kpa", 192.4}}, 0, true);
+    const Message& came = *event("shape");
+    const json& values = came.head["values"];
+    std::vector<std::int16_t> steps(values["count"].get<std::size_t>());
+    std::memcpy(steps.data(), came.block.data() + values["offset"].get<std::size_t>(),
+                2 * steps.size());
+    std::vector<double> out;
+    for (const std::int16_t step : steps)
+      out.push_back(1e3 * step * came.head["step_m"].get<double>());
+    return out;
+  };
+  const auto farthest_mm = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+  };
+  const std::vector<double> plain = shape();
+  const json answer = ask("region_shares", {{"region", {{"name", "cheek_R"}}}, {"key", "k"}});
+  const json& at = event("shares")->head["values"];
+  ASSERT_EQ(at["count"], mm.size());
+  std::vector<float> shares(mm.size());
+  std::memcpy(shares.data(), event("shares")->block.data() + at["offset"].get<std::size_t>(),
+              4 * shares.size());
+  json vertices = json::array(), some = json::array();
+  for (std::size_t v = 0; v < shares.size(); ++v)
+    if (shares[v] > 0) {
+      vertices.push_back(v);
+      some.push_back(shares[v]);
+    }
+  const std::string file = ask("paint", {{"vertices", vertices}, {"shares", some}})["file"];
+  const json rows = {{{"painted", file}, {"thickness_mm", 20}}};
+  // Not while one drags: another mesh takes a second.
+  EXPECT_FALSE(set({{"mesh.thickness_region", rows}}, 0, true).contains("error"));
+  EXPECT_EQ(event("shape"), nullptr);
+  EXPECT_EQ(event("progress"), nullptr);
+  EXPECT_FALSE(set({{"mesh.thickness_region", rows}}, 0).contains("error"));
+  EXPECT_NE(event("progress"), nullptr);
+  messages_.clear();
+  work();
+  EXPECT_EQ(event("face"), nullptr) << "the skin is the same";
+  ASSERT_NE(event("motion"), nullptr);
+  const json table = event("motion")->head["table"];
+  const std::vector<double> thick = shape();
+  ASSERT_EQ(thick.size(), plain.size());
+  EXPECT_GT(farthest_mm(thick, plain), 0.1);
+
+  const json saved = ask("save", {{"what", "scene"}, {"name", "thick"}});
+  const scene::Scene scene =
+      scene::read_scene(saved["path"].get<std::string>(), {"output.vtu=false", "output.glb=false"});
+  ASSERT_EQ(scene.mesh.depth_regions.size(), 1U);
+  EXPECT_EQ(scene.mesh.depth_regions[0].painted.parent_path(),
+            folder_.path() / "mine" / "thick_files");
+  const auto summary = scene::run_scene(scene, folder_.path() / "run");
+  for (const std::size_t face : {0, 1})
+    for (const char* corner : {"commissure_L_mm", "commissure_R_mm"})
+      EXPECT_NEAR(summary["variants"]["table"][face][corner].get<double>(),
+                  table[face][corner].get<double>(), 1e-6)
+          << face;
+  // What is wrong is said in one sentence, and nothing is changed.
+  for (const json& wrong : {json{{{"painted", file}, {"thickness_mm", 0.5}}},
+                            json{{{"painted", file}}}, json{{{"painted", "/etc/passwd"}}}}) {
+    const std::string error = set({{"mesh.thickness_region", wrong}}, 0).value("error", "");
+    EXPECT_NE(error, "") << wrong;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  }
+  EXPECT_TRUE(set({{"mesh.thickness_region", rows}}, 1).contains("error"))
+      << "all faces have one mesh";
+  ask("undo");
+  messages_.clear();
+  work();
+  EXPECT_EQ(event("face"), nullptr);
+  ASSERT_NE(event("motion"), nullptr);
+  EXPECT_EQ(farthest_mm(shape(), plain), 0);
+}
+
 TEST_F(StudioSession, PaintThatIsNoneIsRefused) {
   EXPECT_TRUE(ask("paint", {{"vertices", {1}}, {"shares", {1}}}).contains("error"));
   open();

@@ -51,6 +51,12 @@ export class Edits {
     return this.apply(changes, true);
   }
 
+  /** Of the whole scene, whichever face is edited: what no variant can have. */
+  async ofBase(changes: Values): Promise<void> {
+    this.problem('');
+    await this.send(0, changes, false).catch((error: unknown) => this.tell(error));
+  }
+
   private async apply(changes: Values, frameFirst: boolean): Promise<void> {
     this.draft(changes);
     this.waiting = null;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tissue by brush: patches that are so many times as stiff or viscous, painted, erased, filled and mirrored on the
-// face; each stroke is a step that can be undone. The map of the tissue is seen while one paints.
+// Tissue by brush: patches that are so many times as stiff or viscous, or so thick, painted, erased, filled and
+// mirrored on the face; each stroke is a step that can be undone. The map of the tissue is seen while one paints.
 import { at, button, element } from '../page/dom';
 import { upper } from '../page/format';
 import { niceCeiling } from '../replay/face/colour';
@@ -11,7 +11,9 @@ import { BrushInHand, type Painter } from './brush';
 import { Refused, type Connection } from './connection';
 import type { Edits } from './edits';
 import { isRecord, type Preset, type StifferTissue } from './messages';
-import { factorOf, isPatch, PaintedTissue, parameterKeys, patchesOf, regionKey, rowsOf, Shares, type Factor, type Row } from './patches';
+import {
+  depthOf, factorOf, isPatch, PaintedThickness, PaintedTissue, parameterKeys, patchesOf, regionKey, rowsOf, Shares, thicknessKey, type Factor, type Row,
+} from './patches';
 import { regionChooser } from './region_chooser';
 import { SkinWalk } from './skin_walk';
 import { linear, logarithmic, Slider } from './slider';
@@ -21,6 +23,8 @@ import { words } from './words';
 
 type Tool = 'turn' | 'paint' | 'erase' | 'scar';
 const tools: Tool[] = ['turn', 'paint', 'erase', 'scar'];
+/** What the patches are of: each face has its own tissue, all have one mesh. */
+type What = 'tissue' | 'thickness';
 
 /** What a patch may be from the start: a factor of the stiffness with its source. */
 interface Kind {
@@ -36,13 +40,16 @@ interface Size {
 }
 
 const ownFactor = 3;
+const ownDepthMm = 10;
 const threeDigits = (value: number): number => Number(value.toPrecision(3));
 
 export class PaintPanel implements Painter {
   readonly element = element('div', '', 'panel paint-panel');
   private readonly shares: Shares;
   private readonly tissue: PaintedTissue;
+  private readonly thickness: PaintedThickness;
   private kinds: Kind[] = [];
+  private what: What = 'tissue';
   private tool: Tool = 'paint';
   private readonly sizes: { brush: Size; scar: Size } = {
     brush: { widthMm: 20, hardness: 30, strength: 100 }, scar: { widthMm: 8, hardness: 50, strength: 100 },
@@ -51,6 +58,7 @@ export class PaintPanel implements Painter {
   private chosen = 0;
   /** What a patch that is not there yet will have. */
   private fresh: Row = { young_factor: ownFactor };
+  private readonly freshOf: Record<What, Row> = { tissue: this.fresh, thickness: { thickness_mm: ownDepthMm } };
   private shown: Factor = 'young';
   private greatest = 1;
 
@@ -68,11 +76,15 @@ export class PaintPanel implements Painter {
 
   private readonly toolButtons = new Map<Tool, HTMLButtonElement>();
   private readonly patch = element('select');
+  private readonly whats = element('select');
   private readonly kind = element('select');
   private readonly source = element('p', '', 'why');
   private readonly problem = element('p', '', 'problem');
   private readonly both = element('input');
   private factors: Record<Factor, Slider> | null = null;
+  private depth: Slider | null = null;
+  /** What only tissue has. */
+  private readonly ofTissue: HTMLElement[] = [];
   private width: Slider | null = null;
   private readonly feel: { key: 'hardness' | 'strength'; slider: Slider }[] = [];
   private readonly needShares: HTMLButtonElement[] = [];
@@ -80,10 +92,14 @@ export class PaintPanel implements Painter {
   constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly connection: Connection) {
     this.shares = new Shares(connection);
     this.tissue = new PaintedTissue(state, this.shares);
+    this.thickness = new PaintedThickness(this.shares);
     state.sceneChanged.add(() => this.sync());
     state.shown.onChange(() => this.sync());
     connection.on('motion', () => this.tissue.hold());
-    connection.on('face', () => this.tissue.hold());
+    connection.on('face', ({ thickness, block }) => {
+      this.tissue.hold();
+      this.thickness.unpainted = block.float32(thickness).slice();
+    });
   }
 
   /** Once what there is to choose from is known. */
@@ -91,6 +107,8 @@ export class PaintPanel implements Painter {
     this.kinds = [...scarKind(presets, this.sizes.scar), ...tissues.map(({ name, source, young_factor: factor }) => (
       { name: words.paintTissue(name.replaceAll('_', ' ')), factor, source }))];
     this.element.replaceChildren();
+    this.ofTissue.length = 0;
+    this.addWhat();
     this.addTools();
     this.addPatch();
     this.addBrush();
@@ -177,7 +195,7 @@ export class PaintPanel implements Painter {
   }
 
   private get rows(): Row[] {
-    return this.sent ?? rowsOf(this.edits.value(regionKey));
+    return this.sent ?? rowsOf(this.what === 'thickness' ? this.state.valuesOf(0)[thicknessKey] : this.edits.value(regionKey));
   }
 
   /** Of the chosen patch, to be changed. */
@@ -206,6 +224,34 @@ export class PaintPanel implements Painter {
     at('canvas-host').classList.remove('painting');
   }
 
+  private addWhat(): void {
+    const label = element('label', '', 'part');
+    label.title = words.paintWhatHint;
+    label.append(element('span', words.paintWhat), this.whats);
+    this.whats.id = 'paint-what';
+    this.whats.replaceChildren(new Option(words.paintWhatTissue, 'tissue'), new Option(words.paintWhatThickness, 'thickness'));
+    this.whats.value = this.what;
+    this.whats.addEventListener('change', () => this.choose(this.whats.value as What));
+    this.element.append(label);
+  }
+
+  private choose(what: What): void {
+    if (this.stroke || this.pending > 0) {
+      this.whats.value = this.what;
+      return;
+    }
+    this.freshOf[this.what] = this.fresh;
+    this.what = what;
+    this.fresh = this.freshOf[what];
+    this.chosen = 0;
+    this.hand = null;
+    this.sent = null;
+    if (what === 'thickness' && this.tool === 'scar') this.chooseTool('paint');
+    this.sync();
+    // Its name and its bar too.
+    if (this.brush) this.stage?.lend(this.colouring());
+  }
+
   private addTools(): void {
     const row = element('div', '', 'paint-tools');
     const segments = element('div', '', 'segments');
@@ -216,6 +262,7 @@ export class PaintPanel implements Painter {
       made.title = words.paintToolHints[tool];
       made.dataset.tool = tool;
       this.toolButtons.set(tool, made);
+      if (tool === 'scar') this.ofTissue.push(made);
       segments.append(made);
     }
     Object.assign(this.both, { type: 'checkbox', id: 'paint-both' });
@@ -257,7 +304,14 @@ export class PaintPanel implements Painter {
       viscosity: of('viscosity', words.paintViscosity, words.paintViscosityHint),
     };
     const row = element('div', '', 'paint-patch');
+    this.depth = new Slider({
+      name: words.paintThickness, unit: 'mm', hint: words.paintThicknessHint, course: logarithmic(1, 40), round: threeDigits, low: 1, high: 40,
+      live: (value) => this.setDepth(value, false),
+      done: (value) => this.setDepth(value ?? ownDepthMm, true),
+    });
+    this.depth.element.dataset.paint = 'thickness';
     row.append(choose, kind);
+    this.ofTissue.push(kind, this.source);
     this.element.append(row);
   }
 
@@ -286,7 +340,8 @@ export class PaintPanel implements Painter {
 
   private addFactors(): void {
     const box = element('div', '', 'paint-brush');
-    box.append(this.factors!.young.element, this.factors!.viscosity.element);
+    box.append(this.factors!.young.element, this.factors!.viscosity.element, this.depth!.element);
+    this.ofTissue.push(this.factors!.young.element, this.factors!.viscosity.element);
     this.element.append(box, this.source);
   }
 
@@ -362,6 +417,21 @@ export class PaintPanel implements Painter {
     this.repaint(true);
   }
 
+  /** Of the chosen patch. The mesh is made anew once it is let go. */
+  private setDepth(depth: number, done: boolean): void {
+    const rows = [...this.rows];
+    const i = rows.indexOf(rows.filter(isPatch)[this.chosen]);
+    if (i < 0) {
+      this.fresh = { ...this.fresh, thickness_mm: depth };
+      this.sync();
+      return;
+    }
+    rows[i] = { ...rows[i], thickness_mm: depth };
+    this.sent = rows;
+    this.repaint(true);
+    if (done) this.enqueue(() => this.edits.ofBase({ [thicknessKey]: rows }));
+  }
+
   private async fill(region: string): Promise<void> {
     this.tell('');
     const shares = await this.shares.fetchRegion(region).catch((error: unknown) => {
@@ -399,9 +469,13 @@ export class PaintPanel implements Painter {
     const { patch, shares } = this.hand!;
     const asPainted = shares.slice();
     const fresh = { ...this.fresh };
-    ++this.pending;
+    this.enqueue(() => this.send(patch, asPainted, fresh));
     this.repaint(true);
-    this.queue = this.queue.then(() => this.send(patch, asPainted, fresh)).catch((error: unknown) => {
+  }
+
+  private enqueue(send: () => Promise<void>): void {
+    ++this.pending;
+    this.queue = this.queue.then(send).catch((error: unknown) => {
       this.tell(error instanceof Refused ? error.message : words.lost);
     }).then(() => {
       if (--this.pending > 0) return;
@@ -429,7 +503,8 @@ export class PaintPanel implements Painter {
       await this.shares.fetchFile(file);
     }
     this.sent = rows;
-    await this.edits.step({ [regionKey]: rows });
+    if (this.what === 'thickness') await this.edits.ofBase({ [thicknessKey]: rows });
+    else await this.edits.step({ [regionKey]: rows });
   }
 
   /** The patches of the face that is changed, as the scene has them. */
@@ -438,7 +513,8 @@ export class PaintPanel implements Painter {
     const patches = patchesOf(this.rows);
     if (this.chosen > patches.length) this.chosen = patches.length;
     this.patch.replaceChildren(
-      ...patches.map(({ row }, i) => new Option(words.paintPatchName(i + 1, factorOf(row, 'young')), String(i))),
+      ...patches.map(({ row }, i) => new Option(
+        this.what === 'thickness' ? words.paintPatchDepth(i + 1, depthOf(row)) : words.paintPatchName(i + 1, factorOf(row, 'young')), String(i))),
       new Option(words.paintNew, String(patches.length)));
     this.patch.value = String(this.chosen);
     const row = patches[this.chosen]?.row ?? this.fresh;
@@ -448,6 +524,9 @@ export class PaintPanel implements Painter {
     this.source.textContent = known < 0 ? words.paintOwnSource : this.kinds[known].source;
     this.factors.young.set(young, null);
     this.factors.viscosity.set(factorOf(row, 'viscosity'), null);
+    this.depth!.set(depthOf(row) || ownDepthMm, null);
+    for (const one of this.ofTissue) one.hidden = this.what !== 'tissue';
+    this.depth!.element.hidden = this.what !== 'thickness';
     const { source } = this.state;
     this.both.disabled = !source.open || !source.replay.mirror;
     const there = this.chosen < patches.length || this.pending > 0;
@@ -460,6 +539,11 @@ export class PaintPanel implements Painter {
   }
 
   private values(face: number, out: Float32Array): void {
+    if (this.what === 'thickness') {
+      const patches = patchesOf(this.rows);
+      this.thickness.values(patches, this.hand && { ...this.hand, row: patches[this.hand.patch]?.row ?? this.fresh }, out);
+      return;
+    }
     const own = face === this.state.edited;
     const patches = own ? patchesOf(this.rows) : patchesOf(rowsOf(this.state.valuesOf(face)[regionKey]));
     const { hand } = this;
@@ -480,13 +564,15 @@ export class PaintPanel implements Painter {
       }
       // A patch that is to come has room.
       const row = patchesOf(this.rows)[this.chosen] ? {} : this.fresh;
-      this.greatest = niceCeiling(most * Math.max(factorOf(row, this.shown), 1));
+      this.greatest = niceCeiling(this.what === 'thickness' ? Math.max(most, depthOf(row)) : most * Math.max(factorOf(row, this.shown), 1));
     }
     this.stage?.repaint();
   }
 
   private colouring(): Colouring {
     const scale = (): Scale => {
+      if (this.what === 'thickness')
+        return { ramp: 'sea', title: words.paintThicknessMap, unit: 'mm', least: 0, greatest: this.greatest, remark: words.paintRemark };
       const key = `tissue.${parameterKeys[this.shown]}`;
       return {
         ramp: 'sea', title: words.keyNames[key], unit: this.state.keys.get(key)?.unit ?? '', least: 0, greatest: this.greatest,

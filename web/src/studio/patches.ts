@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is painted: rows of tissue.region that name a file of shares, one a vertex, and how these lie on the skin.
+// What is painted: rows of tissue.region and mesh.thickness_region that name a file of shares, one a vertex, and how
+// these lie on the skin.
 import type { Face } from '../replay/data';
 import type { Connection } from './connection';
 import { isRecord } from './messages';
 import type { StudioState } from './studio_state';
 
 export const regionKey = 'tissue.region';
+/** Of the whole scene: all faces have one mesh. */
+export const thicknessKey = 'mesh.thickness_region';
 export type Row = Record<string, unknown>;
 export type Factor = 'young' | 'viscosity';
 /** Their keys of a scene, and of tissue maps. */
@@ -21,6 +24,7 @@ export const rowsOf = (value: unknown): Row[] => (Array.isArray(value) ? value.f
 export const isPatch = (row: Row): boolean => typeof row.painted === 'string' && row.painted !== '';
 export const patchesOf = (rows: Row[]): Patch[] => rows.filter(isPatch).map((row) => ({ file: String(row.painted), row }));
 export const factorOf = (row: Row, factor: Factor): number => Number(row[`${factor}_factor`] ?? 1);
+export const depthOf = (row: Row): number => Number(row.thickness_mm ?? 0);
 
 /** Files of the studio's own are named after what they hold, wherever they lie. */
 const nameOf = (file: string): string => file.replace(/^.*\//, '');
@@ -101,5 +105,28 @@ export class PaintedTissue {
       times(own.shares, factorOf(own.row, factor), false);
     });
     if (inHand && inHand.patch >= patches.length) times(inHand.shares, factorOf(inHand.row, factor), false);
+  }
+}
+
+/** The thickness of the tissue as it is being painted, mm. */
+export class PaintedThickness {
+  /** Of each vertex, without paint; empty: not known. */
+  unpainted: Float32Array = new Float32Array();
+
+  constructor(private readonly shares: Shares) {}
+
+  values(patches: Patch[], inHand: { patch: number; shares: Float32Array; row: Row } | null, out: Float32Array): void {
+    if (this.unpainted.length !== out.length) {
+      out.fill(0);
+      return;
+    }
+    out.set(this.unpainted);
+    const lay = (shares: Float32Array | null, row: Row) => {
+      if (!shares) return;
+      const depth = depthOf(row);
+      for (let v = 0; v < out.length; ++v) out[v] += shares[v] * (depth - out[v]);
+    };
+    patches.forEach(({ file, row }, i) => lay(inHand?.patch === i ? inHand.shares : this.shares.ofFile(file), inHand?.patch === i ? inHand.row : row));
+    if (inHand && inHand.patch >= patches.length) lay(inHand.shares, inHand.row);
   }
 }

@@ -96,7 +96,10 @@ export interface RenameVariantRequest {
 }
 export type RenameVariantAnswer = Record<string, never>;
 
-/** Keeps what was painted on the skin as a file that "painted" of tissue.region may name in set. */
+/**
+ * Keeps what was painted on the skin as a file that "painted" of tissue.region and mesh.thickness_region may
+ * name in set.
+ */
 export interface PaintRequest {
   /** of the skin; all others have a share of 0 */
   vertices: unknown;
@@ -269,6 +272,11 @@ export interface FaceEvent {
    * times); else null
    */
   activations: unknown;
+  /**
+   * float32, one a vertex of the skin: of the soft tissue, mm, without what is painted
+   * (mesh.thickness_region)
+   */
+  thickness: Stretch;
 }
 
 /** Binary. Some faces move otherwise now: replaces what the last face or motion event said of them. */

@@ -133,6 +133,14 @@ const en = {
 
   // Painting.
   paint: 'Paint',
+  paintWhat: 'Of what',
+  paintWhatHint: 'Each face has its own stiffness and viscosity; all have one thickness, that of base',
+  paintWhatTissue: 'Stiffness and viscosity',
+  paintWhatThickness: 'Thickness',
+  paintThickness: 'Thickness there',
+  paintThicknessHint: 'Of the soft tissue where the patch has its whole strength (thickness_mm of mesh.thickness_region); the mesh is made anew',
+  paintThicknessMap: 'Thickness of the soft tissue',
+  paintPatchDepth: (count: number, mm: number) => `${count}: ${mm} mm`,
   paintTools: 'What the pointer does on the face',
   paintToolNames: { turn: 'Turn', paint: 'Paint', erase: 'Erase', scar: 'Scar' } as Record<'turn' | 'paint' | 'erase' | 'scar', string>,
   paintToolHints: {

@@ -251,6 +251,22 @@ std::vector<Key> model_keys() {
                                    "Thickness of the soft tissue there.")},
           "Thickness at a landmark, instead of the published depth there; interpolated in between. "
           "Only where mesh.thickness_mm is 0."),
+      path<Scene>(
+          "mesh.thickness_per_vertex", AT(mesh.depth_per_vertex),
+          "Thickness for each vertex of the scan: a CSV file with a column thickness_mm and "
+          "one row per vertex, or a PLY file with such a vertex property; 1 to 40. An empty "
+          "cell (in PLY: nan) keeps the thickness that the other keys give."),
+      rows<Scene, tissue::DepthRegion>(
+          "mesh.thickness_region", AT(mesh.depth_regions),
+          {path<tissue::DepthRegion>(
+               "painted", AT(painted),
+               "The scan painted red where the tissue is of this thickness (PLY, OBJ, GLB with "
+               "vertex colours), or a CSV or PLY file with one weight from 0 to 1 per vertex."),
+           number<tissue::DepthRegion>("thickness_mm", millimetres, AT(depth_m),
+                                       in(Mesh::thickness_m_in, millimetres),
+                                       "Thickness of the soft tissue where the weight is 1.")},
+          "Thickness in a painted part of the face, applied after all of the above and in the "
+          "order of the file."),
       uniform_parameter(
           "tissue.young_kpa", kilopascals, tissue::young,
           "Young's modulus E. The springs of [support] do not scale with it. Where drive.by = "

@@ -63,8 +63,11 @@ std::vector<fs::path> files_named_by(const Scene& scene) {
                                  scene.motion.openface,
                                  scene.motion.arkit,
                                  scene.motion.candide,
-                                 scene.tissue.per_vertex};
+                                 scene.tissue.per_vertex,
+                                 scene.mesh.depth_per_vertex};
   for (const tissue::TissueRegion& region : scene.tissue.regions) files.push_back(region.painted);
+  for (const tissue::DepthRegion& region : scene.mesh.depth_regions)
+    files.push_back(region.painted);
   for (const Variant& variant : scene.variants)
     for (const fs::path& file : files_named_by(variant.scene)) files.push_back(file);
   std::erase_if(files, [](const fs::path& file) { return file.empty(); });

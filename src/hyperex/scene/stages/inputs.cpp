@@ -30,6 +30,7 @@
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "hyperex/tissue/landmark_doubts.hpp"
 #include "hyperex/tissue/landmarks.hpp"
+#include "hyperex/tissue/skin_depth.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
 
 namespace hyperex::scene {
@@ -343,11 +344,15 @@ void check_names(const Scene& scene, const Inputs& in, const std::string& of = "
 
 /// Files of tissue a vertex, of the scene and of its variants, each told of once.
 void note_tissue_files(const Scene& scene, Inputs& in) {
-  const auto add = [&](const Scene& s) {
-    for (auto& note : tissue::notes_on_files(s.tissue, in.scan.mesh))
+  const auto note_once = [&](std::vector<std::string> notes) {
+    for (auto& note : notes)
       if (std::find(in.notes.begin(), in.notes.end(), note) == in.notes.end())
         in.notes.push_back(std::move(note));
   };
+  const auto add = [&](const Scene& s) {
+    note_once(tissue::notes_on_files(s.tissue, in.scan.mesh));
+  };
+  note_once(tissue::notes_on_depth_files(scene.mesh, in.scan.mesh));
   add(scene);
   for (const Variant& variant : scene.variants)
     if (!(variant.scene.tissue == scene.tissue)) add(variant.scene);

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <utility>
 
+#include "hyperex/core/files.hpp"
 #include "hyperex/core/packed.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/scene/stages/kept.hpp"
@@ -103,6 +104,9 @@ std::string key_of(const Scene& scene, const Inputs& inputs, const std::vector<c
   for (const auto& [name, at] : inputs.landmarks) of(name, at);
   of(o.element_size_m, o.layers, o.thickness_m, o.cut_lips, o.trim_border_m);
   for (const tissue::DepthAt& depth : o.depths) of(depth.landmark, depth.depth_m);
+  if (!o.depth_per_vertex.empty()) of(read_file(o.depth_per_vertex));
+  for (const tissue::DepthRegion& region : o.depth_regions)
+    of(read_file(region.painted), region.depth_m);
   return kept_key("face", of.bytes());
 }
 

@@ -95,25 +95,6 @@ io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const 
   return out;
 }
 
-tissue::TissueMesh with_full_skin(const tissue::TissueMesh& mesh) {
-  tissue::TissueMesh whole = mesh;
-  if (!mesh.full) return whole;
-  const tissue::FullSkin& full = *mesh.full;
-  whole.skin = full.skin;
-  whole.scan_vertices = full.scan_vertices;
-  whole.appended = full.appended;
-  whole.source_triangle = full.source_triangle;
-  whole.skin_upper_margin.resize(full.places.size());
-  for (std::size_t v = 0; v < full.places.size(); ++v) {
-    const MeshPlace& place = full.places[v];
-    double margin = 0;
-    for (int k = 0; k < 3; ++k)
-      margin += place.weight[k] * mesh.skin_upper_margin[std::size_t(place.vertex[std::size_t(k)])];
-    whole.skin_upper_margin[v] = margin;
-  }
-  return whole;
-}
-
 void keep_thinned(tissue::TissueField& field, const tissue::FullSkin& full) {
   for (Eigen::VectorXd& values : field.skin)
     if (values.size() > 0) values = Eigen::VectorXd(values(full.kept));

@@ -4,7 +4,7 @@
 
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/on_skin.hpp"
 
 namespace hyperex::scene {
 
@@ -15,8 +15,7 @@ std::vector<char> on_seams(const io::Scan& scan);
 /// same part of the texture.
 io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const TriMesh& thinned);
 
-/// The mesh with the skin as it was before thinning, for what names the scan's own vertices.
-tissue::TissueMesh with_full_skin(const tissue::TissueMesh& mesh);
+using tissue::with_full_skin;
 /// A field made there, on the thinned skin.
 void keep_thinned(tissue::TissueField& field, const tissue::FullSkin& full);
 

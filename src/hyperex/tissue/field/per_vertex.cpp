@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "hyperex/core/error.hpp"
@@ -13,9 +14,12 @@
 #include "hyperex/io/raw_mesh.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tissue/field/vertex_match.hpp"
+#include "hyperex/tissue/tissue_mesh.hpp"
 
 namespace hyperex::tissue {
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 bool has_extension(const std::filesystem::path& file, const char* wanted) {
   std::string extension = file.extension().string();
@@ -89,38 +93,70 @@ class OnScan {
   std::optional<VertexMatch> match_;
 };
 
+/// A column that is looked for.
+struct Wanted {
+  const char* key;
+  double si;            ///< SI = value * si
+  std::string allowed;  ///< in words
+  std::function<bool(double)> is_allowed;
+};
+
+/// Its values, SI, NaN where none is given; nothing where there is no such column.
+std::optional<Eigen::VectorXd> sound_values(const std::filesystem::path& file, const Table& table,
+                                            const Wanted& wanted, const TriMesh& scan) {
+  const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                   [&](const auto& c) { return c.name == wanted.key; });
+  if (column == table.columns.end()) return std::nullopt;
+  Eigen::VectorXd values = column->values;
+  if (!table.mesh && values.size() != scan.points.rows())
+    throw InputError(file, fmt::format("{} rows of {}: expected {}, one a vertex of the scan",
+                                       values.size(), wanted.key, scan.points.rows()));
+  for (Eigen::Index v = 0; v < values.size(); ++v) {
+    const double value = values[v] * wanted.si;
+    if (!std::isnan(value) && !wanted.is_allowed(value))
+      throw InputError(file, fmt::format("{} = {:g} at vertex {} (counted from 0): expected {}",
+                                         wanted.key, values[v], v, wanted.allowed));
+    values[v] = value;
+  }
+  return values;
+}
+
 }  // namespace
 
 PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan,
                           std::vector<std::string>& notes) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const Table table = read_table(file);
   PerVertex columns;
   std::optional<OnScan> on_scan;
   for (int p = 0; p < parameter_count; ++p) {
     const ParameterInfo& info = parameter_info(p);
-    const auto column = std::find_if(table.columns.begin(), table.columns.end(),
-                                     [&](const auto& c) { return c.name == info.key; });
-    if (column == table.columns.end()) continue;
-    Eigen::VectorXd values = column->values;
-    if (!table.mesh && values.size() != scan.points.rows())
-      throw InputError(file, fmt::format("{} rows of {}: expected {}, one a vertex of the scan",
-                                         values.size(), info.key, scan.points.rows()));
-    for (Eigen::Index v = 0; v < values.size(); ++v) {
-      const double value = values[v] * info.si;
-      if (!std::isnan(value) && !is_allowed(p, value))
-        throw InputError(file, fmt::format("{} = {:g} at vertex {} (counted from 0): expected {}",
-                                           info.key, values[v], v, info.allowed));
-      values[v] = value;
-    }
+    const Wanted wanted{info.key, info.si, info.allowed,
+                        [p](double value) { return is_allowed(p, value); }};
+    const auto values = sound_values(file, table, wanted, scan);
+    if (!values) continue;
     if (!on_scan) on_scan.emplace(file, table.mesh, scan, notes);
-    columns[p] = (*on_scan)(values, nan);
+    columns[p] = (*on_scan)(*values, kNone);
   }
   if (!on_scan)
     throw InputError(file,
                      "no values a vertex: expected columns (CSV) or vertex properties (PLY) of the "
                      "names young_kpa, viscosity_pa_s, poisson or density_kg_m3");
   return columns;
+}
+
+Eigen::VectorXd read_depths(const std::filesystem::path& file, const TriMesh& scan,
+                            std::vector<std::string>& notes) {
+  constexpr Bounds in = TissueMeshOptions::thickness_m_in;
+  const Table table = read_table(file);
+  const Wanted wanted{"thickness_mm", 1e-3,
+                      fmt::format("a number from {:g} to {:g}", 1e3 * in.least, 1e3 * in.most),
+                      [in](double value) { return in.holds(value); }};
+  const auto values = sound_values(file, table, wanted, scan);
+  if (!values)
+    throw InputError(file,
+                     "no thickness a vertex: expected a column (CSV) or a vertex property (PLY) of "
+                     "the name thickness_mm");
+  return OnScan(file, table.mesh, scan, notes)(*values, kNone);
 }
 
 Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& scan,

@@ -19,6 +19,11 @@ using PerVertex = std::array<Eigen::VectorXd, parameter_count>;
 PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan,
                           std::vector<std::string>& notes);
 
+/// Thickness of the soft tissue, m, likewise: a column or property thickness_mm, of 1 to 40, NaN
+/// where the file gives none.
+Eigen::VectorXd read_depths(const std::filesystem::path& file, const TriMesh& scan,
+                            std::vector<std::string>& notes);
+
 /// A region painted on the scan: a share from 0 to 1 a vertex, in the scan's order. A CSV with a
 /// column `weight` in that order; or a PLY whose vertices have it, or a mesh of the scan (PLY, OBJ,
 /// GLB) painted red on white, grey or black, either in any order: the share is how much more red

@@ -16,14 +16,11 @@
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 #include "hyperex/tissue/lips.hpp"
+#include "hyperex/tissue/on_skin.hpp"
 
 namespace hyperex::tissue {
 namespace {
 using SkinField = std::array<Eigen::VectorXd, parameter_count>;
-
-double reach_of(const io::Landmarks& landmarks) {
-  return 1.8 * (landmarks.at(face::ibug(54)) - face::face_frame(landmarks).origin).norm();
-}
 
 /// As upper_lip_margin: far on the landmark's own lip, 0 for those of neither.
 double margin_of(const std::string& landmark) {
@@ -147,8 +144,7 @@ TissueFieldMaker::TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& 
     : mesh_(mesh),
       landmarks_(landmarks),
       joined_(joined_vertices(mesh.skin.points, mesh.skin_upper_margin)),
-      skin_tree_(mesh.skin, mesh.skin_upper_margin, face::face_frame(landmarks).origin,
-                 reach_of(landmarks)),
+      skin_tree_(skin_tree(mesh, landmarks)),
       above_(places_above(mesh, skin_tree_)) {
   if (face) regions_.emplace(mesh, landmarks, *face);
 }
@@ -173,39 +169,15 @@ SkinField TissueFieldMaker::skin_field(const TissueFieldOptions& options) const 
   interpolate(options, field);
   if (!options.per_vertex.empty()) {
     std::vector<std::string> noted;  // when the inputs were read
-    const PerVertex own = read_per_vertex(options.per_vertex, scan(), noted);
+    const PerVertex own = read_per_vertex(options.per_vertex, scan_of(mesh_), noted);
     for (int p = 0; p < parameter_count; ++p) {
       if (own[p].size() == 0) continue;
-      const Eigen::VectorXd values = on_skin(own[p]);
+      const Eigen::VectorXd values = on_skin(mesh_, own[p]);
       field[p] = values.array().isNaN().select(field[p], values);
     }
   }
   for (std::size_t i = 0; i < options.regions.size(); ++i) apply_region(options, i, field);
   return field;
-}
-
-TriMesh TissueFieldMaker::scan() const {
-  return {mesh_.skin.points.topRows(mesh_.scan_vertices), mesh_.skin.triangles};
-}
-
-/// Values of the scan's vertices, and between them those of the vertices that the cut added; where
-/// an edge joined the lips, each end of the cut has the value of its own lip: what holds for one
-/// does not run over to the other.
-Eigen::VectorXd TissueFieldMaker::on_skin(const Eigen::VectorXd& of_scan) const {
-  const std::vector<double>& margin = mesh_.skin_upper_margin;
-  Eigen::VectorXd out(mesh_.skin.points.rows());
-  out.head(mesh_.scan_vertices) = of_scan;
-  for (std::size_t i = 0; i < mesh_.appended.size(); ++i) {
-    const EdgePoint& e = mesh_.appended[i];
-    const Eigen::Index own = mesh_.scan_vertices + Eigen::Index(i);
-    double t = e.t;
-    if (margin[e.a] * margin[e.b] < 0) t = margin[e.a] * margin[own] > 0 ? 0 : 1;
-    // No product with a value that counts for nothing: it may be unknown.
-    out[own] = t == 0   ? of_scan[e.a]
-               : t == 1 ? of_scan[e.b]
-                        : (1 - t) * of_scan[e.a] + t * of_scan[e.b];
-  }
-  return out;
 }
 
 void TissueFieldMaker::interpolate(const TissueFieldOptions& options, SkinField& field) const {
@@ -297,7 +269,7 @@ Eigen::VectorXd TissueFieldMaker::region_shares(const TissueFieldOptions& option
       return region_share(depth, region.blend_m);
     });
   else
-    shares = on_skin(read_paint(region.painted, scan(), noted));
+    shares = on_skin(mesh_, read_paint(region.painted, scan_of(mesh_), noted));
   if (shares.maxCoeff() < 1e-6)
     throw FieldError({fmt::format("region[{}].{}", index,
                                   !region.painted.empty() ? "painted"

@@ -75,8 +75,6 @@ class TissueFieldMaker {
   void apply_region(const TissueFieldOptions& options, std::size_t index,
                     std::array<Eigen::VectorXd, parameter_count>& field) const;
   Eigen::VectorXd region_depth(const TissueFieldOptions& options, std::size_t index) const;
-  TriMesh scan() const;
-  Eigen::VectorXd on_skin(const Eigen::VectorXd& of_scan) const;
 
   const TissueMesh& mesh_;
   const io::Landmarks& landmarks_;
