@@ -23,16 +23,27 @@ const liveAt = rest.indexOf('--live');
 const recording = liveAt < 0 ? '' : resolve(rest.splice(liveAt, 2)[1]);
 const pageAt = rest.indexOf('--page');
 if (pageAt >= 0) rest.splice(pageAt, 1);
+/** Whatever happens, no server and no browser are left behind. */
+const ends = [];
+async function leave(code) {
+  for (const end of ends.splice(0).reverse()) await end().catch((error) => console.error(`studio_bench: ${error.message}`));
+  process.exit(code);
+}
+for (const event of ['uncaughtException', 'unhandledRejection'])
+  process.on(event, (error) => {
+    console.error(`studio_bench: ${error.message}`);
+    void leave(1);
+  });
 const folder = mkdtempSync(join(tmpdir(), 'hyperex-studio-'));
+ends.push(async () => rmSync(folder, { recursive: true, force: true, maxRetries: 3 }));
 const begun = performance.now();
 const studio = await startStudio(resolve(program), [...rest.map((file) => resolve(file)), ...(recording ? ['--device', `play:${recording}`] : [])], {
   cwd: folder, env: { ...process.env, XDG_STATE_HOME: folder },
 });
+ends.push(() => studio.stop());
 if (pageAt >= 0) {
   await inPage();
-  await studio.stop();
-  rmSync(folder, { recursive: true, force: true });
-  process.exit(0);
+  await leave(0);
 }
 const client = await connect(studio.address);
 const face = client.event('face');
@@ -58,14 +69,13 @@ async function series(what, count, fields, event) {
 if (recording) {
   await live();
   client.close();
-  await studio.stop();
-  rmSync(folder, { recursive: true, force: true });
-  process.exit(0);
+  await leave(0);
 }
 
 /** What the user of a page waits for. */
 async function inPage() {
   const browser = await launch();
+  ends.push(() => browser.close());
   const { page } = await openStudio(browser, studio.address);
   console.log(`page ready ${((performance.now() - begun) / 1e3).toFixed(2)} s after the command, ` +
     `${await page.evaluate(() => document.getElementById('face').width)} x ${await page.evaluate(() => document.getElementById('face').height)} pixels of face`);
@@ -93,7 +103,7 @@ async function inPage() {
           slider.dispatchEvent(new Event('input', { bubbles: true }));
           await new Promise((done, fail) => requestAnimationFrame(function look() {
             if (shapes() > before) setTimeout(done);
-            else if (performance.now() > from + 10_000) fail(new Error(`no shape came: ${document.getElementById('edit-problem').textContent}`));
+            else if (performance.now() > from + 60_000) fail(new Error(`no shape came in a minute: ${document.getElementById('edit-problem').textContent}`));
             else requestAnimationFrame(look);
           }));
           gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // browsers only flush at finish()
@@ -108,7 +118,6 @@ async function inPage() {
         `first ${first.toFixed(0)} ms, drawing alone ${await page.evaluate(() => document.getElementById('face').dataset.drawMs)} ms`);
     }
   }
-  await browser.close();
 }
 
 /** A recording at its own pace: what reaches a client that draws nothing, tracker included. */
@@ -174,5 +183,4 @@ if (soakMinutes > 0) {
   }
 }
 client.close();
-await studio.stop();
-rmSync(folder, { recursive: true, force: true });
+await leave(0);
