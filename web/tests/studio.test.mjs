@@ -208,8 +208,27 @@ describe('the studio', { skip, concurrency: false }, () => {
     const weak = await cornerMm(page, 1, 'right');
     assert.ok(weak < changed);
 
-    // One muscle alone, and all again.
+    // One muscle alone, and all again; the place of its curve stays while another face is made.
     await page.click('.muscle-group summary >> nth=1');
+    const curve = page.locator('.muscle-group >> nth=1').locator('.activation').first();
+    const high = await curve.evaluate((box) => box.offsetHeight);
+    assert.ok(high > 10);
+    await page.click('#tabs .tab-name >> nth=0');
+    await page.waitForFunction(() => document.documentElement.dataset.bands === 'true');
+    assert.equal(await page.locator('#tabs .tab-name').first().getAttribute('aria-pressed'), 'true', 'what comes leaves the face chosen');
+    const slider = page.locator('.muscle-group >> nth=1').locator('input[data-gain$=_L]').first();
+    const name = await slider.getAttribute('data-gain');
+    await slider.focus();
+    await page.keyboard.press('PageDown');
+    await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 3);
+    assert.equal(await curve.evaluate((box) => box.offsetHeight), high);
+    await page.waitForFunction((gain) => document.getElementById('scene-text').textContent.includes(`"${gain}"`), name);
+    await settled(page);
+    await page.locator('.tab-more').nth(1).click();
+    await page.click('.sheet:popover-open .entry:has-text("Delete")');
+    await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 2);
+    await page.click('#tabs .tab-name >> nth=1');
+    await settled(page);
     const solo = page.locator('.muscle-group >> nth=1').getByRole('button', { name: 'R S: Solo Zygomaticus major, right' });
     await solo.click();
     await page.waitForFunction(() => /zyg_major_L" = 0/.test(document.getElementById('scene-text').textContent));

@@ -46,7 +46,9 @@ export class Shown {
     this.count = count;
     const inside = (face: number) => Math.min(face, count - 1);
     this.choice = {
-      first: inside(this.first), second: inside(this.second || 1), mode: count > 1 ? this.mode : 'single',
+      first: inside(this.first), mode: count > 1 ? this.mode : 'single',
+      // Ready beside base; where two are seen it may be base itself.
+      second: inside(this.mode === 'single' ? this.second || 1 : this.second),
     };
     this.listeners.tell();
   }

@@ -83,14 +83,14 @@ export class ActivationCurves {
       const row = this.names.indexOf(one.name);
       const own = row < 0 ? null : this.rowOf(this.faces[edited] ?? null, row);
       const base = row < 0 || edited === 0 ? null : this.rowOf(this.faces[0] ?? null, row);
-      one.picture.parentElement!.hidden = !own;
-      if (!own) continue;
-      one.own.setAttribute('points', this.points(own));
+      // What is not known yet keeps its place: nothing is to move under the pointer.
+      one.picture.parentElement!.style.visibility = own || base ? '' : 'hidden';
+      one.own.setAttribute('points', own ? this.points(own) : '');
       one.base.setAttribute('points', base ? this.points(base) : '');
       const y = this.height(0).toFixed(2);
       for (const [key, value] of [['x1', '0'], ['x2', String(wide)], ['y1', y], ['y2', y]]) one.zero.setAttribute(key, value);
       const most = (values: Float32Array) => Math.max(...values).toFixed(2);
-      const said = words.activation(one.called, most(own), base ? most(base) : '');
+      const said = words.activation(one.called, own ? most(own) : '–', base ? most(base) : '');
       one.picture.setAttribute('aria-label', said);
       one.picture.parentElement!.title = said;
     }

@@ -166,7 +166,7 @@ export class Tabs {
       close();
       const gain = what.value;
       const percent = Number(to.value);
-      const called = what.selectedOptions[0].text;
+      const called = what.selectedOptions[0].dataset.brief!;
       this.try(async () => {
         const face = await this.edits.addFace(words.weakerName(called, percent), 0);
         this.focus(face);
@@ -181,16 +181,22 @@ export class Tabs {
   private muscleChooser(): HTMLSelectElement {
     const { muscles } = this.state;
     const select = element('select');
-    const group = (title: string, names: [stem: string, called: (side: string) => string][]) => {
+    const group = (title: string, names: [stem: string, called: (side: string) => string, brief?: string][]) => {
       const made = element('optgroup');
       made.label = title;
-      for (const [stem, called] of names)
-        for (const side of ['R', 'L'] as const) made.append(new Option(upper(called(words.sideNames[side])), `${stem}_${side}`));
+      for (const [stem, called, brief] of names)
+        for (const side of ['R', 'L'] as const) {
+          const option = new Option(upper(called(words.sideNames[side])), `${stem}_${side}`);
+          option.dataset.brief = brief ? words.ofSide(brief, words.sideNames[side]) : option.text;
+          made.append(option);
+        }
       select.append(made);
     };
     group(words.wholeSide, [['side', words.weakerSide]]);
-    group(words.branches, [...new Set(muscles.map(({ branch }) => branch))].map((branch) => (
-      [branch, (side) => words.ofSide(words.weakerBranch(words.branchNames[branch] ?? upper(branch)), side)])));
+    group(words.branches, [...new Set(muscles.map(({ branch }) => branch))].map((branch) => {
+      const brief = words.branchNames[branch] ?? upper(branch);
+      return [branch, (side) => words.ofSide(words.weakerBranch(brief), side), brief];
+    }));
     group(words.weakerMuscles, muscles.map(({ name, latin }) => [name, (side) => words.ofSide(latin, side)]));
     return select;
   }
