@@ -76,7 +76,7 @@ export class PaintPanel implements Painter {
 
   private readonly toolButtons = new Map<Tool, HTMLButtonElement>();
   private readonly patch = element('select');
-  private readonly whats = element('select');
+  private readonly whatChoice = element('select');
   private readonly kind = element('select');
   private readonly source = element('p', '', 'why');
   private readonly problem = element('p', '', 'problem');
@@ -227,17 +227,17 @@ export class PaintPanel implements Painter {
   private addWhat(): void {
     const label = element('label', '', 'part');
     label.title = words.paintWhatHint;
-    label.append(element('span', words.paintWhat), this.whats);
-    this.whats.id = 'paint-what';
-    this.whats.replaceChildren(new Option(words.paintWhatTissue, 'tissue'), new Option(words.paintWhatThickness, 'thickness'));
-    this.whats.value = this.what;
-    this.whats.addEventListener('change', () => this.choose(this.whats.value as What));
+    label.append(element('span', words.paintWhat), this.whatChoice);
+    this.whatChoice.id = 'paint-what';
+    this.whatChoice.replaceChildren(new Option(words.paintWhatTissue, 'tissue'), new Option(words.paintWhatThickness, 'thickness'));
+    this.whatChoice.value = this.what;
+    this.whatChoice.addEventListener('change', () => this.choose(this.whatChoice.value as What));
     this.element.append(label);
   }
 
   private choose(what: What): void {
     if (this.stroke || this.pending > 0) {
-      this.whats.value = this.what;
+      this.whatChoice.value = this.what;
       return;
     }
     this.freshOf[this.what] = this.fresh;
