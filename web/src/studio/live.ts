@@ -10,10 +10,14 @@ import type { StudioState } from './studio_state';
 import { TrimCurve } from './trim_curve';
 import { words } from './words';
 
+/** Digits that change faster are not read, and laying the page out anew takes time from the face. */
+const figuresEachMs = 100;
+
 export class LivePanel {
   private device: string | null = null;
   private running = false;
   private recorded = false;
+  private measuredAt = 0;
   private readonly choices = element('div', '', 'choices');
   private readonly told = element('p', '', 'why');
   private readonly figures = element('dl', '', 'live-figures');
@@ -92,8 +96,12 @@ export class LivePanel {
     const viewer = this.viewer();
     if (state.playback.playing) state.playback.pause();
     if (face < state.source.replay.faces.length && !state.shown.visible.includes(face)) state.shown.set({ mode: 'single', first: face });
-    viewer?.showLive({ face, displacement });
-    this.measure(face, displacement);
+    viewer?.showLive({ face, displacement }, true);
+    const now = performance.now();
+    if (now - this.measuredAt >= figuresEachMs) {
+      this.measuredAt = now;
+      this.measure(face, displacement);
+    }
     // Drawn when the frames asked for before are; the next task comes after the drawing.
     requestAnimationFrame(() => setTimeout(() => void this.ask('live_drawn', { frame })));
   }

@@ -68,6 +68,7 @@ export class FaceViewer {
   private readonly software = drawsInSoftware();
   private drawnAt = 0;
   private slow = 0; // pictures in a row that came late
+  private streaming = false;
   private rest = 0;
   private readonly drawn = new Listeners();
   private lit: ReadonlySet<string> = new Set();
@@ -132,8 +133,10 @@ export class FaceViewer {
     this.renderer.forceContextLoss();
   }
 
-  /** A face at this instant, in metres from rest, until the next motion or `null`. */
-  showLive(live: { face: number; displacement: Float32Array } | null): void {
+  /** A face at this instant, in metres from rest, until the next motion or `null`. `streaming`: more of them follow as
+   *  fast as they are drawn, made by the same processor. */
+  showLive(live: { face: number; displacement: Float32Array } | null, streaming = false): void {
+    this.streaming = streaming && live !== null;
     if (!live && !this.live) return;
     const same = live?.face === this.live?.face;
     this.live = live;
@@ -540,7 +543,7 @@ export class FaceViewer {
 
   private get ratio(): number {
     if (!this.software) return Math.min(window.devicePixelRatio, 2);
-    return this.slow < 3 ? 1 : 0.7;
+    return this.slow < 3 && !this.streaming ? 1 : 0.7;
   }
 
   /** `gap`: since the picture before, ms. */
