@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import logging
+import os
 import tempfile
 import unittest
 
@@ -107,6 +108,29 @@ class Meshes(unittest.TestCase):
                                  (dict(layers=0), "layers = 0")):
             with self.subTest(message), self.assertRaisesRegex(hyperex.InputError, message):
                 hyperex.build_tissue_mesh(face(), hyperex.TissueMeshOptions(**options))
+
+    def test_thickness_of_files(self):
+        vertices = len(face().mesh.points_m)
+        with tempfile.TemporaryDirectory() as folder:
+            def file(name, column, value):
+                path = os.path.join(folder, name)
+                with open(path, "w") as out:
+                    out.write("\n".join([column] + [str(value)] * vertices))
+                return path
+            plain = dict(element_size_m=0.01, layers=1)
+            each = file("each.csv", "thickness_mm", 9)
+            mesh = hyperex.build_tissue_mesh(face(), hyperex.TissueMeshOptions(depth_per_vertex=each, **plain))
+            self.assertAlmostEqual(np.median(mesh.thickness_m), 0.009, 9)
+            half = hyperex.DepthRegion(painted=file("half.csv", "weight", 0.5), depth_m=0.005)
+            mesh = hyperex.build_tissue_mesh(face(), hyperex.TissueMeshOptions(
+                depth_per_vertex=each, depth_regions=[half], **plain))
+            self.assertAlmostEqual(np.median(mesh.thickness_m), 0.007, 9)
+            with self.assertRaisesRegex(hyperex.InputError, "thickness_mm = 90 at vertex 0"):
+                hyperex.build_tissue_mesh(face(), hyperex.TissueMeshOptions(
+                    depth_per_vertex=file("each.csv", "thickness_mm", 90), **plain))
+            with self.assertRaisesRegex(hyperex.InputError, "depth_m = 1: expected a number"):
+                hyperex.build_tissue_mesh(face(), hyperex.TissueMeshOptions(
+                    depth_regions=[half.replace(depth_m=1)], **plain))
 
     def test_tetrahedra_have_positive_volume(self):
         mesh = coarse_mesh()
