@@ -15,9 +15,17 @@ namespace hyperex::scene {
 namespace {
 using nlohmann::json;
 
-json expected_echo(const Key& key, const json& value, const std::filesystem::path& folder) {
-  return key.kind == Kind::path ? json((folder / value.get<std::string>()).generic_string())
-                                : value;
+/// A value as it is kept: paths, also those in the columns of rows, from the scene's folder on.
+json expected_echo(const Key& key, json value, const std::filesystem::path& folder) {
+  const auto place = [&](json& path) {
+    path = (folder / path.get<std::string>()).generic_string();
+  };
+  if (key.kind == Kind::path) place(value);
+  for (const KeyInfo& column : key.columns)
+    if (column.kind == Kind::path)
+      for (json& row : value)
+        if (row.contains(column.name)) place(row[column.name]);
+  return value;
 }
 
 TEST(Keys, AreNamedOnceInKnownSectionsInOrder) {
@@ -68,8 +76,7 @@ TEST(Keys, EachReachesItsFieldFromSet) {
     const auto file = folder.write("scene.toml", scene_with("scan.file", "\"face.ply\"") +
                                                      "region.measured_points = [\"a\"]\n" +
                                                      "solver.newmark_beta = 0.5\n");
-    json value = other_value(key);
-    if (key.kind == Kind::path) value = (folder / "face.ply").string();
+    const json value = expected_echo(key, other_value(key), folder / "");
     std::vector<std::string> overrides = {key.name + "=" + toml(value)};
     if (key.name.starts_with("muscles.")) overrides.push_back("drive.by=muscles");
     const Scene scene = read_scene(file, overrides);
