@@ -86,7 +86,7 @@ async function inPage() {
   } else {
     await page.click('#to-peak');
     // Where points drive, the first change of a muscle is another drive, not a slider's step.
-    const muscles = await page.evaluate(() => !/Recorded points/.test(document.getElementById('panels').textContent));
+    const muscles = await page.evaluate(() => /^(driven by muscles|muscles drive)/i.test(document.querySelector('#panels .drive').textContent));
     for (const [what, tab, selector] of [['strength of a muscle', 'muscles', '[data-gain=zygomatic_R]'], ['tissue', 'tissue', '[data-key="tissue.young_kpa"] input[type=range]']]) {
       if (tab === 'muscles' && !muscles) continue;
       await page.click(`#tab-${tab}`);
