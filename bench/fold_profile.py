@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How deep the fold from nose to mouth is: fold_profile.py LANDMARKS.json REST.ply NAME=FACE.ply ... [--picture FILE]
+
+All faces have the vertices of REST in the same order, in mm, +z forward. On both sides, at 0.3, 0.5 and 0.7 of the
+way from the wing of the nose (points 31, 35) to the corner of the mouth (48, 54), the surface is cut across that
+line, from 6 mm on the side of the nose to 26 mm on the side of the cheek. The depth is the greatest distance of the
+cut from a straight line between two of its own points, at most 20 mm apart. Needs Debian's python3-vtk9,
+python3-scipy and, for pictures, python3-matplotlib."""
+import argparse
+import json
+
+import numpy as np
+import vtk
+from scipy.interpolate import LinearNDInterpolator
+from scipy.spatial import cKDTree
+from vtk.util.numpy_support import vtk_to_numpy
+
+STEP_MM = 0.25
+ACROSS_MM = np.arange(-6, 26, STEP_MM)
+LONGEST = int(20 / STEP_MM)
+SHARES = (0.3, 0.5, 0.7)
+SIDES = {"right": ("ibug68_31", "ibug68_48", -1), "left": ("ibug68_35", "ibug68_54", 1)}
+
+
+def points_of(path, count=None):
+    reader = vtk.vtkPLYReader()
+    reader.SetFileName(path)
+    reader.Update()
+    points = vtk_to_numpy(reader.GetOutput().GetPoints().GetData()).astype(float)[:count]
+    return 1e3 * points if np.ptp(points[:, 0]) < 1 else points
+
+
+def profile(points, ala, corner, share, outwards):
+    along = points[corner] - points[ala]
+    origin = points[ala] + share * along
+    across = np.array([-along[1], along[0]]) / np.hypot(along[0], along[1])
+    across *= 1 if across[0] * outwards > 0 else -1
+    near = np.hypot(*(points - origin)[:, :2].T) < 45
+    height = LinearNDInterpolator(points[near, :2], points[near, 2])
+    return np.array([float(height(*(origin[:2] + s * across))) for s in ACROSS_MM])
+
+
+def depth(z):
+    best = 0.0
+    for a in range(len(z)):
+        for b in range(a + 8, min(len(z), a + LONGEST)):
+            slope = (z[b] - z[a]) / (b - a)
+            below = z[a] + slope * np.arange(b - a + 1) - z[a : b + 1]
+            best = max(best, below.max() / np.hypot(1, slope / STEP_MM))
+    return best
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("landmarks")
+    parser.add_argument("rest")
+    parser.add_argument("faces", nargs="+", metavar="NAME=FACE.ply")
+    parser.add_argument("--picture")
+    given = parser.parse_args()
+    rest = points_of(given.rest)
+    tree = cKDTree(rest)
+    with open(given.landmarks) as stream:
+        landmarks = json.load(stream)["points"]
+    vertex = {name: tree.query(np.array(at, float))[1] for name, at in landmarks.items()}
+    faces = {"rest": rest}
+    for face in given.faces:
+        name, path = face.split("=", 1)
+        faces[name] = points_of(path, len(rest))
+    cuts = {
+        name: [
+            profile(points, vertex[ala], vertex[corner], share, outwards)
+            for ala, corner, outwards in SIDES.values()
+            for share in SHARES
+        ]
+        for name, points in faces.items()
+    }
+    for name, lines in cuts.items():
+        depths = [depth(z) for z in lines]
+        print(f"{name:12s}", " ".join(f"{d:.1f}" for d in depths), f"mean {np.mean(depths):.2f} mm")
+    if given.picture:
+        import matplotlib
+
+        matplotlib.use("Agg")
+        from matplotlib import pyplot
+
+        _, axes = pyplot.subplots(2, 3, figsize=(13, 6.5))
+        for i, axis in enumerate(axes.ravel()):
+            for name, lines in cuts.items():
+                axis.plot(ACROSS_MM, lines[i] - lines[i][int(6 / STEP_MM)], label=name)
+            axis.set_title(f"{list(SIDES)[i // 3]}, {SHARES[i % 3]} of the way")
+            axis.set_xlabel("across, towards the cheek (mm)")
+            axis.set_ylabel("forward (mm)")
+        axes[0, 0].legend(fontsize=7)
+        pyplot.tight_layout()
+        pyplot.savefig(given.picture, dpi=80)
+
+
+if __name__ == "__main__":
+    main()
