@@ -10,16 +10,12 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/plump.hpp"
 #include "hyperex/tissue/unfold.hpp"
 
 namespace hyperex::tissue {
 namespace {
 
 using Tet = std::array<int, 4>;
-
-/// Nodes of the inner surface move where elements have a lower radius ratio.
-constexpr double least_radius_ratio = 0.2;
 
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (b - a).cross(c - a).dot(d - a);
@@ -198,18 +194,6 @@ Vec3 LayerBuilder::mean_around(const Points& values, int v) const {
   return mean / double(std::max<std::size_t>(1, around_[v].size()));
 }
 
-/// Of the inner surface alone: where nodes between it and the skin moved too, elements that span a
-/// fold of the lips became stiffer, and their stress in an open mouth two to three times as great.
-void make_plumper(VolumeMesh& mesh) {
-  const Eigen::Index n = mesh.surface_nodes();
-  const Plumped plumped = plump_up(mesh.nodes, mesh.tets, mesh.layers * n, least_radius_ratio);
-  if (plumped.nodes == 0) return;
-  mesh.notes.push_back(fmt::format(
-      "flat elements were made plumper by moving {} nodes of the inner surface by up to {:.1f} mm",
-      plumped.nodes, 1e3 * plumped.greatest_move_m));
-  mesh.thickness_m = (mesh.nodes.bottomRows(n) - mesh.nodes.topRows(n)).rowwise().norm();
-}
-
 VolumeMesh build_once(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
                       const VolumeMeshOptions& options) {
   LayerBuilder builder(outer, thickness_m, options);
@@ -240,7 +224,6 @@ VolumeMesh build_once(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
         ++t;
       }
   }
-  make_plumper(mesh);
   return mesh;
 }
 
@@ -277,8 +260,11 @@ MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets) {
     // Face k lies opposite corner k; its area vector points outwards.
     constexpr int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
     Vec3 area[4];
-    for (int k = 0; k < 4; ++k)
+    double surface = 0;
+    for (int k = 0; k < 4; ++k) {
       area[k] = 0.5 * (x[face[k][1]] - x[face[k][0]]).cross(x[face[k][2]] - x[face[k][0]]);
+      surface += area[k].norm();
+    }
     double least = 180;
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j) {
@@ -291,7 +277,13 @@ MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets) {
     for (int b = 0; b < bins; ++b)
       if (least >= dihedral_bounds_deg[b] && least < dihedral_bounds_deg[b + 1])
         q.least_dihedral_shares[b] += 1.0 / double(tets.rows());
-    q.worst_radius_ratio = std::min(q.worst_radius_ratio, radius_ratio(nodes, tets, t));
+    const double inradius = 3 * volume / surface;
+    const double a = (x[1] - x[0]).norm() * (x[3] - x[2]).norm(),
+                 b = (x[2] - x[0]).norm() * (x[3] - x[1]).norm(),
+                 c = (x[3] - x[0]).norm() * (x[2] - x[1]).norm();
+    const double product = std::max(0.0, (a + b + c) * (a + b - c) * (a - b + c) * (-a + b + c));
+    const double circumradius = std::sqrt(product) / (24 * volume);
+    q.worst_radius_ratio = std::min(q.worst_radius_ratio, 3 * inradius / circumradius);
   }
   q.mean_volume_mm3 = q.total_volume_mm3 / double(std::max<Eigen::Index>(1, tets.rows()));
   return q;
