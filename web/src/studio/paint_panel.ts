@@ -85,6 +85,7 @@ export class PaintPanel implements Painter {
   private depth: Slider | null = null;
   /** What only tissue has. */
   private readonly ofTissue: HTMLElement[] = [];
+  private readonly ofAll = element('p', words.paintThicknessOfAll, 'why');
   private width: Slider | null = null;
   private readonly feel: { key: 'hardness' | 'strength'; slider: Slider }[] = [];
   private readonly needShares: HTMLButtonElement[] = [];
@@ -232,7 +233,7 @@ export class PaintPanel implements Painter {
     this.whatChoice.replaceChildren(new Option(words.paintWhatTissue, 'tissue'), new Option(words.paintWhatThickness, 'thickness'));
     this.whatChoice.value = this.what;
     this.whatChoice.addEventListener('change', () => this.choose(this.whatChoice.value as What));
-    this.element.append(label);
+    this.element.append(label, this.ofAll);
   }
 
   private choose(what: What): void {
@@ -526,7 +527,7 @@ export class PaintPanel implements Painter {
     this.factors.viscosity.set(factorOf(row, 'viscosity'), null);
     this.depth!.set(depthOf(row) || ownDepthMm, null);
     for (const one of this.ofTissue) one.hidden = this.what !== 'tissue';
-    this.depth!.element.hidden = this.what !== 'thickness';
+    this.depth!.element.hidden = this.ofAll.hidden = this.what !== 'thickness';
     const { source } = this.state;
     this.both.disabled = !source.open || !source.replay.mirror;
     const there = this.chosen < patches.length || this.pending > 0;

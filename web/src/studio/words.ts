@@ -137,6 +137,7 @@ const en = {
   paintWhatHint: 'Each face has its own stiffness and viscosity; all have one thickness, that of base',
   paintWhatTissue: 'Stiffness and viscosity',
   paintWhatThickness: 'Thickness',
+  paintThicknessOfAll: 'Thickness is one for all faces: this changes base. Base still meets the recording; see what a variant changes.',
   paintThickness: 'Thickness there',
   paintThicknessHint: 'Of the soft tissue where the patch has its whole strength (thickness_mm of mesh.thickness_region); the mesh is made anew',
   paintThicknessMap: 'Thickness of the soft tissue',
