@@ -158,8 +158,7 @@ void warn_of_own_forces(const study::Study& study) {
   if (tissue && scene::read_scene_with(study.scene, first.overrides).variants.empty())
     spdlog::warn(
         "each case is a run of its own, in which the driven points follow the recording whatever "
-        "the "
-        "tissue; to see what the same forces do in other tissue, give the scene variants "
+        "the tissue; to see what the same forces do in other tissue, give the scene variants "
         "(docs/studies.md)");
 }
 

@@ -196,8 +196,9 @@ json variants_section(const ReportInput& input, BinaryBlock& block) {
     for (std::size_t f = 0; f < own.size(); ++f) {
       const double here_m =
           own[f].rows() ? double((displacement[f] - own[f]).rowwise().norm().maxCoeff()) : 0;
-      if (here_m > difference_m) most = f;
-      difference_m = std::max(difference_m, here_m);
+      if (here_m <= difference_m) continue;
+      difference_m = here_m;
+      most = f;
     }
     section.push_back(
         {{"name", variant.name},
