@@ -31,7 +31,7 @@ reenact::TissueValues field_of(const SharedTissueMesh& mesh, const Face& face,
         face.landmarks,
         mesh->full ? scene::thinned_scan(face.scan, *mesh->full, mesh->skin).mesh : face.scan.mesh);
   // Files a vertex name the scan's own vertices, also of a scan that was thinned.
-  const TissueMesh whole = mesh->full ? scene::with_full_skin(*mesh) : TissueMesh{};
+  const TissueMesh whole = mesh->full ? tissue::with_full_skin(*mesh) : TissueMesh{};
   const TissueFieldMaker maker(mesh->full ? whole : *mesh, face.landmarks,
                                registered ? &*registered : nullptr);
   TissueField field = maker.make(options);

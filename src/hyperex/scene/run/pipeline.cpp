@@ -158,11 +158,10 @@ std::vector<std::string> volume_warning(const Json& at_peak) {
   if (!volume.is_object()) return {};
   const double least = volume["min"], most = volume["max"];
   if (least * kMuch >= 1 && most <= kMuch) return {};
-  return {
-      fmt::format("at the peak the volume of single elements is {:.2f} to {:.2f} times that at "
-                  "rest (99 % below "
-                  "{:.2f}): their stress says little; use percentiles, or a finer mesh there",
-                  least, most, volume["p99"].get<double>())};
+  return {fmt::format(
+      "at the peak the volume of single elements is {:.2f} to {:.2f} times that at "
+      "rest (99 % below {:.2f}): their stress says little; use percentiles, or a finer mesh there",
+      least, most, volume["p99"].get<double>())};
 }
 
 /// Variants that change nothing are a slip of the pen more often than a wish.

@@ -15,7 +15,6 @@ std::vector<char> on_seams(const io::Scan& scan);
 /// same part of the texture.
 io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const TriMesh& thinned);
 
-using tissue::with_full_skin;
 /// A field made there, on the thinned skin.
 void keep_thinned(tissue::TissueField& field, const tissue::FullSkin& full);
 

@@ -22,7 +22,7 @@ Made TissueFields::made(const Scene& scene, const std::string& owner,
     maker_.reset();
     with_face_ = true;
   }
-  if (mesh_.full && !whole_) whole_.emplace(with_full_skin(mesh_));
+  if (mesh_.full && !whole_) whole_.emplace(tissue::with_full_skin(mesh_));
   if (!maker_)
     maker_.emplace(whole_ ? *whole_ : mesh_, inputs_.landmarks, face_ ? &*face_ : nullptr);
   try {
