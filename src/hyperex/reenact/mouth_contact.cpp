@@ -14,6 +14,9 @@ using Eigen::Index;
 constexpr double kSettled_m = 10e-6;  // by which pairs may pass when the search ends
 constexpr double kWithin_m = 5e-4;    // pairs as near as this may come to touch in a round
 constexpr int kMostRounds = 12, kMostSweeps = 1000;
+/// From this round on what an obstacle's other faces were in the rounds before counts too.
+constexpr int kFacesFrom = 4;
+constexpr double kSameFace = 0.95;  // cosine between outward normals
 constexpr double kSolved_m = 1e-6;
 /// Of the greatest compliance: many vertices hang on few nodes, and how they share the force does
 /// not matter.
@@ -57,9 +60,53 @@ Points followed(const std::vector<SkinCarrier>& carriers, const Eigen::VectorXd&
 struct MouthContact::Pair {
   double gap_m;
   Row row;
+  int place = -1;  // of an obstacle's side, counted through all sides; -1: of the lips
 };
 
 namespace {
+
+/// Of one place on an obstacle: both rows have the same nodes and weights.
+template <class Pair>
+bool same_face(const Pair& a, const Pair& b) {
+  const Vec3 &m = a.row.front().second, &n = b.row.front().second;
+  return m.dot(n) > kSameFace * m.norm() * n.norm();
+}
+
+double along(const Row& row, const Eigen::Ref<const Eigen::VectorXd>& moved) {
+  double sum = 0;
+  for (const auto& [node, derivative] : row) sum += derivative.dot(moved.segment<3>(3 * node));
+  return sum;
+}
+
+/// Between two teeth a place that is pushed off one enters the other, and back: the nearest face
+/// alone leads nowhere. Faces that pressed are therefore kept as planes, with the gap they have
+/// where nothing has moved.
+template <class Pair>
+void keep_faces(const std::vector<Pair>& pairs, const Eigen::VectorXd& lambda,
+                std::vector<Pair>& planes) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Pair& pair = pairs[i];
+    if (pair.place < 0 || !(lambda[Index(i)] > 0)) continue;
+    if (std::none_of(planes.begin(), planes.end(), [&](const Pair& plane) {
+          return plane.place == pair.place && same_face(plane, pair);
+        }))
+      planes.push_back(pair);
+  }
+}
+
+/// The planes of places among `pairs`, of other faces than theirs.
+template <class Pair>
+void add_other_faces(const std::vector<Pair>& planes, const Eigen::VectorXd& moved,
+                     std::vector<Pair>& pairs) {
+  const std::size_t found = pairs.size();
+  for (const Pair& plane : planes)
+    for (std::size_t i = 0; i < found; ++i)
+      if (pairs[i].place == plane.place && !same_face(pairs[i], plane)) {
+        Pair& other = pairs.emplace_back(plane);
+        other.gap_m += along(other.row, moved);
+        break;
+      }
+}
 
 template <class Pairs>
 double depth_of(const Pairs& pairs) {
@@ -120,17 +167,18 @@ std::vector<MouthContact::Pair> MouthContact::pairs_at(const FreeFrame& frame, c
         add(upper_[std::size_t(pair.on[k])], -pair.weight[Index(k)] * pair.normal, row);
     }
   const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+  int place = 0;
   for (std::size_t s = 0; s < sides_.size(); ++s) {
     const ObstaclePlaces& places = *sides_[s].places;
     const Eigen::Isometry3d& pose = places.obstacle().with_jaw ? frame.jaw_now_from_rest : still;
-    for (Index i = 0; i < places.count(); ++i) {
+    for (Index i = 0; i < places.count(); ++i, ++place) {
       const SkinCarrier& carrier = sides_[s].carriers[std::size_t(i)];
       if (carrier.empty()) continue;
       Vec3 outward;
       const Vec3 at = frame.at_sides[s].row(i).transpose() + followed(carrier, moved);
       const double gap_m = places.gap_m(i, at, pose, outward);
       if (gap_m > kWithin_m) continue;
-      add(carrier, outward, out.emplace_back(Pair{gap_m, {}}).row);
+      add(carrier, outward, out.emplace_back(Pair{gap_m, {}, place}).row);
     }
   }
   for (Pair& pair : out) gather(pair.row);
@@ -142,7 +190,7 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
   const Points lower = frame.skin(surfaces_->lower(), Eigen::all).cast<double>();
   const Points upper = frame.skin(surfaces_->upper(), Eigen::all).cast<double>();
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(compliance_.rows());
-  std::vector<Pair> pairs = pairs_at(frame, lower, upper, moved);
+  std::vector<Pair> pairs = pairs_at(frame, lower, upper, moved), planes;
   out.before_m = out.after_m = depth_of(pairs);
   out.force.setZero(compliance_.rows());
   out.moved = moved;
@@ -155,20 +203,14 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
     response.setZero(compliance_.rows(), count);
     for (Index i = 0; i < count; ++i) {
       const Pair& pair = pairs[std::size_t(i)];
-      gap[i] = pair.gap_m;
-      for (const auto& [node, along] : pair.row) {
-        gap[i] -= along.dot(moved.segment<3>(3 * node));
-        response.col(i).noalias() += compliance_.middleCols<3>(3 * Index(node)) * along;
-      }
+      gap[i] = pair.gap_m - along(pair.row, moved);
+      for (const auto& [node, derivative] : pair.row)
+        response.col(i).noalias() += compliance_.middleCols<3>(3 * Index(node)) * derivative;
     }
     between.resize(count, count);
     for (Index i = 0; i < count; ++i)
-      for (Index k = 0; k <= i; ++k) {
-        double sum = 0;
-        for (const auto& [node, along] : pairs[std::size_t(i)].row)
-          sum += along.dot(response.col(k).segment<3>(3 * node));
-        between(i, k) = between(k, i) = sum;
-      }
+      for (Index k = 0; k <= i; ++k)
+        between(i, k) = between(k, i) = along(pairs[std::size_t(i)].row, response.col(k));
     // Pairs that nothing can move (skin that follows the recording, held nodes) are left as they
     // are.
     std::vector<Pair> movable;
@@ -195,12 +237,15 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
       for (Index i = 0; i < count; ++i) {
         if (lambda[i] <= 0) continue;
         ++out.pairs;
-        for (const auto& [node, along] : pairs[std::size_t(i)].row)
-          out.force.segment<3>(3 * node) += lambda[i] * along;
+        for (const auto& [node, derivative] : pairs[std::size_t(i)].row)
+          out.force.segment<3>(3 * node) += lambda[i] * derivative;
       }
     }
     if (depth < kSettled_m) break;
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].gap_m = gap[Index(i)];
+    keep_faces(pairs, lambda, planes);
     pairs = std::move(now);
+    if (out.rounds >= kFacesFrom) add_other_faces(planes, moved, pairs);
   }
   if (holding_.rows() > 0) out.force += (holding_ * out.force).eval();
   return out;

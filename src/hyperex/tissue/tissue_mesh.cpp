@@ -17,6 +17,7 @@
 #include "hyperex/geometry/geodesic.hpp"
 #include "hyperex/geometry/hole_filling.hpp"
 #include "hyperex/geometry/remesh.hpp"
+#include "hyperex/geometry/short_border_edges.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/lips.hpp"
 #include "hyperex/tissue/on_skin.hpp"
@@ -32,6 +33,9 @@ namespace {
 constexpr double grading_m = 0.12;
 /// Holes up to this length around are mended; eyes, mouth and nostrils are left open.
 constexpr double mended_hole_m = 0.03;
+/// Of the wanted size. Smoothing folds draws the rims of the lips together at the end of the slit,
+/// and elements between nodes half a millimetre apart stretch twentyfold when the mouth opens.
+constexpr double least_border_edge_share = 0.3;
 /// The rims of the lips touch at rest and must not be joined again.
 constexpr CleanOptions cleaned_again{.join_duplicates = false};
 
@@ -218,6 +222,7 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
     size.centre = size.focus + grading_m * frame.z;
     TriMesh outer = remesh_graded(mended, size);
     outer = clean_mesh(unfold(outer, out.notes), cleaned_again).mesh;
+    remove_short_border_edges(outer, size, least_border_edge_share);
 
     out.volume = thicken(outer, skin_depth_, landmarks_, options_, source_, out);
     out.notes.insert(out.notes.end(), out.volume.notes.begin(), out.volume.notes.end());

@@ -10,36 +10,14 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/tissue/prism_split.hpp"
 #include "hyperex/tissue/unfold.hpp"
 
 namespace hyperex::tissue {
 namespace {
 
-using Tet = std::array<int, 4>;
-
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (b - a).cross(c - a).dot(d - a);
-}
-
-/// The three tetrahedra of the prism with top corners (level `l`) and bottom corners (level `l`+1),
-/// as (corner, level) pairs. Diagonals of the side faces run from the top at the corner of the
-/// lower vertex number to the bottom at the other, so that neighbours agree.
-struct Corner {
-  int corner, below;
-};
-std::array<std::array<Corner, 4>, 3> split_prism(const std::array<int, 3>& v) {
-  int k = 0;
-  if (v[1] < v[0] && v[1] < v[2]) k = 1;
-  if (v[2] < v[0] && v[2] < v[1]) k = 2;
-  const int a = k, b = (k + 1) % 3, c = (k + 2) % 3;  // a has the lowest number
-  // The top at a joins the bottoms at b and c; the diagonal over b-c depends on their order.
-  if (v[b] < v[c])
-    return {{{{{a, 0}, {b, 1}, {a, 1}, {c, 1}}},
-             {{{a, 0}, {b, 0}, {b, 1}, {c, 1}}},
-             {{{a, 0}, {b, 0}, {c, 1}, {c, 0}}}}};
-  return {{{{{a, 0}, {b, 1}, {a, 1}, {c, 1}}},
-           {{{a, 0}, {b, 1}, {c, 1}, {c, 0}}},
-           {{{a, 0}, {b, 0}, {b, 1}, {c, 0}}}}};
 }
 
 class LayerBuilder {
@@ -104,7 +82,7 @@ class LayerBuilder {
 bool LayerBuilder::sound(int f) const {
   const std::array<int, 3> v{outer_.triangles(f, 0), outer_.triangles(f, 1),
                              outer_.triangles(f, 2)};
-  const auto tets = split_prism(v);
+  const auto tets = split_prism({double(v[0]), double(v[1]), double(v[2])});
   const double area = 0.5 * (point(f, 1) - point(f, 0)).cross(point(f, 2) - point(f, 0)).norm();
   for (int layer = 0; layer < options_.layers; ++layer) {
     const double height =
@@ -213,16 +191,20 @@ VolumeMesh build_once(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
     mesh.nodes.middleRows(level * n, n) =
         mesh.outer.points + (double(level) / options.layers) * builder.inward();
   mesh.tets.resize(outer.triangles.rows() * options.layers * 3, 4);
-  Eigen::Index t = 0;
-  for (Eigen::Index f = 0; f < outer.triangles.rows(); ++f) {
-    const std::array<int, 3> v{outer.triangles(f, 0), outer.triangles(f, 1), outer.triangles(f, 2)};
-    const auto split = split_prism(v);
-    for (int layer = 0; layer < options.layers; ++layer)
-      for (const auto& tet : split) {
+  for (int layer = 0; layer < options.layers; ++layer) {
+    const std::vector<double> rank =
+        prism_ranks(outer.triangles, mesh.nodes.middleRows(layer * n, n),
+                    mesh.nodes.middleRows((layer + 1) * n, n));
+    for (Eigen::Index f = 0; f < outer.triangles.rows(); ++f) {
+      const std::array<int, 3> v{outer.triangles(f, 0), outer.triangles(f, 1),
+                                 outer.triangles(f, 2)};
+      Eigen::Index t = 3 * (f * options.layers + layer);
+      for (const auto& tet : split_prism({rank[v[0]], rank[v[1]], rank[v[2]]})) {
         for (int i = 0; i < 4; ++i)
           mesh.tets(t, i) = static_cast<int>((layer + tet[i].below) * n) + v[tet[i].corner];
         ++t;
       }
+    }
   }
   return mesh;
 }
@@ -252,7 +234,7 @@ MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets) {
   constexpr int bins = std::size(dihedral_bounds_deg) - 1;
   q.least_dihedral_shares.assign(bins, 0.0);
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
-    Vec3 x[4];
+    std::array<Vec3, 4> x;
     for (int i = 0; i < 4; ++i) x[i] = nodes.row(tets(t, i)) * 1e3;
     const double volume = six_volumes(x[0], x[1], x[2], x[3]) / 6;
     q.least_volume_mm3 = std::min(q.least_volume_mm3, volume);
@@ -260,11 +242,8 @@ MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets) {
     // Face k lies opposite corner k; its area vector points outwards.
     constexpr int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
     Vec3 area[4];
-    double surface = 0;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 4; ++k)
       area[k] = 0.5 * (x[face[k][1]] - x[face[k][0]]).cross(x[face[k][2]] - x[face[k][0]]);
-      surface += area[k].norm();
-    }
     double least = 180;
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j) {
@@ -277,13 +256,7 @@ MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets) {
     for (int b = 0; b < bins; ++b)
       if (least >= dihedral_bounds_deg[b] && least < dihedral_bounds_deg[b + 1])
         q.least_dihedral_shares[b] += 1.0 / double(tets.rows());
-    const double inradius = 3 * volume / surface;
-    const double a = (x[1] - x[0]).norm() * (x[3] - x[2]).norm(),
-                 b = (x[2] - x[0]).norm() * (x[3] - x[1]).norm(),
-                 c = (x[3] - x[0]).norm() * (x[2] - x[1]).norm();
-    const double product = std::max(0.0, (a + b + c) * (a + b - c) * (a - b + c) * (-a + b + c));
-    const double circumradius = std::sqrt(product) / (24 * volume);
-    q.worst_radius_ratio = std::min(q.worst_radius_ratio, 3 * inradius / circumradius);
+    q.worst_radius_ratio = std::min(q.worst_radius_ratio, radius_ratio(x));
   }
   q.mean_volume_mm3 = q.total_volume_mm3 / double(std::max<Eigen::Index>(1, tets.rows()));
   return q;

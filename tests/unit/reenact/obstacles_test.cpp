@@ -338,5 +338,43 @@ TEST_F(ObstacleOfAFace, LidsTouchTheEyeballsBehindThem) {
   }
 }
 
+/// The gap between two teeth: outside of both.
+class Notch final : public SignedDistance {
+ public:
+  double at(const Vec3& place, Vec3& outward) const override {
+    const Vec3 left(0.8, 0, 0.6), right(-0.8, 0, 0.6);
+    outward = left.dot(place) < right.dot(place) ? left : right;
+    return outward.dot(place);
+  }
+};
+
+TEST(MouthContact, APlacePressedBetweenTwoFacesComesToRestOnBoth) {
+  tissue::TissueMesh mesh;  // a node of the skin and one of the mouth's side
+  mesh.volume.nodes = Points::Zero(2, 3);
+  mesh.volume.layers = 1;
+  mesh.volume.outer.points = mesh.volume.nodes.topRows(1);
+  io::Landmarks landmarks;
+  for (int k = 0; k < 68; ++k) landmarks[face::ibug(k)] = Vec3::Zero();
+  const auto places = std::make_shared<const ObstaclePlaces>(
+      mesh, landmarks, Obstacle{Obstacle::Kind::teeth, std::make_shared<const Notch>(), false});
+  ASSERT_EQ(places->count(), 1);
+  const MouthContact contact(std::make_shared<const LipSurfaces>(mesh, landmarks), {}, {},
+                             {ObstacleSide{places, {SkinCarrier{{1, 1.0}}}}}, {}, 1e-9,
+                             [](const std::vector<int>&) -> Eigen::MatrixXd {
+                               return Vec3(1e-3, 1e-3, 2e-3).asDiagonal();  // m/N
+                             });
+  const PointsF skin(0, 3);
+  Points in(1, 3);
+  in << 0.0003, 0, -0.001;
+  const MouthContact::Correction out = contact.correct({skin, {in}, Eigen::Isometry3d::Identity()});
+  EXPECT_GT(out.before_m, 0.0008);
+  EXPECT_LT(out.after_m, 1e-5) << "pushed off one, it enters the other, and back";
+  // The only place outside of both to which a push by both leads is the notch's bottom.
+  const Vec3 at = in.row(0).transpose() + out.moved;
+  EXPECT_LT(at.norm(), 3e-5);
+  EXPECT_NEAR(out.force[0], -0.0003 / 1e-3, 0.02);
+  EXPECT_NEAR(out.force[2], 0.001 / 2e-3, 0.02);
+}
+
 }  // namespace
 }  // namespace hyperex::reenact

@@ -165,11 +165,15 @@ FiniteStrain::FiniteStrain(const Assembler& mesh, const Material& material, cons
 
 void FiniteStrain::set_material(const Material& material) {
   HX_ASSERT(material.viscous_form == ViscousForm::isotropic);
-  [[maybe_unused]] const auto count = static_cast<std::size_t>(mesh_.element_count());
+  const auto count = static_cast<std::size_t>(mesh_.element_count());
   HX_ASSERT(material.young_pa.size() == count && material.poisson.size() == count);
   HX_ASSERT(material.viscosity_pa_s.size() == count && material.density_kg_m3.size() == count);
   moduli_ = mesh_.moduli(material);
   group_stiffness_ = mesh_.group_stiffness(moduli_);
+  energy_rounding_ = 0;
+  for (std::size_t t = 0; t < count; ++t)
+    energy_rounding_ +=
+        std::numeric_limits<double>::epsilon() * moduli_[t].shear * mesh_.shapes()[t].volume;
   viscosity_ = material.viscosity_pa_s;
   viscous_ = std::any_of(viscosity_.begin(), viscosity_.end(), [](double eta) { return eta > 0; });
   std::fill(mass_.begin(), mass_.end(), 0.0);

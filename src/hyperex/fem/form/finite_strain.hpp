@@ -57,6 +57,9 @@ class FiniteStrain {
   /// The energy (J) at d (3 |nodes|) of all potentials above; `gradient` := its derivatives (N).
   double energy_and_gradient(const Eigen::VectorXd& d, Eigen::VectorXd& gradient);
   double energy(const Eigen::VectorXd& d);
+  /// What rounding makes of energies near rest (J), where the terms of the laws, of the size of
+  /// shear modulus times volume, cancel: differences below it say nothing.
+  double energy_rounding() const { return energy_rounding_; }
   /// What the law, the barrier and the volumes store, without viscosity and branches (J).
   double elastic_energy(const Eigen::VectorXd& d);
 
@@ -106,6 +109,7 @@ class FiniteStrain {
   std::vector<double> group_stiffness_;  // kappa_g V_g
   std::vector<double> viscosity_;
   bool viscous_ = false;
+  double energy_rounding_ = 0;
   std::vector<double> mass_;                      // of pairs of nodes, on mesh.mass_neighbours()
   std::vector<double> element_mass_;              // rho V / 20
   std::vector<std::array<int, 4>> group_places_;  // of corners, for each entry of mesh.groups()

@@ -391,7 +391,8 @@ struct FiniteNewton::Impl {
       trial = x + share * delta;
       const double there = potential(trial, trial_gradient);
       const double change = there - external.dot(trial) - at_x;
-      const double noise = kEnergyNoise * (energy_scale + std::abs(external.dot(trial)));
+      const double noise =
+          kEnergyNoise * (energy_scale + std::abs(external.dot(trial))) + form.energy_rounding();
       const double end_slope = trial_gradient.dot(delta) - external.dot(delta);
       if (std::isfinite(there) && trial_gradient.allFinite() &&
           (change <= 1e-4 * share * slope ||
