@@ -45,14 +45,19 @@ std::string cell(double value, int digits) {
                               : fmt::format("{:>10}", "-");
 }
 
+/// As many samples as fit on a screen, evenly spaced.
 void print_curve(const metrics::SymmetryCurve& curve) {
+  constexpr std::size_t rows = 20;
+  const std::size_t count = curve.time_s.size(), every = (count + rows - 1) / rows;
   std::cout << fmt::format("{:>10} {:>10} {:>10} {:>10} {:>10}\n", "time (s)", "xi_L", "xi_R",
                            "S (ln)", "S_floor");
-  for (size_t i = 0; i < curve.time_s.size(); ++i)
+  for (std::size_t i = 0; i < count; i += every)
     std::cout << fmt::format("{:10.4f} {} {} {} {}{}\n", curve.time_s[i], cell(curve.xi_left[i], 5),
                              cell(curve.xi_right[i], 5), cell(curve.s[i], 5),
                              cell(curve.noise.empty() ? NAN : std::log(curve.noise[i]), 3),
                              i > 0 && curve.undecided(i) ? "  undecided" : "");
+  if (every > 1)
+    std::cout << fmt::format("one in {} of {} samples; --out FILE.csv writes all\n", every, count);
   std::cout << fmt::format("floor: |xi_L - xi_R| = {:.3g}, S = {:.3f}\n", curve.floor,
                            std::log(curve.floor));
 }
