@@ -82,7 +82,7 @@ tsan: ## capture, live tracking, the studio, interrupts and simulators side by s
 	$(FIXED_ADDRESSES) ctest --preset tsan --parallel $(JOBS) --no-tests=error \
 	  -R '^(core|capture|capture_openni|tracking_live)\.' -E '^capture_openni\.OniFile'
 	$(ONE_CORE) $(FIXED_ADDRESSES) ctest --preset tsan --no-tests=error \
-	  -R '^apps\.(Interrupted|TrackLive)|^reenact\.SimulatorOfAFace\.CopiesRun|^studio\.(StudioServer|RequestQueue)|^studio_live\.LiveFace'
+	  -R '^apps\.(Interrupted|TrackLive)|^reenact\.(SimulatorOfAFace|MouthContactOfAFace)\.Copies|^studio\.(StudioServer|RequestQueue)|^studio_live\.LiveFace'
 
 coverage: ## which lines the tests run: a table by room, build/coverage/report/index.html in full
 	scripts/setup.sh --lint

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "hyperex/core/progress.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/reenact/simulator.hpp"
@@ -96,6 +98,25 @@ TEST_F(MouthContactOfAFace, VariantsTouchToo) {
                                        .maxCoeff()));
   EXPECT_LT(apart, 1e-5) << "as good as the same tissue";
   EXPECT_LT(answered.report.contact.left_mm, 0.1);
+}
+
+/// `make tsan` runs this one: a face and its mirrored twin touch side by side.
+TEST_F(MouthContactOfAFace, CopiesTouchOnTheirOwnInOtherThreads) {
+  options_.contact.lips = true;
+  const std::shared_ptr<const tissue::TissueMesh> mesh(std::shared_ptr<void>(), &face_.mesh);
+  for (const Strain strain : {Strain::linear, Strain::finite}) {
+    options_.model.strain = strain;
+    Simulator base(mesh, face_.landmarks, closing(0.002), options_);
+    const SimulationResult alone = base.run();
+    ASSERT_GT(alone.report.contact.frames, 0);
+    Simulator copy = base;
+    SimulationResult of_copy, of_base;
+    std::thread other([&] { of_copy = copy.run(); });
+    of_base = base.run();
+    other.join();
+    EXPECT_TRUE(same(alone, of_base));
+    EXPECT_TRUE(same(alone, of_copy));
+  }
 }
 
 }  // namespace
