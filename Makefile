@@ -18,10 +18,11 @@ help: ## this list
 	@echo "make TARGET, where TARGET is one of"
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  \1\t\2/p' Makefile | expand -t 15
 
-demo: build ## one smile, then the same pull with a weak muscle and with a stiff scar, in millimetres
+demo: build ## one smile, then the same pull with a weak nerve branch and with a stiff scar, in millimetres
 	$(PROGRAM) run examples/demo.toml --out out/demo
 	@echo
-	@echo "The face smiles, three times side by side. Open in a browser:"
+	@echo "One smile, then the same pull with a weak nerve branch and with a stiff scar. Open in a browser,"
+	@echo "and press Side by side:"
 	@echo "  $(CURDIR)/out/demo/report.html"
 	@echo "In Blender or any glTF viewer: out/demo/performance.glb; in ParaView: out/demo/frames.pvd"
 	@echo "(there the filter Warp By Vector moves the tissue)."

@@ -83,7 +83,7 @@ std::string corners_line(const nlohmann::ordered_json& summary) {
 /// is not known.
 std::string change_text(double from, double to, double band) {
   const double change = to - from;
-  if (std::abs(change) < 0.05) return fmt::format("{:.1f} mm at most, as before", to);
+  if (std::abs(change) < 0.05) return fmt::format("{:.1f} mm, unchanged", to);
   if (std::abs(change) < band)
     return fmt::format("{:.1f} to {:.1f} mm, undecided (+- {:.1f})", from, to, band);
   return fmt::format("{:.1f} to {:.1f} mm, {:.1f} mm {}", from, to, std::abs(change),
@@ -120,6 +120,10 @@ std::string variant_lines(const nlohmann::ordered_json& summary) {
                          table[i]["name"].get<std::string>(), side("commissure_L"),
                          side("commissure_R"));
   }
+  if (!lines.empty())
+    lines +=
+        "  (each corner's greatest distance from rest; +-: what one other mesh and 95 % of the "
+        "recording's jitter could make)\n";
   return lines;
 }
 

@@ -95,7 +95,7 @@ std::vector<SameForcesFace> hyper_expression_by_muscles(const Setting& setting) 
 std::string same_forces_section(const std::vector<SameForcesFace>& faces) {
   std::string page =
       "\n### The same forces in three tissues\n"
-      "`hyperex run examples/experiment_3_embedded.toml --set drive.by=muscles`. "
+      "`hyperex run examples/experiment_3_embedded.toml --set drive.by=muscles --out out/a`. "
       "The thesis prescribes where points go, in every tissue: what differs is only the skin "
       "between them. The same scenes with\n`drive.by = \"muscles\"` ([muscles.md](muscles.md)) "
       "find "

@@ -325,6 +325,10 @@ Json run_into(Scene scene, const std::filesystem::path& directory) {
       few > 0 && few <= kFewInverted * double(tets))
     results.notes.push_back(fmt::format(
         "{} of {} tetrahedra turned inside out in some frame, too few to matter", few, tets));
+  if (scene.contact.any() && simulation.report.contact.frames == 0) {
+    results.notes.push_back("contact: nothing touches in any frame");
+    spdlog::info("{}", results.notes.back());
+  }
   warn(warnings_of(simulation.report, simulation.performance), results);
   const NotesPlace before_doubts(results);
   if (const auto& note = results.symmetry.map->plane.note; !note.empty()) warn({note}, results);
