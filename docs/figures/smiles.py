@@ -8,7 +8,7 @@ import csv
 import pathlib
 import sys
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageChops, ImageDraw, ImageFont, ImageStat
 
 WIDTH, HEIGHT, CAPTION = 290, 290, 64
 ABOVE = 0.3  # of a stage that is left out: the forehead hardly moves
@@ -32,6 +32,14 @@ def middle(picture):
     return picture.crop(box).resize((WIDTH, HEIGHT), Image.LANCZOS)
 
 
+def from_the_peak(frames):
+    """Turned round so that the face that differs most from rest comes first: some viewers show that one alone."""
+    def differs(frame):
+        return sum(ImageStat.Stat(ImageChops.difference(frame, frames[0])).sum)
+    peak = max(range(len(frames)), key=lambda i: differs(frames[i]))
+    return frames[peak:] + frames[:peak]
+
+
 def main(run, folder, out):
     faces = right_corners(pathlib.Path(run))
     name = ImageFont.truetype(str(FONTS / "DejaVuSans.ttf"), 15)
@@ -43,9 +51,10 @@ def main(run, folder, out):
         for i, (words, mm) in enumerate(faces):
             picture = Image.open(first.with_name(f"{i}_{first.name[2:]}")).convert("RGB")
             frame.paste(middle(picture), (i * WIDTH, 0))
-            for text, font, y in ((words, name, 18), (f"right corner {mm:.1f} mm", number, 44)):
+            for text, font, y in ((words, name, 18), (f"right corner at most {mm:.1f} mm", number, 44)):
                 draw.text((i * WIDTH + WIDTH / 2, HEIGHT + y), text, "#222222", font, anchor="mm")
         frames.append(frame)
+    frames = from_the_peak(frames)
     frames[0].save(out, save_all=True, append_images=frames[1:], duration=67, loop=0, quality=70, method=6)
 
 
