@@ -51,7 +51,7 @@ def main(run, folder, out):
         for i, (words, mm) in enumerate(faces):
             picture = Image.open(first.with_name(f"{i}_{first.name[2:]}")).convert("RGB")
             frame.paste(middle(picture), (i * WIDTH, 0))
-            for text, font, y in ((words, name, 18), (f"right corner at most {mm:.1f} mm", number, 44)):
+            for text, font, y in ((words, name, 18), (f"right corner {mm:.1f} mm", number, 44)):
                 draw.text((i * WIDTH + WIDTH / 2, HEIGHT + y), text, "#222222", font, anchor="mm")
         frames.append(frame)
     frames = from_the_peak(frames)
