@@ -3,9 +3,11 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -36,6 +38,7 @@ namespace fs = std::filesystem;
 struct Options {
   fs::path motion, out, excursions, picture, map, map_ply, landmarks;
   double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz;
+  double end_s = std::numeric_limits<double>::infinity();
   std::string unit, jitter_mm = "auto";
   bool keep_head = false;
 };
@@ -244,6 +247,21 @@ void check_outputs_of(const Options& options, const std::vector<fs::path>& input
                       {options.map_ply, {".ply"}, "ply", {" asymmetry_mm\n"}}});
 }
 
+/// Without the samples after `end_s`.
+motion::Motion until(motion::Motion motion, double end_s) {
+  const auto end = std::upper_bound(motion.time_s.begin(), motion.time_s.end(), end_s);
+  const auto kept = std::size_t(end - motion.time_s.begin());
+  if (kept < 2)
+    throw InputError(InputProblem{
+        motion.source, 0, "--end-s", fmt::format("{:g}", end_s),
+        fmt::format("at least the second sample's time, {:g} s",
+                    motion.time_s[std::min<std::size_t>(1, motion.time_s.size() - 1)])});
+  motion.time_s.resize(kept);
+  motion.positions.resize(kept);
+  if (!motion.head_pose.empty()) motion.head_pose.resize(kept);
+  return motion;
+}
+
 void run(const Options& options) {
   stated_jitter_mm(options);  // a wrong one is told before the work, not after
   std::optional<io::LengthUnit> unit;
@@ -263,7 +281,7 @@ void run(const Options& options) {
   if (!options.map.empty() || !options.map_ply.empty())
     throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
                                   "a folder of surfaces; points alone have no map"});
-  const motion::Motion motion = motion::read_motion(file, unit);
+  const motion::Motion motion = until(motion::read_motion(file, unit), options.end_s);
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(motion, options.floor);  // tells first which points are missing
   const motion::Motion steady = without_head(motion, options.keep_head);
@@ -321,6 +339,11 @@ void add_symmetry(CLI::App& program) {
                    "where there is jitter; 0: no filter")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
+  command
+      ->add_option("--end-s", options->end_s,
+                   "For points: leave out the samples after this time (s), as where one recording "
+                   "holds several movements")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--keep-head", options->keep_head,
                     "Do not remove the head pose before measuring excursions");
   command->add_option("--unit", options->unit, "Unit of the motion (default: guessed)")

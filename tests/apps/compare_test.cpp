@@ -219,5 +219,19 @@ TEST_F(Program, WritesSymmetryAsCsv) {
   EXPECT_THAT(found.err, HasSubstr("exocanthion_L: ibug68_45"));
 }
 
+TEST_F(Program, SymmetryLooksAtTheFirstMovementAlone) {
+  write_good_inputs(in(""));  // motion.csv: half a second at 30 Hz
+  const std::string motion = "motion.csv";
+  const Outcome whole = call("symmetry " + motion + " --excursions whole.csv"),
+                part = call("symmetry " + motion + " --excursions part.csv --end-s 0.21");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  ASSERT_EQ(part.status, 0) << part.err;
+  EXPECT_NE(read_file(in("whole.csv")), read_file(in("part.csv")));
+  EXPECT_THAT(part.out, HasSubstr("\n    0.2000 "));
+  EXPECT_THAT(part.out, testing::Not(HasSubstr("\n    0.2333 ")));
+  EXPECT_THAT(call("symmetry " + motion + " --end-s 0.001").err,
+              HasSubstr("--end-s = 0.001: expected at least the second sample's time, "));
+}
+
 }  // namespace
 }  // namespace hyperex
