@@ -99,25 +99,6 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& line, double sigma_m) {
   return out;
 }
 
-/// The border loop between the lips; empty where the mouth is closed.
-std::vector<int> mouth_loop(const TriMesh& mesh, const io::Landmarks& landmarks) {
-  const std::vector<Vec3> line = lip_line(landmarks);
-  const Vec3 corner_r = line.front(), across = line.back() - line.front();
-  const double width = across.norm();
-  for (auto& loop : boundary_loops(mesh.triangles)) {
-    double least = 1e300, greatest = -1e300;
-    for (int v : loop) {
-      const Vec3 p = mesh.points.row(v);
-      if (distance_to_polyline(p, line) > 0.25 * width) continue;
-      const double along = (p - corner_r).dot(across) / (width * width);
-      least = std::min(least, along);
-      greatest = std::max(greatest, along);
-    }
-    if (greatest - least > 0.5) return loop;
-  }
-  return {};
-}
-
 /// The two edges of an open mouth.
 struct Rims {
   int right_corner = -1, left_corner = -1;
@@ -125,7 +106,7 @@ struct Rims {
 };
 
 std::optional<Rims> rims_of(const TriMesh& mesh, const io::Landmarks& landmarks) {
-  const std::vector<int> loop = mouth_loop(mesh, landmarks);
+  const std::vector<int> loop = mouth_border(mesh, landmarks);
   if (loop.empty()) return {};
   const Vec3 left = landmarks.at(face::ibug(54)) - landmarks.at(face::ibug(48));
   const auto before = [&](int a, int b) {
@@ -181,8 +162,26 @@ std::vector<double> upper_lip_margin(const TriMesh& mesh, const io::Landmarks& l
   return margin;
 }
 
+std::vector<int> mouth_border(const TriMesh& mesh, const io::Landmarks& landmarks) {
+  const std::vector<Vec3> line = lip_line(landmarks);
+  const Vec3 corner_r = line.front(), across = line.back() - line.front();
+  const double width = across.norm();
+  for (auto& loop : boundary_loops(mesh.triangles)) {
+    double least = 1e300, greatest = -1e300;
+    for (int v : loop) {
+      const Vec3 p = mesh.points.row(v);
+      if (distance_to_polyline(p, line) > 0.25 * width) continue;
+      const double along = (p - corner_r).dot(across) / (width * width);
+      least = std::min(least, along);
+      greatest = std::max(greatest, along);
+    }
+    if (greatest - least > 0.5) return loop;
+  }
+  return {};
+}
+
 bool mouth_is_open(const TriMesh& mesh, const io::Landmarks& landmarks) {
-  return !mouth_loop(mesh, landmarks).empty();
+  return !mouth_border(mesh, landmarks).empty();
 }
 
 Points lip_line_of_landmarks(const io::Landmarks& landmarks) {

@@ -19,6 +19,10 @@ std::vector<double> upper_lip_margin(const TriMesh& mesh, const io::Landmarks& l
 /// -1, 0 or 1 for points of the lower lip, of neither and of the upper lip by their iBUG-68 number.
 int lip_of(const std::string& landmark);
 
+/// The border loop between the lips, in the direction of its triangles; empty where the mouth is
+/// closed.
+std::vector<int> mouth_border(const TriMesh& mesh, const io::Landmarks& landmarks);
+
 /// A border loop runs between the lips: the mouth is a slit already.
 bool mouth_is_open(const TriMesh& mesh, const io::Landmarks& landmarks);
 

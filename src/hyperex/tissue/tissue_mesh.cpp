@@ -19,6 +19,7 @@
 #include "hyperex/geometry/remesh.hpp"
 #include "hyperex/geometry/short_border_edges.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/tissue/corner_linings.hpp"
 #include "hyperex/tissue/lips.hpp"
 #include "hyperex/tissue/on_skin.hpp"
 #include "hyperex/tissue/skin_builder.hpp"
@@ -213,6 +214,11 @@ TissueMeshBuilder::TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& l
 std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
   naming(source_, [&] {
     TissueMesh& out = *mesh_;
+    if (const int dropped = give_up_corner_linings(working_copy_, landmarks_); dropped > 0)
+      out.notes.push_back(fmt::format(
+          "{} triangles on the inner sides of the lips were given up at the corners of the mouth, "
+          "where they lie on each other",
+          dropped));
     const TriMesh mended =
         mend(std::move(working_copy_), landmarks_, options_.trim_border_m, out.notes);
     const face::FaceFrame frame = face::face_frame(landmarks_);
