@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "hyperex/geometry/types.hpp"
+
 namespace hyperex {
 
 /// Embree's device of this process, for all scenes and threads: making one takes as long as a tree
@@ -13,6 +15,25 @@ inline RTCDevice embree_device() {
   static const RTCDevice device = rtcNewDevice(nullptr);
   if (!device) throw std::runtime_error("Embree does not start");
   return device;
+}
+
+/// Adds a mesh to a scene, for rays; hits name it by `id`.
+inline void add_triangles(RTCScene scene, const Points& points, const Triangles& triangles,
+                          unsigned id) {
+  const RTCGeometry geometry = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                        RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                        std::size_t(points.rows())));
+  auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                           RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+                                                           std::size_t(triangles.rows())));
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    for (int k = 0; k < 3; ++k) v[3 * i + k] = float(points(i, k));
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k) t[3 * f + k] = unsigned(triangles(f, k));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
 }
 
 /// Builds a scene's tree. Embree shares this work through TBB, and in a group of tasks that an

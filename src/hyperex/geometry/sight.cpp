@@ -14,20 +14,7 @@ class RayTree {
  public:
   explicit RayTree(const TriMesh& mesh) : scene_(rtcNewScene(embree_device())) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    const RTCGeometry geometry = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                          RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                          std::size_t(mesh.points.rows())));
-    auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                                             RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
-                                                             std::size_t(mesh.triangles.rows())));
-    for (Eigen::Index i = 0; i < mesh.points.rows(); ++i)
-      for (int k = 0; k < 3; ++k) v[3 * i + k] = float(mesh.points(i, k));
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-      for (int k = 0; k < 3; ++k) t[3 * f + k] = unsigned(mesh.triangles(f, k));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
+    add_triangles(scene_, mesh.points, mesh.triangles, 0);
     commit_whole(scene_);
   }
   ~RayTree() { rtcReleaseScene(scene_); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ray_scene.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "hyperex/geometry/embree_device.hpp"
@@ -23,30 +24,19 @@ RTCRay downward_ray(float x, float y, float z_from, float z_to) {
 }  // namespace
 
 RayScene::RayScene(const std::vector<Surface>& surfaces, const Camera& camera) {
-  const RTCDevice device = embree_device();
-  scene_ = rtcNewScene(device);
+  scene_ = rtcNewScene(embree_device());
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   const Eigen::Matrix3d camera_from_world = camera.axes();
   for (const Surface& surface : surfaces) {
-    const auto vertices = static_cast<size_t>(surface.mesh.points.rows());
-    const auto triangles = static_cast<size_t>(surface.mesh.triangles.rows());
-    if (triangles == 0) continue;
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices));
-    auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles));
-    for (size_t i = 0; i < vertices; ++i) {
+    if (surface.mesh.triangles.rows() == 0) continue;
+    Points seen(surface.mesh.points.rows(), 3);
+    for (Eigen::Index i = 0; i < seen.rows(); ++i) {
       const Vec3 world = surface.mesh.points.row(i).transpose();
-      Eigen::Map<Eigen::Vector3f>(v + 3 * i) =
-          (camera_from_world * (world - camera.target)).cast<float>();
-      if (v[3 * i + 2] > above_) above_ = v[3 * i + 2];
+      seen.row(i) = (camera_from_world * (world - camera.target)).transpose();
+      above_ = std::max(above_, static_cast<float>(seen(i, 2)));
     }
-    for (size_t i = 0; i < 3 * triangles; ++i)
-      t[i] = static_cast<unsigned>(surface.mesh.triangles.data()[i]);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(&surface - surfaces.data()));
-    rtcReleaseGeometry(geometry);
+    add_triangles(scene_, seen, surface.mesh.triangles,
+                  static_cast<unsigned>(&surface - surfaces.data()));
   }
   commit_whole(scene_);
   above_ *= 1.01f;
