@@ -78,12 +78,12 @@ tsan: ## capture, live tracking, the studio, interrupts and simulators side by s
 	scripts/setup.sh --tests
 	cmake --preset tsan -DHYPEREX_TESTS=ON
 	$(FIXED_ADDRESSES) cmake --build --preset tsan --parallel $(JOBS) --target \
-	  hyperex test_core test_capture test_capture_openni test_tracking_live test_reenact test_apps \
+	  hyperex test_core test_capture test_capture_openni test_tracking_live test_simulate test_apps \
 	  test_studio test_studio_live
 	$(FIXED_ADDRESSES) ctest --preset tsan --parallel $(JOBS) --no-tests=error \
 	  -R '^(core|capture|capture_openni|tracking_live)\.' -E '^capture_openni\.OniFile'
 	$(ONE_CORE) $(FIXED_ADDRESSES) ctest --preset tsan --no-tests=error \
-	  -R '^apps\.(Interrupted|TrackLive)|^reenact\.(SimulatorOfAFace|MouthContactOfAFace)\.Copies|^studio\.(StudioServer|RequestQueue)|^studio_live\.LiveFace'
+	  -R '^apps\.(Interrupted|TrackLive)|^simulate\.(SimulatorOfAFace|MouthContactOfAFace)\.Copies|^studio\.(StudioServer|RequestQueue)|^studio_live\.LiveFace'
 
 coverage: ## which lines the tests run: a table by room, build/coverage/report/index.html in full
 	scripts/setup.sh --lint

@@ -8,12 +8,12 @@
 #include <ctime>
 #include <limits>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/form/inverted.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 #include "hyperex/fem/time/finite_newton.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::bench {
 namespace {
@@ -31,7 +31,7 @@ struct Face {
 };
 
 Face make_face(double element_size_m) {
-  const tissue::EmbeddedFace embedded = tissue::embedded_face();
+  const anatomy::EmbeddedFace embedded = anatomy::embedded_face();
   tissue::TissueMeshOptions options;
   options.element_size_m = element_size_m;
   const tissue::TissueMesh tissue =

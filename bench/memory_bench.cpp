@@ -10,11 +10,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
-#include "hyperex/reenact/simulator.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::bench {
 namespace {
@@ -32,25 +32,25 @@ double resident_bytes() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-reenact::Simulator small_simulator(reenact::DriveBy by) {
-  const tissue::EmbeddedFace face = tissue::embedded_face();
+simulate::Simulator small_simulator(simulate::DriveBy by) {
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
   tissue::TissueMeshOptions coarse;
   coarse.element_size_m = 0.007;
   const auto mesh = std::make_shared<const tissue::TissueMesh>(
       tissue::build_tissue_mesh(face.mesh, face.landmarks, coarse, "embedded face"));
-  reenact::SimulationOptions options;
+  simulate::SimulationOptions options;
   options.drive.by = by;
   options.time.step_s = 0.01;
   const motion::Motion opening = motion::embedded_mouth_opening(face.landmarks);
-  return {mesh, face.landmarks, reenact::align(motion::stabilise(opening).motion, face.landmarks),
+  return {mesh, face.landmarks, simulate::align(motion::stabilise(opening).motion, face.landmarks),
           options};
 }
 
-nlohmann::json measured(reenact::DriveBy by) {
-  reenact::Simulator simulator = small_simulator(by);
+nlohmann::json measured(simulate::DriveBy by) {
+  simulate::Simulator simulator = small_simulator(by);
   double early = 0;
   for (int cycle = 1; cycle <= kLate; ++cycle) {
-    reenact::TissueValues tissue = simulator.options().tissue;
+    simulate::TissueValues tissue = simulator.options().tissue;
     tissue.uniform[tissue::young] = 1e5 + 1e3 * (cycle % 7);
     simulator.set_tissue(tissue);
     simulator.run();
@@ -77,8 +77,8 @@ int main(int count, char** arguments) {
   using namespace hyperex;
   nlohmann::json out;
   bool leaks = false;
-  for (const auto& [name, by] : {std::pair("displacement", reenact::DriveBy::displacement),
-                                 std::pair("muscles", reenact::DriveBy::muscles)}) {
+  for (const auto& [name, by] : {std::pair("displacement", simulate::DriveBy::displacement),
+                                 std::pair("muscles", simulate::DriveBy::muscles)}) {
     out[name] = bench::measured(by);
     leaks = leaks || out[name]["ratio"] > bench::kMostGrowth;
     std::cout << name << ": " << out[name].dump() << std::endl;

@@ -17,17 +17,17 @@
 #include <memory>
 #include <sstream>
 
+#include "hyperex/anatomy/teeth/teeth_fit.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/baseline.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/roughness.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
-#include "hyperex/reenact/lip_surfaces.hpp"
-#include "hyperex/reenact/simulator.hpp"
-#include "hyperex/scene/stages/inputs.hpp"
-#include "hyperex/scene/stages/simulation_options.hpp"
-#include "hyperex/tissue/teeth/teeth_fit.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/session/simulation_options.hpp"
+#include "hyperex/simulate/contact/lip_surfaces.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 
 namespace hyperex {
 namespace {
@@ -43,10 +43,10 @@ bool listed(const std::string& key, const std::string& name) {
   return !has(key) || ("," + given[key] + ",").find("," + name + ",") != std::string::npos;
 }
 
-reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::Inputs& inputs) {
+simulate::SimulationOptions options_of(const scene::Scene& scene, const session::Inputs& inputs) {
   constexpr double kpa_per_mm = 1e6, mm = 1e-3;
-  reenact::SimulationOptions o = scene::simulation_options(scene, inputs);
-  if (has("finite")) o.model.strain = reenact::Strain::finite;
+  simulate::SimulationOptions o = session::simulation_options(scene, inputs);
+  if (has("finite")) o.model.strain = simulate::Strain::finite;
   take("finite_step", o.solver.finite_step_s);
   o.contact.lips = has("contact");
   o.contact.teeth = has("teeth");
@@ -54,11 +54,11 @@ reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::In
   take("give", o.contact.point_give);
   take("patch_spring", o.contact.patch_pa_per_m, kpa_per_mm);
   if (has("today")) return o;
-  o.drive.by = reenact::DriveBy::muscles;
+  o.drive.by = simulate::DriveBy::muscles;
   take("patch", o.drive.patch_radius_m, mm);
   take("E", o.tissue.uniform[tissue::young], 1e3);
   take("nu", o.tissue.uniform[tissue::poisson]);
-  reenact::MuscleOptions& m = o.muscles;
+  simulate::MuscleOptions& m = o.muscles;
   take("skull_across", m.skull_layer.across_pa_per_m, kpa_per_mm);
   take("skull_along", m.skull_layer.along_pa_per_m, kpa_per_mm);
   take("mandible_across", m.mandible_layer.across_pa_per_m, kpa_per_mm);
@@ -94,7 +94,7 @@ reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::In
 
 /// Scenes of one scan share its mesh.
 std::shared_ptr<const tissue::TissueMesh> mesh_of(const scene::Scene& scene,
-                                                  const scene::Inputs& inputs) {
+                                                  const session::Inputs& inputs) {
   static std::map<std::string, std::shared_ptr<const tissue::TissueMesh>> meshes;
   const std::string file = scene.scan.source.file.string();
   auto& mesh = meshes[file];
@@ -111,22 +111,24 @@ struct Score {
 };
 
 /// Teeth and eyeballs of a face.
-std::shared_ptr<const std::vector<reenact::Obstacle>> obstacles_of(const tissue::TissueMesh& mesh,
-                                                                   const io::Landmarks& landmarks) {
-  auto out = std::make_shared<std::vector<reenact::Obstacle>>();
-  if (has("teeth")) *out = reenact::teeth_to_touch(tissue::fit_teeth(mesh, landmarks).teeth);
+std::shared_ptr<const std::vector<simulate::Obstacle>> obstacles_of(
+    const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  auto out = std::make_shared<std::vector<simulate::Obstacle>>();
+  if (has("teeth"))
+    *out = simulate::teeth_to_touch(
+        anatomy::fit_teeth(mesh.volume.outer, tissue::boundary_of(mesh.volume), landmarks).teeth);
   if (has("eyes"))
-    for (const reenact::Obstacle& eye : reenact::eyes_to_touch(mesh.skin.points, landmarks))
+    for (const simulate::Obstacle& eye : simulate::eyes_to_touch(mesh.skin.points, landmarks))
       out->push_back(eye);
   return out;
 }
 
 /// Vertices of the lips that pass through each other in a motion of the skin: of such a truth no
 /// face with contact can come near there.
-std::vector<char> overlapping(const reenact::LipSurfaces& lips, const PointsF& motion) {
+std::vector<char> overlapping(const simulate::LipSurfaces& lips, const PointsF& motion) {
   constexpr double kDeep_m = 1e-4;
   std::vector<char> out(std::size_t(motion.rows()), 0);
-  for (const reenact::LipPair& pair :
+  for (const simulate::LipPair& pair :
        lips.pairs(motion(lips.lower(), Eigen::all).cast<double>(),
                   motion(lips.upper(), Eigen::all).cast<double>(), -kDeep_m)) {
     out[std::size_t(lips.lower()[std::size_t(pair.point)])] = 1;
@@ -135,7 +137,7 @@ std::vector<char> overlapping(const reenact::LipSurfaces& lips, const PointsF& m
   return out;
 }
 
-void show(const reenact::MuscleCourse& muscles) {
+void show(const simulate::MuscleCourse& muscles) {
   std::string line;
   const Eigen::Index last = muscles.activation.cols() - 1;
   for (std::size_t m = 0; m < muscles.names.size(); ++m)
@@ -157,12 +159,12 @@ double mean_mm(const Eigen::VectorXd& distance_m, const metrics::Region* region,
 Score score_scan(const std::string& name, const std::string& scene_file,
                  const std::string& truth_file, const std::string& kind) {
   const scene::Scene scene = scene::read_scene(scene_file);
-  const scene::Inputs inputs = scene::read_inputs(scene);
+  const session::Inputs inputs = session::read_inputs(scene);
   const auto mesh = mesh_of(scene, inputs);
-  reenact::Simulator simulator(mesh, inputs.landmarks, inputs.motion, options_of(scene, inputs));
+  simulate::Simulator simulator(mesh, inputs.landmarks, inputs.motion, options_of(scene, inputs));
   simulator.set_obstacles(obstacles_of(*mesh, inputs.landmarks));
   const auto result = simulator.run();
-  const reenact::Performance& p = result.performance;
+  const simulate::Performance& p = result.performance;
   const Points rest = mesh->skin.points.topRows(mesh->scan_vertices);
   const Points moved =
       rest +
@@ -184,7 +186,7 @@ Score score_scan(const std::string& name, const std::string& scene_file,
     fmt::print("  {} {:.2f} of {:.2f} ({:.2f})", part, a, b, a / b);
     score.share.push_back(a / b);
   }
-  const reenact::LipSurfaces lips(*mesh, inputs.landmarks);
+  const simulate::LipSurfaces lips(*mesh, inputs.landmarks);
   PointsF true_motion = PointsF::Zero(mesh->skin.points.rows(), 3);
   true_motion.topRows(mesh->scan_vertices) =
       (truth.points.topRows(mesh->scan_vertices) - rest).cast<float>();
@@ -210,9 +212,9 @@ Score score_scan(const std::string& name, const std::string& scene_file,
 }
 
 /// Rest, then each of `frames`, a second apart: the run passes through them one after the other.
-reenact::AlignedMotion through(const reenact::AlignedMotion& motion,
-                               const std::vector<std::size_t>& frames) {
-  reenact::AlignedMotion out = motion;
+simulate::AlignedMotion through(const simulate::AlignedMotion& motion,
+                                const std::vector<std::size_t>& frames) {
+  simulate::AlignedMotion out = motion;
   out.motion.time_s = {0};
   out.motion.positions = {motion.motion.positions.front()};
   for (const std::size_t frame : frames) {
@@ -235,8 +237,8 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
   static const std::vector<std::string> skull = {"ForeHead_L", "ForeHead_M",  "ForeHead_R",
                                                  "NoseTop",    "Leye_Inside", "Reye_Inside"};
   const scene::Scene scene = scene::read_scene(scene_file);
-  const scene::Inputs inputs = scene::read_inputs(scene);
-  const reenact::AlignedMotion& motion = inputs.motion;
+  const session::Inputs inputs = session::read_inputs(scene);
+  const simulate::AlignedMotion& motion = inputs.motion;
   const auto moved = [&](std::size_t frame, const std::string& point) -> Vec3 {
     const int row = motion.motion.index_of(point);
     return (motion.motion.positions[frame].row(row) - motion.rest.row(row)).transpose();
@@ -258,11 +260,12 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
   io::Landmarks landmarks = inputs.landmarks;
   for (const std::string& point : test)
     landmarks[point] = motion.rest.row(motion.motion.index_of(point)).transpose();
-  reenact::SimulationOptions options = options_of(scene, inputs);
+  simulate::SimulationOptions options = options_of(scene, inputs);
   options.time.frame_rate_hz = 1;
   options.time.end_s = double(frames.size() + 1);
   const auto result =
-      reenact::Simulator(mesh_of(scene, inputs), landmarks, through(motion, frames), options).run();
+      simulate::Simulator(mesh_of(scene, inputs), landmarks, through(motion, frames), options)
+          .run();
   const motion::Motion& tracks = result.performance.landmarks;
 
   std::map<std::string, double> run, warp;

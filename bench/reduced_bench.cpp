@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "hyperex/fem/reduced/reduced_model.hpp"
-#include "hyperex/reenact/muscle_load.hpp"
-#include "hyperex/reenact/muscle_model.hpp"
-#include "hyperex/reenact/solve.hpp"
+#include "hyperex/simulate/load/muscle_load.hpp"
+#include "hyperex/simulate/load/muscle_model.hpp"
+#include "hyperex/simulate/run/solve.hpp"
 #include "support/face_case.hpp"
 #include "support/machine.hpp"
 #include "support/timing.hpp"
@@ -25,7 +25,7 @@ Eigen::MatrixXd full_run(const FaceCase& face, const fem::System& system, const 
   fem::Newmark newmark(system, face.prescribed(), {face.dt_s()});
   std::vector<double> steps(std::size_t(drive.steps()) + 1);
   std::iota(steps.begin(), steps.end(), 0.0);
-  return reenact::run_full(newmark, drive, steps).displacement;
+  return simulate::run_full(newmark, drive, steps).displacement;
 }
 
 struct TrueError {
@@ -81,21 +81,21 @@ Json sweep(const FaceCase& face, const fem::System& system, DriveOf drive_of,
 /// From other tissue values on the same face to all frames of the skin, through the Simulator that
 /// programs use, and a run once more with nothing changed: reading out alone.
 Json edit_to_frames(const FaceCase& face, fem::ElementKind kind, int repeats) {
-  reenact::Simulator simulator = face.simulator();
-  reenact::SimulationOptions options = simulator.options();
+  simulate::Simulator simulator = face.simulator();
+  simulate::SimulationOptions options = simulator.options();
   options.model.element = kind;
   simulator.set_options(options);
   simulator.run();
   std::vector<double> assemble, factor, basis, all, again;
   std::size_t frames = 0;
   for (int i = 0; i < repeats; ++i) {
-    reenact::TissueValues tissue = options.tissue;
+    simulate::TissueValues tissue = options.tissue;
     tissue.uniform[tissue::young] *= std::pow(0.95, i + 1);
     tissue.uniform[tissue::viscosity] *= std::pow(1.1, i + 1);
-    reenact::SimulationReport report;
+    simulate::SimulationReport report;
     all.push_back(seconds_of([&] {
       simulator.set_tissue(tissue);
-      const reenact::SimulationResult result = simulator.run();
+      const simulate::SimulationResult result = simulator.run();
       report = result.report;
       frames = result.performance.skin_displacement_m.size();
     }));
@@ -116,11 +116,11 @@ Json edit_to_frames(const FaceCase& face, fem::ElementKind kind, int repeats) {
 /// The same face driven by muscles: the forces of a recording once the muscles' unit responses are
 /// there, and what another strength of the busiest muscle costs, up to all frames of the skin.
 Json muscles(const FaceCase& face, int repeats) {
-  reenact::Simulator simulator = face.simulator();
-  reenact::SimulationOptions options = simulator.options();
-  options.drive.by = reenact::DriveBy::muscles;
+  simulate::Simulator simulator = face.simulator();
+  simulate::SimulationOptions options = simulator.options();
+  options.drive.by = simulate::DriveBy::muscles;
   simulator.set_options(options);
-  const reenact::MuscleCourse course = simulator.run().performance.muscles;
+  const simulate::MuscleCourse course = simulator.run().performance.muscles;
   Eigen::Index busiest = 0;
   course.activation.rowwise().maxCoeff().maxCoeff(&busiest);
   const std::string& muscle = course.names[std::size_t(busiest)];
@@ -141,8 +141,8 @@ Json muscles(const FaceCase& face, int repeats) {
       simulator.run();
     }));
   }
-  reenact::SimulationOptions of = face.simulator().options();
-  of.drive.by = reenact::DriveBy::muscles;
+  simulate::SimulationOptions of = face.simulator().options();
+  of.drive.by = simulate::DriveBy::muscles;
   fem::System system;
   const fem::Assembler assembler(face.mesh().volume.nodes, face.mesh().volume.tets,
                                  of.model.element);
@@ -150,9 +150,9 @@ Json muscles(const FaceCase& face, int repeats) {
       of.tissue.material(std::size_t(face.mesh().volume.tets.rows()), of.model.viscous_form);
   stiffen_lips(face.mesh(), simulator.landmarks(), of.muscles, material);
   assembler.assemble(material, system);
-  const reenact::MuscleModel model =
+  const simulate::MuscleModel model =
       muscle_model(face.mesh(), simulator.landmarks(), of, system.stiffness, nullptr);
-  const reenact::MeasuredRegion region =
+  const simulate::MeasuredRegion region =
       measured_region(face.mesh(), simulator.landmarks(), simulator.motion(), of.region);
   for (int i = 0; i < std::min(repeats, 5); ++i)
     fit.push_back(seconds_of([&] {

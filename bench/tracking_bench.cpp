@@ -12,7 +12,7 @@
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/reenact/matching.hpp"
+#include "hyperex/simulate/drive/matching.hpp"
 #include "hyperex/tracking/fit/face_tracker.hpp"
 #include "support/machine.hpp"
 
@@ -46,7 +46,7 @@ class Follower {
     }
     scan_from_model_ = fit_similarity(a, b);
     const TriMesh tracked{scan_from_model_.apply(model.mesh.points), model.mesh.triangles};
-    matches_ = reenact::match(skin_, tracked);
+    matches_ = simulate::match(skin_, tracked);
     moved_ = skin_;
   }
 
@@ -63,7 +63,7 @@ class Follower {
  private:
   Points skin_, moved_;
   Similarity scan_from_model_;
-  std::vector<reenact::Match> matches_;
+  std::vector<simulate::Match> matches_;
 };
 
 /// One pass over a source; frames that are tracked are followed where there is a follower.

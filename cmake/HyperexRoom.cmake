@@ -8,11 +8,12 @@ endif()
 
 # One room of the house: a static library hx_NAME from the sources listed by hand.
 #   hx_room(io SOURCES ply.cpp stl.cpp LINKS hx_core hx_geometry)
+# PARTS: its folders, in an order in which each includes only those before it (tests/layout).
 # Before it has sources, a room is an interface library, so that others can link to it. Projects that
 # take this one in with add_subdirectory link to hyperex::NAME, as they would to the installed one.
 # HEADERS: those that are installed. They and what they include need Eigen alone (tests/install).
 function(hx_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "PARTS;SOURCES;HEADERS;LINKS;PRIVATE_LINKS" ${ARGN})
   set(target hx_${name})
   if(ROOM_SOURCES)
     add_library(${target} STATIC ${ROOM_SOURCES})

@@ -7,8 +7,8 @@
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
-#include "hyperex/scene/output/outputs.hpp"
-#include "hyperex/scene/stages/prepared_face.hpp"
+#include "hyperex/run/outputs.hpp"
+#include "hyperex/session/prepared_face.hpp"
 #include "options_class.hpp"
 #include "performance.hpp"
 
@@ -42,9 +42,9 @@ VariantDifference difference(const RunResult& a, const RunResult& b,
 }
 
 Asymmetry asymmetry(const RunResult& run, const io::Landmarks& landmarks) {
-  scene::Inputs inputs;
+  session::Inputs inputs;
   inputs.landmarks = landmarks;
-  return asymmetry_of(scene::rest_asymmetry(*run.mesh, inputs),
+  return asymmetry_of(session::rest_asymmetry(*run.mesh, inputs),
                       run.performance().skin_displacement_m);
 }
 

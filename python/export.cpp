@@ -3,8 +3,8 @@
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/report/glb.hpp"
-#include "hyperex/scene/output/frames.hpp"
-#include "hyperex/scene/stages/thinned_scan.hpp"
+#include "hyperex/run/frames.hpp"
+#include "hyperex/session/thinned_scan.hpp"
 #include "options_class.hpp"
 #include "performance.hpp"
 
@@ -24,7 +24,7 @@ report::GlbReport glb(const Path& file, const RunResult& run, const io::Scan& sc
   const report::GlbOptions options{tolerance_m, 1e6 * max_mb};
   if (const auto& full = run.mesh->full; full && scan.mesh.points.rows() == full->scan_vertices)
     return report::write_glb(file, run.performance(),
-                             scene::thinned_scan(scan, *full, run.mesh->skin), options);
+                             session::thinned_scan(scan, *full, run.mesh->skin), options);
   if (scan.mesh.points.rows() != run.performance().scan_vertices)
     refuse("scan", fmt::format("{} points", scan.mesh.points.rows()),
            fmt::format("the scan that was simulated, of {}", run.performance().scan_vertices));
@@ -47,7 +47,7 @@ void ply(const Path& file, const TriMesh& mesh, const std::string& unit,
 
 void frames(const Path& folder, const RunResult& run, int every, bool strain) {
   if (every < 1) refuse("every", std::to_string(every), "a number from 1");
-  scene::write_frames(run.performance(), folder, every, strain);
+  run::write_frames(run.performance(), folder, every, strain);
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/landmark_doubts.hpp"
+#include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/core/error.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/landmark_doubts.hpp"
-#include "hyperex/tissue/landmarks.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::python {
@@ -43,7 +43,7 @@ io::Landmarks found_on(const io::Scan& scan) {
 }
 
 Face embedded_face() {
-  tissue::EmbeddedFace embedded = tissue::embedded_face();
+  anatomy::EmbeddedFace embedded = anatomy::embedded_face();
   Face face;
   face.scan.file = "embedded face";
   face.scan.mesh = std::move(embedded.mesh);
@@ -52,7 +52,7 @@ Face embedded_face() {
 }
 
 Face completed_face(io::Scan scan, const io::Landmarks& given, const std::string& source) {
-  auto completed = tissue::complete_landmarks(given, scan.mesh, source);
+  auto completed = anatomy::complete_landmarks(given, scan.mesh, source);
   return {std::move(scan), std::move(completed.landmarks), std::move(completed.placed)};
 }
 
@@ -126,7 +126,7 @@ void bind_landmarks(py::module_& m) {
   m.def(
       "complete_landmarks",
       [](const io::Landmarks& given, const TriMesh& mesh, const std::string& source) {
-        return tissue::complete_landmarks(given, mesh, source).landmarks;
+        return anatomy::complete_landmarks(given, mesh, source).landmarks;
       },
       "landmarks"_a, "mesh"_a, "source"_a = "landmarks", Unlocked(),
       "The given landmarks, and all others that a simulation needs, placed by fitting a face to "
@@ -134,7 +134,7 @@ void bind_landmarks(py::module_& m) {
   m.def(
       "landmark_doubts",
       [](const io::Landmarks& given, const TriMesh& mesh) {
-        return tissue::landmark_doubts(given, mesh);
+        return anatomy::landmark_doubts(given, mesh);
       },
       "landmarks"_a, "mesh"_a, Unlocked(),
       "Landmarks that are probably not where their names say: a sentence each.");

@@ -6,7 +6,7 @@
 
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::python {
 

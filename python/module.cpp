@@ -5,7 +5,7 @@
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/version.hpp"
-#include "hyperex/reenact/simulator.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::python {
@@ -18,7 +18,7 @@ void bind_errors(py::module_& m) {
       "A mistake in the input: one sentence with file, key, value and what was expected.";
   py::register_exception<NumericalError>(m, "NumericalError", PyExc_RuntimeError).attr("__doc__") =
       "The input was sound, but the computation failed.";
-  py::register_exception<reenact::Cancelled>(m, "Cancelled", PyExc_RuntimeError).attr("__doc__") =
+  py::register_exception<simulate::Cancelled>(m, "Cancelled", PyExc_RuntimeError).attr("__doc__") =
       "The callback `cancelled` of a run said so. The simulator can be used as before.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {

@@ -12,7 +12,7 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/stabilise.hpp"
-#include "hyperex/reenact/alignment.hpp"
+#include "hyperex/simulate/drive/alignment.hpp"
 #include "options_class.hpp"
 
 namespace hyperex::python {
@@ -72,10 +72,10 @@ py::array head_pose(const Motion& motion) {
   return poses;
 }
 
-const Words<reenact::AlignmentMethod> kMethods = {
-    {"nonrigid", reenact::AlignmentMethod::nonrigid},
-    {"similarity", reenact::AlignmentMethod::similarity},
-    {"normalised", reenact::AlignmentMethod::normalised}};
+const Words<simulate::AlignmentMethod> kMethods = {
+    {"nonrigid", simulate::AlignmentMethod::nonrigid},
+    {"similarity", simulate::AlignmentMethod::similarity},
+    {"normalised", simulate::AlignmentMethod::normalised}};
 
 Motion stabilised(const Motion& motion, const Names& rigid_points) {
   motion::StabiliseOptions options;
@@ -90,14 +90,14 @@ Motion filled(const Motion& motion, double max_gap_s) {
   return motion::fill_gaps(motion, options).motion;
 }
 
-reenact::AlignedMotion aligned(const Motion& motion, const io::Landmarks& landmarks,
-                               const std::string& method) {
-  return reenact::align(motion, landmarks, from_word(kMethods, "method", method));
+simulate::AlignedMotion aligned(const Motion& motion, const io::Landmarks& landmarks,
+                                const std::string& method) {
+  return simulate::align(motion, landmarks, from_word(kMethods, "method", method));
 }
 
-reenact::AlignedMotion prepared(const Motion& motion, const io::Landmarks& landmarks,
-                                double max_gap_s, const Names& rigid_points, bool still_head,
-                                const std::string& method) {
+simulate::AlignedMotion prepared(const Motion& motion, const io::Landmarks& landmarks,
+                                 double max_gap_s, const Names& rigid_points, bool still_head,
+                                 const std::string& method) {
   const Motion whole = filled(motion, max_gap_s);
   return aligned(
       still_head ? motion::with_still_head(whole).motion : stabilised(whole, rigid_points),
@@ -133,19 +133,19 @@ void bind_class(py::module_& m) {
         return fmt::format("<hyperex.Motion of {} points, {} samples{}>", self.names.size(),
                            self.time_s.size(), self.source.empty() ? "" : ", " + self.source);
       });
-  py::class_<reenact::AlignedMotion>(m, "AlignedMotion",
-                                     "A motion without the head's own, in the frame of a scan.")
-      .def_readonly("motion", &reenact::AlignedMotion::motion, "In the scan's frame.")
+  py::class_<simulate::AlignedMotion>(m, "AlignedMotion",
+                                      "A motion without the head's own, in the frame of a scan.")
+      .def_readonly("motion", &simulate::AlignedMotion::motion, "In the scan's frame.")
       .def_property_readonly(
           "rest_m",
           [](const py::object& self) {
-            return view(self.cast<reenact::AlignedMotion&>().rest, self);
+            return view(self.cast<simulate::AlignedMotion&>().rest, self);
           },
           "P x 3, metres: the points at the first sample.")
-      .def_readonly("rms_mm", &reenact::AlignedMotion::rms_mm,
+      .def_readonly("rms_mm", &simulate::AlignedMotion::rms_mm,
                     "Of the common landmarks after the similarity.")
-      .def_readonly("common", &reenact::AlignedMotion::common, "Landmarks that both sides name.")
-      .def("__repr__", [](const reenact::AlignedMotion& self) {
+      .def_readonly("common", &simulate::AlignedMotion::common, "Landmarks that both sides name.")
+      .def("__repr__", [](const simulate::AlignedMotion& self) {
         return fmt::format("<hyperex.AlignedMotion of {} points, {} samples, {:.1f} mm off>",
                            self.motion.names.size(), self.motion.time_s.size(), self.rms_mm);
       });

@@ -8,27 +8,28 @@
 #include <utility>
 
 #include "bind.hpp"
+#include "hyperex/anatomy/teeth/teeth_fit.hpp"
 #include "hyperex/core/error.hpp"
-#include "hyperex/tissue/teeth/teeth_fit.hpp"
 #include "meshes.hpp"
 
 namespace hyperex::python {
 namespace {
 
-using reenact::Obstacle;
+using simulate::Obstacle;
 
 Obstacles obstacles(const SharedTissueMesh& mesh, const io::Landmarks& landmarks, bool teeth,
                     bool eyes) {
   auto all = std::make_shared<std::vector<Obstacle>>();
   if (teeth) {
-    const tissue::TeethFit fit = tissue::fit_teeth(*mesh, landmarks);
+    const anatomy::TeethFit fit =
+        anatomy::fit_teeth(mesh->volume.outer, tissue::boundary_of(mesh->volume), landmarks);
     if (!fit.why_none.empty())
       throw InputError(
           InputProblem{{}, 0, "teeth", fit.why_none, "an open mouth with room behind its lips"});
-    *all = reenact::teeth_to_touch(fit.teeth);
+    *all = simulate::teeth_to_touch(fit.teeth);
   }
   if (eyes)
-    for (Obstacle& eye : reenact::eyes_to_touch(mesh->skin.points, landmarks))
+    for (Obstacle& eye : simulate::eyes_to_touch(mesh->skin.points, landmarks))
       all->push_back(std::move(eye));
   return {all->empty() ? nullptr : std::move(all)};
 }

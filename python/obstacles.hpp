@@ -3,13 +3,13 @@
 #include <memory>
 #include <vector>
 
-#include "hyperex/reenact/obstacles.hpp"
+#include "hyperex/simulate/contact/obstacles.hpp"
 
 namespace hyperex::python {
 
 /// What tissue may touch, as Python hands it on.
 struct Obstacles {
-  std::shared_ptr<const std::vector<reenact::Obstacle>> all;  ///< null: nothing
+  std::shared_ptr<const std::vector<simulate::Obstacle>> all;  ///< null: nothing
 };
 
 }  // namespace hyperex::python

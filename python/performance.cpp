@@ -10,7 +10,7 @@
 namespace hyperex::python {
 namespace {
 
-using reenact::SimulationReport;
+using simulate::SimulationReport;
 
 py::object skin_displacement(RunResult& self) {
   if (!self.skin_stack)
@@ -37,7 +37,7 @@ py::array frame_of(const py::object& self, const std::vector<PointsF>& frames, p
 }
 
 TriMesh skin_at(const RunResult& self, py::ssize_t frame) {
-  const reenact::Performance& p = self.performance();
+  const simulate::Performance& p = self.performance();
   return {p.skin_rest.points + frame_in(p.skin_displacement_m, frame).cast<double>(),
           p.skin_rest.triangles};
 }

@@ -3,17 +3,17 @@
 #include <memory>
 
 #include "bind.hpp"
-#include "hyperex/reenact/simulator.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 
 namespace hyperex::python {
 
 /// What a run computed, with arrays of NumPy that are made once when they are first asked for.
 struct RunResult {
-  reenact::SimulationResult result;
+  simulate::SimulationResult result;
   std::shared_ptr<const tissue::TissueMesh> mesh;
   py::object skin_stack, node_stack;  ///< null until then
 
-  const reenact::Performance& performance() const { return result.performance; }
+  const simulate::Performance& performance() const { return result.performance; }
 };
 
 }  // namespace hyperex::python

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scene files: what `hyperex run` and `hyperex check` do, and the parts of it.
-#include "hyperex/scene/grammar/scene.hpp"
+#include "hyperex/scene/scene.hpp"
 
 #include <utility>
 
 #include "bind.hpp"
 #include "hyperex/core/error.hpp"
-#include "hyperex/scene/run/pipeline.hpp"
-#include "hyperex/scene/stages/drive_choice.hpp"
-#include "hyperex/scene/stages/mirrored_twin.hpp"
-#include "hyperex/scene/stages/obstacles.hpp"
-#include "hyperex/scene/stages/plausible.hpp"
-#include "hyperex/scene/stages/prepared_face.hpp"
-#include "hyperex/scene/stages/simulation_options.hpp"
-#include "hyperex/scene/stages/teeth.hpp"
-#include "hyperex/scene/stages/thinned_scan.hpp"
-#include "hyperex/scene/stages/tissue_fields.hpp"
+#include "hyperex/run/pipeline.hpp"
+#include "hyperex/session/drive_choice.hpp"
+#include "hyperex/session/mirrored_twin.hpp"
+#include "hyperex/session/obstacles.hpp"
+#include "hyperex/session/plausible.hpp"
+#include "hyperex/session/prepared_face.hpp"
+#include "hyperex/session/simulation_options.hpp"
+#include "hyperex/session/teeth.hpp"
+#include "hyperex/session/thinned_scan.hpp"
+#include "hyperex/session/tissue_fields.hpp"
 #include "meshes.hpp"
 #include "obstacles.hpp"
 
@@ -38,7 +38,7 @@ py::object run(const Path& file, const Path& out, const py::dict& changes) {
   std::string summary;
   {
     const py::gil_scoped_release unlocked;
-    summary = scene::run_scene(scene::read_scene(file, overrides), out)
+    summary = run::run_scene(scene::read_scene(file, overrides), out)
                   .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
   return py::module_::import("json").attr("loads")(summary);
@@ -47,54 +47,54 @@ py::object run(const Path& file, const Path& out, const py::dict& changes) {
 /// What a scene names, read and made ready.
 struct ReadyScene {
   scene::Scene scene;
-  scene::Inputs inputs;
+  session::Inputs inputs;
   Face face;
   SharedTissueMesh mesh;
-  reenact::SimulationOptions options;
+  simulate::SimulationOptions options;
   Obstacles obstacles;  ///< that the scene or one of its variants may touch
-  std::vector<std::pair<std::string, reenact::SimulationOptions>> variants;
+  std::vector<std::pair<std::string, simulate::SimulationOptions>> variants;
 };
 
 std::unique_ptr<ReadyScene> made_ready(const Path& file, const std::vector<std::string>& changes) {
   auto ready = std::make_unique<ReadyScene>();
   ready->scene = scene::read_scene(file, changes);
   // The program warns; here nobody may look at warnings.
-  if (const std::string idle = scene::idle_law_warning(ready->scene); !idle.empty())
+  if (const std::string idle = session::idle_law_warning(ready->scene); !idle.empty())
     throw InputError(file, idle + ": set tissue.strain = \"finite\", or leave them out");
-  scene::Inputs& inputs = ready->inputs = scene::read_inputs(ready->scene);
-  scene::choose_drive(ready->scene, inputs);
+  session::Inputs& inputs = ready->inputs = session::read_inputs(ready->scene);
+  session::choose_drive(ready->scene, inputs);
   ready->mesh = std::make_shared<tissue::TissueMesh>(
       tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, ready->scene.mesh,
-                                inputs.scan.file.string(), scene::on_seams(inputs.scan)));
+                                inputs.scan.file.string(), session::on_seams(inputs.scan)));
   ready->face = {inputs.scan, inputs.landmarks, inputs.placed};
   if (ready->mesh->full)
-    inputs.scan = scene::thinned_scan(inputs.scan, *ready->mesh->full, ready->mesh->skin);
-  scene::TissueFields fields(inputs, *ready->mesh);
-  const auto options_of = [&](const scene::Scene& s, const scene::Inputs& of,
+    inputs.scan = session::thinned_scan(inputs.scan, *ready->mesh->full, ready->mesh->skin);
+  session::TissueFields fields(inputs, *ready->mesh);
+  const auto options_of = [&](const scene::Scene& s, const session::Inputs& of,
                               const std::string& owner) {
-    reenact::SimulationOptions options = scene::simulation_options(s, of);
+    simulate::SimulationOptions options = session::simulation_options(s, of);
     // A law stands in base for a variant at finite strain.
-    if (options.model.strain != reenact::Strain::finite) options.model.law = {};
+    if (options.model.strain != simulate::Strain::finite) options.model.law = {};
     if (const auto field = fields.of(s, owner)) options.tissue.element = field->element;
     return options;
   };
   ready->options = options_of(ready->scene, inputs, "");
-  const auto teeth = scene::teeth_of(ready->scene, inputs, *ready->mesh, inputs.notes);
-  ready->obstacles.all = scene::obstacles_of(ready->scene, inputs, *ready->mesh, teeth.get());
+  const auto teeth = session::teeth_of(ready->scene, inputs, *ready->mesh, inputs.notes);
+  ready->obstacles.all = session::obstacles_of(ready->scene, inputs, *ready->mesh, teeth.get());
   for (std::size_t i = 0; i < ready->scene.variants.size(); ++i) {
     const scene::Variant& variant = ready->scene.variants[i];
     ready->variants.emplace_back(
-        variant.name, options_of(variant.scene, scene::inputs_of_variant(variant.scene, inputs),
+        variant.name, options_of(variant.scene, session::inputs_of_variant(variant.scene, inputs),
                                  "variant[" + std::to_string(i) + "]."));
   }
   return ready;
 }
 
 /// Each point moves as the mirror image of its counterpart.
-reenact::AlignedMotion mirrored(const ReadyScene& ready) {
+simulate::AlignedMotion mirrored(const ReadyScene& ready) {
   std::string why_not;
-  const metrics::MidsagittalPlane plane = scene::rest_asymmetry(*ready.mesh, ready.inputs).plane;
-  auto motion = scene::mirrored_motion(ready.inputs.motion, plane, ready.inputs.driven, why_not);
+  const metrics::MidsagittalPlane plane = session::rest_asymmetry(*ready.mesh, ready.inputs).plane;
+  auto motion = session::mirrored_motion(ready.inputs.motion, plane, ready.inputs.driven, why_not);
   if (!motion) throw InputError(ready.scene.file, "the motion has no mirror image: " + why_not);
   return *motion;
 }
@@ -151,10 +151,10 @@ void bind_scene(py::module_& m) {
       "check_scene",
       [](const Path& file, const py::dict& changes) {
         const std::vector<std::string> overrides = overrides_of(changes);
-        scene::Checked checked;
+        run::Checked checked;
         {
           const py::gil_scoped_release unlocked;
-          checked = scene::check_scene(scene::read_scene(file, overrides));
+          checked = run::check_scene(scene::read_scene(file, overrides));
         }
         return py::dict("notes"_a = checked.notes, "warnings"_a = checked.warnings);
       },

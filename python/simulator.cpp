@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The Simulator: long runs without the lock of Python, ended by Ctrl-C or by a callback.
-#include "hyperex/reenact/simulator.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 
 #include <fmt/format.h>
 
@@ -18,9 +18,9 @@
 namespace hyperex::python {
 namespace {
 
-using reenact::AlignedMotion;
-using reenact::SimulationOptions;
-using reenact::TissueValues;
+using simulate::AlignedMotion;
+using simulate::SimulationOptions;
+using simulate::TissueValues;
 
 /// Values a tetrahedron of some parameters are completed by the uniform ones of the others.
 TissueValues completed(TissueValues values, std::size_t tets) {
@@ -50,8 +50,8 @@ class Callbacks {
   Callbacks(py::object progress, py::object cancelled)
       : progress_(std::move(progress)), cancelled_(std::move(cancelled)) {}
 
-  reenact::RunCallbacks for_run() {
-    reenact::RunCallbacks callbacks;
+  simulate::RunCallbacks for_run() {
+    simulate::RunCallbacks callbacks;
     if (!progress_.is_none())
       callbacks.progress = [this](double share) {
         const py::gil_scoped_acquire locked;
@@ -95,9 +95,9 @@ class Callbacks {
 };
 
 /// As a UserWarning at the line that called run(), once a line unless Python's filters say other.
-void warn_of_forces_found_anew(const reenact::SimulationReport& report) {
+void warn_of_forces_found_anew(const simulate::SimulationReport& report) {
   if (report.forces_found_anew &&
-      PyErr_WarnEx(PyExc_UserWarning, reenact::kForcesFoundAnew, 1) != 0)
+      PyErr_WarnEx(PyExc_UserWarning, simulate::kForcesFoundAnew, 1) != 0)
     throw py::error_already_set();  // the user's filters turn warnings into errors
 }
 
@@ -112,7 +112,7 @@ class PythonSimulator {
       : mesh_(other.mesh_), simulator_((other.refuse_if_busy(), other.simulator_)) {}
 
   const SharedTissueMesh& mesh() const { return mesh_; }
-  const reenact::Simulator& simulator() const { return simulator_; }
+  const simulate::Simulator& simulator() const { return simulator_; }
 
   template <class Change>
   void change(Change apply) {
@@ -139,7 +139,7 @@ class PythonSimulator {
     try {
       const py::gil_scoped_release unlocked;
       run->result = simulator_.run(callbacks.for_run());
-    } catch (const reenact::Cancelled&) {
+    } catch (const simulate::Cancelled&) {
       callbacks.rethrow_if_any();
       throw;
     }
@@ -152,7 +152,7 @@ class PythonSimulator {
   std::size_t tets() const { return static_cast<std::size_t>(mesh_->volume.tets.rows()); }
   SimulationOptions with_all_values(SimulationOptions options) const {
     if (const auto& model = options.model;
-        model.strain != reenact::Strain::finite && !(model.law == fem::Hyperelastic{}))
+        model.strain != simulate::Strain::finite && !(model.law == fem::Hyperelastic{}))
       throw InputError(InputProblem{{},
                                     0,
                                     "model.law",
@@ -171,7 +171,7 @@ class PythonSimulator {
   void refuse_if_busy() const { hold(); }
 
   SharedTissueMesh mesh_;
-  reenact::Simulator simulator_;
+  simulate::Simulator simulator_;
   std::unique_ptr<std::atomic_flag> busy_ = std::make_unique<std::atomic_flag>();
 };
 
@@ -199,13 +199,13 @@ void bind_simulator(py::module_& m) {
            "hold_load() was called before.")
       .def(
           "set_support",
-          [](S& self, const reenact::SupportOptions& support) {
+          [](S& self, const simulate::SupportOptions& support) {
             self.change([&](auto& s) { s.set_support(support); });
           },
           "support"_a)
       .def(
           "set_drive",
-          [](S& self, const reenact::DriveOptions& drive) {
+          [](S& self, const simulate::DriveOptions& drive) {
             self.change([&](auto& s) { s.set_drive(drive); });
           },
           "drive"_a)

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of a simulation: the structs of reenact/options.hpp.
+// The options of a simulation: the structs of simulate/options.hpp.
 #include <pybind11/stl.h>
 
 #include <map>
 
-#include "hyperex/reenact/options.hpp"
+#include "hyperex/simulate/options.hpp"
 #include "options_class.hpp"
 
 namespace hyperex::python {
 namespace {
 
-using namespace reenact;
+using namespace simulate;
 
 void bind_support(py::module_& m) {
   OptionsClass<BoneLayer>(m, "BoneLayer", "Springs between tissue and bone, per area.")

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh of the soft tissue, and what the tissue is made of.
 #include "arrays.hpp"
-#include "hyperex/reenact/options.hpp"
-#include "hyperex/scene/stages/thinned_scan.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/session/thinned_scan.hpp"
+#include "hyperex/simulate/options.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 #include "meshes.hpp"
 #include "options_class.hpp"
 
 namespace hyperex::python {
 namespace {
 
-using reenact::TissueValues;
+using simulate::TissueValues;
 using tissue::TissueMeshOptions;
 
 void check(const TissueMeshOptions& o) {
@@ -37,7 +37,7 @@ SharedTissueMesh of_face(const Face& face, const TissueMeshOptions& options) {
   check(options);
   return std::make_shared<tissue::TissueMesh>(
       tissue::build_tissue_mesh(face.scan.mesh, face.landmarks, options, face.scan.file.string(),
-                                scene::on_seams(face.scan)));
+                                session::on_seams(face.scan)));
 }
 
 SharedTissueMesh of_surface(const TriMesh& mesh, const io::Landmarks& landmarks,

@@ -2,8 +2,8 @@
 // Tissue that differs from place to place: points, regions, scars, presets.
 #include "hyperex/tissue/field/tissue_field.hpp"
 
-#include "hyperex/reenact/options.hpp"
-#include "hyperex/scene/stages/thinned_scan.hpp"
+#include "hyperex/session/thinned_scan.hpp"
+#include "hyperex/simulate/options.hpp"
 #include "meshes.hpp"
 #include "options_class.hpp"
 
@@ -19,23 +19,23 @@ void refuse_if_any(const std::vector<FieldProblem>& found) {
   if (!problems.empty()) throw InputError(problems);
 }
 
-reenact::TissueValues field_of(const SharedTissueMesh& mesh, const Face& face,
-                               const TissueFieldOptions& options) {
+simulate::TissueValues field_of(const SharedTissueMesh& mesh, const Face& face,
+                                const TissueFieldOptions& options) {
   refuse_if_any(problems_of(options, face.landmarks));
-  reenact::TissueValues values;
+  simulate::TissueValues values;
   values.uniform = uniform_parameters(options);
   if (!is_graded(options)) return values;
-  std::optional<RegisteredFace> registered;
+  std::optional<anatomy::RegisteredFace> registered;
   if (needs_registration(options))
-    registered = register_canonical_face(
-        face.landmarks,
-        mesh->full ? scene::thinned_scan(face.scan, *mesh->full, mesh->skin).mesh : face.scan.mesh);
+    registered = anatomy::register_canonical_face(
+        face.landmarks, mesh->full ? session::thinned_scan(face.scan, *mesh->full, mesh->skin).mesh
+                                   : face.scan.mesh);
   // Files a vertex name the scan's own vertices, also of a scan that was thinned.
   const TissueMesh whole = mesh->full ? tissue::with_full_skin(*mesh) : TissueMesh{};
   const TissueFieldMaker maker(mesh->full ? whole : *mesh, face.landmarks,
                                registered ? &*registered : nullptr);
   TissueField field = maker.make(options);
-  if (mesh->full) scene::keep_thinned(field, *mesh->full);
+  if (mesh->full) session::keep_thinned(field, *mesh->full);
   values.element = std::move(field.element);
   return values;
 }

@@ -7,7 +7,7 @@
 
 #include "commands.hpp"
 #include "hyperex/core/printable.hpp"
-#include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/run/pipeline.hpp"
 
 namespace hyperex::cli {
 
@@ -27,8 +27,8 @@ void add_check(CLI::App& program) {
       ->allow_extra_args(false);
   command->footer("Example: hyperex check examples/demo.toml");
   command->callback([options] {
-    const scene::Checked checked =
-        scene::check_scene(scene::read_scene(options->scene, options->overrides));
+    const run::Checked checked =
+        run::check_scene(scene::read_scene(options->scene, options->overrides));
     for (const auto& note : checked.notes) std::cout << printable(note) << '\n';
     for (const auto& warning : checked.warnings)
       std::cout << "warning: " << printable(warning) << '\n';

@@ -13,6 +13,7 @@
 
 #include "commands.hpp"
 #include "compare_picture.hpp"
+#include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
@@ -22,7 +23,6 @@
 #include "hyperex/metrics/baseline.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
-#include "hyperex/tissue/landmarks.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -254,8 +254,8 @@ void run(const Options& options) {
   }
   for (const auto& notes : {surfaces.notes, regions.notes})
     for (const std::string& note : notes) std::cerr << note << '\n';
-  if (const auto unknown = tissue::unknown_landmarks(landmarks); !unknown.empty())
-    std::cerr << tissue::unknown_landmarks_note(unknown) << '\n';
+  if (const auto unknown = anatomy::unknown_landmarks(landmarks); !unknown.empty())
+    std::cerr << anatomy::unknown_landmarks_note(unknown) << '\n';
   const Eigen::VectorXd distance = distances(options, surfaces, surfaces.a.points);
   const std::vector<Row> rows = rows_of(distance, regions);
   std::vector<BaselineRows> baselines;

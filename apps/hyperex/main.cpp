@@ -25,7 +25,7 @@
 #include "hyperex/core/remarks.hpp"
 #include "hyperex/core/standard_streams.hpp"
 #include "hyperex/motion/option_error.hpp"
-#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/keys.hpp"
 
 namespace {
 

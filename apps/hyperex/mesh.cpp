@@ -7,17 +7,17 @@
 #include <string>
 
 #include "commands.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/output_file.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/io/vtu.hpp"
-#include "hyperex/scene/grammar/scene.hpp"
-#include "hyperex/scene/stages/inputs.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/landmarks.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -44,7 +44,7 @@ io::Landmarks landmarks_of(const io::Scan& scan, const std::filesystem::path& fi
   if (!file.empty()) return io::read_landmarks(file);
   std::vector<std::string> notes;
   auto found =
-      scene::find_landmarks(scan, "no landmarks beside the scan, and no --landmarks", notes);
+      session::find_landmarks(scan, "no landmarks beside the scan, and no --landmarks", notes);
   for (const auto& note : notes) std::cerr << note << '\n';
   return found;
 }
@@ -78,10 +78,10 @@ void run(const Options& options) {
   if (scan.unit_guessed)
     std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
   const io::Landmarks given = landmarks_of(scan, file);
-  if (const auto unknown = tissue::unknown_landmarks(given); !unknown.empty())
-    std::cerr << tissue::unknown_landmarks_note(unknown) << '\n';
+  if (const auto unknown = anatomy::unknown_landmarks(given); !unknown.empty())
+    std::cerr << anatomy::unknown_landmarks_note(unknown) << '\n';
   const auto landmarks =
-      tissue::complete_landmarks(given, scan.mesh, (file.empty() ? options.scan : file).string());
+      anatomy::complete_landmarks(given, scan.mesh, (file.empty() ? options.scan : file).string());
   tissue::TissueMeshOptions mesh_options;
   mesh_options.element_size_m = options.element_size_mm * 1e-3;
   mesh_options.layers = options.layers;

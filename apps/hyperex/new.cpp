@@ -12,8 +12,8 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/scene/grammar/new_scene.hpp"
-#include "hyperex/scene/grammar/scene.hpp"
+#include "hyperex/scene/new_scene.hpp"
+#include "hyperex/scene/scene.hpp"
 
 namespace hyperex::cli {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "commands.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
-#include "hyperex/scene/grammar/override.hpp"
-#include "hyperex/scene/grammar/toml_values.hpp"
-#include "hyperex/scene/grammar/variant_presets.hpp"
+#include "hyperex/scene/override.hpp"
+#include "hyperex/scene/toml_values.hpp"
+#include "hyperex/scene/variant_presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 
 namespace hyperex::cli {

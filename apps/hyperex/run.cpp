@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
-#include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/run/pipeline.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -133,7 +133,7 @@ void run(const Options& options) {
   if (options.verify) overrides.push_back("solver.verify=true");
   scene::Scene scene = scene::read_scene(options.scene, overrides);
   if (!options.no_cache) scene.kept = KeptResults(user_cache_folder());
-  const auto summary = scene::run_scene(scene, options.out);
+  const auto summary = run::run_scene(scene, options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
       "{}{}{}"

@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "hyperex/scene/grammar/scene.hpp"
+#include "hyperex/scene/scene.hpp"
 
 namespace hyperex::cli {
 

@@ -25,9 +25,9 @@
 #include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
-#include "hyperex/scene/output/asymmetry_picture.hpp"
-#include "hyperex/scene/stages/plausible.hpp"
-#include "hyperex/scene/stages/recording_jitter.hpp"
+#include "hyperex/run/asymmetry_picture.hpp"
+#include "hyperex/session/plausible.hpp"
+#include "hyperex/session/recording_jitter.hpp"
 #include "symmetry_frames.hpp"
 #include "symmetry_picture.hpp"
 
@@ -92,7 +92,7 @@ void print_excursions(const metrics::Excursions& excursions) {
         excursions.lowpass_hz);
 }
 
-void print_summary(const metrics::SymmetryMeasures& all, const scene::RecordedJitter& jitter) {
+void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter) {
   const metrics::SymmetryCurve& curve = all.curve;
   size_t undecided = 0;
   for (size_t i = 1; i < curve.time_s.size(); ++i) undecided += curve.undecided(i);
@@ -134,8 +134,8 @@ std::optional<double> stated_jitter_mm(const Options& options) {
 }
 
 /// `steady`: head pose out. `run`: the folder of a run, or empty.
-scene::RecordedJitter jitter_of(const Options& options, const motion::Motion& steady,
-                                const fs::path& run) {
+session::RecordedJitter jitter_of(const Options& options, const motion::Motion& steady,
+                                  const fs::path& run) {
   const auto stated = stated_jitter_mm(options);
   if (!stated) {
     const auto told = run.empty() ? std::nullopt : jitter_of_run(run);
@@ -143,7 +143,7 @@ scene::RecordedJitter jitter_of(const Options& options, const motion::Motion& st
       return {*told, true,
               fmt::format("jitter of the recorded points, from the run's summary.json: {:.2f} mm",
                           1e3 * *told)};
-    return scene::recorded_jitter(steady);
+    return session::recorded_jitter(steady);
   }
   return {1e-3 * *stated, true,
           *stated > 0 ? fmt::format("jitter of the recorded points, as --jitter-mm states it: "
@@ -153,7 +153,7 @@ scene::RecordedJitter jitter_of(const Options& options, const motion::Motion& st
 }
 
 /// One loud line where no figure can be called undecided.
-void warn_of_unknown(const scene::RecordedJitter& jitter) {
+void warn_of_unknown(const session::RecordedJitter& jitter) {
   if (!jitter.known)
     spdlog::warn(
         "{}: the points are taken as exact, and noise may pass for asymmetry; --jitter-mm X "
@@ -186,7 +186,7 @@ void write_map(const Options& options, const SurfaceFrames& frames,
       "rms {:.2f} mm",
       frames.tracks.time_s[worst], map.frames[worst].face_rms_mm, map.frames[worst].mouth_rms_mm);
   if (!options.map.empty())
-    render::write_png(options.map, scene::draw_asymmetry(
+    render::write_png(options.map, run::draw_asymmetry(
                                        moved, map_mm, map, frames.landmarks,
                                        "Asymmetry of " + options.motion.filename().string(), note));
   if (!options.map_ply.empty())
@@ -195,7 +195,7 @@ void write_map(const Options& options, const SurfaceFrames& frames,
 
 /// What is written and printed, with a surface or without.
 void tell(const Options& options, const metrics::SymmetryMeasures& all,
-          const scene::RecordedJitter& jitter) {
+          const session::RecordedJitter& jitter) {
   for (const std::string& stand_in : all.curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
   if (!options.picture.empty())
@@ -218,7 +218,7 @@ void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
   std::vector<PointsF> displacement;
   for (const Points& at : frames.positions)
     displacement.push_back((at - frames.rest.points).cast<float>());
-  const scene::RecordedJitter jitter = jitter_of(options, frames.tracks, {});
+  const session::RecordedJitter jitter = jitter_of(options, frames.tracks, {});
   warn_of_unknown(jitter);
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(frames.tracks, options.floor, jitter.jitter_m);
@@ -285,10 +285,10 @@ void run(const Options& options) {
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(motion, options.floor);  // tells first which points are missing
   const motion::Motion steady = without_head(motion, options.keep_head);
-  for (const std::string& warning :
-       {scene::exchanged_warning(motion, scene::average_face()), scene::timing_warning(motion)})
+  for (const std::string& warning : {session::exchanged_warning(motion, session::average_face()),
+                                     session::timing_warning(motion)})
     if (!warning.empty()) spdlog::warn("{}", warning);
-  const scene::RecordedJitter jitter = jitter_of(options, steady, run_folder);
+  const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);
   warn_of_unknown(jitter);
   if (jitter.jitter_m > 0) all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
   all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);

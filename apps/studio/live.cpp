@@ -28,9 +28,9 @@ double seconds(std::chrono::steady_clock::duration time) {
 
 }  // namespace
 
-reenact::SimulationOptions live_options(reenact::SimulationOptions options) {
-  options.drive.by = reenact::DriveBy::displacement;
-  options.model.strain = reenact::Strain::linear;
+simulate::SimulationOptions live_options(simulate::SimulationOptions options) {
+  options.drive.by = simulate::DriveBy::displacement;
+  options.model.strain = simulate::Strain::linear;
   options.contact = {};
   return options;
 }
@@ -166,7 +166,7 @@ void Live::begin(const std::deque<LiveSample>& recent) {
 
 /// What was asked from other threads, between two frames.
 void Live::take_wishes(const std::deque<LiveSample>& recent) {
-  std::optional<reenact::SimulationOptions> options;
+  std::optional<simulate::SimulationOptions> options;
   bool neutral = false;
   {
     const std::lock_guard lock(mutex_);
@@ -261,7 +261,7 @@ void Live::record(bool on) {
   send_take();
 }
 
-void Live::set_options(reenact::SimulationOptions options, std::size_t face) {
+void Live::set_options(simulate::SimulationOptions options, std::size_t face) {
   const std::lock_guard lock(mutex_);
   want_options_ = std::move(options);
   face_ = face;

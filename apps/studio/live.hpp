@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "hyperex/capture/source.hpp"
-#include "hyperex/reenact/simulator.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 #include "hyperex/tracking/fit/track_live.hpp"
 #include "live_motion.hpp"
 
@@ -26,13 +26,13 @@ struct LiveSetup {
   std::unique_ptr<capture::FrameSource> source;  ///< live: wrapped in LatestFrame
   std::shared_ptr<const tissue::TissueMesh> mesh;
   io::Landmarks landmarks;
-  reenact::AlignmentMethod method = reenact::AlignmentMethod::nonrigid;
-  reenact::SimulationOptions options;  ///< live_options() of what the face is
-  std::size_t face = 0;                ///< which is drawn
+  simulate::AlignmentMethod method = simulate::AlignmentMethod::nonrigid;
+  simulate::SimulationOptions options;  ///< live_options() of what the face is
+  std::size_t face = 0;                 ///< which is drawn
 };
 
 /// Options as a stream takes them: driven by displacements, of small strain, without contact.
-reenact::SimulationOptions live_options(reenact::SimulationOptions options);
+simulate::SimulationOptions live_options(simulate::SimulationOptions options);
 
 /// Names of what is tracked.
 std::vector<std::string> live_points();
@@ -63,7 +63,7 @@ class Live {
   /// The page has drawn a shape, by its number.
   void drawn(std::int64_t frame);
   /// The face is another, or of other tissue.
-  void set_options(reenact::SimulationOptions options, std::size_t face);
+  void set_options(simulate::SimulationOptions options, std::size_t face);
   /// The last take as a scene's motion. Throws InputError where there is none.
   motion::Motion take(double from_s, double to_s) const;
   void tell();
@@ -95,7 +95,7 @@ class Live {
   Clock::time_point told_{};  // of the tracker's thread
   // Of the thread that re-enacts:
   std::optional<LiveMotion> motion_;
-  std::optional<reenact::Simulator> simulator_;
+  std::optional<simulate::Simulator> simulator_;
   Points last_;  // displacement
   double last_s_ = 0, interval_s_ = 0;
   std::int64_t frame_ = 0;
@@ -105,7 +105,7 @@ class Live {
   bool tracked_ = false, want_neutral_ = false, recording_ = false;
   std::deque<LiveSample> first_, recent_;  // kFirst, and the last kNeutral at most
   std::optional<Tracked> newest_;          // waits to be re-enacted
-  std::optional<reenact::SimulationOptions> want_options_;
+  std::optional<simulate::SimulationOptions> want_options_;
   std::size_t face_ = 0;
   Points neutral_;  // of the motion
   std::vector<LiveSample> take_;

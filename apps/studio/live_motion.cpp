@@ -39,7 +39,7 @@ motion::ExpressivePoseStream poses_of(const std::vector<std::string>& names, con
 }  // namespace
 
 LiveMotion::LiveMotion(std::vector<std::string> names, const std::deque<LiveSample>& neutral,
-                       io::Landmarks landmarks, reenact::AlignmentMethod method)
+                       io::Landmarks landmarks, simulate::AlignmentMethod method)
     : names_(std::move(names)),
       neutral_(mean_of(neutral)),
       landmarks_(std::move(landmarks)),
@@ -48,13 +48,13 @@ LiveMotion::LiveMotion(std::vector<std::string> names, const std::deque<LiveSamp
   static_cast<void>(at_rest(1));
 }
 
-reenact::AlignedMotion LiveMotion::at_rest(double interval_s) const {
+simulate::AlignedMotion LiveMotion::at_rest(double interval_s) const {
   motion::Motion rest;
   rest.names = names_;
   rest.time_s = {0, interval_s};
   rest.positions = {neutral_, neutral_};
   rest.source = "live";
-  return reenact::align(rest, landmarks_, method_);
+  return simulate::align(rest, landmarks_, method_);
 }
 
 Points LiveMotion::displacement(const LiveSample& sample) {
@@ -65,7 +65,7 @@ Points LiveMotion::displacement(const LiveSample& sample) {
   now.time_s = {0, 1};
   now.positions = {neutral_, (sample.positions * back.linear().transpose()).rowwise() +
                                  back.translation().transpose()};
-  const reenact::AlignedMotion aligned = reenact::align(now, landmarks_, method_);
+  const simulate::AlignedMotion aligned = simulate::align(now, landmarks_, method_);
   return aligned.motion.positions.back() - aligned.rest;
 }
 

@@ -8,7 +8,7 @@
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/motion/expressive_pose.hpp"
 #include "hyperex/motion/motion.hpp"
-#include "hyperex/reenact/alignment.hpp"
+#include "hyperex/simulate/drive/alignment.hpp"
 
 namespace hyperex::studio {
 
@@ -21,17 +21,17 @@ struct LiveSample {
 /// Takes samples one after the other to displacements since the neutral face in the scan's frame:
 /// what is left of the head's pose is taken out (motion::ExpressivePoseStream), the face at rest is
 /// aligned to the scan's landmarks and displacements are turned and scaled with it
-/// (reenact::align).
+/// (simulate::align).
 class LiveMotion {
  public:
   /// The neutral face is the mean of `neutral`, of which the jitter is taken too; at least one.
-  /// Throws InputError as reenact::align().
+  /// Throws InputError as simulate::align().
   LiveMotion(std::vector<std::string> names, const std::deque<LiveSample>& neutral,
-             io::Landmarks landmarks, reenact::AlignmentMethod method);
+             io::Landmarks landmarks, simulate::AlignmentMethod method);
 
   const Points& neutral() const { return neutral_; }
   /// The points at rest, twice, `interval_s` apart: what a Simulator begins with.
-  reenact::AlignedMotion at_rest(double interval_s) const;
+  simulate::AlignedMotion at_rest(double interval_s) const;
   /// Displacements since rest, P x 3, m, scan frame. Times rise.
   Points displacement(const LiveSample& sample);
 
@@ -39,7 +39,7 @@ class LiveMotion {
   std::vector<std::string> names_;
   Points neutral_;
   io::Landmarks landmarks_;
-  reenact::AlignmentMethod method_;
+  simulate::AlignmentMethod method_;
   motion::ExpressivePoseStream poses_;
 };
 

@@ -5,17 +5,17 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
-#include "hyperex/scene/grammar/scene_text.hpp"
-#include "hyperex/scene/output/report_page.hpp"
-#include "hyperex/scene/run/variants.hpp"
-#include "hyperex/scene/stages/drive_choice.hpp"
-#include "hyperex/scene/stages/driven_points.hpp"
-#include "hyperex/scene/stages/kept_order.hpp"
-#include "hyperex/scene/stages/obstacles.hpp"
-#include "hyperex/scene/stages/plausible.hpp"
-#include "hyperex/scene/stages/simulation_options.hpp"
-#include "hyperex/scene/stages/teeth.hpp"
-#include "hyperex/tissue/skin_depth.hpp"
+#include "hyperex/run/report_page.hpp"
+#include "hyperex/run/variants.hpp"
+#include "hyperex/scene/scene_text.hpp"
+#include "hyperex/session/drive_choice.hpp"
+#include "hyperex/session/driven_points.hpp"
+#include "hyperex/session/kept_order.hpp"
+#include "hyperex/session/obstacles.hpp"
+#include "hyperex/session/plausible.hpp"
+#include "hyperex/session/simulation_options.hpp"
+#include "hyperex/session/teeth.hpp"
+#include "hyperex/tissue/mesh/skin_depth.hpp"
 #include "live.hpp"
 
 namespace hyperex::studio {
@@ -76,26 +76,26 @@ OpenFace::OpenFace(std::string text, std::filesystem::path file, KeptResults kep
   scene::Scene scene = scene::read_scene_text(text_, file);
   scene.kept = kept;
   stage("reading scan and recording");
-  inputs_ = scene::read_inputs(scene);
+  inputs_ = session::read_inputs(scene);
   own_notes_ = inputs_.notes.size();
   stage("meshing the soft tissue");
-  face_ = scene::prepare_face(scene, inputs_, [] {});
+  face_ = session::prepare_face(scene, inputs_, [] {});
   warnings_ = inputs_.warnings;
   if (const std::string off =
-          scene::skin_warning(scene::skin_off_scan(*face_.mesh, inputs_.landmarks));
+          session::skin_warning(session::skin_off_scan(*face_.mesh, inputs_.landmarks));
       !off.empty())
     warnings_.push_back(off);
-  fields_ = std::make_unique<scene::TissueFields>(inputs_, *face_.mesh);
-  teeth_ = scene::teeth_of(scene, inputs_, *face_.mesh, teeth_notes_);
+  fields_ = std::make_unique<session::TissueFields>(inputs_, *face_.mesh);
+  teeth_ = session::teeth_of(scene, inputs_, *face_.mesh, teeth_notes_);
   stage("assembling and factoring");
   take(std::move(scene));
-  scene::prepare_with_kept_order(scene_, inputs_, *simulator_);
+  session::prepare_with_kept_order(scene_, inputs_, *simulator_);
 }
 
-reenact::SimulationOptions OpenFace::options_of(
-    const scene::Scene& scene, const scene::Inputs& inputs,
+simulate::SimulationOptions OpenFace::options_of(
+    const scene::Scene& scene, const session::Inputs& inputs,
     const std::optional<tissue::TissueField>& field) const {
-  reenact::SimulationOptions options = scene::simulation_options(scene, inputs);
+  simulate::SimulationOptions options = session::simulation_options(scene, inputs);
   if (field) options.tissue.element = field->element;
   return options;
 }
@@ -111,21 +111,21 @@ bool OpenFace::set_text(const std::string& text) {
 
 /// Everything that may throw comes before anything is changed.
 void OpenFace::take(scene::Scene next) {
-  const scene::DriveChoice choice = scene::drive_choice(next, inputs_);
+  const session::DriveChoice choice = session::drive_choice(next, inputs_);
   next.drive.by = choice.by;
-  const std::vector<std::string> driven = scene::driven_points(next, inputs_.motion.motion);
-  scene::Inputs& inputs = inputs_;
+  const std::vector<std::string> driven = session::driven_points(next, inputs_.motion.motion);
+  session::Inputs& inputs = inputs_;
   std::vector<std::string> before = std::exchange(inputs.driven, driven);
   std::optional<tissue::TissueField> field;
-  std::vector<scene::VariantRun> runs;
-  reenact::SimulationOptions options;
-  std::vector<reenact::SimulationOptions> of_runs;
+  std::vector<run::VariantRun> runs;
+  simulate::SimulationOptions options;
+  std::vector<simulate::SimulationOptions> of_runs;
   try {
     field = fields_->of(next);
-    runs = scene::prepare_variants(next, inputs, *fields_);
+    runs = run::prepare_variants(next, inputs, *fields_);
     options = options_of(next, inputs, field);
     check(options);
-    for (const scene::VariantRun& run : runs) {
+    for (const run::VariantRun& run : runs) {
       of_runs.push_back(options_of(run.scene, run.inputs, run.field));
       check(of_runs.back());
     }
@@ -151,11 +151,11 @@ void OpenFace::take(scene::Scene next) {
   if (contact_of(scene_) != touched_) {
     // Built where a scene or a variant first asks for it: a grid of distances takes a moment.
     touched_ = contact_of(scene_);
-    simulator_->set_obstacles(scene::obstacles_of(scene_, inputs, *face_.mesh, teeth_.get()));
+    simulator_->set_obstacles(session::obstacles_of(scene_, inputs, *face_.mesh, teeth_.get()));
     next_variant_.reset();
   }
   stale_ = stale_ || !same_base;
-  std::vector<scene::VariantRun> old_runs = std::exchange(runs_, std::move(runs));
+  std::vector<run::VariantRun> old_runs = std::exchange(runs_, std::move(runs));
   std::vector<Standing> old = std::exchange(standing_, std::vector<Standing>(runs_.size()));
   for (std::size_t i = 0; i < runs_.size() && same_base; ++i) {
     std::size_t known = 0;
@@ -180,13 +180,13 @@ void OpenFace::take(scene::Scene next) {
   }
 }
 
-reenact::Simulator& OpenFace::simulator_of(std::size_t face) {
+simulate::Simulator& OpenFace::simulator_of(std::size_t face) {
   if (face == 0) return *simulator_;
-  std::optional<reenact::Simulator>& own = standing_.at(face - 1).simulator;
+  std::optional<simulate::Simulator>& own = standing_.at(face - 1).simulator;
   if (!own) {
-    const scene::VariantRun& run = runs_[face - 1];
+    const run::VariantRun& run = runs_[face - 1];
     if (!next_variant_) simulator_->still(0);  // finds the forces, where there are none yet
-    reenact::Simulator made = next_variant_ ? std::move(*next_variant_) : *simulator_;
+    simulate::Simulator made = next_variant_ ? std::move(*next_variant_) : *simulator_;
     next_variant_.reset();
     made.hold_load();
     made.set_options(options_of(run.scene, run.inputs, run.field));
@@ -197,15 +197,15 @@ reenact::Simulator& OpenFace::simulator_of(std::size_t face) {
 
 void OpenFace::expect_variant() {
   // At finite strain the run of base itself completes what a variant keeps.
-  if (!runs_.empty() || next_variant_ || scene_.model.strain == reenact::Strain::finite) return;
+  if (!runs_.empty() || next_variant_ || scene_.model.strain == simulate::Strain::finite) return;
   const scene::Scene next = scene::read_scene_text(
       scene::with_variants(text_, {{{"name", "next"}, {"motion", {{"gain", scene_.drive.gain}}}}}),
       scene_.file);
   scene::Scene base = next;
-  base.drive.by = scene::drive_choice(next, inputs_).by;
-  scene::Inputs inputs = inputs_;
-  inputs.driven = scene::driven_points(base, inputs.motion.motion);
-  reenact::SimulationOptions options = options_of(base, inputs, field_);
+  base.drive.by = session::drive_choice(next, inputs_).by;
+  session::Inputs inputs = inputs_;
+  inputs.driven = session::driven_points(base, inputs.motion.motion);
+  simulate::SimulationOptions options = options_of(base, inputs, field_);
   if (!(options == simulator_->options())) {
     next_base_ = *simulator_;
     next_base_->set_options(std::move(options));
@@ -224,20 +224,20 @@ PointsF OpenFace::still(std::size_t face, double time_s) {
   return simulator_of(face).still(time_s);
 }
 
-reenact::SimulationOptions OpenFace::options_live(std::size_t face,
-                                                  const std::vector<std::string>& points) const {
+simulate::SimulationOptions OpenFace::options_live(std::size_t face,
+                                                   const std::vector<std::string>& points) const {
   if (face > runs_.size()) throw InputError("face: there is none of this number");
   const scene::Scene& scene = face == 0 ? scene_ : runs_[face - 1].scene;
   motion::Motion named;
   named.names = points;
-  reenact::SimulationOptions options =
+  simulate::SimulationOptions options =
       face == 0 ? options_of(scene_, inputs_, field_)
                 : options_of(scene, runs_[face - 1].inputs, runs_[face - 1].field);
-  options.drive.points = scene::driven_points(scene, named);
+  options.drive.points = session::driven_points(scene, named);
   for (const std::string& point : options.drive.points)
     if (std::find(points.begin(), points.end(), point) == points.end())
       throw InputError("drive.points", point + ": not tracked live");
-  if (options.region.measured != reenact::Measured::none)
+  if (options.region.measured != simulate::Measured::none)
     throw InputError("region.measured", "live the whole skin is simulated: expected none");
   return live_options(std::move(options));
 }
@@ -264,26 +264,27 @@ bool OpenFace::up_to_date() const {
                                  [](const Standing& one) { return one.stale; });
 }
 
-void OpenFace::run(const reenact::RunCallbacks& callbacks) {
-  const scene::MirroredTwin twin{
+void OpenFace::run(const simulate::RunCallbacks& callbacks) {
+  const session::MirroredTwin twin{
       .why_not = kNoTwin, .landmarks = {}, .skin_displacement_m = {}, .simulator = {}};
   if (stale_) {
     simulation_ = simulator_->run(callbacks);
-    symmetry_ = symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, twin);
+    symmetry_ =
+        run::symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, twin);
     modes_ = report::displacement_modes(simulation_.performance.skin_displacement_m);
     stale_ = false;
     twin_.reset();
     // At finite strain the run completed the load (what holds the patches): copies made before it
     // lack that.
-    if (scene_.model.strain == reenact::Strain::finite)
+    if (scene_.model.strain == simulate::Strain::finite)
       for (Standing& one : standing_) one = {};
   }
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (!standing_[i].stale) continue;
-    scene::VariantRun& run = runs_[i];
+    run::VariantRun& run = runs_[i];
     run.simulation = simulator_of(i + 1).run(callbacks);
-    run.symmetry =
-        symmetry_measures(run.scene, run.inputs, face_.at_rest, run.simulation.performance, twin);
+    run.symmetry = run::symmetry_measures(run.scene, run.inputs, face_.at_rest,
+                                          run.simulation.performance, twin);
     standing_[i].stale = standing_[i].bands = false;
   }
 }
@@ -297,27 +298,28 @@ bool OpenFace::bands_known() const {
 void OpenFace::find_bands(const std::function<bool()>& cancelled) {
   const metrics::MidsagittalPlane& plane = face_.at_rest.plane;
   if (!twin_) {
-    twin_ = scene::simulate_twin(scene_, inputs_, field_ ? &*field_ : nullptr, plane, *simulator_,
-                                 cancelled);
-    symmetry_ = symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, *twin_);
+    twin_ = session::simulate_twin(scene_, inputs_, field_ ? &*field_ : nullptr, plane, *simulator_,
+                                   cancelled);
+    symmetry_ =
+        run::symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, *twin_);
     twin_->skin_displacement_m.clear();
   }
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (standing_[i].bands) continue;
-    scene::VariantRun& run = runs_[i];
-    reenact::Simulator spent = simulator_of(i + 1);
-    const scene::MirroredTwin twin = scene::simulate_variants_twin(
+    run::VariantRun& run = runs_[i];
+    simulate::Simulator spent = simulator_of(i + 1);
+    const session::MirroredTwin twin = session::simulate_variants_twin(
         run.scene, run.inputs, run.field ? &*run.field : nullptr, plane, spent, *twin_, cancelled);
-    run.symmetry =
-        symmetry_measures(run.scene, run.inputs, face_.at_rest, run.simulation.performance, twin);
+    run.symmetry = run::symmetry_measures(run.scene, run.inputs, face_.at_rest,
+                                          run.simulation.performance, twin);
     standing_[i].bands = true;
   }
 }
 
-scene::Results OpenFace::results() const {
-  scene::Results out{scene_,    inputs_,       *face_.mesh, simulation_,
-                     symmetry_, inputs_.notes, modes_,      field_ ? &*field_ : nullptr,
-                     warnings_};
+run::Results OpenFace::results() const {
+  run::Results out{scene_,    inputs_,       *face_.mesh, simulation_,
+                   symmetry_, inputs_.notes, modes_,      field_ ? &*field_ : nullptr,
+                   warnings_};
   out.teeth = teeth_.get();
   out.notes.insert(out.notes.end(), teeth_notes_.begin(), teeth_notes_.end());
   out.notes.insert(out.notes.end(), face_.mesh->notes.begin(), face_.mesh->notes.end());
@@ -330,21 +332,21 @@ scene::Results OpenFace::results() const {
 }
 
 json OpenFace::replay(report::BinaryBlock& block, bool with_face) const {
-  const scene::Results all = results();
+  const run::Results all = results();
   json summary;
   summary["symmetry"] = metrics::summary_of(symmetry_);
   summary["warnings"] = all.warnings;
   summary["peak_time_s"] =
       simulation_.performance.frame_time_s[std::size_t(simulation_.performance.peak_frame)];
-  if (!runs_.empty()) summary["variants"] = {{"table", scene::variant_table(all, runs_)}};
-  const scene::ReplayPage page(all, runs_, summary);
+  if (!runs_.empty()) summary["variants"] = {{"table", run::variant_table(all, runs_)}};
+  const run::ReplayPage page(all, runs_, summary);
   return report::replay_manifest(page.input(), block, with_face);
 }
 
 json OpenFace::activations(report::BinaryBlock& block) const {
-  const reenact::MuscleCourse& base = simulation_.performance.muscles;
+  const simulate::MuscleCourse& base = simulation_.performance.muscles;
   if (base.names.empty()) return nullptr;
-  const auto rows = [&](const reenact::MuscleCourse& course) {
+  const auto rows = [&](const simulate::MuscleCourse& course) {
     if (course.names != base.names) return json();
     std::vector<float> values;
     for (const auto& row : course.activation.rowwise())
@@ -352,7 +354,7 @@ json OpenFace::activations(report::BinaryBlock& block) const {
     return block.add(values);
   };
   json faces = json::array({rows(base)});
-  for (const scene::VariantRun& run : runs_)
+  for (const run::VariantRun& run : runs_)
     faces.push_back(rows(run.simulation.performance.muscles));
   return {{"names", base.names}, {"time_s", base.time_s}, {"faces", faces}};
 }

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "hyperex/report/page_data.hpp"
-#include "hyperex/scene/output/outputs.hpp"
-#include "hyperex/scene/output/variant_run.hpp"
-#include "hyperex/scene/stages/mirrored_twin.hpp"
-#include "hyperex/scene/stages/prepared_face.hpp"
-#include "hyperex/scene/stages/tissue_fields.hpp"
+#include "hyperex/run/outputs.hpp"
+#include "hyperex/run/variant_run.hpp"
+#include "hyperex/session/mirrored_twin.hpp"
+#include "hyperex/session/prepared_face.hpp"
+#include "hyperex/session/tissue_fields.hpp"
 
 namespace hyperex::studio {
 
@@ -30,7 +30,7 @@ class OpenFace {
   const std::string& text() const { return text_; }
   const std::filesystem::path& file() const { return scene_.file; }
   const scene::Scene& scene() const { return scene_; }
-  const scene::Inputs& inputs() const { return inputs_; }
+  const session::Inputs& inputs() const { return inputs_; }
   const tissue::TissueMesh& mesh() const { return *face_.mesh; }
   std::size_t faces() const { return 1 + runs_.size(); }
   /// What is probably wrong with the inputs or the mesh, a sentence each.
@@ -54,8 +54,8 @@ class OpenFace {
 
   /// A face as it would follow `points` (names) that come in live. Throws InputError where one that
   /// drives is not among them.
-  reenact::SimulationOptions options_live(std::size_t face,
-                                          const std::vector<std::string>& points) const;
+  simulate::SimulationOptions options_live(std::size_t face,
+                                           const std::vector<std::string>& points) const;
   std::shared_ptr<const tissue::TissueMesh> shared_mesh() const { return face_.mesh; }
   /// Of the first region of another text of this face, how much of its change holds at each vertex
   /// of the skin, 0 to 1. Throws InputError.
@@ -67,9 +67,9 @@ class OpenFace {
   bool same_skin(const OpenFace& other) const;
 
   bool up_to_date() const;
-  /// Runs what is not up to date. Throws NumericalError, and reenact::Cancelled: what was done so
+  /// Runs what is not up to date. Throws NumericalError, and simulate::Cancelled: what was done so
   /// far stays.
-  void run(const reenact::RunCallbacks& callbacks);
+  void run(const simulate::RunCallbacks& callbacks);
 
   /// Whether the error bands of all figures are known: not while one edits, as each takes a run of
   /// the mirrored face.
@@ -85,37 +85,37 @@ class OpenFace {
  private:
   /// What a variant's run rests on.
   struct Standing {
-    std::optional<reenact::Simulator> simulator;  ///< with base's load held; none: not made yet
+    std::optional<simulate::Simulator> simulator;  ///< with base's load held; none: not made yet
     bool stale = true, bands = false;
   };
-  reenact::SimulationOptions options_of(const scene::Scene& scene, const scene::Inputs& inputs,
-                                        const std::optional<tissue::TissueField>& field) const;
+  simulate::SimulationOptions options_of(const scene::Scene& scene, const session::Inputs& inputs,
+                                         const std::optional<tissue::TissueField>& field) const;
   void take(scene::Scene next);
-  reenact::Simulator& simulator_of(std::size_t face);
-  scene::Results results() const;
+  simulate::Simulator& simulator_of(std::size_t face);
+  run::Results results() const;
 
   std::string text_;
   scene::Scene scene_;
-  scene::Inputs inputs_;
+  session::Inputs inputs_;
   std::size_t own_notes_ = 0;  ///< of the inputs' notes, those of reading
   std::string drive_why_;
-  scene::PreparedFace face_;
-  std::shared_ptr<const tissue::Teeth> teeth_;  ///< null: none
+  session::PreparedFace face_;
+  std::shared_ptr<const anatomy::Teeth> teeth_;  ///< null: none
   std::vector<std::string> teeth_notes_, warnings_;
-  std::unique_ptr<scene::TissueFields> fields_;
+  std::unique_ptr<session::TissueFields> fields_;
   std::optional<tissue::TissueField> field_;
-  std::optional<reenact::Simulator> simulator_;
+  std::optional<simulate::Simulator> simulator_;
   /// Of expect_variant(): base as it is once there is a variant, none where it stays as it is; and
   /// that variant's.
-  std::optional<reenact::Simulator> next_base_, next_variant_;
+  std::optional<simulate::Simulator> next_base_, next_variant_;
   std::vector<bool> touched_{false, false};  ///< whether obstacles are set for teeth, for eyes
   bool stale_ = true;
-  reenact::SimulationResult simulation_;
+  simulate::SimulationResult simulation_;
   metrics::SymmetryMeasures symmetry_;
-  std::optional<scene::MirroredTwin> twin_;  ///< of base as it is; none: not run yet
+  std::optional<session::MirroredTwin> twin_;  ///< of base as it is; none: not run yet
   report::DisplacementModes modes_;
-  std::vector<scene::VariantRun> runs_;  ///< of the variants
-  std::vector<Standing> standing_;       ///< of each of them
+  std::vector<run::VariantRun> runs_;  ///< of the variants
+  std::vector<Standing> standing_;     ///< of each of them
 };
 
 /// Every key with its value, in the units of scene files: {"tissue.young_kpa": 150}.

@@ -6,7 +6,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/sha256.hpp"
-#include "hyperex/scene/stages/thinned_scan.hpp"
+#include "hyperex/session/thinned_scan.hpp"
 
 namespace hyperex::studio {
 
@@ -28,7 +28,7 @@ std::string write_painting(const tissue::TissueMesh& mesh, const json& vertices,
       throw InputError("shares: expected numbers above 0, up to 1");
     of_skin(vertex.get<Eigen::Index>(), 0) = share.get<float>();
   }
-  if (mesh.full) of_skin = scene::on_full_skin(*mesh.full, of_skin);
+  if (mesh.full) of_skin = session::on_full_skin(*mesh.full, of_skin);
   const Eigen::Index rows = mesh.full ? mesh.full->scan_vertices : mesh.scan_vertices;
   if (!(of_skin.topRows(rows).maxCoeff() > 0))
     throw InputError("vertices: expected some of the scan's own");

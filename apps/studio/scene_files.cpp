@@ -11,9 +11,9 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/zip.hpp"
-#include "hyperex/scene/grammar/keys.hpp"
-#include "hyperex/scene/grammar/scene_text.hpp"
-#include "hyperex/scene/grammar/toml_values.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/scene_text.hpp"
+#include "hyperex/scene/toml_values.hpp"
 #include "server.hpp"
 
 __asm__(

@@ -11,12 +11,12 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
-#include "hyperex/scene/grammar/keys.hpp"
-#include "hyperex/scene/grammar/new_scene.hpp"
-#include "hyperex/scene/grammar/scene_text.hpp"
-#include "hyperex/scene/grammar/toml_values.hpp"
-#include "hyperex/scene/run/pipeline.hpp"
-#include "hyperex/scene/stages/drive_choice.hpp"
+#include "hyperex/run/pipeline.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/new_scene.hpp"
+#include "hyperex/scene/scene_text.hpp"
+#include "hyperex/scene/toml_values.hpp"
+#include "hyperex/session/drive_choice.hpp"
 #include "scene_files.hpp"
 #include "server.hpp"
 #include "shape_message.hpp"
@@ -250,7 +250,7 @@ std::string Session::changed(const json& wanted, int face) {
     changes[key] = with_uploads(key, value, uploads(), known);
   }
   if (changes_muscles(changes) &&
-      scene::drive_choice(committed, face_->inputs()).by != reenact::DriveBy::muscles)
+      session::drive_choice(committed, face_->inputs()).by != simulate::DriveBy::muscles)
     text = scene::with_value(text, "drive.by", "muscles");
   if (face == 0) {
     for (const auto& [key, value] : changes.items()) text = scene::with_value(text, key, value);
@@ -343,14 +343,14 @@ json Session::save(const json& fields) {
   tell(what == "run" ? "running and writing" : "running for the report");
   if (what == "run") {
     const fs::path folder = free(into / name);
-    run_scene(scene, folder);
+    run::run_scene(scene, folder);
     tell("");
     return done(folder);
   }
   const fs::path file = free(into / (name + ".html"));
   scene.output.vtu = scene.output.glb = false;
   const fs::path folder = options_.folder / "report";
-  run_scene(scene, folder);
+  run::run_scene(scene, folder);
   write_file_atomically(file, [&](std::ostream& out) { out << read_file(folder / "report.html"); });
   tell("");
   return done(file);
@@ -366,7 +366,7 @@ bool Session::has_work() const {
 void Session::work(const std::function<bool()>& cancelled) {
   Stopwatch watch;
   if (!motion_due_) return variant_due_ ? expect_variant() : find_bands(cancelled);
-  reenact::RunCallbacks callbacks;
+  simulate::RunCallbacks callbacks;
   callbacks.cancelled = cancelled;
   callbacks.progress = [&](double share) { tell("simulating", share); };
   try {
@@ -374,7 +374,7 @@ void Session::work(const std::function<bool()>& cancelled) {
     motion_due_ = false;
     bands_due_ = options_.bands && !face_->bands_known();
     send_motion(watch);
-  } catch (const reenact::Cancelled&) {
+  } catch (const simulate::Cancelled&) {
     return;
   } catch (const std::exception& error) {
     motion_due_ = false;
@@ -400,7 +400,7 @@ void Session::find_bands(const std::function<bool()>& cancelled) {
     face_->find_bands(cancelled);
     bands_due_ = false;
     send_motion(watch);
-  } catch (const reenact::Cancelled&) {
+  } catch (const simulate::Cancelled&) {
   } catch (const std::exception& error) {
     bands_due_ = false;
     say("warning",

@@ -2,9 +2,9 @@
 #include <chrono>
 
 #include "hyperex/core/files.hpp"
-#include "hyperex/scene/grammar/keys.hpp"
-#include "hyperex/scene/grammar/toml_values.hpp"
-#include "hyperex/scene/grammar/variant_presets.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/toml_values.hpp"
+#include "hyperex/scene/variant_presets.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 #include "session.hpp"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/anatomy/landmark_doubts.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/same_place.hpp"
-#include "hyperex/scene/grammar/scene_text.hpp"
-#include "hyperex/tissue/landmark_doubts.hpp"
+#include "hyperex/scene/scene_text.hpp"
 #include "session.hpp"
 
 namespace hyperex::studio {
@@ -39,7 +39,7 @@ json Session::move_landmark(const json& fields) {
   const Vec3 now = all.at(name);
   if (names.size() > 1) all.erase(names[1]);  // said once, by the name that was asked for
   return {{"position", {now.x(), now.y(), now.z()}},
-          {"warnings", tissue::landmark_doubts(all, scan.mesh)}};
+          {"warnings", anatomy::landmark_doubts(all, scan.mesh)}};
 }
 
 json Session::landmarks_done() {

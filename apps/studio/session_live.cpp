@@ -8,7 +8,7 @@
 #include "hyperex/capture/open_source.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/read_motion.hpp"
-#include "hyperex/scene/grammar/scene_text.hpp"
+#include "hyperex/scene/scene_text.hpp"
 #include "session.hpp"
 
 namespace hyperex::studio {

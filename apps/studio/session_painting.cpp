@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/core/error.hpp"
-#include "hyperex/scene/grammar/scene_text.hpp"
+#include "hyperex/scene/scene_text.hpp"
 #include "painting.hpp"
 #include "scene_files.hpp"
 #include "session.hpp"

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/scene/grammar/scene_text.hpp"
-#include "hyperex/scene/grammar/variant_names.hpp"
+#include "hyperex/scene/scene_text.hpp"
+#include "hyperex/scene/variant_names.hpp"
 #include "session.hpp"
 
 namespace hyperex::studio {

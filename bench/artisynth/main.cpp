@@ -15,12 +15,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/register_face.hpp"
 
 namespace hyperex {
 namespace {
@@ -71,9 +71,9 @@ struct Laid {
 };
 
 Laid laid_over(const io::Landmarks& landmarks, const TriMesh& skin) {
-  const tissue::RegisteredFace laid = tissue::register_canonical_face(landmarks, skin);
-  const TriMesh& canonical = tissue::canonical_face().mesh;
-  const tissue::EmbeddedFace face = tissue::embedded_face();
+  const anatomy::RegisteredFace laid = anatomy::register_canonical_face(landmarks, skin);
+  const TriMesh& canonical = anatomy::canonical_face().mesh;
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
   const tissue::TissueMesh mesh =
       tissue::build_tissue_mesh(face.mesh, face.landmarks, {}, "embedded");
   std::vector<muscles::MuscleLine> lines =
@@ -97,7 +97,7 @@ Laid laid_over(const io::Landmarks& landmarks, const TriMesh& skin) {
           (on + laid.scan_from_canonical.scale * height * outwards_there.normalized()).transpose();
     }
   for (const auto& [name, at] : landmarks)
-    out.off_m += (tissue::canonical_face().landmark(name, laid.points) - at).norm() /
+    out.off_m += (anatomy::canonical_face().landmark(name, laid.points) - at).norm() /
                  double(landmarks.size());
   return out;
 }

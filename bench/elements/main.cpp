@@ -9,9 +9,9 @@
 #include <map>
 
 #include "candidates.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/progress.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 #include "infsup.hpp"
 #include "reference.hpp"
 
@@ -153,7 +153,7 @@ void layer(const std::filesystem::path& folder, Steps& progress) {
 
 /// What each candidate costs on the face that comes with the program; the inner surface held.
 void face(const std::filesystem::path& folder, Steps& progress) {
-  const auto embedded = tissue::embedded_face();
+  const auto embedded = anatomy::embedded_face();
   const auto mesh = tissue::build_tissue_mesh(embedded.mesh, embedded.landmarks, {}, "embedded");
   auto out = fmt::output_file((folder / "face.csv").string());
   out.print("candidate,nodes,tets,{}\n", kTimes);

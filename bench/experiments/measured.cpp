@@ -24,7 +24,7 @@ struct Peak {
 
 Peak peak_of(Study& study) {
   const auto result = study.simulate(study.own_trial());
-  const reenact::Performance& p = result.performance;
+  const simulate::Performance& p = result.performance;
   const PointsF& d = p.skin_displacement_m[std::size_t(p.peak_frame)];
   return {moved_skin(p, d), 1e3F * d.rowwise().norm(), p.frame_time_s[std::size_t(p.peak_frame)]};
 }

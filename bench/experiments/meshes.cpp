@@ -18,7 +18,7 @@ std::vector<MeshRow> models_on_meshes(const std::filesystem::path& scene) {
     for (std::size_t m = 1; m < 3; ++m)
       trials[m].tissue = study.tissue_of(study.scene().variants[m - 1].scene);
     double end[3] = {};
-    study.simulate_all(trials, [&](std::size_t m, const reenact::SimulationResult& run) {
+    study.simulate_all(trials, [&](std::size_t m, const simulate::SimulationResult& run) {
       end[m] = metrics::signed_difference(study.symmetry_of(run.performance.landmarks)).back();
     });
     rows.push_back({element_mm, int(study.mesh().volume.tets.rows()), end[0], end[1] - end[0],

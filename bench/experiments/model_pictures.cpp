@@ -13,9 +13,9 @@
 namespace hyperex::bench {
 
 void draw_model_maps(const Study& study,
-                     const std::array<const reenact::SimulationResult*, 3>& models,
+                     const std::array<const simulate::SimulationResult*, 3>& models,
                      const std::filesystem::path& file) {
-  const reenact::Performance& base = models[0]->performance;
+  const simulate::Performance& base = models[0]->performance;
   const FacePictures pictures(study);
   std::array<Eigen::VectorXf, 3> apart_mm;
   double top = 0;

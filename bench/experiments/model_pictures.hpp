@@ -11,7 +11,7 @@ namespace hyperex::bench {
 
 /// The shapes of three models at the end, and the distance of the second and third from the first.
 void draw_model_maps(const Study& study,
-                     const std::array<const reenact::SimulationResult*, 3>& models,
+                     const std::array<const simulate::SimulationResult*, 3>& models,
                      const std::filesystem::path& file);
 
 /// Three panels: S(t), how far models 2 and 3 part from 1 in it, and what the tissue alone does to

@@ -16,8 +16,8 @@
 namespace hyperex::bench {
 namespace {
 
-using reenact::Performance;
-using reenact::SimulationResult;
+using simulate::Performance;
+using simulate::SimulationResult;
 constexpr double kNear_m = 0.025, kClose_m = 0.010;
 constexpr double kSettled_s = 0.1;  // before, xi_L - xi_R is hardly above the floor
 constexpr const char* kAtOnce = "a hundredth of the viscosity and mass";

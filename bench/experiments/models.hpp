@@ -60,8 +60,8 @@ struct ModelsFace {
 };
 
 /// What the other model makes of the skin beside what the one makes of it.
-ModelPair pair_of(const Study& study, const std::string& name, const reenact::Performance& one,
-                  const reenact::Performance& other);
+ModelPair pair_of(const Study& study, const std::string& name, const simulate::Performance& one,
+                  const simulate::Performance& other);
 
 /// Experiment 3. Writes experiment_3_symmetry.png and experiment_3_maps_*.jpg.
 std::vector<ModelsFace> hyper_expression(const Setting& setting);

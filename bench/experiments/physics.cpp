@@ -13,8 +13,8 @@
 namespace hyperex::bench {
 namespace {
 
-using reenact::Performance;
-using reenact::SimulationResult;
+using simulate::Performance;
+using simulate::SimulationResult;
 
 double largest_mm(const Performance& p) {
   float most = 0;
@@ -100,7 +100,7 @@ PhysicsFace face_of(const Setting& setting, bool subject_a, render::ContactSheet
 
   PhysicsFace face;
   face.name = study.name();
-  const reenact::SimulationReport& report = results[0].report;
+  const simulate::SimulationReport& report = results[0].report;
   face.driven_points = int(base.driven_names.size());
   face.driven_nodes = report.driven_nodes;
   face.skull_nodes = report.skull_nodes;

@@ -57,7 +57,7 @@ render::Marker FacePictures::marker(const Vec3& at, const render::Colour& colour
   return {frame_.local(at), colour, 3.5};
 }
 
-TriMesh moved_skin(const reenact::Performance& p, const PointsF& displacement) {
+TriMesh moved_skin(const simulate::Performance& p, const PointsF& displacement) {
   return {p.skin_rest.points + displacement.cast<double>(), p.skin_rest.triangles};
 }
 

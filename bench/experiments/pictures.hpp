@@ -40,7 +40,7 @@ class FacePictures {
 };
 
 /// The skin of a performance moved by `displacement`.
-TriMesh moved_skin(const reenact::Performance& p, const PointsF& displacement);
+TriMesh moved_skin(const simulate::Performance& p, const PointsF& displacement);
 
 /// JPEG, for pictures of faces, which as PNG are several times as large.
 void write_jpeg(const std::filesystem::path& file, const render::Image& image);

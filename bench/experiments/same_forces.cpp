@@ -35,7 +35,7 @@ DrivenWay driven(const std::filesystem::path& file, const std::string& by) {
   std::vector<Trial> trials(3, study.own_trial());
   for (std::size_t m = 1; m < 3; ++m)
     trials[m].tissue = study.tissue_of(study.scene().variants[m - 1].scene);
-  const std::vector<reenact::SimulationResult> runs = study.by_same_forces(trials);
+  const std::vector<simulate::SimulationResult> runs = study.by_same_forces(trials);
   DrivenWay way;
   std::vector<metrics::SymmetryCurve> curves;
   for (std::size_t m = 0; m < 3; ++m) {

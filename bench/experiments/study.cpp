@@ -10,18 +10,19 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/midsagittal.hpp"
-#include "hyperex/scene/stages/simulation_options.hpp"
+#include "hyperex/session/simulation_options.hpp"
 
 namespace hyperex::bench {
 
 Study::Study(const std::filesystem::path& scene, const std::vector<std::string>& overrides)
     : scene_(scene::read_scene(scene, overrides)),
-      inputs_(scene::read_inputs(scene_)),
+      inputs_(session::read_inputs(scene_)),
       mesh_(std::make_shared<const tissue::TissueMesh>(tissue::build_tissue_mesh(
           inputs_.scan.mesh, inputs_.landmarks, scene_.mesh, inputs_.scan.file.string()))),
       frame_(face::face_frame(inputs_.landmarks)),
       fields_(inputs_, *mesh_),
-      base_(mesh_, inputs_.landmarks, inputs_.motion, scene::simulation_options(scene_, inputs_)) {
+      base_(mesh_, inputs_.landmarks, inputs_.motion,
+            session::simulation_options(scene_, inputs_)) {
   base_.run();
 }
 
@@ -38,40 +39,40 @@ Tissue Study::tissue_of(const scene::Scene& scene) {
   return tissue;
 }
 
-reenact::SimulationResult Study::simulate(const Trial& trial) const {
+simulate::SimulationResult Study::simulate(const Trial& trial) const {
   return simulate(trial, nullptr);
 }
 
-reenact::SimulationResult Study::simulate(const Trial& trial,
-                                          const reenact::AlignedMotion& motion) const {
+simulate::SimulationResult Study::simulate(const Trial& trial,
+                                           const simulate::AlignedMotion& motion) const {
   return simulate(trial, &motion);
 }
 
-reenact::SimulationOptions Study::options_of(const Trial& trial) const {
+simulate::SimulationOptions Study::options_of(const Trial& trial) const {
   // Differences of some hundredths of a millimetre are looked at: the reduced model must be nearer
   // to the full one than a run that is looked at by eye.
   constexpr double tolerance = 1e-4;
-  reenact::SimulationOptions options = base_.options();
+  simulate::SimulationOptions options = base_.options();
   options.model.element = trial.element;
   options.solver.tolerance = tolerance;
-  if (!trial.reduced) options.solver.method = reenact::SolverMethod::direct;
+  if (!trial.reduced) options.solver.method = simulate::SolverMethod::direct;
   options.model.viscous_form = trial.form;
   options.tissue.element = trial.tissue;
   return options;
 }
 
-reenact::SimulationResult Study::simulate(const Trial& trial,
-                                          const reenact::AlignedMotion* motion) const {
-  reenact::Simulator simulator = base_;
+simulate::SimulationResult Study::simulate(const Trial& trial,
+                                           const simulate::AlignedMotion* motion) const {
+  simulate::Simulator simulator = base_;
   simulator.set_options(options_of(trial));
   if (motion) simulator.set_motion(*motion);
   return simulator.run();
 }
 
-std::vector<reenact::SimulationResult> Study::by_same_forces(
+std::vector<simulate::SimulationResult> Study::by_same_forces(
     const std::vector<Trial>& trials) const {
-  reenact::Simulator simulator = base_;
-  std::vector<reenact::SimulationResult> results;
+  simulate::Simulator simulator = base_;
+  std::vector<simulate::SimulationResult> results;
   for (const Trial& trial : trials) {
     simulator.set_options(options_of(trial));
     results.push_back(simulator.run());
@@ -82,7 +83,7 @@ std::vector<reenact::SimulationResult> Study::by_same_forces(
 
 void Study::simulate_all(
     const std::vector<Trial>& trials,
-    const std::function<void(std::size_t, reenact::SimulationResult)>& take) const {
+    const std::function<void(std::size_t, simulate::SimulationResult)>& take) const {
   std::atomic<int> done = 0;
   tbb::parallel_for(std::size_t(0), trials.size(), [&](std::size_t i) {
     take(i, simulate(trials[i]));
@@ -95,10 +96,10 @@ metrics::SymmetryCurve Study::symmetry_of(const motion::Motion& landmarks) const
   return metrics::symmetry_of(landmarks, scene_.output.symmetry_floor, inputs_.jitter_m);
 }
 
-reenact::AlignedMotion Study::mirrored_motion() const {
+simulate::AlignedMotion Study::mirrored_motion() const {
   const metrics::MidsagittalPlane plane =
       metrics::midsagittal_plane(inputs_.scan.mesh, inputs_.landmarks);
-  reenact::AlignedMotion mirrored = inputs_.motion;
+  simulate::AlignedMotion mirrored = inputs_.motion;
   const motion::Motion& from = inputs_.motion.motion;
   for (std::size_t p = 0; p < from.names.size(); ++p) {
     const int other = from.index_of(face::mirrored_landmark(from.names[p]));
@@ -132,7 +133,7 @@ Tissue at_once(Tissue tissue) {
                hardly_any);
 }
 
-std::vector<std::string> undriven_landmarks(const Study& study, const reenact::Performance& p) {
+std::vector<std::string> undriven_landmarks(const Study& study, const simulate::Performance& p) {
   constexpr double moves_m = 1e-3;
   const double clear_m = 2 * study.scene().drive.patch_radius_m;
   std::vector<std::string> names;

@@ -9,9 +9,9 @@
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/symmetry.hpp"
-#include "hyperex/reenact/simulator.hpp"
-#include "hyperex/scene/stages/inputs.hpp"
-#include "hyperex/scene/stages/tissue_fields.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/session/tissue_fields.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 
 namespace hyperex::bench {
 
@@ -36,7 +36,7 @@ class Study {
   Study& operator=(const Study&) = delete;
 
   const scene::Scene& scene() const { return scene_; }
-  const scene::Inputs& inputs() const { return inputs_; }
+  const session::Inputs& inputs() const { return inputs_; }
   const tissue::TissueMesh& mesh() const { return *mesh_; }
   const face::FaceFrame& frame() const { return frame_; }
   bool embedded() const { return scene_.scan.source.embedded; }
@@ -49,31 +49,31 @@ class Study {
     return {tissue_of(scene_), scene_.model.element, scene_.model.viscous_form, true};
   }
 
-  reenact::SimulationResult simulate(const Trial& trial) const;
+  simulate::SimulationResult simulate(const Trial& trial) const;
   /// All of them at once, told of on standard error; `take` gets each result, from several threads.
   void simulate_all(const std::vector<Trial>& trials,
-                    const std::function<void(std::size_t, reenact::SimulationResult)>& take) const;
-  reenact::SimulationResult simulate(const Trial& trial,
-                                     const reenact::AlignedMotion& motion) const;
+                    const std::function<void(std::size_t, simulate::SimulationResult)>& take) const;
+  simulate::SimulationResult simulate(const Trial& trial,
+                                      const simulate::AlignedMotion& motion) const;
   /// Where the scene is driven by forces: those found in the first trial's tissue move all.
-  std::vector<reenact::SimulationResult> by_same_forces(const std::vector<Trial>& trials) const;
+  std::vector<simulate::SimulationResult> by_same_forces(const std::vector<Trial>& trials) const;
   metrics::SymmetryCurve symmetry_of(const motion::Motion& landmarks) const;
 
   /// The motion reflected in the face's midsagittal plane: each point moves as its counterpart on
   /// the other side did, mirrored.
-  reenact::AlignedMotion mirrored_motion() const;
+  simulate::AlignedMotion mirrored_motion() const;
 
  private:
-  reenact::SimulationResult simulate(const Trial& trial,
-                                     const reenact::AlignedMotion* motion) const;
-  reenact::SimulationOptions options_of(const Trial& trial) const;
+  simulate::SimulationResult simulate(const Trial& trial,
+                                      const simulate::AlignedMotion* motion) const;
+  simulate::SimulationOptions options_of(const Trial& trial) const;
 
   scene::Scene scene_;
-  scene::Inputs inputs_;
+  session::Inputs inputs_;
   std::shared_ptr<const tissue::TissueMesh> mesh_;
   face::FaceFrame frame_;
-  scene::TissueFields fields_;
-  reenact::Simulator base_;  // has run: what every trial begins with
+  session::TissueFields fields_;
+  simulate::Simulator base_;  // has run: what every trial begins with
 };
 
 /// Positions of a landmark over time, N x 3 (m); it must be there.
@@ -88,6 +88,6 @@ Tissue at_once(Tissue tissue);
 
 /// Landmarks that move by more than a millimetre and lie farther than twice the radius of a driven
 /// patch from all driven points: what follows through the tissue alone.
-std::vector<std::string> undriven_landmarks(const Study& study, const reenact::Performance& p);
+std::vector<std::string> undriven_landmarks(const Study& study, const simulate::Performance& p);
 
 }  // namespace hyperex::bench

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hyperex/motion/resample.hpp"
-#include "hyperex/scene/stages/simulation_options.hpp"
+#include "hyperex/session/simulation_options.hpp"
 #include "support/timing.hpp"
 
 namespace hyperex::bench {
@@ -25,11 +25,11 @@ scene::Scene scene_of(Face face) {
 
 FaceCase::FaceCase(Face face, const MeshSize& size) {
   const scene::Scene scene = scene_of(face);
-  const scene::Inputs inputs = scene::read_inputs(scene);
+  const session::Inputs inputs = session::read_inputs(scene);
   name_ = scene.title;
   landmarks_ = inputs.landmarks;
   motion_ = inputs.motion;
-  options_ = scene::simulation_options(scene, inputs);
+  options_ = session::simulation_options(scene, inputs);
 
   tissue::TissueMeshOptions meshing = scene.mesh;
   if (size.element_size_m > 0) meshing.element_size_m = size.element_size_m;
@@ -38,11 +38,11 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
   mesh_ = std::make_shared<const tissue::TissueMesh>(
       tissue::build_tissue_mesh(inputs.scan.mesh, landmarks_, meshing, inputs.scan.file.string()));
   mesh_s_ = watch.lap();
-  const auto region = reenact::measured_region(mesh(), landmarks_, motion_, options_.region);
-  boundary_ = std::make_unique<reenact::Boundary>(mesh(), landmarks_, motion_, region,
-                                                  options_.drive, options_.support);
+  const auto region = simulate::measured_region(mesh(), landmarks_, motion_, options_.region);
+  boundary_ = std::make_unique<simulate::Boundary>(mesh(), landmarks_, motion_, region,
+                                                   options_.drive, options_.support);
 
-  points_ = std::make_unique<reenact::PointCurve>(motion_, options_.drive.gain);
+  points_ = std::make_unique<simulate::PointCurve>(motion_, options_.drive.gain);
   start_s_ = motion_.motion.time_s.front();
   const double end_s =
       options_.time.end_s > 0 ? options_.time.end_s : motion_.motion.time_s.back() - start_s_;
@@ -56,12 +56,12 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
     }
 }
 
-reenact::Simulator FaceCase::simulator() const {
+simulate::Simulator FaceCase::simulator() const {
   return {mesh_, landmarks_, motion_, options_};
 }
 
 fem::Material FaceCase::material(double viscosity_factor) const {
-  reenact::TissueValues values = options_.tissue;
+  simulate::TissueValues values = options_.tissue;
   values.uniform[tissue::viscosity] *= viscosity_factor;
   return values.material(static_cast<std::size_t>(mesh().volume.tets.rows()),
                          options_.model.viscous_form);
@@ -83,8 +83,8 @@ fem::System FaceCase::system(fem::ElementKind kind, double viscosity_factor) con
 fem::Drive FaceCase::shapes(const std::function<Points(double)>& points, double tolerance,
                             int steps) const {
   // Of the answer, not of this object: following the jaw begins at its last position.
-  reenact::Boundary boundary = *boundary_;
-  return reenact::input_shapes(boundary, points, dt_s_, steps, 1e-3 * tolerance).drive;
+  simulate::Boundary boundary = *boundary_;
+  return simulate::input_shapes(boundary, points, dt_s_, steps, 1e-3 * tolerance).drive;
 }
 
 fem::Drive FaceCase::drive(double solver_tolerance, int steps) const {

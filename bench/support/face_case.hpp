@@ -5,11 +5,11 @@
 #include <string>
 
 #include "hyperex/fem/form/assembler.hpp"
-#include "hyperex/reenact/boundary.hpp"
-#include "hyperex/reenact/input_shapes.hpp"
-#include "hyperex/reenact/point_curve.hpp"
-#include "hyperex/reenact/simulator.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/simulate/drive/boundary.hpp"
+#include "hyperex/simulate/drive/input_shapes.hpp"
+#include "hyperex/simulate/drive/point_curve.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::bench {
 
@@ -30,13 +30,13 @@ class FaceCase {
 
   std::string name() const { return name_; }
   /// The same as a program has it.
-  reenact::Simulator simulator() const;
+  simulate::Simulator simulator() const;
   const tissue::TissueMesh& mesh() const { return *mesh_; }
-  const reenact::Boundary& boundary() const { return *boundary_; }
+  const simulate::Boundary& boundary() const { return *boundary_; }
   const std::vector<int>& prescribed() const { return boundary_->prescribed(); }
   double dt_s() const { return dt_s_; }
   int steps() const { return steps_; }
-  const reenact::TissueValues& tissue() const { return options_.tissue; }
+  const simulate::TissueValues& tissue() const { return options_.tissue; }
   double mesh_seconds() const { return mesh_s_; }  ///< of building the tissue mesh
 
   /// The scene's tissue with its viscosity multiplied.
@@ -56,11 +56,11 @@ class FaceCase {
 
   std::string name_;
   io::Landmarks landmarks_;
-  reenact::AlignedMotion motion_;
-  reenact::SimulationOptions options_;
+  simulate::AlignedMotion motion_;
+  simulate::SimulationOptions options_;
   std::shared_ptr<const tissue::TissueMesh> mesh_;
-  std::unique_ptr<reenact::Boundary> boundary_;
-  std::unique_ptr<reenact::PointCurve> points_;
+  std::unique_ptr<simulate::Boundary> boundary_;
+  std::unique_ptr<simulate::PointCurve> points_;
   double dt_s_ = 0, start_s_ = 0, peak_s_ = 0, mesh_s_ = 0;
   int steps_ = 0;
 };

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/ibug.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::bench {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kNoise_m = 0.0003;
 
 test::TwinFace embedded_twin() {
-  const tissue::EmbeddedFace face = tissue::embedded_face();
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
   test::TwinFace out;
   out.landmarks = face.landmarks;
   out.mesh = std::make_shared<const tissue::TissueMesh>(
@@ -25,9 +25,9 @@ test::TwinFace embedded_twin() {
 /// E over that without the change, a tetrahedron.
 std::vector<double> stiff_region(const test::TwinFace& face, const std::string& region,
                                  double factor) {
-  const tissue::EmbeddedFace scan = tissue::embedded_face();
-  const tissue::RegisteredFace registered =
-      tissue::register_canonical_face(face.landmarks, scan.mesh);
+  const anatomy::EmbeddedFace scan = anatomy::embedded_face();
+  const anatomy::RegisteredFace registered =
+      anatomy::register_canonical_face(face.landmarks, scan.mesh);
   const tissue::TissueFieldMaker maker(*face.mesh, face.landmarks, &registered);
   tissue::TissueFieldOptions options;
   tissue::TissueRegion change;

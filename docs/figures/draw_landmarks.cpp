@@ -4,10 +4,10 @@
 #include <iostream>
 #include <vector>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/canvas.hpp"
 #include "hyperex/render/render.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 
 using namespace hyperex;
 
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     std::cerr << "draw_landmarks: expected the name of the picture to write\n";
     return 2;
   }
-  const auto face = tissue::embedded_face();
+  const auto face = anatomy::embedded_face();
   const double aspect = double(kFace_px) / kHeight_px;
   const render::Camera camera =
       render::framing(face.mesh.points, render::front_view(), aspect, Vec3::UnitY(), 0.03);

@@ -6,20 +6,20 @@
 using namespace hyperex;
 
 int main() try {
-  const tissue::EmbeddedFace face = tissue::embedded_face();
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
   const auto mesh = std::make_shared<const tissue::TissueMesh>(
       tissue::build_tissue_mesh(face.mesh, face.landmarks, {}, "embedded face"));
 
   // Of a recording: read_motion() and fill_gaps() come first. The head's own motion is taken out,
   // what is left is carried to this face.
   const motion::Motion recorded = motion::embedded_mouth_opening(face.landmarks);
-  const reenact::AlignedMotion motion =
-      reenact::align(motion::stabilise(recorded).motion, face.landmarks);
+  const simulate::AlignedMotion motion =
+      simulate::align(motion::stabilise(recorded).motion, face.landmarks);
 
-  reenact::Simulator simulator(mesh, face.landmarks, motion);
-  reenact::RunCallbacks callbacks;
+  simulate::Simulator simulator(mesh, face.landmarks, motion);
+  simulate::RunCallbacks callbacks;
   callbacks.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%", 100 * share); };
-  const reenact::SimulationResult result = simulator.run(callbacks);
+  const simulate::SimulationResult result = simulator.run(callbacks);
 
   std::printf("%d unknowns, %zu frames\n", result.report.free_dofs,
               result.performance.frame_time_s.size());

@@ -12,16 +12,16 @@ double travel_mm(const motion::Motion& landmarks, const char* name) {
 }
 
 int main() {
-  const tissue::EmbeddedFace face = tissue::embedded_face();
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
   const auto mesh = std::make_shared<const tissue::TissueMesh>(
       tissue::build_tissue_mesh(face.mesh, face.landmarks, {}, "embedded face"));
   const motion::Motion opening = motion::embedded_mouth_opening(face.landmarks);
-  reenact::Simulator simulator(mesh, face.landmarks,
-                               reenact::align(motion::stabilise(opening).motion, face.landmarks));
+  simulate::Simulator simulator(mesh, face.landmarks,
+                                simulate::align(motion::stabilise(opening).motion, face.landmarks));
 
   std::puts("young_kpa,cheek_L_mm,cheek_R_mm");
   for (const double young_kpa : {25.0, 50.0, 100.0, 200.0, 400.0}) {
-    reenact::TissueValues values = simulator.options().tissue;
+    simulate::TissueValues values = simulator.options().tissue;
     values.uniform[tissue::young] = 1e3 * young_kpa;
     simulator.set_tissue(values);  // the mesh, its boundary and the order of elimination are kept
     const motion::Motion moved = simulator.run().performance.landmarks;

@@ -19,17 +19,17 @@
 #include "hyperex/motion/stabilise.hpp"
 
 // A face made ready: its own landmarks completed, its soft tissue meshed, its stiffness mapped.
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/landmark_doubts.hpp"
+#include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
-#include "hyperex/tissue/landmark_doubts.hpp"
-#include "hyperex/tissue/landmarks.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 // The simulation, and the solver below it.
 #include "hyperex/fem.hpp"
-#include "hyperex/reenact/alignment.hpp"
-#include "hyperex/reenact/simulator.hpp"
+#include "hyperex/simulate/drive/alignment.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 
 // Out: measures and files.
 #include "hyperex/io/csv.hpp"

@@ -4,10 +4,10 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 
 namespace hyperex {
 namespace fs = std::filesystem;
@@ -42,14 +42,14 @@ void tear(const fs::path& file, double share) {
 }
 
 TriMesh good_face() {
-  return tissue::embedded_face().mesh;
+  return anatomy::embedded_face().mesh;
 }
 io::Landmarks good_landmarks() {
-  return tissue::embedded_face().landmarks;
+  return anatomy::embedded_face().landmarks;
 }
 
 void write_good_inputs(const fs::path& folder) {
-  const auto face = tissue::embedded_face();
+  const auto face = anatomy::embedded_face();
   write_mm(folder / "face.ply", face.mesh);
   io::write_landmarks(folder / "face_landmarks.json", face.landmarks, io::LengthUnit::millimetre);
   motion::Motion opening = motion::embedded_mouth_opening(face.landmarks);

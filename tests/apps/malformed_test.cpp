@@ -2,7 +2,7 @@
 // Faulty scans, landmarks and recordings of many kinds.
 #include "apps/malformed.hpp"
 
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
 
 namespace hyperex {
 namespace {
@@ -39,7 +39,7 @@ void write_two_faces(const In& in) {
 
 /// The lips joined, and a slit in the scan from the nose to the chin that a cut cannot cross.
 void write_split_closed_mouth(const In& in) {
-  const TriMesh& closed = tissue::canonical_face().mesh;
+  const TriMesh& closed = anatomy::canonical_face().mesh;
   TriMesh mesh{closed.points, Triangles(closed.triangles.rows(), 3)};
   Eigen::Index kept = 0;
   const double nose = good_landmarks().at("ibug68_33")[1];
@@ -188,7 +188,7 @@ const std::vector<Fault> kLandmarks{
      [](const In& in) {
        write_marks(in, [](io::Landmarks& l) {
          const io::Landmarks old = l;
-         for (auto& [name, p] : l) p = old.at(tissue::mirrored_landmark(name));
+         for (auto& [name, p] : l) p = old.at(anatomy::mirrored_landmark(name));
        });
      },
      {kMarks, "left", "right"}},

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/program.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/io/csv.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 
 namespace hyperex {
 namespace {
@@ -48,7 +48,7 @@ Spread near(const Eigen::VectorXf& values, const Points& at, const Vec3& place, 
 
 TEST_F(Tissue, AStiffCheekMovesMoreEvenlyAndLessTowardsTheJaw) {
   const Eigen::VectorXf same = peak_mm("mouth_open"), stiff = peak_mm("stiff_cheek");
-  const tissue::EmbeddedFace face = tissue::embedded_face();
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
   const Points& at = face.mesh.points;
   ASSERT_EQ(stiff.size(), same.size());
   // The stiff cheek moves as one piece: its displacements differ less from place to place.

@@ -15,7 +15,7 @@
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/read_motion.hpp"
-#include "hyperex/scene/grammar/scene.hpp"
+#include "hyperex/scene/scene.hpp"
 
 namespace hyperex::fuzz {
 namespace fs = std::filesystem;

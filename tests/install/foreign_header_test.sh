@@ -14,5 +14,5 @@ refused() {  # LINE OF CODE, WHAT IS SAID
   grep -q "$5" <<< "$said" || { echo "for $2: $said"; exit 1; }
 }
 refused "$1" '#include <opencv2/core.hpp>' "$2" "$3" 'system.hpp includes opencv2/core.hpp'
-refused "$1" '#include "hyperex/scene/grammar/scene.hpp"' "$2" "$3" 'hyperex/scene/grammar/scene.hpp, which is not installed'
+refused "$1" '#include "hyperex/scene/scene.hpp"' "$2" "$3" 'hyperex/scene/scene.hpp, which is not installed'
 refused "$1" 'inline Lists forgotten;' "$2" "$3" 'does not compile alone: .*fem_form_system.hpp'

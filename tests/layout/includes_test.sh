@@ -20,19 +20,23 @@ for ((i = 0; i < ${#rooms[@]}; ++i)); do
     status=1
   fi
 done
-# The room scene has parts, each of which includes only those before it.
-mapfile -t parts < <(sed -n 's|^add_subdirectory(\([a-z]*\))$|\1|p' src/hyperex/scene/CMakeLists.txt)
-((${#parts[@]} > 3)) || { echo "the parts of scene are not found in its CMakeLists.txt"; exit 1; }
-for folder in src/hyperex/scene/*/; do
-  folder=$(basename "$folder")
-  [[ " ${parts[*]} " == *" $folder "* ]] || { echo "$folder is no part of src/hyperex/scene/CMakeLists.txt"; exit 1; }
-done
-for ((i = 0; i + 1 < ${#parts[@]}; ++i)); do
-  below=$(IFS='|'; echo "${parts[*]:i+1}")
-  if grep -rnE "#include [<\"]hyperex/scene/($below)/" "src/hyperex/scene/${parts[i]}"; then
-    echo "scene/${parts[i]} may include only: ${parts[*]:0:i+1}"
-    status=1
-  fi
+# A room's parts (PARTS in its CMakeLists.txt) include only parts before them, and the files of the
+# room that are in none.
+for room in "${rooms[@]}"; do
+  folder=src/hyperex/$room
+  read -ra parts < <(sed -n 's/^  PARTS \(.*\)$/\1/p' "$folder/CMakeLists.txt") || parts=()
+  for part in "$folder"/*/; do
+    part=$(basename "$part")
+    [[ "$part" == data || "$part" == '*' || " ${parts[*]} " == *" $part "* ]] ||
+      { echo "$part is not among the PARTS of $folder/CMakeLists.txt"; status=1; }
+  done
+  for ((i = 0; i + 1 < ${#parts[@]}; ++i)); do
+    below=$(IFS='|'; echo "${parts[*]:i+1}")
+    if grep -rnE "#include [<\"]hyperex/$room/($below)/" "$folder/${parts[i]}"; then
+      echo "$room/${parts[i]} may include only: ${parts[*]:0:i+1}"
+      status=1
+    fi
+  done
 done
 # Those that include everything are for other programs.
 if grep -rnE '#include [<"]hyperex/[a-z_]+\.hpp' src/hyperex/*/ apps/hyperex; then

@@ -9,11 +9,13 @@ cp "$1/CMakeLists.txt" "$work/"
 mkdir "$work/apps"
 cp -r "$1/apps/hyperex" "$work/apps/"
 cp -r "$1/src/hyperex" "$work/src/"
-echo '#include "hyperex/scene/grammar/scene.hpp"' >> "$work/src/hyperex/io/scan.cpp"
-echo '#include "hyperex/scene/run/pipeline.hpp"' >> "$work/src/hyperex/scene/output/frames.cpp"
+echo '#include "hyperex/scene/scene.hpp"' >> "$work/src/hyperex/io/scan.cpp"
+echo '#include "hyperex/simulate/run/simulator.hpp"' >> "$work/src/hyperex/simulate/drive/drive.cpp"
+echo '#include "hyperex/run/pipeline.hpp"' >> "$work/src/hyperex/session/inputs.cpp"
 said=$("$1/tests/layout/includes_test.sh" "$work") && { echo "an upward include is not seen"; exit 1; }
 echo '#include "hyperex/hyperex.hpp"' >> "$work/src/hyperex/io/ply.cpp"
 said+=$("$1/tests/layout/includes_test.sh" "$work") && { echo "an include of everything is not seen"; exit 1; }
 grep -q 'src/hyperex/io/ply.cpp.*hyperex.hpp' <<< "$said" || { echo "an include of everything is not told"; exit 1; }
-grep -q '^scene/output may include only: grammar stages output$' <<< "$said" || { echo "an upward include within scene is not told"; exit 1; }
+grep -q '^simulate/drive may include only: drive$' <<< "$said" || { echo "an upward include among parts is not reported"; exit 1; }
+grep -q 'src/hyperex/session/inputs.cpp' <<< "$said" || { echo "an include of run by session is not reported"; exit 1; }
 grep -q 'src/hyperex/io/scan.cpp' <<< "$said" && grep -q '^io may include only: core geometry io$' <<< "$said"

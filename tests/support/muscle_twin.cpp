@@ -8,9 +8,9 @@
 
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/fem/form/assembler.hpp"
-#include "hyperex/reenact/held_load.hpp"
-#include "hyperex/reenact/muscle_load.hpp"
-#include "hyperex/reenact/simulator.hpp"
+#include "hyperex/simulate/load/held_load.hpp"
+#include "hyperex/simulate/load/muscle_load.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 
 namespace hyperex::test {
 namespace {
@@ -22,9 +22,9 @@ constexpr int kHeld = 6;
 
 constexpr int kRightCorner = 48, kLeftCorner = 54;
 
-reenact::TissueValues with_factor(const reenact::TissueValues& values,
-                                  const std::vector<double>& young_factor, std::size_t tets) {
-  reenact::TissueValues out = values;
+simulate::TissueValues with_factor(const simulate::TissueValues& values,
+                                   const std::vector<double>& young_factor, std::size_t tets) {
+  simulate::TissueValues out = values;
   for (int p = 0; p < tissue::parameter_count; ++p)
     if (out.element[p].empty()) out.element[p].assign(tets, out.uniform[p]);
   for (std::size_t t = 0; t < young_factor.size(); ++t)
@@ -57,7 +57,7 @@ TwinTruth::TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, 
   rest_.resize(68, 3);
   for (int p = 0; p < 68; ++p) rest_.row(p) = face.landmarks.at(face::ibug(p)).transpose();
   carrier_ =
-      reenact::carriers(*face.mesh, reenact::skin_places(*face.mesh, face::all_ibug(), rest_));
+      simulate::carriers(*face.mesh, simulate::skin_places(*face.mesh, face::all_ibug(), rest_));
   tissues_.push_back(tissue(face, {}));
   for (const TwinChange& change : changes) tissues_.push_back(tissue(face, change.young_factor));
   // At 1 a muscle moves its own tissue by 10 mm, however stiff that is.
@@ -68,10 +68,10 @@ TwinTruth::TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, 
   for (double& young : material.young_pa) young *= young_factor;
   fem::Assembler(face.mesh->volume.nodes, face.mesh->volume.tets, face.options.model.element)
       .assemble(material, system);
-  muscles_ = std::make_unique<reenact::MuscleModel>(
+  muscles_ = std::make_unique<simulate::MuscleModel>(
       *face.mesh, face.landmarks, system.stiffness, muscles,
-      reenact::MuscleModelOptions{muscle_support(face.options.support, face.options.muscles),
-                                  face.options.muscles.shape, face.options.muscles.widening});
+      simulate::MuscleModelOptions{muscle_support(face.options.support, face.options.muscles),
+                                   face.options.muscles.shape, face.options.muscles.widening});
 }
 
 TwinTruth::Tissue TwinTruth::tissue(const TwinFace& face,
@@ -84,8 +84,8 @@ TwinTruth::Tissue TwinTruth::tissue(const TwinFace& face,
   fem::System system;
   fem::Assembler(face.mesh->volume.nodes, face.mesh->volume.tets, face.options.model.element)
       .assemble(material, system);
-  const reenact::Boundary boundary(*face.mesh, face.landmarks,
-                                   muscle_support(face.options.support, face.options.muscles));
+  const simulate::Boundary boundary(*face.mesh, face.landmarks,
+                                    muscle_support(face.options.support, face.options.muscles));
   boundary.add_springs(system.stiffness);
   return {std::make_unique<fem::PartitionedFactor>(system.stiffness, boundary.prescribed(),
                                                    "the truth of a twin"),
@@ -93,10 +93,10 @@ TwinTruth::Tissue TwinTruth::tissue(const TwinFace& face,
 }
 
 Eigen::VectorXd TwinTruth::force(const Activations& activations,
-                                 const std::vector<reenact::MuscleGain>& gains) const {
+                                 const std::vector<simulate::MuscleGain>& gains) const {
   std::vector<std::string> names;
   for (const muscles::MuscleLine& line : lines()) names.push_back(line.name);
-  const Eigen::VectorXd gain = reenact::muscle_gains(names, gains);
+  const Eigen::VectorXd gain = simulate::muscle_gains(names, gains);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(muscles_->force().rows());
   for (std::size_t m = 0; m < names.size(); ++m) {
     const auto active = activations.find(names[m]);
@@ -117,11 +117,11 @@ Points TwinTruth::moved(const Tissue& tissue, const Eigen::VectorXd& force) cons
   return carrier_ * Eigen::Map<const Points>(nodes.data(), carrier_.cols(), 3);
 }
 
-reenact::AlignedMotion TwinTruth::recorded(const Activations& activations, double noise_m,
-                                           unsigned seed) const {
+simulate::AlignedMotion TwinTruth::recorded(const Activations& activations, double noise_m,
+                                            unsigned seed) const {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
-  reenact::AlignedMotion out;
+  simulate::AlignedMotion out;
   out.motion.names = out.common = face::all_ibug();
   out.rest = rest_;
   for (int k = 0; k < kSamples; ++k) {
@@ -139,7 +139,7 @@ reenact::AlignedMotion TwinTruth::recorded(const Activations& activations, doubl
 std::vector<Corners> TwinTruth::corners(const Activations& activations) const {
   std::vector<Corners> out;
   for (std::size_t t = 0; t < tissues_.size(); ++t) {
-    const auto& gains = t == 0 ? std::vector<reenact::MuscleGain>{} : changes_[t - 1].gains;
+    const auto& gains = t == 0 ? std::vector<simulate::MuscleGain>{} : changes_[t - 1].gains;
     const Points by = moved(tissues_[t], force(activations, gains));
     out.push_back({1e3 * by.row(kLeftCorner).norm(), 1e3 * by.row(kRightCorner).norm()});
   }
@@ -149,16 +149,16 @@ std::vector<Corners> TwinTruth::corners(const Activations& activations) const {
 TwinAnswer twin_answer(const TwinFace& face, const TwinTruth& truth, const Activations& activations,
                        const std::vector<TwinChange>& changes,
                        const std::vector<std::string>& points, double noise_m, unsigned seed) {
-  reenact::SimulationOptions options = face.options;
-  options.drive.by = reenact::DriveBy::muscles;
+  simulate::SimulationOptions options = face.options;
+  options.drive.by = simulate::DriveBy::muscles;
   options.drive.points = points;
   TwinAnswer out;
   out.truth = truth.corners(activations);
-  reenact::Simulator simulator(face.mesh, face.landmarks,
-                               truth.recorded(activations, noise_m, seed), options);
-  const reenact::SimulationResult base = simulator.run();
+  simulate::Simulator simulator(face.mesh, face.landmarks,
+                                truth.recorded(activations, noise_m, seed), options);
+  const simulate::SimulationResult base = simulator.run();
   out.found.push_back(held_corners(base.performance.landmarks));
-  const reenact::MuscleCourse& muscles = base.performance.muscles;
+  const simulate::MuscleCourse& muscles = base.performance.muscles;
   out.true_groups = Eigen::VectorXd::Zero(Eigen::Index(muscles.groups.size()));
   for (const auto& [muscle, a] : activations) {
     const auto at = std::find(muscles.groups.begin(), muscles.groups.end(), group_of(muscle));
@@ -167,7 +167,7 @@ TwinAnswer twin_answer(const TwinFace& face, const TwinTruth& truth, const Activ
   out.found_groups = muscles.group_activation.rightCols(kHeld).rowwise().mean();
   simulator.hold_load();
   for (const TwinChange& change : changes) {
-    reenact::SimulationOptions changed = options;
+    simulate::SimulationOptions changed = options;
     changed.tissue = with_factor(options.tissue, change.young_factor,
                                  std::size_t(face.mesh->volume.tets.rows()));
     changed.muscles.gains = change.gains;

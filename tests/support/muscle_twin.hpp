@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "hyperex/fem/solve/partitioned_factor.hpp"
-#include "hyperex/reenact/muscle_model.hpp"
-#include "hyperex/reenact/options.hpp"
-#include "hyperex/reenact/skin_places.hpp"
+#include "hyperex/simulate/drive/skin_places.hpp"
+#include "hyperex/simulate/load/muscle_model.hpp"
+#include "hyperex/simulate/options.hpp"
 
 namespace hyperex::test {
 
@@ -22,13 +22,13 @@ using Activations = std::map<std::string, double>;
 struct TwinChange {
   std::string name;
   std::vector<double> young_factor = {};  ///< a tetrahedron; empty: 1 everywhere
-  std::vector<reenact::MuscleGain> gains = {};
+  std::vector<simulate::MuscleGain> gains = {};
 };
 
 struct TwinFace {
   std::shared_ptr<const tissue::TissueMesh> mesh;
   io::Landmarks landmarks;  ///< the 68 iBUG points among them
-  reenact::SimulationOptions options;
+  simulate::SimulationOptions options;
 };
 
 /// How far the corners of the mouth are from rest.
@@ -52,8 +52,8 @@ class TwinTruth {
 
   /// The landmarks (68) as the expression comes in a third of a second and stays, with `noise_m` a
   /// coordinate.
-  reenact::AlignedMotion recorded(const Activations& activations, double noise_m,
-                                  unsigned seed) const;
+  simulate::AlignedMotion recorded(const Activations& activations, double noise_m,
+                                   unsigned seed) const;
   /// In base and after each change.
   std::vector<Corners> corners(const Activations& activations) const;
   const std::vector<muscles::MuscleLine>& lines() const { return muscles_->lines(); }
@@ -65,14 +65,14 @@ class TwinTruth {
   };
   Tissue tissue(const TwinFace& face, const std::vector<double>& young_factor) const;
   Eigen::VectorXd force(const Activations& activations,
-                        const std::vector<reenact::MuscleGain>& gains) const;
+                        const std::vector<simulate::MuscleGain>& gains) const;
   Points moved(const Tissue& tissue, const Eigen::VectorXd& force) const;
 
   const std::vector<TwinChange>& changes_;
   double half_, young_factor_;
   Points rest_;
-  reenact::CarrierMatrix carrier_;
-  std::unique_ptr<reenact::MuscleModel> muscles_;
+  simulate::CarrierMatrix carrier_;
+  std::unique_ptr<simulate::MuscleModel> muscles_;
   std::vector<Tissue> tissues_;  ///< base, then changed
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
 
 namespace hyperex::test {
 namespace {
@@ -14,7 +14,7 @@ const capture::Intrinsics kCamera{525, 525, 319.5, 239.5, 640, 480};
 
 const sample::Person& person() {
   static const sample::Person person = [] {
-    tissue::EmbeddedFace face = tissue::embedded_face();
+    anatomy::EmbeddedFace face = anatomy::embedded_face();
     face.mesh.points = (face.mesh.points * kProportions.asDiagonal()).eval();
     for (auto& [name, at] : face.landmarks) at = at.cwiseProduct(kProportions).eval();
     return sample::Person(face);

@@ -5,13 +5,13 @@
 
 #include <cstdlib>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/fem/time/finite_newton.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
-#include "hyperex/reenact/boundary.hpp"
-#include "hyperex/reenact/point_curve.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/simulate/drive/boundary.hpp"
+#include "hyperex/simulate/drive/point_curve.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 #include "support/calculix.hpp"
 #include "support/fem_support.hpp"
 
@@ -93,7 +93,7 @@ struct Pulled : Compared {
 /// are at the peak of the embedded opening of the mouth, `share` of the way.
 struct OpenMouth : Compared {
   OpenMouth(double element_size_m, double share, int steps, double young, double poisson) {
-    const tissue::EmbeddedFace face = tissue::embedded_face();
+    const anatomy::EmbeddedFace face = anatomy::embedded_face();
     tissue::TissueMeshOptions options;
     options.element_size_m = element_size_m;
     const tissue::TissueMesh mesh =
@@ -107,13 +107,13 @@ struct OpenMouth : Compared {
 
     motion::MouthOpeningOptions opening;
     opening.head_moves = false;
-    const reenact::AlignedMotion motion =
-        reenact::align(motion::embedded_mouth_opening(face.landmarks, opening), face.landmarks);
-    const auto region = reenact::measured_region(mesh, face.landmarks, motion, {});
-    const reenact::DrivenSkin driven =
-        reenact::driven_skin(mesh, face.landmarks, motion, region, {});
+    const simulate::AlignedMotion motion =
+        simulate::align(motion::embedded_mouth_opening(face.landmarks, opening), face.landmarks);
+    const auto region = simulate::measured_region(mesh, face.landmarks, motion, {});
+    const simulate::DrivenSkin driven =
+        simulate::driven_skin(mesh, face.landmarks, motion, region, {});
     const Points at_peak =
-        driven.weights * reenact::PointCurve(motion, 1).at(motion.motion.time_s.back() / 2);
+        driven.weights * simulate::PointCurve(motion, 1).at(motion.motion.time_s.back() / 2);
     const auto surface = static_cast<int>(mesh.volume.surface_nodes());
     for (int level = 0; level <= mesh.volume.layers; ++level)
       for (int v = 0; v < surface; ++v)

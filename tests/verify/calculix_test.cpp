@@ -16,8 +16,8 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 #include "support/fem_support.hpp"
 
 namespace hyperex::fem {
@@ -46,7 +46,7 @@ Resolution resolution(double fine_element_size_m) {
 /// The face that the program carries, held at its outer border; seven points around the mouth are
 /// pushed there and back, each axis of each in its own way and time.
 CalculixModel face_model(const Resolution& resolution) {
-  const tissue::EmbeddedFace face = tissue::embedded_face();
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
   tissue::TissueMeshOptions options;
   options.element_size_m = resolution.element_size_m;
   const tissue::TissueMesh mesh =

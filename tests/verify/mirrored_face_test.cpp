@@ -3,11 +3,11 @@
 // mirrored motion moves as the mirror image.
 #include <gtest/gtest.h>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/progress.hpp"
-#include "hyperex/reenact/simulator.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
-#include "reenact/small_face.hpp"
+#include "simulate/small_face.hpp"
 
 namespace hyperex {
 namespace {
@@ -26,17 +26,17 @@ tissue::TissueMesh mirrored(tissue::TissueMesh mesh) {
 io::Landmarks mirrored(const io::Landmarks& landmarks) {
   io::Landmarks out;
   for (const auto& [name, p] : landmarks)
-    out[tissue::mirrored_landmark(name)] = Vec3(-p.x(), p.y(), p.z());
+    out[anatomy::mirrored_landmark(name)] = Vec3(-p.x(), p.y(), p.z());
   return out;
 }
 
 std::vector<std::string> mirrored(std::vector<std::string> names) {
-  for (std::string& name : names) name = tissue::mirrored_landmark(name);
+  for (std::string& name : names) name = anatomy::mirrored_landmark(name);
   return names;
 }
 
 tissue::TissueFieldOptions mirrored(tissue::TissueFieldOptions options) {
-  for (auto& point : options.points) point.landmark = tissue::mirrored_landmark(point.landmark);
+  for (auto& point : options.points) point.landmark = anatomy::mirrored_landmark(point.landmark);
   for (auto& region : options.regions) region.scar = mirrored(region.scar);
   return options;
 }
@@ -54,7 +54,7 @@ class MirroredFace : public testing::TestWithParam<tissue::Interpolation> {};
 
 TEST_P(MirroredFace, MovesAsTheMirrorImage) {
   Progress::silence(true);
-  const auto face = reenact::test::small_face();
+  const auto face = simulate::test::small_face();
   const tissue::TissueMesh twin = mirrored(face.mesh);
   const io::Landmarks twin_landmarks = mirrored(face.landmarks);
 
@@ -72,25 +72,25 @@ TEST_P(MirroredFace, MovesAsTheMirrorImage) {
       tissue::TissueFieldMaker(twin, twin_landmarks, nullptr).make(mirrored(tissue_options));
   ASSERT_TRUE(field.varies(tissue::young) && field.varies(tissue::viscosity));
 
-  reenact::SimulationOptions options;
-  options.solver.method = reenact::SolverMethod::direct;
+  simulate::SimulationOptions options;
+  options.solver.method = simulate::SolverMethod::direct;
   options.model.element = fem::ElementKind::tet4_star;
   options.time.step_s = 0.01;
-  options.drive.points = reenact::test::seven_points();
+  options.drive.points = simulate::test::seven_points();
   options.tissue.element = field.element;
-  reenact::SimulationOptions twin_options = options;
+  simulate::SimulationOptions twin_options = options;
   twin_options.tissue.element = twin_field.element;
   twin_options.drive.points = mirrored(options.drive.points);
 
-  const auto motion = reenact::test::motion_of(face.landmarks, kSamples, 30, moves);
-  const auto twin_motion = reenact::test::motion_of(
+  const auto motion = simulate::test::motion_of(face.landmarks, kSamples, 30, moves);
+  const auto twin_motion = simulate::test::motion_of(
       twin_landmarks, kSamples, 30, [](const std::string& name, const Vec3& rest, int sample) {
         const Vec3 d =
-            moves(tissue::mirrored_landmark(name), Vec3(-rest.x(), rest.y(), rest.z()), sample);
+            moves(anatomy::mirrored_landmark(name), Vec3(-rest.x(), rest.y(), rest.z()), sample);
         return Vec3(-d.x(), d.y(), d.z());
       });
-  const auto result = reenact::simulate(face.mesh, face.landmarks, motion, options);
-  const auto twin_result = reenact::simulate(twin, twin_landmarks, twin_motion, twin_options);
+  const auto result = simulate::simulate(face.mesh, face.landmarks, motion, options);
+  const auto twin_result = simulate::simulate(twin, twin_landmarks, twin_motion, twin_options);
   Progress::silence(false);
 
   const auto& frames = result.performance.node_displacement_m;

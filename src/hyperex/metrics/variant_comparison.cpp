@@ -38,7 +38,7 @@ double integral(const std::vector<double>& time_s, const std::vector<double>& a,
 }
 
 /// The recorded motion of a driven point at the times of the run's frames.
-Points driven_track(const reenact::Performance& base, const motion::Motion& recorded,
+Points driven_track(const simulate::Performance& base, const motion::Motion& recorded,
                     const std::string& name) {
   const int row = recorded.index_of(name);
   if (row < 0) return {};
@@ -90,7 +90,7 @@ bool comes_back(const std::vector<double>& input) {
 
 }  // namespace
 
-ResponsePair response_pair(const reenact::Performance& base, const motion::Motion& recorded,
+ResponsePair response_pair(const simulate::Performance& base, const motion::Motion& recorded,
                            double clear_m) {
   ResponsePair pair;
   double most = 0;
@@ -128,7 +128,7 @@ DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Mo
 VariantComparison compare_variant(const std::string& name, const ComparedRun& base,
                                   const ComparedRun& run, const ComparedInputs& inputs,
                                   const ResponsePair& pair) {
-  const reenact::Performance &own = base.performance, &p = run.performance;
+  const simulate::Performance &own = base.performance, &p = run.performance;
   VariantComparison c;
   c.name = name;
   c.greatest_displacement_mm = 1e3 * greatest_displacement_m(p.skin_displacement_m);

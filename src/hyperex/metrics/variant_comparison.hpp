@@ -11,14 +11,14 @@
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/motion/motion.hpp"
-#include "hyperex/reenact/performance.hpp"
+#include "hyperex/simulate/performance.hpp"
 
 namespace hyperex::metrics {
 
 /// A run of a face as it is compared: all runs have the skin, the frame times and the names of
 /// landmarks in common.
 struct ComparedRun {
-  const reenact::Performance& performance;
+  const simulate::Performance& performance;
   const SymmetryMeasures& symmetry;  ///< with its map
 };
 
@@ -33,7 +33,7 @@ struct ComparedInputs {
 struct ResponsePair {
   std::string driven, response;  ///< empty where there is none
 };
-ResponsePair response_pair(const reenact::Performance& base, const motion::Motion& recorded,
+ResponsePair response_pair(const simulate::Performance& base, const motion::Motion& recorded,
                            double clear_m);
 
 /// How far a point lies from its place in base at the same time, where that is most. It sees what

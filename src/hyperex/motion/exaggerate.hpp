@@ -14,9 +14,9 @@ struct PointGain {
 
 /// The motion with the displacements of the named points from their place in the first sample
 /// multiplied; all other points stay as they were. What lies between points takes its share from
-/// whoever interpolates them (reenact/drive), so nothing is spread here. Points not measured stay
-/// NaN. Throws InputError for a name that the motion has not, a name given twice, a gain that is
-/// negative or not finite, and a point with a gain that is not measured in the first sample.
+/// whoever interpolates them (simulate/drive/drive), so nothing is spread here. Points not measured
+/// stay NaN. Throws InputError for a name that the motion has not, a name given twice, a gain that
+/// is negative or not finite, and a point with a gain that is not measured in the first sample.
 Motion with_point_gains(const Motion& motion, const std::vector<PointGain>& gains);
 
 /// The same path in `scale` times the time; the first sample's time stays. 2: twice as slow, half

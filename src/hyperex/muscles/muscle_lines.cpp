@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 
 namespace hyperex::muscles {
 namespace {
@@ -57,7 +57,7 @@ class Laying {
     Vec3 mean = Vec3::Zero();
     for (const auto& [k, weight] : place.ibug) {
       const std::string name = face::ibug(k);
-      mean += weight * landmarks_.at(left ? name : tissue::mirrored_landmark(name));
+      mean += weight * landmarks_.at(left ? name : anatomy::mirrored_landmark(name));
     }
     const double mm = 1e-3 * scale_;
     return mean + mm * ((left ? 1 : -1) * place.out_mm * frame_.x + place.up_mm * frame_.y);

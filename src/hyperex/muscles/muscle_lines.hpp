@@ -5,7 +5,7 @@
 
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::muscles {
 

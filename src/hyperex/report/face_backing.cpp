@@ -10,8 +10,8 @@
 namespace hyperex::report {
 namespace {
 
+using anatomy::FaceCorners;
 using Eigen::Index;
-using tissue::FaceCorners;
 
 double length_of(const std::vector<int>& loop, const Points& points) {
   double sum = 0;
@@ -103,15 +103,15 @@ TriMesh zone(const Eyeball& eye, double from, double to, int rings) {
 
 FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks) {
   FaceBacking backing;
-  const auto corners = tissue::face_corners(landmarks);
+  const auto corners = anatomy::face_corners(landmarks);
   if (!corners) return backing;
   backing.forward = corners->forward;
   backing.openings = openings_of(skin, *corners);
-  backing.eyeballs = tissue::eyeballs_behind(skin.points, *corners);
+  backing.eyeballs = anatomy::eyeballs_behind(skin.points, *corners);
   return backing;
 }
 
-FaceBacking face_backing(const reenact::Performance& performance) {
+FaceBacking face_backing(const simulate::Performance& performance) {
   io::Landmarks landmarks;
   const motion::Motion& tracks = performance.landmarks;
   if (!tracks.positions.empty())

@@ -3,16 +3,16 @@
 #include <array>
 #include <vector>
 
+#include "hyperex/anatomy/eyeballs.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
-#include "hyperex/reenact/performance.hpp"
-#include "hyperex/tissue/eyeballs.hpp"
+#include "hyperex/simulate/performance.hpp"
 
 namespace hyperex::report {
 
 // What pictures put behind the holes of a scanned skin, so that it looks like a face and not like a
 // mask: dark pockets behind mouth, eyes and nostrils, and plain eyeballs. For the eye alone, and of
-// no figure; lids may touch the same eyeballs (reenact/obstacles.hpp).
+// no figure; lids may touch the same eyeballs (simulate/contact/obstacles.hpp).
 
 /// A ring of a pocket as shares: of the pocket's depth, and of the width of the hole's edge.
 struct PocketRing {
@@ -28,7 +28,7 @@ struct Opening {
   std::array<PocketRing, 2> rings = {{{0.35, 1.05}, {0.9, 0.8}}};
 };
 
-using tissue::Eyeball;
+using anatomy::Eyeball;
 
 struct FaceBacking {
   std::vector<Opening> openings;
@@ -40,10 +40,10 @@ struct FaceBacking {
 /// names; without the outer corners of the eyes and those of the mouth nothing is put behind the
 /// skin, without the inner corners no eyeballs. Openings are all closed borders of at most 250 mm
 /// whose middle lies between the outer corners of the eyes, but the longest, the skin's own end.
-/// Eyeballs: tissue::eyeballs_behind().
+/// Eyeballs: anatomy::eyeballs_behind().
 FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks);
 /// Of the skin at rest, by the landmarks of the first sample.
-FaceBacking face_backing(const reenact::Performance& performance);
+FaceBacking face_backing(const simulate::Performance& performance);
 
 /// How much of the light that falls on the lips reaches vertices of teeth and gum behind them, 0 to
 /// 1: all of it in front, 0.35 from 35 mm behind there on. `row`: the jaw's, for what is in front.

@@ -19,7 +19,8 @@ namespace {
 using Eigen::Index;
 
 /// glTF's COLOR_0 is linear, scans store sRGB; 16 bits keep the dark tones apart.
-int add_colours(GltfArrays& arrays, const reenact::Performance& performance, const io::Scan& scan) {
+int add_colours(GltfArrays& arrays, const simulate::Performance& performance,
+                const io::Scan& scan) {
   const auto srgb = skin_colour(performance, scan);
   if (srgb.rows() == 0) return -1;
   const auto linear = [](std::uint8_t byte) {
@@ -64,7 +65,7 @@ tinygltf::Material plain_material(const char* name, std::vector<double> colour, 
 }
 
 /// Adds a node with crowns and gum of one jaw; its number, -1 where there are none.
-int add_teeth(tinygltf::Model& model, GltfArrays& arrays, const tissue::JawTeeth& jaw,
+int add_teeth(tinygltf::Model& model, GltfArrays& arrays, const anatomy::JawTeeth& jaw,
               const std::string& name, int first_material) {
   tinygltf::Mesh mesh;
   mesh.name = name;
@@ -120,7 +121,7 @@ void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeb
 
 /// Rotation and translation of a node as the jaw's in each frame.
 void animate_jaw(tinygltf::Model& model, GltfArrays& arrays, int node,
-                 const reenact::Performance& performance, tinygltf::Animation& animation) {
+                 const simulate::Performance& performance, tinygltf::Animation& animation) {
   const auto frames = static_cast<Index>(performance.jaw_now_from_rest.size());
   Eigen::MatrixXf turns(frames, 4), shifts(frames, 3);
   Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
@@ -137,7 +138,7 @@ void animate_jaw(tinygltf::Model& model, GltfArrays& arrays, int node,
   for (int k = 0; k < 3; ++k) model.nodes[std::size_t(node)].translation.push_back(shifts(0, k));
 }
 
-void check(const reenact::Performance& performance, const GlbOptions& options) {
+void check(const simulate::Performance& performance, const GlbOptions& options) {
   bool whole = performance.skin_displacement_m.size() == performance.frame_time_s.size();
   for (const PointsF& frame : performance.skin_displacement_m)
     whole = whole && frame.rows() == performance.skin_rest.points.rows();
@@ -146,7 +147,7 @@ void check(const reenact::Performance& performance, const GlbOptions& options) {
   if (!whole) throw std::invalid_argument("write_glb: frames that are not the performance's");
 }
 
-tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan& scan,
+tinygltf::Model model_of(const simulate::Performance& performance, const io::Scan& scan,
                          const GlbOptions& options, GlbReport& report) {
   tinygltf::Model model;
   model.asset.version = "2.0";
@@ -221,7 +222,7 @@ tinygltf::Model model_of(const reenact::Performance& performance, const io::Scan
 
 }  // namespace
 
-GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
+GlbReport write_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options) {
   check(performance, options);
   GlbReport report;

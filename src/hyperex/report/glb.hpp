@@ -2,16 +2,16 @@
 #pragma once
 #include <filesystem>
 
+#include "hyperex/anatomy/teeth/teeth.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/reenact/performance.hpp"
-#include "hyperex/tissue/teeth/teeth.hpp"
+#include "hyperex/simulate/performance.hpp"
 
 namespace hyperex::report {
 
 struct GlbOptions {
-  double tolerance_m = 1e-4;             ///< of any vertex in any frame
-  double max_bytes = 20e6;               ///< of the file
-  const tissue::Teeth* teeth = nullptr;  ///< at rest, scan frame; null: none
+  double tolerance_m = 1e-4;              ///< of any vertex in any frame
+  double max_bytes = 20e6;                ///< of the file
+  const anatomy::Teeth* teeth = nullptr;  ///< at rest, scan frame; null: none
 };
 
 /// What was written.
@@ -32,7 +32,7 @@ struct GlbReport {
 /// translation, as performance.jaw_now_from_rest has them. The report's eyeballs, where landmarks
 /// tell of eyes, are eye_R and eye_L, which stand still. Throws InputError where the file cannot be
 /// written, std::invalid_argument where the performance and the scan do not belong together.
-GlbReport write_glb(const std::filesystem::path& file, const reenact::Performance& performance,
+GlbReport write_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options = {});
 
 }  // namespace hyperex::report

@@ -8,12 +8,12 @@
 
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
-#include "hyperex/reenact/muscle_load.hpp"
 #include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/jaw_turns.hpp"
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
 #include "hyperex/report/skin_view.hpp"
+#include "hyperex/simulate/load/muscle_load.hpp"
 
 namespace hyperex::report {
 namespace {
@@ -158,7 +158,7 @@ std::vector<std::pair<Index, Index>> pairs_of(const std::vector<std::string>& gr
   return pairs;
 }
 
-json muscle_groups(const reenact::MuscleCourse& muscles) {
+json muscle_groups(const simulate::MuscleCourse& muscles) {
   json groups = json::array();
   for (const auto& [left, right] : pairs_of(muscles.groups)) {
     const std::string& name = muscles.groups[std::size_t(left)];
@@ -255,7 +255,7 @@ json rigid_mesh(const TriMesh& mesh, BinaryBlock& block) {
 
 /// A list of {"jaw": "upper" or "lower", "part": "crowns" or "gum"} with their meshes and the
 /// light on each vertex, a byte.
-json teeth_section(const tissue::Teeth& teeth, const Vec3& forward, BinaryBlock& block) {
+json teeth_section(const anatomy::Teeth& teeth, const Vec3& forward, BinaryBlock& block) {
   json section = json::array();
   const auto add = [&](const char* jaw, const char* part, const TriMesh& mesh,
                        const TriMesh& crowns) {
@@ -278,7 +278,7 @@ json teeth_section(const tissue::Teeth& teeth, const Vec3& forward, BinaryBlock&
 }
 
 /// Frames x 7: a quaternion x y z w and a translation, now_from_rest.
-json jaw_section(const reenact::Performance& performance, BinaryBlock& block) {
+json jaw_section(const simulate::Performance& performance, BinaryBlock& block) {
   std::vector<float> values;
   Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
   for (const Eigen::Isometry3d& jaw : performance.jaw_now_from_rest) {
@@ -292,7 +292,7 @@ json jaw_section(const reenact::Performance& performance, BinaryBlock& block) {
 }
 
 /// "openings" and "eyeballs" of the skin at rest. Returns what is forward in it.
-Vec3 add_backing(const reenact::Performance& performance, BinaryBlock& block, json& manifest) {
+Vec3 add_backing(const simulate::Performance& performance, BinaryBlock& block, json& manifest) {
   const FaceBacking backing = face_backing(performance);
   manifest["openings"] = json::array();
   for (const Opening& opening : backing.openings)
@@ -323,14 +323,15 @@ json point_words_of(const ReportInput& input) {
 }
 
 json muscle_section(const ReportInput& input) {
-  const reenact::MuscleCourse& muscles = input.performance.muscles;
+  const simulate::MuscleCourse& muscles = input.performance.muscles;
   json lines = json::array();
   for (const ReportMuscle& muscle : input.muscles)
     lines.push_back({{"name", muscle.name}, {"points", points_json(muscle.line)}});
-  return {{"time_s", muscles.time_s},
-          {"few_points", input.performance.driven_names.size() <= std::size_t(reenact::kFewPoints)},
-          {"groups", muscle_groups(muscles)},
-          {"lines", lines}};
+  return {
+      {"time_s", muscles.time_s},
+      {"few_points", input.performance.driven_names.size() <= std::size_t(simulate::kFewPoints)},
+      {"groups", muscle_groups(muscles)},
+      {"lines", lines}};
 }
 
 json manifest_of(const ReportInput& input, BinaryBlock& block, bool face) {
@@ -369,7 +370,7 @@ void check(const ReportInput& input) {
   const auto& performance = input.performance;
   const auto frames = performance.frame_time_s.size();
   const Index vertices = performance.skin_rest.points.rows();
-  const auto fits = [&](const reenact::Performance& of, const DisplacementModes& modes) {
+  const auto fits = [&](const simulate::Performance& of, const DisplacementModes& modes) {
     return of.skin_displacement_m.size() == frames &&
            static_cast<std::size_t>(modes.weights.rows()) == frames &&
            (modes.modes.empty() || modes.modes[0].rows() == vertices) &&

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/anatomy/teeth/teeth.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/asymmetry.hpp"
 #include "hyperex/metrics/symmetry.hpp"
-#include "hyperex/reenact/performance.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/page_data.hpp"
-#include "hyperex/tissue/teeth/teeth.hpp"
+#include "hyperex/simulate/performance.hpp"
 
 namespace hyperex::report {
 
@@ -28,9 +28,9 @@ struct TissueMap {
 /// The same face with other tissue: mesh, rest shape and times as the scene's own.
 struct ReportVariant {
   std::string name;
-  std::vector<std::string> changes;         ///< what differs, "tissue.young_kpa = 1000"
-  const reenact::Performance& performance;  ///< its landmarks are sampled as the scene's own
-  DisplacementModes difference;             ///< of its displacement less the scene's own
+  std::vector<std::string> changes;          ///< what differs, "tissue.young_kpa = 1000"
+  const simulate::Performance& performance;  ///< its landmarks are sampled as the scene's own
+  DisplacementModes difference;              ///< of its displacement less the scene's own
   const metrics::SymmetryCurve* symmetry = nullptr;
   std::vector<TissueMap> tissue;  ///< keys as the scene's own
   /// Where muscles drive: its activations, a row each of the scene's MuscleCourse::groups.
@@ -45,7 +45,7 @@ struct ReportMuscle {
 
 /// What the page shows. References must outlive the call.
 struct ReportInput {
-  const reenact::Performance& performance;
+  const simulate::Performance& performance;
   const io::Scan& scan;
   /// Of performance.skin_displacement_m; its error and half a step of each mode (1/65534 of its
   /// largest component, or at most a micrometre) are the accuracy of the replay.
@@ -60,7 +60,7 @@ struct ReportInput {
   /// Where each vertex has its counterpart on the other side; no asymmetry is shown where null.
   const metrics::RestAsymmetry* mirror = nullptr;
   std::vector<ReportMuscle> muscles = {};  ///< where performance.muscles drive
-  const tissue::Teeth* teeth = nullptr;    ///< at rest, scan frame; null: none
+  const anatomy::Teeth* teeth = nullptr;   ///< at rest, scan frame; null: none
 };
 
 /// What the page reads, its arrays in `block`: all of it, or without `face`, the parts that stay

@@ -11,7 +11,7 @@ namespace {
 
 /// Texture coordinates of a skin vertex in one scan triangle. Corners are told by their places: on
 /// a seam a scan may hold one vertex several times.
-Eigen::RowVector2f uv_in_triangle(const reenact::Performance& performance, const io::Scan& scan,
+Eigen::RowVector2f uv_in_triangle(const simulate::Performance& performance, const io::Scan& scan,
                                   int triangle, int vertex) {
   const auto uv_at = [&](int scan_vertex) -> Eigen::RowVector2f {
     const Points& points = scan.mesh.points;
@@ -29,7 +29,7 @@ Eigen::RowVector2f uv_in_triangle(const reenact::Performance& performance, const
 
 }  // namespace
 
-SkinView skin_view(const reenact::Performance& performance, const io::Scan& scan) {
+SkinView skin_view(const simulate::Performance& performance, const io::Scan& scan) {
   const TriMesh& skin = performance.skin_rest;
   SkinView view;
   view.triangles = skin.triangles;
@@ -63,7 +63,7 @@ SkinView skin_view(const reenact::Performance& performance, const io::Scan& scan
 }
 
 Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 4, Eigen::RowMajor> skin_colour(
-    const reenact::Performance& performance, const io::Scan& scan) {
+    const simulate::Performance& performance, const io::Scan& scan) {
   Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 4, Eigen::RowMajor> colour(0, 4);
   if (scan.vertex_colour.rows() == 0) return colour;
   if (scan.vertex_colour.rows() != performance.scan_vertices)

@@ -5,7 +5,7 @@
 
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/reenact/performance.hpp"
+#include "hyperex/simulate/performance.hpp"
 
 namespace hyperex::report {
 
@@ -20,12 +20,12 @@ struct SkinView {
 /// Splits where `scan` has both texture coordinates and a texture; those of vertices on the cut lie
 /// between those of the scan triangle's corners. Throws std::invalid_argument
 /// where performance and scan do not belong together (other triangles).
-SkinView skin_view(const reenact::Performance& performance, const io::Scan& scan);
+SkinView skin_view(const simulate::Performance& performance, const io::Scan& scan);
 
 /// RGBA (sRGB) of each vertex of skin_rest, on the cut between those of the scan's edge; 0 rows
 /// where the scan has none.
 Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 4, Eigen::RowMajor> skin_colour(
-    const reenact::Performance& performance, const io::Scan& scan);
+    const simulate::Performance& performance, const io::Scan& scan);
 
 /// Unit vertex normals weighted by area; +z where a vertex has no triangle.
 PointsF vertex_normals(const PointsF& points, const Triangles& triangles);

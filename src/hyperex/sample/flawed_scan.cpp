@@ -82,7 +82,7 @@ Eigen::Isometry3d scanner_pose() {
 
 }  // namespace
 
-FlawedScan flawed_scan(const tissue::EmbeddedFace& face, const ScanFlaws& flaws) {
+FlawedScan flawed_scan(const anatomy::EmbeddedFace& face, const ScanFlaws& flaws) {
   TriMesh mesh = face.mesh;
   join_lips(mesh);
   mesh = remeshed(mesh, flaws.edge_m);

@@ -2,9 +2,9 @@
 #pragma once
 #include <Eigen/Geometry>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/render/render.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 
 namespace hyperex::sample {
 
@@ -27,6 +27,6 @@ struct FlawedScan {
 /// A scan of `face` with faults: the lips are joined by triangles across the slit, the border is
 /// ragged, there are holes and noise, other triangles than the face's, and the axes are the
 /// scanner's (z up, 0.4 m off). The same every time.
-FlawedScan flawed_scan(const tissue::EmbeddedFace& face, const ScanFlaws& flaws = {});
+FlawedScan flawed_scan(const anatomy::EmbeddedFace& face, const ScanFlaws& flaws = {});
 
 }  // namespace hyperex::sample

@@ -30,7 +30,7 @@ render::VertexColours one_colour(const TriMesh& mesh, int r, int g, int b) {
 
 }  // namespace
 
-Person::Person(const tissue::EmbeddedFace& face) : triangles_(face.mesh.triangles) {
+Person::Person(const anatomy::EmbeddedFace& face) : triangles_(face.mesh.triangles) {
   // The canonical vertices come first among the embedded face's, in their order.
   const auto& contour = face::lip_contour();  // the upper lip, then the lower one back
   for (std::size_t i = 0; i <= contour.size() / 2; ++i)

@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/report/face_backing.hpp"
 #include "hyperex/sample/bumps.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tracking/fit/score.hpp"
 
 namespace hyperex::sample {
@@ -31,8 +31,8 @@ class Person {
   /// How far the corner of the mouth goes in a smile: outwards, up and back.
   static inline const Vec3 kSmile_mm = Vec3(-6, 8, -4);
 
-  /// `face`: of tissue::embedded_face()'s vertices, wherever they have been moved to.
-  explicit Person(const tissue::EmbeddedFace& face);
+  /// `face`: of anatomy::embedded_face()'s vertices, wherever they have been moved to.
+  explicit Person(const anatomy::EmbeddedFace& face);
 
   /// The skin's vertices and all 68 landmarks.
   Points skin(const Pose& pose) const { return skin_.at(pose, condyle_); }

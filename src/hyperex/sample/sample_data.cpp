@@ -68,7 +68,7 @@ void write_recording(const fs::path& folder) {
 }
 
 void write_all(const fs::path& folder) {
-  const tissue::EmbeddedFace face = second_face();
+  const anatomy::EmbeddedFace face = second_face();
   io::write_ply(folder / "second_face.ply", face.mesh, io::LengthUnit::millimetre, {},
                 opaque(Person(face).colours()));
   io::write_landmarks(folder / "second_face_landmarks.json", face.landmarks,

@@ -71,8 +71,8 @@ struct Gap {
 
 }  // namespace
 
-tissue::EmbeddedFace second_face() {
-  tissue::EmbeddedFace face = tissue::embedded_face();
+anatomy::EmbeddedFace second_face() {
+  anatomy::EmbeddedFace face = anatomy::embedded_face();
   const Gap gap(face.mesh.points);
   for (auto point : face.mesh.points.rowwise()) point.y() += gap.rise(point.transpose());
   for (auto& [name, at] : face.landmarks) at.y() += gap.rise(at);

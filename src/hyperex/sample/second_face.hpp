@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
 
 namespace hyperex::sample {
 
 /// The embedded face with another person's proportions: a longer and wider jaw, a wider mouth, a
 /// longer nose with a bridge, lips that nearly touch, and the slight asymmetry that every face has.
-/// Its vertices and triangles are those of tissue::embedded_face() in the same order, moved by
+/// Its vertices and triangles are those of anatomy::embedded_face() in the same order, moved by
 /// smooth displacements about landmarks (bumps.hpp). The same face every time.
-tissue::EmbeddedFace second_face();
+anatomy::EmbeddedFace second_face();
 
 }  // namespace hyperex::sample

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "hyperex/scene/grammar/keys.hpp"
-#include "hyperex/scene/grammar/toml_values.hpp"
-#include "hyperex/scene/grammar/variant_names.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/toml_values.hpp"
+#include "hyperex/scene/variant_names.hpp"
 
 namespace hyperex::study {
 namespace {

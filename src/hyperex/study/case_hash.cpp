@@ -9,7 +9,7 @@
 #include "hyperex/core/sha256.hpp"
 #include "hyperex/core/version.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/scene/grammar/file_names.hpp"
+#include "hyperex/scene/file_names.hpp"
 
 namespace hyperex::study {
 namespace fs = std::filesystem;

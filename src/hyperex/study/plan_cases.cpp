@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/run/pipeline.hpp"
 #include "hyperex/study/case_hash.hpp"
 
 namespace hyperex::study {
@@ -87,7 +87,7 @@ void check_inputs(const Study& study, const std::vector<std::size_t>& cases, con
     const scene::Scene scene = scene::read_scene_with(study.scene, study.cases[i].overrides);
     if (seen.insert(looked_at(scene)).second) {
       try {
-        scene::check_scene(scene);
+        run::check_scene(scene);
       } catch (const InputError& error) {
         wrong.add(error.what());
       }

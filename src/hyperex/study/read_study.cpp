@@ -6,9 +6,9 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/text_table.hpp"
-#include "hyperex/scene/grammar/keys.hpp"
-#include "hyperex/scene/grammar/toml_values.hpp"
-#include "hyperex/scene/grammar/variant_names.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/toml_values.hpp"
+#include "hyperex/scene/variant_names.hpp"
 #include "hyperex/study/axes.hpp"
 
 namespace hyperex::study {

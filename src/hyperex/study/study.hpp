@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "hyperex/scene/grammar/override.hpp"
+#include "hyperex/scene/override.hpp"
 
 namespace hyperex::study {
 

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 #include "hyperex/fem/time/newmark.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 #include "support/fem_support.hpp"
 
 namespace hyperex::fem {
@@ -63,7 +63,7 @@ TEST(Iterative, EqualsCholeskyOnABoxInManySubdomainsAndAfterOtherValues) {
 }
 
 TEST(Iterative, EqualsCholeskyOnTheFace) {
-  const auto face = tissue::embedded_face();
+  const auto face = anatomy::embedded_face();
   const auto mesh = tissue::build_tissue_mesh(face.mesh, face.landmarks, {}, "embedded").volume;
   const System system = assemble(
       mesh.nodes, mesh.tets, test::uniform_material(mesh.tets.rows(), 192.4e3, 0.495, 476.8, 1100),

@@ -43,8 +43,8 @@ io::Landmarks landmarks() {
 }
 
 /// Driven at "corner"; "near" lies 5 mm from there and moves most, "far" 20 mm.
-reenact::Performance performance(double right_mm, double trail_s) {
-  reenact::Performance p;
+simulate::Performance performance(double right_mm, double trail_s) {
+  simulate::Performance p;
   p.skin_rest = square();
   p.peak_frame = kPeak;
   p.driven_names = {"still", "corner"};
@@ -99,7 +99,7 @@ SymmetryMeasures symmetry(double left_more) {
 }
 
 struct Compared {
-  reenact::Performance base = performance(2, 0), run = performance(5, 0.02);
+  simulate::Performance base = performance(2, 0), run = performance(5, 0.02);
   SymmetryMeasures base_symmetry = symmetry(0.1), run_symmetry = symmetry(0.4);
   io::Landmarks face = landmarks();
   motion::Motion motion = recorded(true);

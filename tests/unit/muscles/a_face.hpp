@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::muscles::test {
 
@@ -11,7 +11,7 @@ struct AFace {
   tissue::TissueMesh mesh;
 
   explicit AFace(double element_size_m = 0.005) {
-    const tissue::EmbeddedFace face = tissue::embedded_face();
+    const anatomy::EmbeddedFace face = anatomy::embedded_face();
     landmarks = face.landmarks;
     tissue::TissueMeshOptions options;
     options.element_size_m = element_size_m;

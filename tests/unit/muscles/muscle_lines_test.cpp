@@ -64,7 +64,7 @@ TEST(MuscleLines, BeginAndEndAtTheirPlaces) {
       Vec3 p = Vec3::Zero();
       for (const auto& [k, weight] : place.ibug) {
         const std::string name = face::ibug(k);
-        p += weight * face.landmarks.at(line.left ? name : tissue::mirrored_landmark(name));
+        p += weight * face.landmarks.at(line.left ? name : anatomy::mirrored_landmark(name));
       }
       const double side = line.left ? 1 : -1, mm = 1e-3 * size_mm / 87.4;
       return Vec3(p + mm * (side * place.out_mm * frame.x + place.up_mm * frame.y));

@@ -5,15 +5,15 @@
 
 #include <cmath>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 #include "unit/report/made_up_face.hpp"
 
 namespace hyperex::report {
 namespace {
 
-const tissue::EmbeddedFace& embedded() {
-  static const tissue::EmbeddedFace face = tissue::embedded_face();
+const anatomy::EmbeddedFace& embedded() {
+  static const anatomy::EmbeddedFace face = anatomy::embedded_face();
   return face;
 }
 

@@ -157,7 +157,7 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
     return json::parse(element(read_file(file), "hyperex-manifest"));
   };
   EXPECT_FALSE(manifest().contains("muscles"));
-  reenact::MuscleCourse& muscles = face.performance.muscles;
+  simulate::MuscleCourse& muscles = face.performance.muscles;
   muscles.names = {"zyg_major_L", "zyg_major_R"};
   muscles.time_s = {0, 0.1, 0.2};
   muscles.groups = {"eye closers_R", "elevators_L", "elevators_R"};

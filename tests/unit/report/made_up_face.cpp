@@ -13,7 +13,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "hyperex/tissue/teeth/dental_arch.hpp"
+#include "hyperex/anatomy/teeth/dental_arch.hpp"
 
 namespace hyperex::report::testing {
 namespace {
@@ -28,7 +28,7 @@ Vec3 on_bump(double u, double v) {  // u, v in -1 .. 1
 
 /// A grid of side x side vertices; the middle of one row is doubled, so that the part above can
 /// leave the part below.
-void build_skin(int side, reenact::Performance& out) {
+void build_skin(int side, simulate::Performance& out) {
   const int cut_row = side / 3;
   const int cut_from = side / 2 - side / 6, cut_to = side / 2 + side / 6;
   std::vector<Vec3> points;
@@ -75,7 +75,7 @@ Vec3 displaced(const Vec3& p, bool jaw, double phase) {
   return d;
 }
 
-void move_skin(int side, int frames, reenact::Performance& out) {
+void move_skin(int side, int frames, simulate::Performance& out) {
   const double cut_y = out.skin_rest.points(side * (side / 3), 1);
   for (int f = 0; f < frames; ++f) {
     const double t = f / 30.0;
@@ -97,7 +97,7 @@ void move_skin(int side, int frames, reenact::Performance& out) {
   out.peak_frame = frames / 2;
 }
 
-void add_landmarks(int side, reenact::Performance& out) {
+void add_landmarks(int side, simulate::Performance& out) {
   const auto vertex = [&](double u, double v) {
     return static_cast<int>((v + 1) / 2 * (side - 1)) * side +
            static_cast<int>((u + 1) / 2 * (side - 1));
@@ -140,7 +140,7 @@ io::Image striped_png(int size) {
   return image;
 }
 
-void dress(Surface surface, const reenact::Performance& performance, io::Scan& scan) {
+void dress(Surface surface, const simulate::Performance& performance, io::Scan& scan) {
   const auto& skin = performance.skin_rest;
   if (surface == Surface::coloured) {
     scan.vertex_colour.resize(performance.scan_vertices, 4);
@@ -163,7 +163,7 @@ void dress(Surface surface, const reenact::Performance& performance, io::Scan& s
 
 }  // namespace
 
-void add_inner_eye_corners(reenact::Performance& performance) {
+void add_inner_eye_corners(simulate::Performance& performance) {
   motion::Motion& tracks = performance.landmarks;
   for (const char* side : {"L", "R"}) tracks.names.push_back(std::string("endocanthion_") + side);
   for (Points& frame : tracks.positions) {
@@ -197,9 +197,9 @@ MadeUpFace made_up_face(Surface surface, int side, int frames) {
   return face;
 }
 
-tissue::Teeth made_up_teeth() {
-  tissue::Teeth teeth = tissue::dental_arches();
-  for (tissue::JawTeeth* jaw : {&teeth.upper, &teeth.lower})
+anatomy::Teeth made_up_teeth() {
+  anatomy::Teeth teeth = anatomy::dental_arches();
+  for (anatomy::JawTeeth* jaw : {&teeth.upper, &teeth.lower})
     for (TriMesh* part : {&jaw->crowns, &jaw->gum})
       part->points.rowwise() += Eigen::RowVector3d(0, -0.037, 0.045);
   return teeth;

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/anatomy/teeth/teeth.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/symmetry.hpp"
-#include "hyperex/reenact/performance.hpp"
 #include "hyperex/report/html_report.hpp"
-#include "hyperex/tissue/teeth/teeth.hpp"
+#include "hyperex/simulate/performance.hpp"
 
 namespace hyperex::report::testing {
 
@@ -16,17 +16,17 @@ enum class Surface { plain, coloured, textured };
 /// A face-sized bump whose lower part swings down and back like a jaw, cut along a short line; all
 /// that a report shows is there. Textured: a small PNG, with a seam down the middle.
 struct MadeUpFace {
-  reenact::Performance performance;
+  simulate::Performance performance;
   io::Scan scan;
   metrics::SymmetryCurve symmetry;
 };
 MadeUpFace made_up_face(Surface surface, int side = 41, int frames = 31);
 
 /// Without them there are no eyeballs.
-void add_inner_eye_corners(reenact::Performance& performance);
+void add_inner_eye_corners(simulate::Performance& performance);
 
 /// Average teeth behind the cut, the lower ones to be moved by performance.jaw_now_from_rest.
-tissue::Teeth made_up_teeth();
+anatomy::Teeth made_up_teeth();
 
 /// The face with other tissue: 0 moves less on its right side, 1 less on its left, 2 half as much
 /// and wider, 3 somewhat more, 4 as the face itself. Young's modulus differs in 0 and 1.

@@ -15,7 +15,7 @@ constexpr double cell = 0.005;
 /// seam between them hold their own vertices; cut across the seam as the lips of a scan are.
 struct CutSheet {
   io::Scan scan;
-  reenact::Performance performance;
+  simulate::Performance performance;
 
   /// Texture coordinates and colour are linear over each half.
   static Eigen::Vector2f uv(double x, double y, bool right) {

@@ -37,7 +37,7 @@ class SampleData : public testing::Test {
 
 TEST_F(SampleData, IsReadBackAndTheSameEveryTime) {
   write_sample_data(in("first"));
-  const tissue::EmbeddedFace face = second_face();
+  const anatomy::EmbeddedFace face = second_face();
   const io::Scan scan = io::read_scan(in("first/second_face.ply"));
   EXPECT_EQ(scan.unit, io::LengthUnit::millimetre);
   EXPECT_LT((scan.mesh.points - face.mesh.points).cwiseAbs().maxCoeff(), 1e-6);

@@ -37,12 +37,12 @@ TEST(Bumps, HaveTheirShiftAtTheLandmarkAndFadeAsAGaussian) {
 }
 
 TEST(SecondFace, IsAnotherFaceWithTheSameTriangles) {
-  const tissue::EmbeddedFace first = tissue::embedded_face(), second = second_face();
+  const anatomy::EmbeddedFace first = anatomy::embedded_face(), second = second_face();
   ASSERT_EQ(second.mesh.triangles, first.mesh.triangles);
   const Eigen::VectorXd moved = (second.mesh.points - first.mesh.points).rowwise().norm();
   EXPECT_GT(moved.mean(), 0.002);
   EXPECT_LT(moved.maxCoeff(), 0.015);
-  const auto between = [](const tissue::EmbeddedFace& face, const char* a, const char* b) {
+  const auto between = [](const anatomy::EmbeddedFace& face, const char* a, const char* b) {
     return (face.landmarks.at(a) - face.landmarks.at(b)).norm();
   };
   EXPECT_GT(between(second, "nasion", "pogonion"), between(first, "nasion", "pogonion") + 0.004);
@@ -54,7 +54,7 @@ TEST(SecondFace, IsAnotherFaceWithTheSameTriangles) {
 }
 
 TEST(SecondFace, HasNoFolds) {
-  const tissue::EmbeddedFace first = tissue::embedded_face(), second = second_face();
+  const anatomy::EmbeddedFace first = anatomy::embedded_face(), second = second_face();
   for (Eigen::Index t = 0; t < second.mesh.triangles.rows(); ++t) {
     const Vec3 before = normal(first.mesh, t), after = normal(second.mesh, t);
     EXPECT_GT(before.dot(after), 0.3 * before.norm() * after.norm()) << "triangle " << t;
@@ -62,7 +62,7 @@ TEST(SecondFace, HasNoFolds) {
 }
 
 TEST(SecondFace, ItsLandmarksLieOnItAndItsSidesDiffer) {
-  const tissue::EmbeddedFace face = second_face();
+  const anatomy::EmbeddedFace face = second_face();
   const SurfaceTree surface(face.mesh);
   double asymmetry = 0;
   for (const auto& [name, at] : face.landmarks) {

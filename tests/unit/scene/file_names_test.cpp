@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/grammar/file_names.hpp"
+#include "hyperex/scene/file_names.hpp"
 
 #include <gtest/gtest.h>
 

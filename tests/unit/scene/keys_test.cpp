@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Walks through the table of keys: what it says of a key must hold in the file and for --set.
-#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/keys.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 
 #include "hyperex/muscles/muscle_template.hpp"
-#include "hyperex/scene/grammar/file_names.hpp"
-#include "hyperex/scene/grammar/keys.hpp"
-#include "hyperex/scene/grammar/variant_presets.hpp"
+#include "hyperex/scene/file_names.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/variant_presets.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::scene {
 namespace {
-using reenact::DriveBy;
-using reenact::MuscleGain;
+using simulate::DriveBy;
+using simulate::MuscleGain;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

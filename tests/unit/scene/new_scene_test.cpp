@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/grammar/new_scene.hpp"
+#include "hyperex/scene/new_scene.hpp"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "hyperex/scene/grammar/toml_values.hpp"
+#include "hyperex/scene/toml_values.hpp"
 
 namespace hyperex::scene {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/keys.hpp"
 
 namespace hyperex::scene {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/grammar/override.hpp"
+#include "hyperex/scene/override.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
-#include "hyperex/scene/grammar/file_names.hpp"
-#include "hyperex/scene/grammar/toml_values.hpp"
+#include "hyperex/scene/file_names.hpp"
+#include "hyperex/scene/toml_values.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::scene {

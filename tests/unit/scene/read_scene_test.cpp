@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/keys.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "unit/scene/scene_files.hpp"
 

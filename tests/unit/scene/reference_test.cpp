@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "hyperex/core/files.hpp"
-#include "hyperex/scene/grammar/keys.hpp"
+#include "hyperex/scene/keys.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::scene {

@@ -150,8 +150,8 @@ contact_times_s = [0.48, 0.49]
   ASSERT_EQ(s.motion.point_gains.size(), 1u);
   EXPECT_EQ(s.motion.point_gains[0].point, "p1");
   EXPECT_EQ(s.motion.point_gains[0].gain, 1.7);
-  EXPECT_EQ(s.alignment.method, reenact::AlignmentMethod::similarity);
-  EXPECT_EQ(s.region.measured, reenact::Measured::points);
+  EXPECT_EQ(s.alignment.method, simulate::AlignmentMethod::similarity);
+  EXPECT_EQ(s.region.measured, simulate::Measured::points);
   EXPECT_THAT(s.region.measured_points, ElementsAre("m1"));
   EXPECT_EQ(s.region.measured_radius_m, 0.033);
   EXPECT_EQ(s.region.blend_m, 0.034);
@@ -189,17 +189,17 @@ contact_times_s = [0.48, 0.49]
       {.scar_points_m = {{0.001, 0.002, 0.003}, {0.004, 0.005, 0.006}},
        .value = {std::nullopt, 105, 0.42, 1002}}};
   EXPECT_EQ(s.tissue.regions, regions);
-  EXPECT_EQ(s.solver.method, reenact::SolverMethod::direct);
+  EXPECT_EQ(s.solver.method, simulate::SolverMethod::direct);
   EXPECT_EQ(s.solver.tolerance, 0.004);
   EXPECT_EQ(s.solver.linear, fem::LinearSolver::iterative);
   EXPECT_EQ(s.solver.newmark_beta, 0.36);
   EXPECT_EQ(s.solver.newmark_gamma, 0.7);
   EXPECT_TRUE(s.solver.verify);
   EXPECT_FALSE(s.support.border_held);
-  EXPECT_EQ(s.support.skull, reenact::Hold::held);
+  EXPECT_EQ(s.support.skull, simulate::Hold::held);
   EXPECT_EQ(s.support.skull_layer.across_pa_per_m, 51e6);
   EXPECT_EQ(s.support.skull_layer.along_pa_per_m, 52e6);
-  EXPECT_EQ(s.support.mandible, reenact::Mandible::free);
+  EXPECT_EQ(s.support.mandible, simulate::Mandible::free);
   EXPECT_EQ(s.support.mandible_layer.across_pa_per_m, 53e6);
   EXPECT_EQ(s.support.mandible_layer.along_pa_per_m, 54e6);
   EXPECT_EQ(s.support.field_pa_per_m, 57e6);
@@ -225,7 +225,7 @@ TEST(SceneFields, FlagsHoldsAndThicknessAreNotMixedUp) {
   const SceneFolder folder;
   const auto file = folder.write("scene.toml", smallest);
   EXPECT_EQ(read_scene(file, {"mesh.thickness_mm=7.5"}).mesh.thickness_m, 0.0075);
-  EXPECT_EQ(read_scene(file, {"support.skull=free"}).support.skull, reenact::Hold::free);
+  EXPECT_EQ(read_scene(file, {"support.skull=free"}).support.skull, simulate::Hold::free);
   EXPECT_TRUE(read_scene(file, {"support.skull=free"}).support.border_held);
   EXPECT_FALSE(read_scene(file, {"output.glb=false"}).output.glb);
   EXPECT_TRUE(read_scene(file, {"output.glb=false"}).output.vtu);
@@ -241,17 +241,18 @@ TEST(SceneFields, EachWordMeansItsValue) {
   EXPECT_EQ(with("scan.unit=m").scan.unit, io::LengthUnit::metre);
   EXPECT_EQ(with("scan.unit=guess").scan.unit, std::nullopt);
   EXPECT_EQ(with("motion.unit=file").motion.unit, std::nullopt);
-  EXPECT_EQ(with("alignment.method=nonrigid").alignment.method, reenact::AlignmentMethod::nonrigid);
+  EXPECT_EQ(with("alignment.method=nonrigid").alignment.method,
+            simulate::AlignmentMethod::nonrigid);
   EXPECT_EQ(with("alignment.method=normalised").alignment.method,
-            reenact::AlignmentMethod::normalised);
-  EXPECT_EQ(with("region.measured=none").region.measured, reenact::Measured::none);
-  EXPECT_EQ(with("region.measured=all").region.measured, reenact::Measured::all);
+            simulate::AlignmentMethod::normalised);
+  EXPECT_EQ(with("region.measured=none").region.measured, simulate::Measured::none);
+  EXPECT_EQ(with("region.measured=all").region.measured, simulate::Measured::all);
   EXPECT_EQ(with("mesh.cut_lips=auto").mesh.cut_lips, tissue::LipCut::automatic);
   EXPECT_EQ(with("mesh.cut_lips=always").mesh.cut_lips, tissue::LipCut::always);
   EXPECT_EQ(with("tissue.viscous_form=isotropic").model.viscous_form, fem::ViscousForm::isotropic);
   EXPECT_TRUE(with("support.border=held").support.border_held);
-  EXPECT_EQ(with("support.mandible=follow").support.mandible, reenact::Mandible::follow);
-  EXPECT_EQ(with("support.mandible=held").support.mandible, reenact::Mandible::held);
+  EXPECT_EQ(with("support.mandible=follow").support.mandible, simulate::Mandible::follow);
+  EXPECT_EQ(with("support.mandible=held").support.mandible, simulate::Mandible::held);
   const Scene all = with("drive.points=all");
   EXPECT_TRUE(all.drive.all_points);
   EXPECT_TRUE(all.drive.points.empty());

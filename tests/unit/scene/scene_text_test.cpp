@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/scene/grammar/scene_text.hpp"
+#include "hyperex/scene/scene_text.hpp"
 
 #include <gmock/gmock.h>
 
-#include "hyperex/scene/grammar/toml_values.hpp"
+#include "hyperex/scene/toml_values.hpp"
 
 namespace hyperex::scene {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <random>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 
 namespace hyperex::studio {
 namespace {
@@ -48,15 +48,15 @@ double farthest(const Points& a, const Points& b) {
 }
 
 TEST(LiveMotion, BringsSamplesToTheScanAsARunBringsTheRecording) {
-  const io::Landmarks landmarks = tissue::embedded_face().landmarks;
+  const io::Landmarks landmarks = anatomy::embedded_face().landmarks;
   const motion::Motion seen = seen_opening(landmarks);
   const std::vector<LiveSample> samples = samples_of(seen);
   LiveMotion live(seen.names, {samples.begin(), samples.begin() + kRest}, landmarks,
-                  reenact::AlignmentMethod::nonrigid);
+                  simulate::AlignmentMethod::nonrigid);
 
   motion::Motion whole = seen;
   whole.positions.front() = live.neutral();
-  const reenact::AlignedMotion run = reenact::align(motion::stabilise(whole).motion, landmarks);
+  const simulate::AlignedMotion run = simulate::align(motion::stabilise(whole).motion, landmarks);
   EXPECT_LT(farthest(live.at_rest(0.03).rest, run.rest), 1e-9);
   double most_m = 0, off_m = 0;
   for (std::size_t k = 1; k < samples.size(); ++k) {
@@ -72,13 +72,13 @@ TEST(LiveMotion, BringsSamplesToTheScanAsARunBringsTheRecording) {
 
 TEST(LiveMotion, RefusesPointsThatTheScanDoesNotKnow) {
   const std::deque<LiveSample> samples(6, {0, Points::Random(4, 3)});
-  EXPECT_THROW(LiveMotion({"a", "b", "c", "d"}, samples, tissue::embedded_face().landmarks,
-                          reenact::AlignmentMethod::nonrigid),
+  EXPECT_THROW(LiveMotion({"a", "b", "c", "d"}, samples, anatomy::embedded_face().landmarks,
+                          simulate::AlignmentMethod::nonrigid),
                InputError);
 }
 
 TEST(LiveTake, BeginsAtTheNeutralFaceAndIsLedFromItIntoAnExpression) {
-  const io::Landmarks landmarks = tissue::embedded_face().landmarks;
+  const io::Landmarks landmarks = anatomy::embedded_face().landmarks;
   const motion::Motion seen = seen_opening(landmarks);
   const std::vector<LiveSample> samples = samples_of(seen);
   const Points neutral = samples.front().positions;

@@ -128,8 +128,8 @@ TEST_F(LiveFace, SendsNoMoreThanAPageDrawsAndEndsWhenItIsTold) {
 TEST_F(LiveFace, WhatDrivesMustBeTracked) {
   EXPECT_THROW(face_.options_live(0, {"ibug68_8"}), InputError);
   EXPECT_THROW(face_.options_live(7, live_points()), InputError);
-  const reenact::SimulationOptions options = face_.options_live(0, live_points());
-  EXPECT_EQ(options.drive.by, reenact::DriveBy::displacement);
+  const simulate::SimulationOptions options = face_.options_live(0, live_points());
+  EXPECT_EQ(options.drive.by, simulate::DriveBy::displacement);
   EXPECT_FALSE(options.drive.points.empty());
 }
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "hyperex/core/files.hpp"
-#include "hyperex/scene/grammar/scene.hpp"
+#include "hyperex/scene/scene.hpp"
 #include "unit/studio/own_folder.hpp"
 
 namespace hyperex::studio {
@@ -19,7 +19,7 @@ TEST(SceneFiles, TheSceneWithTheSmileIsSound) {
   const test::OwnFolder folder;
   std::ofstream(folder.path() / "smile_arkit.csv") << embedded_smile();
   const scene::Scene scene = scene::read_scene_text(embedded_scene(), folder.path() / "scene.toml");
-  EXPECT_EQ(scene.drive.by, reenact::DriveBy::muscles);
+  EXPECT_EQ(scene.drive.by, simulate::DriveBy::muscles);
   EXPECT_EQ(scene.motion.arkit, folder.path() / "smile_arkit.csv");
 }
 

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "hyperex/core/files.hpp"
-#include "hyperex/scene/run/pipeline.hpp"
+#include "hyperex/run/pipeline.hpp"
 #include "support/zip_writer.hpp"
 #include "unit/studio/own_folder.hpp"
 
@@ -119,7 +119,7 @@ TEST_F(StudioSessionWithBands, FindsErrorBandsAsTheCommandDoesWhenNothingElseIsT
   const fs::path saved = folder_.path() / "mine" / "weak.toml", out = folder_.path() / "out";
   scene::Scene scene = scene::read_scene_text(read_file(saved), saved);
   scene.output.vtu = scene.output.glb = scene.output.report = false;
-  run_scene(scene, out);
+  run::run_scene(scene, out);
   const json rows = json::parse(read_file(out / "summary.json"))["variants"]["table"];
   for (const char* key : {"commissure_R_band_mm", "commissure_L_band_mm", "added_xi_floor"}) {
     const double here = table[1][key], there = rows[1][key];
@@ -170,7 +170,7 @@ TEST_F(StudioSession, WeakensAMuscleLiveAndRunsItAgainFromTheSavedScene) {
   EXPECT_EQ(file, folder_.path() / "mine" / "my scene.toml");
   EXPECT_EQ(event("scene")->head["saved"], true);
   const scene::Scene scene = scene::read_scene(file, {"output.vtu=false", "output.glb=false"});
-  const auto summary = scene::run_scene(scene, folder_.path() / "run");
+  const auto summary = run::run_scene(scene, folder_.path() / "run");
   set({{"muscles.gain", {{"side_R", 0.7}}}}, 1);
   work();
   ASSERT_NE(event("motion"), nullptr);
@@ -229,7 +229,7 @@ TEST_F(StudioSession, PaintedPatchesAreRunAgainFromTheSavedScene) {
       scene::read_scene(saved["path"].get<std::string>(), {"output.vtu=false", "output.glb=false"});
   EXPECT_EQ(scene.variants[0].scene.tissue.regions[0].painted.parent_path(),
             folder_.path() / "mine" / "painted_files");
-  const auto summary = scene::run_scene(scene, folder_.path() / "run");
+  const auto summary = run::run_scene(scene, folder_.path() / "run");
   for (const char* corner : {"commissure_L_mm", "commissure_R_mm"})
     EXPECT_NEAR(summary["variants"]["table"][1][corner].get<double>(),
                 table[1][corner].get<double>(), 1e-6);
@@ -301,7 +301,7 @@ TEST_F(StudioSession, PaintedThicknessMakesTheMeshAnewAndRunsAgainFromTheSavedSc
   ASSERT_EQ(scene.mesh.depth_regions.size(), 1U);
   EXPECT_EQ(scene.mesh.depth_regions[0].painted.parent_path(),
             folder_.path() / "mine" / "thick_files");
-  const auto summary = scene::run_scene(scene, folder_.path() / "run");
+  const auto summary = run::run_scene(scene, folder_.path() / "run");
   for (const std::size_t face : {0, 1})
     for (const char* corner : {"commissure_L_mm", "commissure_R_mm"})
       EXPECT_NEAR(summary["variants"]["table"][face][corner].get<double>(),

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/corner_linings.hpp"
+#include "hyperex/tissue/mesh/corner_linings.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/lips.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 
 /// The face goes on behind its lips: each continues backwards, and out of sight.

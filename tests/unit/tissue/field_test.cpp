@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/tissue/field/frontal.hpp"
 #include "hyperex/tissue/field/harmonic.hpp"
 #include "hyperex/tissue/field/points.hpp"
@@ -14,6 +14,7 @@
 #include "support/sheet_mesh.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -5,17 +5,18 @@
 #include <filesystem>
 #include <set>
 
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/landmarks.hpp"
+#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/landmarks.hpp"
-#include "hyperex/tissue/lips.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 
 struct Face {

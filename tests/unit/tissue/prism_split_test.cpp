@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/prism_split.hpp"
+#include "hyperex/tissue/mesh/prism_split.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/rim.hpp"
+#include "hyperex/tissue/mesh/rim.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::tissue {
 namespace {

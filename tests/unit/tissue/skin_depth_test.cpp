@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How thick the tissue is, from files with a row a vertex of the scan.
-#include "hyperex/tissue/skin_depth.hpp"
+#include "hyperex/tissue/mesh/skin_depth.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -8,15 +8,16 @@
 #include <fstream>
 #include <functional>
 
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/field/per_vertex.hpp"
-#include "hyperex/tissue/lips.hpp"
-#include "hyperex/tissue/on_skin.hpp"
+#include "hyperex/tissue/mesh/on_skin.hpp"
+#include "hyperex/tissue/per_vertex/per_vertex.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;

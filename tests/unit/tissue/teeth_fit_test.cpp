@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/teeth/teeth_fit.hpp"
+#include "hyperex/anatomy/teeth/teeth_fit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 
 bool in_tissue(const VolumeMesh& volume, const Vec3& p) {
@@ -35,7 +36,7 @@ struct Fitted {
     const EmbeddedFace face = embedded_face();
     landmarks = face.landmarks;
     mesh = build_tissue_mesh(face.mesh, landmarks, {}, "embedded");
-    fit = fit_teeth(mesh, landmarks);
+    fit = fit_teeth(mesh.volume.outer, boundary_of(mesh.volume), landmarks);
   }
   static const Fitted& get() {
     static const Fitted one;
@@ -98,7 +99,7 @@ TEST(FitTeeth, FollowsTheFace) {
   moved.volume.nodes = move(mesh.volume.nodes);
   moved.volume.outer.points = move(mesh.volume.outer.points);
   for (const auto& [name, at] : landmarks) places[name] = turn * at + shift;
-  const TeethFit other = fit_teeth(moved, places);
+  const TeethFit other = fit_teeth(moved.volume.outer, boundary_of(moved.volume), places);
   ASSERT_EQ(other.why_none, "");
   EXPECT_LT((other.teeth.lower.crowns.points - move(fit.teeth.lower.crowns.points))
                 .rowwise()
@@ -111,10 +112,11 @@ TEST(FitTeeth, SaysWhyThereAreNone) {
   const auto& [landmarks, mesh, fit] = Fitted::get();
   io::Landmarks few = landmarks;
   few.erase(face::ibug(62));
-  EXPECT_NE(fit_teeth(mesh, few).why_none.find("ibug68_62"), std::string::npos);
+  EXPECT_NE(fit_teeth(mesh.volume.outer, boundary_of(mesh.volume), few).why_none.find("ibug68_62"),
+            std::string::npos);
   TissueMesh joined = mesh;
   joined.volume.outer = canonical_face().mesh;
-  const TeethFit none = fit_teeth(joined, landmarks);
+  const TeethFit none = fit_teeth(joined.volume.outer, boundary_of(joined.volume), landmarks);
   EXPECT_NE(none.why_none, "");
   EXPECT_TRUE(none.teeth.upper.empty());
   EXPECT_TRUE(none.teeth.lower.empty());

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/thickness.hpp"
+#include "hyperex/tissue/mesh/thickness.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <stdexcept>
 
-#include "hyperex/tissue/canonical_face.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 
 TEST(PublishedDepths, ArePlausibleAndNamedOnceAtKnownLandmarks) {

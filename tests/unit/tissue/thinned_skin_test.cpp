@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/landmarks.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 #include "support/subdivided.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 
 constexpr double kElement_m = 0.005;

@@ -7,14 +7,15 @@
 
 #include <fstream>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 using testing::HasSubstr;
 

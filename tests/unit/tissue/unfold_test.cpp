@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/unfold.hpp"
+#include "hyperex/tissue/mesh/unfold.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/field/vertex_match.hpp"
+#include "hyperex/tissue/per_vertex/vertex_match.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,13 @@
 #include <filesystem>
 #include <numeric>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/scan.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
-#include "hyperex/tissue/field/per_vertex.hpp"
+#include "hyperex/tissue/per_vertex/per_vertex.hpp"
 
 namespace hyperex::tissue {
+using namespace anatomy;
 namespace {
 using testing::HasSubstr;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/tissue/volume_mesh.hpp"
+#include "hyperex/tissue/mesh/volume_mesh.hpp"
 
 #include <gmock/gmock.h>
 

@@ -6,9 +6,9 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/render/render.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tracking/network/landmark_tracker.hpp"
 
 namespace hyperex::tracking {
@@ -18,8 +18,8 @@ struct FacePicture {
   std::map<std::string, cv::Point2d> landmarks;  // pixels, centres at integers
 };
 
-inline const tissue::EmbeddedFace& face_to_draw() {
-  static const tissue::EmbeddedFace face = tissue::embedded_face();
+inline const anatomy::EmbeddedFace& face_to_draw() {
+  static const anatomy::EmbeddedFace face = anatomy::embedded_face();
   return face;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
-#include "hyperex/tissue/field/side_tree.hpp"
+#include "hyperex/tissue/mesh/side_tree.hpp"
 
 namespace hyperex::tissue {
 

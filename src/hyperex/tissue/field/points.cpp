@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/face_frame.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 
 namespace hyperex::tissue {
@@ -74,7 +74,7 @@ class Resolver {
     }
     for (const std::string& name : names_of(point, key)) {
       if (!add_named(name, point.value, key)) continue;
-      const std::string twin = mirrored_landmark(name);
+      const std::string twin = anatomy::mirrored_landmark(name);
       if (options_.mirror && twin != name && landmarks_.contains(twin))
         add_named(twin, point.value, key);
     }
@@ -117,7 +117,7 @@ class Resolver {
 }  // namespace
 
 std::string side_of_landmark(const std::string& name) {
-  const CanonicalFace& face = canonical_face();
+  const anatomy::CanonicalFace& face = anatomy::canonical_face();
   if (face.landmarks.contains(name)) {
     const double x = face.landmark(name, face.mesh.points).x();
     return std::abs(x) < 1e-4 ? "" : x > 0 ? "L" : "R";

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hyperex/io/landmarks.hpp"
-#include "hyperex/tissue/field/options.hpp"
+#include "hyperex/tissue/options.hpp"
 
 namespace hyperex::tissue {
 

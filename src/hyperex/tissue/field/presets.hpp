@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/tissue/field/options.hpp"
+#include "hyperex/tissue/options.hpp"
 
 namespace hyperex::tissue {
 

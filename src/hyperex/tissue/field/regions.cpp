@@ -6,10 +6,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/field/data.hpp"
 
 namespace hyperex::tissue {
@@ -113,8 +113,8 @@ bool is_region(const std::string& name) {
 }
 
 RegionMap::RegionMap(const TissueMesh& mesh, const io::Landmarks& landmarks,
-                     const RegisteredFace& face) {
-  const CanonicalFace& canonical = canonical_face();
+                     const anatomy::RegisteredFace& face) {
+  const anatomy::CanonicalFace& canonical = anatomy::canonical_face();
   open_ = {face.points, face::opened_triangles(canonical)};
   const face::FaceFrame frame = face::face_frame(landmarks);
   const double reach = 1.8 * (landmarks.at(face::ibug(54)) - frame.origin).norm();

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
-#include "hyperex/tissue/field/side_tree.hpp"
-#include "hyperex/tissue/register_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/side_tree.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::tissue {
 
@@ -25,7 +25,8 @@ bool is_region(const std::string& name);
 /// Where each vertex of a skin lies on the canonical face laid over it.
 class RegionMap {
  public:
-  RegionMap(const TissueMesh& mesh, const io::Landmarks& landmarks, const RegisteredFace& face);
+  RegionMap(const TissueMesh& mesh, const io::Landmarks& landmarks,
+            const anatomy::RegisteredFace& face);
 
   /// Per skin vertex how deep it lies inside the region, m: below 0 outside. `name` of
   /// region_names(). A region's border runs between canonical vertices inside and outside,

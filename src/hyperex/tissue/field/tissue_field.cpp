@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
-#include "hyperex/tissue/canonical_face.hpp"
 #include "hyperex/tissue/field/frontal.hpp"
 #include "hyperex/tissue/field/harmonic.hpp"
-#include "hyperex/tissue/field/per_vertex.hpp"
 #include "hyperex/tissue/field/points.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
-#include "hyperex/tissue/lips.hpp"
-#include "hyperex/tissue/on_skin.hpp"
+#include "hyperex/tissue/mesh/on_skin.hpp"
+#include "hyperex/tissue/per_vertex/per_vertex.hpp"
 
 namespace hyperex::tissue {
 namespace {
@@ -26,7 +26,7 @@ using SkinField = std::array<Eigen::VectorXd, parameter_count>;
 double margin_of(const std::string& landmark) {
   if (landmark == "labiale_superius" || landmark.starts_with("crista_philtri")) return 1;
   if (landmark == "labiale_inferius") return -1;
-  return lip_of(landmark);
+  return anatomy::lip_of(landmark);
 }
 
 /// The skin above the centroid of each tetrahedron: each node counts as the outer vertex over it.
@@ -99,7 +99,7 @@ void check_region(const TissueFieldOptions& options, std::size_t index,
     complain(".painted", "mirror = false, as the paint says all of either side");
   for (std::size_t other = 0; other < index; ++other)
     if (!region.name.empty() && region.name != options.regions[other].name &&
-        mirrored_landmark(region.name) == options.regions[other].name)
+        anatomy::mirrored_landmark(region.name) == options.regions[other].name)
       complain(".name", fmt::format("one side alone, as mirror is true and region[{}] "
                                     "is {}",
                                     other, options.regions[other].name));
@@ -140,7 +140,7 @@ std::vector<std::string> notes_on_files(const TissueFieldOptions& options, const
 }
 
 TissueFieldMaker::TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& landmarks,
-                                   const RegisteredFace* face)
+                                   const anatomy::RegisteredFace* face)
     : mesh_(mesh),
       landmarks_(landmarks),
       joined_(joined_vertices(mesh.skin.points, mesh.skin_upper_margin)),
@@ -243,7 +243,7 @@ Eigen::VectorXd TissueFieldMaker::region_depth(const TissueFieldOptions& options
   for (const auto& p : region.scar_points_m) line.emplace_back(p[0], p[1], p[2]);
   for (const std::string& name : region.scar) {
     line.push_back(landmarks_.at(name));
-    const auto other = landmarks_.find(mirrored_landmark(name));
+    const auto other = landmarks_.find(anatomy::mirrored_landmark(name));
     twin.push_back(other == landmarks_.end() ? line.back() : other->second);
   }
   for (const Vec3& p : line)

@@ -4,14 +4,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
-#include "hyperex/tissue/field/options.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
-#include "hyperex/tissue/field/side_tree.hpp"
-#include "hyperex/tissue/register_face.hpp"
-#include "hyperex/tissue/tissue_mesh.hpp"
+#include "hyperex/tissue/mesh/side_tree.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
+#include "hyperex/tissue/options.hpp"
 
 namespace hyperex::tissue {
 
@@ -61,7 +61,7 @@ class TissueFieldMaker {
   /// `landmarks`: completed. `face`: the canonical face laid over the scan, for named regions; none
   /// where no options will name any (needs_registration). Mesh and landmarks must outlive this.
   TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& landmarks,
-                   const RegisteredFace* face);
+                   const anatomy::RegisteredFace* face);
 
   /// problems_of(options) must be empty. Throws FieldError, InputError (the file a vertex).
   TissueField make(const TissueFieldOptions& options) const;

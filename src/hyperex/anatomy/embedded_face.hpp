@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+
+namespace hyperex::anatomy {
+
+// The canonical face stands in a room of its own, below tracking, which needs it too.
+using face::canonical_face;
+using face::CanonicalFace;
+using face::left_eye_contour;
+using face::lip_contour;
+using face::mirrored_landmark;
+using face::right_eye_contour;
+
+/// A face to work with where none was scanned.
+struct EmbeddedFace {
+  TriMesh mesh;             ///< metres
+  io::Landmarks landmarks;  ///< all of CanonicalFace::landmarks, on the mesh
+};
+
+/// The canonical face with eyes and mouth opened, refined by two rounds of Loop's subdivision (C.
+/// T. Loop, 1987; borders as cubic B-splines) to about 7,000 vertices. The subdivided surface goes
+/// through the canonical vertices nearly: its control mesh is corrected for the shrinking.
+EmbeddedFace embedded_face();
+
+}  // namespace hyperex::anatomy

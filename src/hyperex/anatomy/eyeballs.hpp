@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+
+namespace hyperex::anatomy {
+
+/// Where eyes and mouth end: metres, the right one first.
+struct FaceCorners {
+  std::array<Vec3, 2> outer;
+  std::array<std::optional<Vec3>, 2> inner;
+  std::array<Vec3, 2> mouth;
+  Vec3 forward;  ///< unit length: where a head held upright looks
+};
+
+/// Of the iBUG points or their anatomical names; nothing without the outer corners of the eyes and
+/// those of the mouth.
+std::optional<FaceCorners> face_corners(const io::Landmarks& landmarks);
+
+/// A sphere that looks along `gaze` (unit length).
+struct Eyeball {
+  Vec3 centre, gaze;
+  double radius_m = 0;
+};
+
+/// Right and left, behind `skin` (vertices at rest, metres); none without inner corners. The
+/// radius is 0.4 of the distance of the eye's corners (an adult's is 12 mm, behind an opening of
+/// some 30 mm). The ball lies as far forward as lets no vertex of the lids nearer than 0.4 mm to
+/// it: at most a sixth of that distance before the line between the corners, at least 8 mm behind
+/// that place.
+std::vector<Eyeball> eyeballs_behind(const Points& skin, const FaceCorners& corners);
+
+}  // namespace hyperex::anatomy

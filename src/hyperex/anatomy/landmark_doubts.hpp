@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+
+namespace hyperex::anatomy {
+
+/// How far a landmark is from where the others put it.
+struct LandmarkSurprise {
+  std::string name;
+  Vec3 expected = Vec3::Zero();  ///< scan frame, m
+  double distance_m = 0;         ///< of the given position from the expected one
+  /// The same in standard deviations of the prediction (Mahalanobis distance of three coordinates).
+  double deviations = 0;
+};
+
+/// Where the other landmarks put each landmark, itself and its other names left out. Faces differ
+/// from the canonical face by a similarity and a smooth field of displacements, mostly the same on
+/// both sides: a Gaussian process over the canonical face whose covariance joins each place with
+/// those near it and with their mirror images. All landmarks left out in turn by one inverse (C. E.
+/// Rasmussen, C. K. I. Williams, "Gaussian Processes for Machine Learning", 2006, 5.4.2), the
+/// similarity's seven parameters being unknowns with a flat prior (there, 2.7). In the order of the
+/// names; empty for fewer than five landmarks that the canonical face knows, or where they lie
+/// nearly on a line. `given`: m.
+std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given);
+
+/// The same against landmarks that were found on the same scan (tracking/scan): how a person and
+/// the program set landmarks differs smoothly over the face and alike on both sides, so that a
+/// landmark whose offset is none of that stands out. Far more is seen so than against the canonical
+/// face.
+std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given,
+                                                 const io::Landmarks& found);
+
+/// Landmarks that are probably not where their names say, a sentence each, with the distance in mm
+/// and what to do; the most doubtful first. Three questions:
+///  * two names of one place (face::same_place) are more than 5 mm apart: the one that the others
+///    put farther off is named;
+///  * a landmark is more than 7 mm and 3.5 standard deviations (2.75 of at most 20 landmarks) from
+///    where the others put it (landmark_surprises), the worst being left out before the next is
+///    judged;
+///  * a landmark is more than 5 mm off the scan's surface.
+/// Nothing is refused here: complete_landmarks does that, with far wider bounds.
+std::vector<std::string> landmark_doubts(const io::Landmarks& given, const TriMesh& scan);
+
+/// The same by landmarks that were found on this scan: those more than 7 mm and 3.5 standard
+/// deviations from where they put them (landmark_surprises). Of single landmarks moved by 10 mm on
+/// three faces that finds over 99 % of eyes and lips, 98 % of brows and nose, 12 % of the outline
+/// of the jaw, along which a place is not defined any better.
+std::vector<std::string> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found);
+
+}  // namespace hyperex::anatomy

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+
+namespace hyperex::anatomy {
+
+struct CompletedLandmarks {
+  io::Landmarks landmarks;          ///< those given, unchanged, and those placed
+  std::vector<std::string> placed;  ///< sorted
+};
+
+/// Landmarks that are not given are placed: the canonical face is laid over the scan
+/// (register_canonical_face), corrected by a radial basis so that it meets the given landmarks, and
+/// the missing ones are the closest points of the scan to where it puts them.
+/// `source` is the file to name in errors. Throws InputError, all problems at once:
+///  * landmarks in other axes than the scan's (negated_axes_problem);
+///  * a given landmark farther than 15 mm from the scan's surface, named with the distance;
+///  * left and right exchanged: of one pair (the others then fit far better when it is turned
+///    round), or of all (the face then looks into the scan, as it does where the scan's triangles
+///    are inside out);
+///  * a landmark 4 cm or more from where all the others put it;
+///  * something is missing and fewer than three of the given are known to the canonical face, or
+///    they lie nearly on a line; or a missing one is unknown to it.
+CompletedLandmarks complete_landmarks(const io::Landmarks& given,
+                                      const std::vector<std::string>& needed, const TriMesh& scan,
+                                      const std::string& source = "landmarks");
+
+/// The same with all that the canonical face knows: what a simulation needs.
+CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh& scan,
+                                      const std::string& source = "landmarks");
+
+/// The names of `given` that the canonical face does not know: own ones, or misspelt.
+std::vector<std::string> unknown_landmarks(const io::Landmarks& given);
+
+/// A sentence for the user on such names (one or more): a handful of them, and where the known ones
+/// stand.
+std::string unknown_landmarks_note(const std::vector<std::string>& names);
+
+}  // namespace hyperex::anatomy

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+
+namespace hyperex::anatomy {
+
+/// Which lip a vertex belongs to, told by walking on the surface, since across a closed mouth the
+/// other lip is nearer through the air. Per vertex: walk to the lower lip minus walk to the upper
+/// one (m); above 0 on the upper side. Infinite walks count as far (0 where both are).
+/// Where the mouth is open it is shifted to be 0 at its corners (between them linearly), and at
+/// least 5 mm, with the lip's own sign, on its rims.
+std::vector<double> upper_lip_margin(const TriMesh& mesh, const io::Landmarks& landmarks);
+
+/// -1, 0 or 1 for points of the lower lip, of neither and of the upper lip by their iBUG-68 number.
+int lip_of(const std::string& landmark);
+
+/// The border loop between the lips, in the direction of its triangles; empty where the mouth is
+/// closed.
+std::vector<int> mouth_border(const TriMesh& mesh, const io::Landmarks& landmarks);
+
+/// A border loop runs between the lips: the mouth is a slit already.
+bool mouth_is_open(const TriMesh& mesh, const io::Landmarks& landmarks);
+
+/// A line from the right corner of the mouth to the left along which closed lips may be cut, laid
+/// on the surface as seen from in front; smooth.
+Points lip_line_of_landmarks(const io::Landmarks& landmarks);  ///< ibug68_60 to 67, means of pairs
+/// The deepest crease near that line (find_lip_line), smoothed by no more than 0.3 mm; nothing
+/// where no clear crease runs there.
+std::optional<Points> lip_line_of_crease(const TriMesh& mesh, const io::Landmarks& landmarks);
+
+}  // namespace hyperex::anatomy

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/run/activations.hpp"
+
+#include "hyperex/io/csv.hpp"
+#include "hyperex/simulate/load/muscle_load.hpp"
+
+namespace hyperex::run {
+
+Eigen::Index most_active_sample(const simulate::MuscleCourse& muscles) {
+  Eigen::Index at = 0;
+  muscles.activation.cwiseAbs().colwise().sum().maxCoeff(&at);
+  return at;
+}
+
+void write_activations_csv(const std::filesystem::path& file,
+                           const simulate::MuscleCourse& muscles) {
+  std::vector<std::string> columns = {"time_s", "jaw_opening_deg"};
+  for (const std::string& name : muscles.names) {
+    columns.push_back(name);
+    columns.push_back(name + "_sigma");
+  }
+  io::write_csv(file, columns, static_cast<long>(muscles.time_s.size()),
+                [&](long row, std::vector<double>& values) {
+                  values[0] = muscles.time_s[std::size_t(row)];
+                  values[1] = muscles.jaw_opening_deg[row];
+                  for (std::size_t m = 0; m < muscles.names.size(); ++m) {
+                    values[2 + 2 * m] = muscles.activation(Eigen::Index(m), row);
+                    values[3 + 2 * m] = muscles.sigma(Eigen::Index(m), row);
+                  }
+                });
+}
+
+nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
+                                        std::size_t driven_points) {
+  nlohmann::ordered_json json;
+  if (muscles.groups.empty()) return json;
+  const Eigen::Index at = most_active_sample(muscles);
+  json["time_s"] = muscles.time_s[std::size_t(at)];
+  json["jaw_opening_deg"] = muscles.jaw_opening_deg[at];
+  for (std::size_t g = 0; g < muscles.groups.size(); ++g) {
+    const std::string& name = muscles.groups[g];
+    const auto row = static_cast<Eigen::Index>(g);
+    auto& group = json["groups"][name.substr(0, name.size() - 2)];
+    group["activation"][name.substr(name.size() - 1)] = muscles.group_activation(row, at);
+    group["sigma"][name.substr(name.size() - 1)] = muscles.group_sigma(row, at);
+  }
+  json["reading"] =
+      driven_points <= std::size_t(simulate::kFewPoints)
+          ? "so few points leave most of an activation to the prior: a means of moving the face, "
+            "not a measurement of muscles"
+          : "sums over muscles that points on the skin can hardly tell apart; sigma knows of the "
+            "points' errors and the prior, not of wrong lines or tissue";
+  return json;
+}
+
+}  // namespace hyperex::run

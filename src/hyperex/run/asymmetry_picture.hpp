@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/metrics/asymmetry.hpp"
+#include "hyperex/render/image.hpp"
+
+namespace hyperex::run {
+
+/// The asymmetry map on the moved skin, from the front and from both sides, with a colour bar in
+/// mm up to the 99th percentile over the face; plain where a vertex has no counterpart. `moved`:
+/// the displaced skin, `map_mm` a value a vertex (asymmetry_mm), `landmarks` those at rest.
+render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm,
+                             const metrics::Asymmetry& asymmetry, const io::Landmarks& landmarks,
+                             const std::string& title, const std::string& note);
+
+}  // namespace hyperex::run

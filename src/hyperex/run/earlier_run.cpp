@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/run/earlier_run.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/output_directory.hpp"
+
+namespace hyperex::run {
+namespace fs = std::filesystem;
+namespace {
+using nlohmann::json;
+
+/// What a run writes of the scene and of each variant.
+const std::set<std::string> kOfAFace = {"activations.csv", "asymmetry.png", "contact_sheet.png",
+                                        "excursions.csv",  "motion.csv",    "muscles.png",
+                                        "skin_peak.ply",   "symmetry.csv",  "tissue_map.png"};
+const std::set<std::string> kOfARun = {"frames.pvd",
+                                       "performance.glb",
+                                       "report.html",
+                                       "summary.json",
+                                       "variants.csv",
+                                       "variants.png",
+                                       "variants_excursions.csv",
+                                       "variants_symmetry.png"};
+
+bool is_name_of_an_output(const std::string& name) {
+  if (kOfAFace.contains(name) || kOfARun.contains(name)) return true;
+  const fs::path path(name);
+  const std::string frame = "frames/frame_", variants = "variants/";
+  if (name.starts_with(frame))
+    return path.extension() == ".vtu" && name.find('/', frame.size()) == std::string::npos;
+  return name.starts_with(variants) && kOfAFace.contains(path.filename().string()) &&
+         path.parent_path().parent_path() == "variants";
+}
+
+}  // namespace
+
+std::set<std::string> files_of_earlier_run(const fs::path& folder) {
+  std::error_code error;
+  const fs::path file = folder / "summary.json";
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return {};
+  const json summary = json::parse(read_file(file), nullptr, false);
+  if (!summary.is_object() || summary.value("program", json()) != "hyperex") return {};
+  std::set<std::string> names;
+  if (const auto listed = summary.find("files"); listed != summary.end()) {
+    for (const json& name : *listed)
+      if (name.is_string()) names.insert(name.get<std::string>());
+    return names;
+  }
+  for (const std::string& name : files_below(folder))
+    if (is_name_of_an_output(name)) names.insert(name);
+  return names;
+}
+
+std::vector<fs::path> files_named_by(const scene::Scene& scene) {
+  std::vector<fs::path> files = {scene.file,
+                                 scene.scan.source.file,
+                                 scene.scan.landmarks,
+                                 scene.motion.source.file,
+                                 scene.motion.recording,
+                                 scene.motion.openface,
+                                 scene.motion.arkit,
+                                 scene.motion.candide,
+                                 scene.tissue.per_vertex,
+                                 scene.mesh.depth_per_vertex};
+  for (const tissue::TissueRegion& region : scene.tissue.regions) files.push_back(region.painted);
+  for (const tissue::DepthRegion& region : scene.mesh.depth_regions)
+    files.push_back(region.painted);
+  for (const scene::Variant& variant : scene.variants)
+    for (const fs::path& file : files_named_by(variant.scene)) files.push_back(file);
+  std::erase_if(files, [](const fs::path& file) { return file.empty(); });
+  return files;
+}
+
+}  // namespace hyperex::run

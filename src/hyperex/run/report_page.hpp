@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "hyperex/report/html_report.hpp"
+#include "hyperex/run/variant_run.hpp"
+
+namespace hyperex::run {
+
+/// What a page of a run and its variants shows. What is given must outlive it.
+class ReplayPage {
+ public:
+  ReplayPage(const Results& results, const std::vector<VariantRun>& variants,
+             nlohmann::json summary);
+  const report::ReportInput& input() const { return input_; }
+
+ private:
+  report::ReportInput input_;
+};
+
+/// Writes report.html: the face in motion, its variants, curves, and the summary as tables.
+void write_report(const Results& results, const std::vector<VariantRun>& variants,
+                  const nlohmann::ordered_json& summary, const std::filesystem::path& directory);
+
+/// A variant's changes in words, one a key: "tissue.young_kpa = 1000",
+/// "tissue.region: name = cheek_R, young_factor = 10".
+std::vector<std::string> change_texts(const nlohmann::json& changes);
+
+}  // namespace hyperex::run

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/run/variants_picture.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/metrics/curve_spread.hpp"
+#include "hyperex/render/camera.hpp"
+#include "hyperex/render/contact_sheet.hpp"
+#include "hyperex/render/render.hpp"
+#include "hyperex/render/time_plot.hpp"
+#include "hyperex/run/backing_surfaces.hpp"
+
+namespace hyperex::run {
+namespace {
+
+/// Names with their colours, in as many lines as they need; returns the height.
+double draw_legend(render::Canvas& canvas, double left, double right, double y,
+                   const std::vector<render::PlotCurve>& curves) {
+  constexpr double line_px = 20, swatch_px = 22, gap_px = 18;
+  double x = left, at = y;
+  for (const render::PlotCurve& curve : curves) {
+    const render::TextStyle style{.size_px = 13};
+    const double width = swatch_px + canvas.text_width(curve.name, style);
+    if (x > left && x + width > right) {
+      x = left;
+      at += line_px;
+    }
+    canvas.rectangle(x, at - 6, swatch_px - 6, 3, curve.colour);
+    canvas.text(x + swatch_px, at, curve.name, style);
+    x += width + gap_px;
+  }
+  return at + line_px - y;
+}
+
+/// The frame in which the variants, taken together, lie farthest from base.
+std::size_t frame_that_differs_most(const std::vector<metrics::VariantComparison>& compared) {
+  std::vector<double> sum(compared.front().difference.frame_max_m.size(), 0);
+  for (const auto& one : compared)
+    for (std::size_t f = 0; f < sum.size(); ++f) sum[f] += one.difference.frame_max_m[f];
+  return std::size_t(std::max_element(sum.begin(), sum.end()) - sum.begin());
+}
+
+}  // namespace
+
+void draw_variants(const Results& base, const std::vector<metrics::VariantComparison>& compared,
+                   const std::vector<VariantRun>& runs, const std::filesystem::path& file) {
+  const face::FaceFrame frame = face::face_frame(base.inputs.landmarks);
+  const simulate::Performance& p = base.simulation.performance;
+  const std::size_t shown = frame_that_differs_most(compared);
+  const auto skin_then = [&](const simulate::Performance& of) {
+    const PointsF& d = of.skin_displacement_m[shown];
+    return TriMesh{frame.local_points(p.skin_rest.points + d.cast<double>()),
+                   p.skin_rest.triangles};
+  };
+  double top = 0;
+  for (const auto& one : compared) top = std::max(top, one.greatest_distance_mm);
+  // One variant that moves much more than the others must not make them all look alike.
+  std::vector<double> each;
+  for (const auto& one : compared) each.push_back(one.greatest_distance_mm);
+  std::sort(each.begin(), each.end());
+  const double middle = each[each.size() / 2 - (each.size() % 2 == 0 ? 1 : 0)];
+  const bool capped = top > 4 * middle && middle > 0.1;
+  if (capped) top = 2 * middle;
+  top = std::max(top, 0.1);  // equal faces are of one colour, not of their noise
+  const render::RenderOptions size{.width_px = 300, .height_px = 380};
+  const double aspect = double(size.width_px) / size.height_px;
+  const TriMesh own = skin_then(p);
+  Points framed(Eigen::Index(base.inputs.landmarks.size()), 3);
+  Eigen::Index row = 0;
+  for (const auto& [name, at] : base.inputs.landmarks)
+    framed.row(row++) = frame.local(at).transpose();
+  render::ContactSheet sheet;
+  sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
+  sheet.note = fmt::format(
+      "the faces at {:.2f} s, where they differ most; colour: greatest distance over "
+      "time from base",
+      p.frame_time_s[shown]);
+  sheet.columns = int(runs.size()) + 1;
+  sheet.bar = render::ColourBar{{0, top}, "distance (mm)", capped};
+  Vec3 oblique = render::three_quarter_view();  // sees the left side
+  double lean = 0;
+  for (const auto& one : compared)
+    lean += one.difference.greatest_m.cwiseAbs2().cast<double>().dot(own.points.col(0));
+  if (lean < 0) oblique.x() *= -1;  // most of the difference is on the right
+  const report::FaceBacking backing = backing_in_frame(p.skin_rest, base.inputs.landmarks, frame);
+  const auto drawn = [&](const render::Surface& skin, const simulate::Performance& own_run,
+                         const render::Camera& camera) {
+    const BackingSurfaces behind(backing, frame, skin.mesh.points, base.teeth,
+                                 own_run.jaw_now_from_rest[shown]);
+    return render::render(behind.with(skin), camera, size);
+  };
+  std::array<render::Camera, 2> cameras;
+  for (std::size_t v = 0; v < cameras.size(); ++v) {
+    cameras[v] = render::framing(framed, v == 0 ? render::front_view() : oblique, aspect);
+    cameras[v].height_m *= 1.15;
+  }
+  const std::size_t columns = runs.size() + 1;
+  sheet.pictures.resize(cameras.size() * columns);
+  tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t at) {
+    const render::Camera& camera = cameras[at / columns];
+    if (at % columns == 0) {
+      sheet.pictures[at] = {drawn({.mesh = own}, p, camera), "base"};
+      return;
+    }
+    const std::size_t i = at % columns - 1;
+    const TriMesh skin = skin_then(runs[i].simulation.performance);
+    const render::Surface surface{.mesh = skin,
+                                  .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
+                                  .range = {0, top}};
+    sheet.pictures[at] = {drawn(surface, runs[i].simulation.performance, camera), compared[i].name};
+  });
+  render::write_png(file, render::contact_sheet(sheet));
+}
+
+void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& runs,
+                           const std::filesystem::path& file) {
+  const metrics::SymmetryCurve& own = base.symmetry.curve;
+  if (own.time_s.size() < 2) return;
+  std::vector<const metrics::SymmetryCurve*> faces{&own};
+  std::vector<std::string> names{"base"};
+  for (const VariantRun& run : runs) {
+    faces.push_back(&run.symmetry.curve);
+    names.push_back(run.scene.title);
+  }
+  std::vector<std::vector<double>> s, difference;  // the latter less that of base
+  for (const metrics::SymmetryCurve* face : faces) {
+    s.push_back(face->s);
+    s.back().front() = NAN;  // S(t0) is not defined
+    difference.push_back(metrics::added_difference(*face, own));
+  }
+  std::vector<render::PlotCurve> s_curves, difference_curves;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    s_curves.push_back({s[i], render::face_colour(i), names[i]});
+    difference_curves.push_back({difference[i], render::face_colour(i), ""});
+  }
+  render::Canvas canvas(900, 700 + 20 * int(faces.size() / 3));
+  const std::string title = base.scene.title.empty() ? "Variants" : base.scene.title;
+  canvas.text(70, 42, title + ": symmetry of motion", {.size_px = 20, .bold = true});
+  double y = 72 + draw_legend(canvas, 70, 870, 72, s_curves);
+  const render::Range time{own.time_s.front(), own.time_s.back()};
+  for (auto& curve : s_curves) curve.name.clear();
+  std::vector<double> floor;
+  for (const double value : own.floors()) floor.push_back(std::log(value));
+  if (!floor.empty())
+    s_curves.push_back({floor, render::palette::cut,
+                        own.mesh_noise.empty()
+                            ? fmt::format("noise floor of {:.2g} mm jitter; below it: undecided",
+                                          1e3 * own.jitter_m)
+                            : std::string("floor of the mesh and of jitter; below it: undecided")});
+  const render::TimePlot upper{70,
+                               y + 18,
+                               800,
+                               260,
+                               time,
+                               render::span_of(s_curves),
+                               "S = ln |xi_L - xi_R|; smaller is more symmetric"};
+  render::draw_axes(canvas, upper);
+  if (!floor.empty()) render::shade_under(canvas, upper, own.time_s, floor);
+  render::draw_curves(canvas, upper, own.time_s, s_curves);
+  y += 18 + 260 + 50;
+  const render::TimePlot lower{70,
+                               y,
+                               800,
+                               190,
+                               time,
+                               render::span_of(difference_curves),
+                               "xi_L - xi_R less that of base (1): what the variant adds"};
+  render::draw_axes(canvas, lower);
+  render::draw_curves(canvas, lower, own.time_s, difference_curves);
+  canvas.text(470, y + 190 + 36, "time (s)", {.size_px = 13, .align = render::Align::centre});
+  canvas.text(70, y + 190 + 60, "No medical device: these figures diagnose nothing.",
+              {.size_px = 12, .colour = render::palette::faint_ink});
+  render::write_png(file, canvas.image());
+}
+
+}  // namespace hyperex::run

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+#include "hyperex/scene/keys.hpp"
+
+namespace hyperex::scene {
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string last_part(const std::string& key) {
+  return key.substr(key.rfind('.') + 1);
+}
+
+/// Insertions, deletions, changes and swaps of neighbours that turn a into b.
+std::size_t slips(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), row(b.size() + 1);
+  std::iota(previous.begin(), previous.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] =
+          std::min({previous[j] + 1, row[j - 1] + 1, previous[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = previous;
+    previous = row;
+  }
+  return previous.back();
+}
+
+}  // namespace
+
+std::string section_of(const std::string& key) {
+  const auto dot = key.find('.');
+  return dot == std::string::npos ? "" : key.substr(0, dot);
+}
+
+std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string given = lower(name).substr(0, 100), given_last = last_part(given);
+  std::string best;
+  std::size_t best_slips = std::max<std::size_t>(1, given_last.size() / 3) + 1;
+  for (const auto& candidate : candidates) {
+    const std::string last = last_part(candidate);
+    // The same last part in another section, or without its unit, is as near as one slip.
+    std::size_t far = std::min(slips(given, lower(candidate)), slips(given_last, lower(last)) + 1);
+    if (!given_last.empty() && last.rfind(given_last + "_", 0) == 0)
+      far = std::min<std::size_t>(far, section_of(given) == section_of(candidate) ? 0 : 1);
+    if (far >= best_slips) continue;
+    best_slips = far;
+    best = candidate;
+  }
+  return best;
+}
+
+}  // namespace hyperex::scene

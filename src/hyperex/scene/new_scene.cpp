@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/new_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/scene/toml_values.hpp"
+
+namespace hyperex::scene {
+namespace {
+
+/// As a word of a command line.
+std::string quoted(const std::string& path) {
+  std::string out = "'";
+  for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  out += '\'';
+  const bool plain = path.find_first_not_of(
+                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") ==
+                     std::string::npos;
+  return plain ? path : out;
+}
+
+/// Comments end with the line.
+std::string in_one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
+
+}  // namespace
+
+std::string recording_key(const std::filesystem::path& recording) {
+  std::string ending = recording.extension().string();
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".trc") return "motion.file";
+  if (ending != ".csv") return "motion.recording";
+  const std::string head = read_file(recording).substr(0, 65536);
+  if (head.find("mouthSmileLeft") != std::string::npos ||
+      head.find("MouthSmileLeft") != std::string::npos)
+    return "motion.arkit";
+  if (head.find("AU12_r") != std::string::npos) return "motion.openface";
+  return "motion.file";
+}
+
+std::string new_scene_text(const NewScene& of) {
+  const std::string file = quoted(in_one_line(of.name) + ".toml");
+  std::string out = fmt::format(
+      "# A scene for Hyperex. docs/scene.md lists every key with its default and unit.\n"
+      "#   hyperex check {0}\n"
+      "#       what is wrong or doubtful, before anything is simulated\n"
+      "#   hyperex run {0} --out {1}\n"
+      "#       figures, pictures and report.html, to open in a browser\n"
+      "#   hyperex studio {0}\n"
+      "#       the same face in the browser, with sliders\n"
+      "title = {2}\n\n"
+      "[scan]\n"
+      "file = {3}\n",
+      file, quoted("out/" + in_one_line(of.name)), toml_text(of.name), toml_text(of.scan));
+  if (!of.unit.empty())
+    out += fmt::format("unit = {}  # {}\n", toml_text(of.unit), in_one_line(of.unit_note));
+  if (of.scan != "embedded")
+    out += fmt::format(
+        "# Landmarks are found on the scan. To look at them and to correct them:\n"
+        "#   hyperex landmarks {} --out landmarks.json\n"
+        "# landmarks = \"landmarks.json\"\n",
+        quoted(in_one_line(of.scan)));
+  out += fmt::format("\n[motion]\n{} = {}\n", of.motion_key.substr(of.motion_key.find('.') + 1),
+                     toml_text(of.motion));
+  if (of.motion_key == "motion.file" && of.motion != "embedded")
+    out += "# The first sample is taken for the face at rest.\n";
+  if (of.motion_key == "motion.recording")
+    out +=
+        "# The face is tracked first; its first frames are taken for the face at rest.\n"
+        "# mirrored = true  # where the pictures show the world as a mirror does\n";
+  out +=
+      "\n[tissue]\n"
+      "# young_kpa = 100          # the stiffness of all tissue (Young's modulus)\n"
+      "# preset = \"aged_skin\"     # or from the literature: hyperex presets\n"
+      "\n# What if? The same muscle forces act in each variant of the scene.\n"
+      "[[variant]]\n"
+      "name = \"weak right zygomatic branch\"\n"
+      "muscles.gain = { zygomatic_R = 0.3 }  # 30 % of its strength; one muscle: zyg_major_R\n"
+      "\n# [[variant]]\n"
+      "# name = \"stiff right cheek\"\n"
+      "# tissue.region = [{ name = \"cheek_R\", young_factor = 5 }]\n"
+      "\n# [[variant]]\n"
+      "# preset = \"palsy_complete_R\"  # hyperex presets lists others\n";
+  return out;
+}
+
+}  // namespace hyperex::scene

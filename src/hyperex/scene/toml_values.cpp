@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/toml_values.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "hyperex/io/nesting.hpp"
+#include "hyperex/io/toml.hpp"
+
+namespace hyperex::scene {
+namespace {
+using nlohmann::json;
+
+template <class Value>
+json dated(const Value& value) {
+  std::ostringstream text;
+  text << value;
+  return {{"date or time", text.str()}};
+}
+
+json convert(const toml::node& node, const std::string& name, std::map<std::string, int>& lines) {
+  if (!name.empty()) lines[name] = static_cast<int>(node.source().begin.line);
+  if (const auto* table = node.as_table()) {
+    json object = json::object();
+    for (const auto& [key, item] : *table) {
+      const std::string key_text(key.str());
+      object[key_text] = convert(item, name.empty() ? key_text : name + "." + key_text, lines);
+    }
+    return object;
+  }
+  if (const auto* array = node.as_array()) {
+    json list = json::array();
+    for (const auto& item : *array)
+      list.push_back(convert(item, name + "[" + std::to_string(list.size()) + "]", lines));
+    return list;
+  }
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* integer = node.as_integer()) return integer->get();
+  if (const auto* number = node.as_floating_point()) return number->get();
+  if (const auto* flag = node.as_boolean()) return flag->get();
+  if (const auto* date = node.as_date()) return dated(*date);
+  if (const auto* time = node.as_time()) return dated(*time);
+  if (const auto* date_time = node.as_date_time()) return dated(*date_time);
+  return nullptr;
+}
+
+}  // namespace
+
+namespace {
+bool has_backslash(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string found;
+  for (int n = 0; n < line; ++n) std::getline(lines, found);
+  return found.find('\\') != std::string::npos;
+}
+}  // namespace
+
+TomlValues parse_toml(const std::string& text) {
+  if (const auto refusal = io::refusal_of_toml(text); refusal.line > 0)
+    throw TornToml{refusal.line, refusal.why};
+  try {
+    const toml::table table = toml::parse(text);
+    TomlValues values;
+    values.root = convert(table, "", values.lines);
+    return values;
+  } catch (const toml::parse_error& error) {
+    std::string why(error.description());
+    for (char& c : why)
+      if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    const int line = static_cast<int>(error.source().begin.line);
+    // What the parser meets in a string that goes on into the next line.
+    if (why.find("string") != std::string::npos &&
+        (why.find("unescaped control characters") != std::string::npos ||
+         why.find("end-of-file") != std::string::npos ||
+         why.find("line-break") != std::string::npos))
+      why = "a string that does not end: its closing quote is missing";
+    throw TornToml{line, why, has_backslash(text, line)};
+  }
+}
+
+std::optional<json> parse_toml_value(const std::string& value) {
+  if (io::refusal_of_toml(value).line > 0) return std::nullopt;
+  try {
+    const toml::table table = toml::parse("value = " + value);
+    std::map<std::string, int> ignored;
+    // A line break in the value could smuggle in a second key.
+    if (table.size() != 1) return std::nullopt;
+    return convert(table.begin()->second, "", ignored);
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  }
+}
+
+std::string toml_text(const json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>())) {
+    const double number = value.get<double>();
+    return std::isnan(number) ? "nan" : number > 0 ? "inf" : "-inf";
+  }
+  std::string parts;
+  const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + part; };
+  if (value.is_array()) {
+    for (const json& item : value) add(toml_text(item));
+    return "[" + parts + "]";
+  }
+  if (value.is_object()) {
+    for (const auto& [key, item] : value.items()) add(json(key).dump() + " = " + toml_text(item));
+    return "{" + parts + "}";
+  }
+  // Numbers, words and JSON's escapes in texts are TOML too, save for DEL.
+  std::string text = value.dump();
+  for (auto at = text.find('\x7f'); at != std::string::npos; at = text.find('\x7f', at))
+    text.replace(at, 1, "\\u007f");
+  return text;
+}
+
+}  // namespace hyperex::scene

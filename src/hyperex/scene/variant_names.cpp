@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/scene/variant_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+namespace hyperex::scene {
+namespace {
+
+constexpr std::string_view kPlain = " -_.", kAwkward = ",;:+=%&'()[]";
+
+bool is_alphanumeric(unsigned char c) {
+  return c < 128 && std::isalnum(c);
+}
+
+}  // namespace
+
+bool is_variant_name(const std::string& name) {
+  return name.size() <= 100 && std::any_of(name.begin(), name.end(), is_alphanumeric) &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return is_alphanumeric(static_cast<unsigned char>(c)) ||
+                  kPlain.find(c) != std::string_view::npos ||
+                  kAwkward.find(c) != std::string_view::npos;
+         });
+}
+
+std::string variant_folder(const std::string& name, const std::vector<Variant>& others) {
+  std::string folder = name;
+  for (char& c : folder)
+    if (kAwkward.find(c) != std::string_view::npos) c = '_';
+  for (char* end : {&folder.front(), &folder.back()})  // hidden, or cut by some systems
+    if (*end == '.' || *end == ' ') *end = '_';
+  const auto taken = [&](const std::string& text) {
+    return std::any_of(others.begin(), others.end(),
+                       [&](const Variant& other) { return other.folder == text; });
+  };
+  std::string own = folder;
+  for (int n = 2; taken(own); ++n) own = fmt::format("{}-{}", folder, n);
+  return own;
+}
+
+}  // namespace hyperex::scene

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/scene/scene.hpp"
+
+namespace hyperex::scene {
+
+/// Whether a variant may be called so: a name stands in tables, pages and pictures. Letters and
+/// digits of ASCII, at least one, spaces and any of -_.,;:+=%&'()[], at most 100 characters.
+bool is_variant_name(const std::string& name);
+
+/// The name of the folder of a variant's outputs: `name`, with '_' for what a path holds badly, and
+/// a number at its end where one of `others` has the same.
+std::string variant_folder(const std::string& name, const std::vector<Variant>& others);
+
+}  // namespace hyperex::scene

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/anatomy/teeth/teeth.hpp"
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/io/scan.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/simulate/drive/alignment.hpp"
+
+namespace hyperex::session {
+
+/// Everything a scene names, read, checked and brought into the scan's frame.
+struct Inputs {
+  io::Scan scan;
+  io::Landmarks landmarks;          ///< completed: the 68 iBUG points and the anatomical ones
+  std::vector<std::string> placed;  ///< landmarks that were not given
+  anatomy::Teeth teeth;             ///< the user's own scans of them; often none
+  simulate::AlignedMotion motion;   ///< gaps filled, head pose out, in the scan's frame
+  /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
+  double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
+  double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
+  std::vector<std::string> driven;  ///< names of the driven points
+  std::vector<std::string> notes;   ///< what was guessed, placed, filled: a sentence each
+  /// What is probably wrong in the inputs, with what to do about it: a sentence each.
+  std::vector<std::string> warnings;
+};
+
+/// The landmarks of a scan that has none (tracking/scan), and a note that says so: `why`, and how
+/// well the pictures agree. Takes seconds, unless they were found before and `kept`. Throws
+/// InputError where no face is found.
+io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
+                             std::vector<std::string>& notes, const KeptResults& kept = {});
+
+/// How far what a scene names is looked at.
+enum class Look {
+  whole,
+  /// A camera's recording as far as its first frame with a face. Landmarks of a scan that has none
+  /// are not found, and what rests on them (the alignment, whether the elements are small enough)
+  /// is left out. Notes say so.
+  quick
+};
+
+/// Throws InputError, as far as possible with all problems at once.
+Inputs read_inputs(const scene::Scene& scene, Look look = Look::whole);
+
+/// A scene's inputs with a variant's driven points.
+Inputs inputs_of_variant(const scene::Scene& variant, const Inputs& inputs);
+
+}  // namespace hyperex::session

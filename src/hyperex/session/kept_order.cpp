@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/kept_order.hpp"
+
+#include <exception>
+#include <memory>
+#include <utility>
+
+#include "hyperex/core/packed.hpp"
+#include "hyperex/fem/solve/node_order.hpp"
+#include "hyperex/session/kept.hpp"
+
+namespace hyperex::session {
+namespace {
+
+/// Of the pattern of the matrices, and of what mostly says which unknowns are prescribed: the order
+/// itself tells whether they are.
+std::string key_of(const scene::Scene& scene, const Inputs& inputs,
+                   const simulate::Simulator& simulator) {
+  Packer of;
+  of(simulator.mesh().volume.tets, scene.model.element, scene.drive.by, scene.drive.patch_radius_m,
+     scene.support.border_held, scene.support.skull, scene.support.mandible, inputs.driven);
+  return kept_key("order", of.bytes());
+}
+
+}  // namespace
+
+std::string bytes_of(const simulate::EliminationOrder& order) {
+  Packer packer;
+  packer(order.prescribed, order.nodes->unknowns, order.nodes->entries, order.nodes->flops);
+  return packer.bytes();
+}
+
+std::shared_ptr<const simulate::EliminationOrder> order_from(const std::string& bytes) {
+  try {
+    Unpacker unpacker(bytes);
+    auto nodes = std::make_shared<fem::NodeOrder>();
+    auto order = std::make_shared<simulate::EliminationOrder>();
+    unpacker(order->prescribed, nodes->unknowns, nodes->entries, nodes->flops);
+    if (!unpacker.at_end()) return nullptr;
+    order->nodes = std::move(nodes);
+    return order;
+  } catch (const std::exception&) {
+    return nullptr;
+  }
+}
+
+void prepare_with_kept_order(const scene::Scene& scene, const Inputs& inputs,
+                             simulate::Simulator& simulator) {
+  if (!scene.kept.in_use()) return simulator.prepare();
+  const std::string key = key_of(scene, inputs, simulator);
+  if (const auto bytes = scene.kept.find(key)) simulator.use_order(order_from(*bytes));
+  const auto given = simulator.elimination_order();
+  simulator.prepare();
+  if (const auto used = simulator.elimination_order(); used && used != given)
+    scene.kept.keep(key, bytes_of(*used));
+}
+
+}  // namespace hyperex::session

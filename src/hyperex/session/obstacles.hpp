@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/simulate/contact/obstacles.hpp"
+
+namespace hyperex::session {
+
+/// What tissue may touch in a scene or one of its variants (contact.teeth, contact.eyes); null
+/// where none asks for it. `teeth`: at rest; null: there are none.
+std::shared_ptr<const std::vector<simulate::Obstacle>> obstacles_of(const scene::Scene& scene,
+                                                                    const Inputs& inputs,
+                                                                    const tissue::TissueMesh& mesh,
+                                                                    const anatomy::Teeth* teeth);
+
+}  // namespace hyperex::session

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/plausible.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+
+#include "hyperex/core/quantile.hpp"
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/geometry/transform.hpp"
+#include "hyperex/motion/rest.hpp"
+
+namespace hyperex::session {
+namespace {
+
+constexpr double kMirroredRms_m = 6e-3, kMirroredShare = 0.5;
+constexpr double kMisfit_mm = 10, kLeastScale = 0.8, kMostScale = 1.25;
+// Of faces 1.7 to 2.1 mm (embedded face, Spacetime, AnimFace); ears, necks and ragged borders reach
+// 10 mm (subject A 38 mm from the nearest landmark, humface 27 mm) and are no part of the face.
+constexpr double kSkinOff_mm = 5, kOfTheFace_m = 0.025;
+
+/// Rows of the points that both sides name, measured in the first sample.
+std::pair<Points, Points> common_points(const motion::Motion& m, const io::Landmarks& landmarks) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < m.names.size(); ++i)
+    if (landmarks.contains(m.names[i])) rows.push_back(Eigen::Index(i));
+  Points recorded(Eigen::Index(rows.size()), 3), scanned = recorded;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    recorded.row(Eigen::Index(i)) = m.positions.front().row(rows[i]);
+    scanned.row(Eigen::Index(i)) = landmarks.at(m.names[std::size_t(rows[i])]).transpose();
+  }
+  return {recorded, scanned};
+}
+
+std::pair<std::string, double> nearest_landmark(const io::Landmarks& landmarks, const Vec3& p) {
+  std::pair<std::string, double> nearest{"", std::numeric_limits<double>::infinity()};
+  for (const auto& [name, position] : landmarks)
+    if (const double d = (position - p).norm(); d < nearest.second) nearest = {name, d};
+  return nearest;
+}
+
+double misfit_m(const Points& recorded, const Points& scanned) {
+  return rms_distance(fit_similarity(recorded, scanned).apply(recorded), scanned);
+}
+
+}  // namespace
+
+FaceAtRest average_face() {
+  static const io::Landmarks landmarks = [] {
+    const face::CanonicalFace& face = face::canonical_face();
+    io::Landmarks all;
+    for (const auto& entry : face.landmarks)
+      all[entry.first] = face.landmark(entry.first, face.mesh.points);
+    return all;
+  }();
+  return {landmarks, "an average face", 6e-3};
+}
+
+void check_sides(const motion::Motion& stabilised, const FaceAtRest& face) {
+  auto [recorded, scanned] = common_points(stabilised, face.landmarks);
+  if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return;
+  const double as_is = misfit_m(recorded, scanned);
+  recorded.col(0) *= -1;
+  const double mirrored = misfit_m(recorded, scanned);
+  if (as_is <= kMirroredRms_m || mirrored >= kMirroredShare * as_is) return;
+  motion::refuse(
+      stabilised,
+      fmt::format("left and right are exchanged: the points are {:.1f} mm rms from those of "
+                  "the same names on {}, and {:.1f} mm with one axis negated; L and R are the "
+                  "subject's own sides, and the axes right-handed",
+                  1e3 * as_is, face.whose, 1e3 * mirrored));
+}
+
+std::string misfit_warning(const simulate::AlignedMotion& aligned) {
+  const double scale = aligned.scan_from_motion.scale;
+  if (aligned.rms_mm <= kMisfit_mm && scale >= kLeastScale && scale <= kMostScale) return "";
+  return fmt::format(
+      "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's landmarks "
+      "of "
+      "the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} to {:g}); check that "
+      "names, axes and unit are right and that both are of one person",
+      aligned.rms_mm, scale, kMisfit_mm, kLeastScale, kMostScale);
+}
+
+std::string start_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
+  const auto started =
+      motion::started_in_expression(stabilised, face.landmarks, face.least_moved_m);
+  if (!started) return "";
+  return fmt::format(
+      "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is nearer "
+      "to {}, which is at rest, than at the start ({} differs by {:.1f} mm); displacements "
+      "are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
+      started->stretch.from_s, started->stretch.to_s, face.whose, started->point,
+      1e3 * started->distance_m, started->stretch.from_s, started->stretch.to_s);
+}
+
+std::string timing_note(const motion::Motion& m) {
+  if (m.time_s.size() < 2) return "the recording has one sample";
+  return fmt::format("the recording lasts {:.4g} s: {} samples, {:.4g} ms apart (median)",
+                     m.time_s.back() - m.time_s.front(), m.time_s.size(),
+                     1e3 * median_step(m.time_s));
+}
+
+std::string timing_warning(const motion::Motion& m) {
+  constexpr double longest_step_s = 0.5, longest_s = 600;
+  if (m.time_s.size() < 2) return "";
+  const double lasts_s = m.time_s.back() - m.time_s.front(), step_s = median_step(m.time_s);
+  if (step_s <= longest_step_s && lasts_s <= longest_s) return "";
+  return fmt::format(
+      "the recording's time rises to {:.4g} s in steps of {:.3g} s (median; expected: at most {:g} "
+      "s in all, steps of at most {:g} s): milliseconds? Time is in seconds",
+      m.time_s.back(), step_s, longest_s, longest_step_s);
+}
+
+std::string idle_law_warning(const scene::Scene& scene) {
+  const auto finite = [](const scene::Scene& s) {
+    return s.model.strain == simulate::Strain::finite;
+  };
+  if (finite(scene)) return "";
+  for (const scene::Variant& variant : scene.variants)
+    if (finite(variant.scene)) return "";
+  std::vector<std::string> idle;
+  for (const char* key :
+       {"tissue.law", "tissue.yeoh_c20", "tissue.yeoh_c30", "tissue.mooney_c01", "tissue.maxwell",
+        "solver.finite_step_s", "solver.finite_tolerance", "solver.full_newton"})
+    if (scene.origins.contains(key)) idle.push_back(key);
+  if (idle.empty()) return "";
+  return fmt::format("without effect, as tissue.strain is not \"finite\": {}",
+                     fmt::join(idle, ", "));
+}
+
+std::string stillness_warning(const motion::Motion& stabilised) {
+  constexpr double least_m = 0.05e-3;
+  double most_m = 0;
+  for (const Points& sample : stabilised.positions)
+    for (Eigen::Index i = 0; i < sample.rows(); ++i)
+      if (const double moved = (sample.row(i) - stabilised.positions.front().row(i)).norm();
+          moved > most_m)
+        most_m = moved;
+  if (stabilised.positions.size() < 2 || most_m >= least_m) return "";
+  return fmt::format(
+      "nothing moves in the recording: no point goes farther than {:.3f} mm from its first place "
+      "(expected: {:g} mm or more); check its unit, and that it is the right one",
+      1e3 * most_m, 1e3 * least_m);
+}
+
+std::string exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
+  const auto [recorded, scanned] = common_points(stabilised, face.landmarks);
+  if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return "";
+  const Similarity recording_from_face = fit_similarity(scanned, recorded);
+  const auto of_recording = [&](const std::string& name) -> Vec3 {
+    return stabilised.positions.front().row(stabilised.index_of(name)).transpose();
+  };
+  std::vector<std::string> wrong;
+  std::size_t right = 0;
+  for (const std::string& name : stabilised.names) {
+    const std::string other = face::mirrored_landmark(name);
+    const auto here = face.landmarks.find(name), there = face.landmarks.find(other);
+    if (!(name < other) || stabilised.index_of(other) < 0 || here == face.landmarks.end() ||
+        there == face.landmarks.end())
+      continue;
+    const Vec3 expected = recording_from_face.rotation * (there->second - here->second);
+    if ((of_recording(other) - of_recording(name)).dot(expected) < 0)
+      wrong.push_back(name + " and " + other);
+    else
+      ++right;
+  }
+  if (wrong.empty() || wrong.size() >= right) return "";
+  return fmt::format(
+      "left and right seem to be exchanged in {}: they lie the other way round than on {}, while "
+      "the other points do not; L and R are the subject's own sides",
+      fmt::join(wrong, "; "), face.whose);
+}
+
+void check_length(const scene::Scene& scene, const motion::Motion& m) {
+  if (m.time_s.size() < 2)
+    motion::refuse(m,
+                   "has one sample, which is the face at rest: nothing moves; expected two or "
+                   "more");
+  const double frame_s = 1 / scene.time.frame_rate_hz;
+  const double slack = 1e-9;
+  if (scene.time.end_s > 0 && scene.time.end_s < frame_s - slack)
+    throw InputError(scene::problem_at(
+        scene, "time.end_s",
+        fmt::format("at least {:.4g} s, a frame at time.frame_rate_hz = {:g}: a shorter run shows "
+                    "the face at rest alone",
+                    frame_s, scene.time.frame_rate_hz)));
+  const double lasts_s = m.time_s.back() - m.time_s.front();
+  if (scene.time.end_s == 0 && lasts_s < frame_s - slack)
+    motion::refuse(m, fmt::format("lasts {:.4g} s, less than a frame at time.frame_rate_hz = {:g}: "
+                                  "expected more, or a higher rate",
+                                  lasts_s, scene.time.frame_rate_hz));
+}
+
+SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  SkinOff worst;
+  for (Eigen::Index v = 0; v < mesh.skin.points.rows(); ++v) {
+    const auto& anchor = mesh.anchors[std::size_t(v)];
+    Vec3 simulated = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      simulated += anchor.weight[k] * mesh.volume.outer.points.row(anchor.node[k]).transpose();
+    const Vec3 scanned = mesh.skin.points.row(v);
+    const double off_mm = 1e3 * (simulated - scanned).norm();
+    if (off_mm <= worst.distance_mm) continue;
+    const auto [name, distance_m] = nearest_landmark(landmarks, scanned);
+    if (distance_m <= kOfTheFace_m) worst = {off_mm, name, 1e3 * distance_m};
+  }
+  return worst;
+}
+
+std::string skin_warning(const SkinOff& off) {
+  if (off.distance_mm <= kSkinOff_mm) return "";
+  return fmt::format(
+      "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: there the motion is "
+      "not the scan's own; a smaller mesh.element_size_mm or a cleaner scan helps",
+      off.distance_mm, off.beside_mm, off.landmark);
+}
+
+}  // namespace hyperex::session

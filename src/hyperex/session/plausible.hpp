@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/session/inputs.hpp"
+
+namespace hyperex::session {
+
+// Whether what a scene names belongs together. Numbers in the .cpp are calibrated on real data.
+
+/// The face at rest that a recording is held against.
+struct FaceAtRest {
+  const io::Landmarks& landmarks;
+  std::string whose;            ///< "the scan", "an average face": for messages
+  double least_moved_m = 3e-3;  ///< from the start to rest, to be called a start in an expression
+};
+
+/// The canonical face, for a recording whose scan has no landmarks yet. As it is not the person's
+/// own, only a start 6 mm from rest counts.
+FaceAtRest average_face();
+
+/// Throws InputError where the recording fits the face far better with left and right exchanged: at
+/// its common points, after a similarity, more than 6 mm apart (root mean square), and less than
+/// half of that with its points mirrored.
+void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
+
+/// A sentence where the recording fits the scan badly: of another face, in another unit, or with
+/// points that only share their names; empty where it fits.
+std::string misfit_warning(const simulate::AlignedMotion& aligned);
+
+/// A sentence where the recording seems to begin in the middle of an expression
+/// (motion::started_in_expression); empty where it does not.
+std::string start_warning(const motion::Motion& stabilised, const FaceAtRest& face);
+
+/// "the recording lasts 2.7 s: 81 samples, 33.3 ms apart (median)".
+std::string timing_note(const motion::Motion& m);
+
+/// A sentence where times look like another unit: a median step above 0.5 s, or more than ten
+/// minutes in all; empty where they do not.
+std::string timing_warning(const motion::Motion& m);
+
+/// A sentence where no point moves 0.05 mm from its first place, head pose out; else empty.
+std::string stillness_warning(const motion::Motion& stabilised);
+
+/// A sentence that names the pairs of points (face::mirrored_landmark) which lie the wrong way
+/// round in the first sample: the vector from one to the other points against that of the face,
+/// turned as the recording's common points have it. Empty where there is none, or as many as are
+/// right (check_sides tells of those).
+std::string exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
+
+/// A sentence that names the keys given which only finite strain heeds, where neither the scene nor
+/// one of its variants has it; else empty.
+std::string idle_law_warning(const scene::Scene& scene);
+
+/// Throws InputError where nothing would move: the recording is one sample, or the run ends before
+/// its second frame.
+void check_length(const scene::Scene& scene, const motion::Motion& m);
+
+/// Where the simulated skin is farthest from the scan on the face, which is what lies within 25 mm
+/// of a landmark: ears, neck and border may be far off.
+struct SkinOff {
+  double distance_mm = 0;  ///< 0 where there is no landmark
+  std::string landmark;    ///< the nearest one to that place
+  double beside_mm = 0;    ///< how far it is from there
+};
+SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+
+/// A sentence where that is more than 5 mm; empty where it is not.
+std::string skin_warning(const SkinOff& off);
+
+}  // namespace hyperex::session

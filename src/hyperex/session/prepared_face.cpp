@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/prepared_face.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <concepts>
+#include <utility>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/packed.hpp"
+#include "hyperex/core/run_together.hpp"
+#include "hyperex/session/kept.hpp"
+#include "hyperex/session/thinned_scan.hpp"
+
+namespace hyperex {
+
+// The parts of each type, for packed.hpp.
+
+template <class T, class Of>
+concept SameButConst = std::same_as<std::remove_const_t<T>, Of>;
+
+template <class Archive, SameButConst<TriMesh> T>
+void parts(Archive& archive, T& of) {
+  auto& [points, triangles] = of;
+  archive(points, triangles);
+}
+template <class Archive, SameButConst<EdgePoint> T>
+void parts(Archive& archive, T& of) {
+  auto& [a, b, t] = of;
+  archive(a, b, t);
+}
+template <class Archive, SameButConst<MeshPlace> T>
+void parts(Archive& archive, T& of) {
+  auto& [vertex, weight] = of;
+  archive(vertex, weight);
+}
+template <class Archive, SameButConst<tissue::Anchor> T>
+void parts(Archive& archive, T& of) {
+  auto& [node, weight] = of;
+  archive(node, weight);
+}
+template <class Archive, SameButConst<tissue::RimVertex> T>
+void parts(Archive& archive, T& of) {
+  auto& [vertex, node, weight] = of;
+  archive(vertex, node, weight);
+}
+template <class Archive, SameButConst<tissue::FullSkin> T>
+void parts(Archive& archive, T& of) {
+  auto& [skin, scan_vertices, appended, source_triangle, kept, kept_triangle, places] = of;
+  archive(skin, scan_vertices, appended, source_triangle, kept, kept_triangle, places);
+}
+template <class Archive, SameButConst<tissue::VolumeMesh> T>
+void parts(Archive& archive, T& of) {
+  auto& [nodes, tets, outer, layers, thickness_m, notes] = of;
+  archive(nodes, tets, outer, layers, thickness_m, notes);
+}
+template <class Archive, SameButConst<tissue::MeshQuality> T>
+void parts(Archive& archive, T& of) {
+  auto& [least, mean, total, least_deg, greatest_deg, shares, ratio] = of;
+  archive(least, mean, total, least_deg, greatest_deg, shares, ratio);
+}
+template <class Archive, SameButConst<tissue::TissueMesh> T>
+void parts(Archive& archive, T& of) {
+  // `full` is packed apart.
+  auto& [skin, full, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim,
+         upper_margin, skin_upper_margin, on_border, quality, mean_mm, max_mm, notes] = of;
+  archive(skin, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim,
+          upper_margin, skin_upper_margin, on_border, quality, mean_mm, max_mm, notes);
+}
+template <class Archive, SameButConst<metrics::MidsagittalPlane> T>
+void parts(Archive& archive, T& of) {
+  auto& [normal, offset_m, landmark_rms_m, surface_rms_m, turned_deg, shifted_m, rounds, note] = of;
+  archive(normal, offset_m, landmark_rms_m, surface_rms_m, turned_deg, shifted_m, rounds, note);
+}
+template <class Archive, SameButConst<metrics::Counterparts> T>
+void parts(Archive& archive, T& of) {
+  auto& [vertices, weights, distance_m, found] = of;
+  archive(vertices, weights, distance_m, found);
+}
+template <class Archive, SameButConst<metrics::RestAsymmetry> T>
+void parts(Archive& archive, T& of) {
+  auto& [plane, pairs, rms_mm, p95_mm, paired_share, face, mouth] = of;
+  archive(plane, pairs, rms_mm, p95_mm, paired_share, face, mouth);
+}
+
+}  // namespace hyperex
+
+namespace hyperex::session {
+
+metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inputs& inputs) {
+  constexpr double lip_margin_m = 0.002;  // nearer to both lips, a vertex is of neither
+  std::vector<int> side;
+  for (const double m : mesh.skin_upper_margin)
+    side.push_back(m > lip_margin_m ? 1 : m < -lip_margin_m ? -1 : 0);
+  return metrics::rest_asymmetry(mesh.skin, inputs.landmarks, side);
+}
+
+namespace {
+
+std::string key_of(const scene::Scene& scene, const Inputs& inputs, const std::vector<char>& held) {
+  const tissue::TissueMeshOptions& o = scene.mesh;
+  Packer of;
+  of(inputs.scan.mesh.points, inputs.scan.mesh.triangles, inputs.scan.file.string(), held);
+  for (const auto& [name, at] : inputs.landmarks) of(name, at);
+  of(o.element_size_m, o.layers, o.thickness_m, o.cut_lips, o.trim_border_m);
+  for (const tissue::DepthAt& depth : o.depths) of(depth.landmark, depth.depth_m);
+  if (!o.depth_per_vertex.empty()) of(read_file(o.depth_per_vertex));
+  for (const tissue::DepthRegion& region : o.depth_regions)
+    of(read_file(region.painted), region.depth_m);
+  return kept_key("face", of.bytes());
+}
+
+PreparedFace made(const scene::Scene& scene, Inputs& inputs, const std::vector<char>& held,
+                  const std::function<void()>& skin_known) {
+  PreparedFace face;
+  tissue::TissueMeshBuilder builder(inputs.scan.mesh, inputs.landmarks, scene.mesh,
+                                    inputs.scan.file.string(), held);
+  const tissue::TissueMesh& skin = builder.with_skin();
+  if (skin.full) inputs.scan = thinned_scan(inputs.scan, *skin.full, skin.skin);
+  skin_known();
+  run_together(
+      {[&] { face.mesh = builder.build(); }, [&] { face.at_rest = rest_asymmetry(skin, inputs); }});
+  return face;
+}
+
+}  // namespace
+
+std::string bytes_of(const PreparedFace& face) {
+  Packer packer;
+  packer(*face.mesh, face.at_rest, face.mesh->full != nullptr);
+  if (face.mesh->full) packer(*face.mesh->full);
+  return packer.bytes();
+}
+
+std::optional<PreparedFace> prepared_face_from(const std::string& bytes) {
+  try {
+    Unpacker unpacker(bytes);
+    auto mesh = std::make_shared<tissue::TissueMesh>();
+    PreparedFace face;
+    bool thinned = false;
+    unpacker(*mesh, face.at_rest, thinned);
+    if (thinned) {
+      auto full = std::make_shared<tissue::FullSkin>();
+      unpacker(*full);
+      mesh->full = std::move(full);
+    }
+    if (!unpacker.at_end()) return std::nullopt;
+    face.mesh = std::move(mesh);
+    return face;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+PreparedFace prepare_face(const scene::Scene& scene, Inputs& inputs,
+                          const std::function<void()>& skin_known) {
+  const std::vector<char> held = on_seams(inputs.scan);
+  if (!scene.kept.in_use()) return made(scene, inputs, held, skin_known);
+  const std::string key = key_of(scene, inputs, held);
+  if (const auto bytes = scene.kept.find(key))
+    if (auto face = prepared_face_from(*bytes)) {
+      spdlog::info("the mesh that an earlier run made of this scan (--no-cache: anew)");
+      if (const auto& full = face->mesh->full)
+        inputs.scan = thinned_scan(inputs.scan, *full, face->mesh->skin);
+      skin_known();
+      return *std::move(face);
+    }
+  PreparedFace face = made(scene, inputs, held, skin_known);
+  scene.kept.keep(key, bytes_of(face));
+  return face;
+}
+
+}  // namespace hyperex::session

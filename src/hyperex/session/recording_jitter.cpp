@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/recording_jitter.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "hyperex/metrics/symmetry.hpp"
+#include "hyperex/motion/jitter.hpp"
+
+namespace hyperex::session {
+namespace {
+
+/// What rounding and the course of a motion itself may leave; the resolution of a run is 0.1 mm.
+constexpr double kNone_m = 1e-5;
+
+/// The points that S(t) takes, as they matter most; of a recording without them all points.
+std::vector<int> judged_columns(const motion::Motion& m) {
+  std::vector<int> columns = metrics::symmetry_columns(m);
+  if (!columns.empty()) return columns;
+  columns.resize(m.names.size());
+  std::iota(columns.begin(), columns.end(), 0);
+  return columns;
+}
+
+/// A recording too short for its fourth differences, at most some 20 frames.
+RecordedJitter jitter_of_short(const motion::Motion& m) {
+  const double jitter_m = metrics::jitter_at_rest(m);
+  if (!std::isfinite(jitter_m)) return {0, false, "the recording is too short to tell its jitter"};
+  return {
+      jitter_m, true,
+      fmt::format("jitter of the tracked points in their quietest half second, as the recording "
+                  "is short: {:.2f} mm",
+                  1e3 * jitter_m)};
+}
+
+}  // namespace
+
+RecordedJitter recorded_jitter(const motion::Motion& m) {
+  const double jitter_m = motion::jitter_of_motion(m, judged_columns(m));
+  if (std::isnan(jitter_m)) return {0, false, "the recording is too short to tell its jitter"};
+  if (jitter_m < kNone_m)
+    return {0, true, "no jitter shows in the recorded points: they are exact, or smoothed"};
+  return {jitter_m, true,
+          fmt::format("jitter of the recorded points, estimated from their fourth differences in "
+                      "time: {:.2f} mm; errors that last and what was smoothed away are not in it",
+                      1e3 * jitter_m)};
+}
+
+void settle_jitter(const scene::Scene& scene, Look look, const motion::Motion& m, Inputs& in) {
+  if (scene.output.jitter_m >= 0) {
+    in.jitter_m = scene.output.jitter_m;
+    if (in.jitter_m > 0)
+      in.notes.push_back(
+          fmt::format("jitter of the recorded points, as output.jitter_mm states it: {:.2f} mm",
+                      1e3 * in.jitter_m));
+    return;
+  }
+  const bool tracked = !scene.motion.recording.empty();
+  if (scene.motion.source.embedded || (tracked && look != Look::whole)) return;
+  RecordedJitter found = recorded_jitter(m);
+  if (!found.known && tracked) found = jitter_of_short(m);
+  in.jitter_m = found.jitter_m;
+  in.notes.push_back(found.how + (in.jitter_m > 0
+                                      ? " (output.jitter_mm states another)"
+                                      : "; figures of symmetry are judged by the mesh alone "
+                                        "(output.jitter_mm states a jitter)"));
+}
+
+}  // namespace hyperex::session

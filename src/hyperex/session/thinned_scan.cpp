@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/thinned_scan.hpp"
+
+#include <limits>
+
+#include "hyperex/report/skin_view.hpp"
+#include "hyperex/simulate/performance.hpp"
+
+namespace hyperex::session {
+namespace {
+
+using Eigen::Index;
+
+/// The skin before thinning as outputs expect it.
+simulate::Performance at_rest(const tissue::FullSkin& full) {
+  simulate::Performance rest;
+  rest.skin_rest = full.skin;
+  rest.scan_vertices = full.scan_vertices;
+  rest.appended = full.appended;
+  rest.source_triangle = full.source_triangle;
+  return rest;
+}
+
+bool is_textured(const io::Scan& scan) {
+  return scan.corner_uv.rows() > 0 && scan.texture.has_value();
+}
+
+/// Of a vertex of the texture's view the coordinates nearest to `old`: a moved corner of a triangle
+/// stays in its part of the texture.
+class CornerUv {
+ public:
+  explicit CornerUv(const report::SkinView& view) : view_(view) {
+    for (std::size_t i = 0; i < view.skin_vertex.size(); ++i) {
+      const auto v = std::size_t(view.skin_vertex[i]);
+      if (v >= of_vertex_.size()) of_vertex_.resize(v + 1);
+      of_vertex_[v].push_back(Index(i));
+    }
+  }
+  Eigen::RowVector2f nearest(int vertex, const Eigen::RowVector2f& old) const {
+    Eigen::RowVector2f best = old;
+    float least = std::numeric_limits<float>::infinity();
+    if (std::size_t(vertex) < of_vertex_.size())
+      for (const Index i : of_vertex_[std::size_t(vertex)])
+        if (const float d = (view_.uv.row(i) - old).squaredNorm(); d < least) {
+          least = d;
+          best = view_.uv.row(i);
+        }
+    return best;
+  }
+
+ private:
+  const report::SkinView& view_;
+  std::vector<std::vector<Index>> of_vertex_;
+};
+
+}  // namespace
+
+std::vector<char> on_seams(const io::Scan& scan) {
+  if (!is_textured(scan)) return {};
+  const Index vertices = scan.mesh.points.rows();
+  std::vector<Index> first(std::size_t(vertices), -1);
+  std::vector<char> seam(std::size_t(vertices), 0);
+  for (Index f = 0; f < scan.mesh.triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const auto v = std::size_t(scan.mesh.triangles(f, k));
+      if (first[v] < 0) first[v] = 3 * f + k;
+      if (scan.corner_uv.row(first[v]) != scan.corner_uv.row(3 * f + k)) seam[v] = 1;
+    }
+  return seam;
+}
+
+io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const TriMesh& thinned) {
+  io::Scan out;
+  out.file = scan.file;
+  out.unit = scan.unit;
+  out.unit_guessed = scan.unit_guessed;
+  out.texture = scan.texture;
+  out.mesh = thinned;
+  const simulate::Performance rest = at_rest(full);
+  if (const auto colour = report::skin_colour(rest, scan); colour.rows() > 0) {
+    out.vertex_colour.resize(thinned.points.rows(), 4);
+    for (std::size_t v = 0; v < full.kept.size(); ++v)
+      out.vertex_colour.row(Index(v)) = colour.row(full.kept[v]);
+  }
+  if (!is_textured(scan)) return out;
+  const report::SkinView view = report::skin_view(rest, scan);
+  const CornerUv corners(view);
+  out.corner_uv.resize(3 * thinned.triangles.rows(), 2);
+  for (Index f = 0; f < thinned.triangles.rows(); ++f) {
+    const int old = full.kept_triangle[std::size_t(f)];
+    for (int k = 0; k < 3; ++k)
+      out.corner_uv.row(3 * f + k) = corners.nearest(
+          full.kept[std::size_t(thinned.triangles(f, k))], view.uv.row(view.triangles(old, k)));
+  }
+  return out;
+}
+
+void keep_thinned(tissue::TissueField& field, const tissue::FullSkin& full) {
+  for (Eigen::VectorXd& values : field.skin)
+    if (values.size() > 0) values = Eigen::VectorXd(values(full.kept));
+}
+
+Eigen::MatrixXf on_full_skin(const tissue::FullSkin& full, const Eigen::MatrixXf& thinned) {
+  Eigen::MatrixXf out(Index(full.places.size()), thinned.cols());
+  for (std::size_t v = 0; v < full.places.size(); ++v) {
+    const MeshPlace& place = full.places[v];
+    out.row(Index(v)).setZero();
+    for (int k = 0; k < 3; ++k)
+      out.row(Index(v)) += float(place.weight[k]) * thinned.row(place.vertex[std::size_t(k)]);
+  }
+  return out;
+}
+
+}  // namespace hyperex::session

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "hyperex/io/scan.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
+#include "hyperex/tissue/mesh/on_skin.hpp"
+
+namespace hyperex::session {
+
+/// Per vertex: the texture has a seam there, so that thinning keeps it. Empty without a texture.
+std::vector<char> on_seams(const io::Scan& scan);
+
+/// The scan as the thinned skin has it: its vertices, their colours, texture coordinates of the
+/// same part of the texture.
+io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const TriMesh& thinned);
+
+/// A field made there, on the thinned skin.
+void keep_thinned(tissue::TissueField& field, const tissue::FullSkin& full);
+
+/// Values of the thinned skin's vertices, one row each, at every vertex of the full skin.
+Eigen::MatrixXf on_full_skin(const tissue::FullSkin& full, const Eigen::MatrixXf& thinned);
+
+}  // namespace hyperex::session

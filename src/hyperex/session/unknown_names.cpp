@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/unknown_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/tissue/field/regions.hpp"
+
+namespace hyperex::session {
+namespace {
+
+struct SidedName {
+  std::string part;
+  std::string side;  ///< "_L", "_R" or empty
+};
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+/// "right_cheek", "cheek_right", "cheek_r" and "cheek_R" are cheek, "_R".
+SidedName sided(std::string name) {
+  for (const auto& [word, side] :
+       {std::pair<std::string, std::string>{"right", "_R"}, {"left", "_L"}}) {
+    if (lower(name).starts_with(word + "_")) return {name.substr(word.size() + 1), side};
+    if (lower(name).ends_with("_" + word))
+      return {name.substr(0, name.size() - word.size() - 1), side};
+    if (lower(name).ends_with(lower(side))) return {name.substr(0, name.size() - 2), side};
+  }
+  return {name, ""};
+}
+
+/// Of names without sides.
+std::string nearest_part(const std::string& part, const std::vector<std::string>& parts) {
+  const bool known = std::find(parts.begin(), parts.end(), part) != parts.end();
+  return known ? part : scene::nearest(part, parts);
+}
+
+/// The number at the end of a name; -1 where there is none.
+int number_at_end(const std::string& name) {
+  std::size_t digits = 0;
+  while (digits < name.size() && std::isdigit((unsigned char)name[name.size() - 1 - digits]))
+    ++digits;
+  return digits == 0 || digits > 2 ? -1 : std::stoi(name.substr(name.size() - digits));
+}
+
+/// Anatomical landmarks without their sides.
+const std::vector<std::string>& landmark_parts() {
+  static const std::vector<std::string> parts = [] {
+    std::set<std::string> all;
+    for (const auto& entry : face::canonical_face().landmarks)
+      if (!face::ibug_number(entry.first)) all.insert(sided(entry.first).part);
+    return std::vector<std::string>(all.begin(), all.end());
+  }();
+  return parts;
+}
+
+}  // namespace
+
+std::string nearest_region(std::string name) {
+  std::erase(name, '"');
+  if (tissue::is_region(name)) return "";
+  const SidedName given = sided(name);
+  std::vector<std::string> parts;
+  for (const auto& region : tissue::facial_regions()) parts.push_back(region.name);
+  const std::string near = nearest_part(given.part, parts);
+  return near.empty() ? "" : near + given.side;
+}
+
+std::string nearest_landmark(const std::string& name) {
+  const auto& known = face::canonical_face().landmarks;
+  if (known.contains(name)) return "";
+  if (const int k = number_at_end(name); k >= 0) {
+    const std::string ibug = face::ibug(k);
+    const std::string stem = lower(name).substr(0, lower(name).find_last_not_of("0123456789") + 1);
+    const std::set<std::string> stems = {"", "p", "point_", "ibug", "ibug_", "ibug-", "ibug68"};
+    return stems.contains(stem) && known.contains(ibug) ? ibug : "";
+  }
+  const SidedName given = sided(name);
+  const std::string near = nearest_part(given.part, landmark_parts());
+  if (near.empty()) return "";
+  // One that exists on two sides, given without its side, is not guessed.
+  if (const std::string whole = near + given.side; known.contains(whole)) return whole;
+  return given.side.empty() && known.contains(near + "_L") ? near + "_L or " + near + "_R" : "";
+}
+
+std::vector<std::string> misspelt_landmarks(std::vector<std::string>& unknown) {
+  constexpr std::size_t most = 5;
+  std::vector<std::string> warnings, others;
+  for (const std::string& name : unknown) {
+    const std::string near = warnings.size() < most ? nearest_landmark(name) : "";
+    if (near.empty())
+      others.push_back(name);
+    else
+      warnings.push_back(
+          fmt::format("landmark {} is not known and left aside; did you mean {}?", name, near));
+  }
+  unknown = std::move(others);
+  return warnings;
+}
+
+}  // namespace hyperex::session

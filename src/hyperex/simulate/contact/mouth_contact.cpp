@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/contact/mouth_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "hyperex/fem/solve/complementarity.hpp"
+
+namespace hyperex::simulate {
+namespace {
+
+using Eigen::Index;
+constexpr double kSettled_m = 10e-6;  // by which pairs may pass when the search ends
+constexpr double kWithin_m = 5e-4;    // pairs as near as this may come to touch in a round
+constexpr int kMostRounds = 12, kMostSweeps = 1000;
+/// From this round on what an obstacle's other faces were in the rounds before counts too.
+constexpr int kFacesFrom = 4;
+constexpr double kSameFace = 0.95;  // cosine between outward normals
+constexpr double kSolved_m = 1e-6;
+/// Of the greatest compliance: many vertices hang on few nodes, and how they share the force does
+/// not matter.
+constexpr double kRidge = 1e-6;
+
+/// The derivative of a gap: what the motion of each node adds to it.
+using Row = std::vector<std::pair<int, Vec3>>;
+
+void add(const SkinCarrier& from, const Vec3& along, Row& to) {
+  for (const auto& [node, weight] : from) to.emplace_back(node, weight * along);
+}
+
+/// One entry a node.
+void gather(Row& row) {
+  std::stable_sort(row.begin(), row.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < row.size(); ++i)
+    if (row[i].first == row[last].first)
+      row[last].second += row[i].second;
+    else
+      row[++last] = row[i];
+  if (!row.empty()) row.resize(last + 1);
+}
+
+Vec3 followed(const SkinCarrier& carrier, const Eigen::VectorXd& nodes) {
+  Vec3 out = Vec3::Zero();
+  for (const auto& [node, weight] : carrier) out += weight * nodes.segment<3>(3 * node);
+  return out;
+}
+
+Points followed(const std::vector<SkinCarrier>& carriers, const Eigen::VectorXd& nodes) {
+  Points out(Index(carriers.size()), 3);
+  for (std::size_t i = 0; i < carriers.size(); ++i)
+    out.row(Index(i)) = followed(carriers[i], nodes).transpose();
+  return out;
+}
+
+}  // namespace
+
+struct MouthContact::Pair {
+  double gap_m;
+  Row row;
+  int place = -1;  // of an obstacle's side, counted through all sides; -1: of the lips
+};
+
+namespace {
+
+/// Of one place on an obstacle: both rows have the same nodes and weights.
+template <class Pair>
+bool same_face(const Pair& a, const Pair& b) {
+  const Vec3 &m = a.row.front().second, &n = b.row.front().second;
+  return m.dot(n) > kSameFace * m.norm() * n.norm();
+}
+
+double along(const Row& row, const Eigen::Ref<const Eigen::VectorXd>& moved) {
+  double sum = 0;
+  for (const auto& [node, derivative] : row) sum += derivative.dot(moved.segment<3>(3 * node));
+  return sum;
+}
+
+/// Between two teeth a place that is pushed off one enters the other, and back: the nearest face
+/// alone leads nowhere. Faces that pressed are therefore kept as planes, with the gap they have
+/// where nothing has moved.
+template <class Pair>
+void keep_faces(const std::vector<Pair>& pairs, const Eigen::VectorXd& lambda,
+                std::vector<Pair>& planes) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Pair& pair = pairs[i];
+    if (pair.place < 0 || !(lambda[Index(i)] > 0)) continue;
+    if (std::none_of(planes.begin(), planes.end(), [&](const Pair& plane) {
+          return plane.place == pair.place && same_face(plane, pair);
+        }))
+      planes.push_back(pair);
+  }
+}
+
+/// The planes of places among `pairs`, of other faces than theirs.
+template <class Pair>
+void add_other_faces(const std::vector<Pair>& planes, const Eigen::VectorXd& moved,
+                     std::vector<Pair>& pairs) {
+  const std::size_t found = pairs.size();
+  for (const Pair& plane : planes)
+    for (std::size_t i = 0; i < found; ++i)
+      if (pairs[i].place == plane.place && !same_face(pairs[i], plane)) {
+        Pair& other = pairs.emplace_back(plane);
+        other.gap_m += along(other.row, moved);
+        break;
+      }
+}
+
+template <class Pairs>
+double depth_of(const Pairs& pairs) {
+  double deepest = 0;
+  for (const auto& pair : pairs) deepest = std::max(deepest, -pair.gap_m);
+  return deepest;
+}
+
+}  // namespace
+
+MouthContact::MouthContact(std::shared_ptr<const LipSurfaces> surfaces,
+                           std::vector<SkinCarrier> lower, std::vector<SkinCarrier> upper,
+                           std::vector<ObstacleSide> sides, std::vector<SkinCarrier> held,
+                           double give, const Compliance& compliance)
+    : surfaces_(std::move(surfaces)),
+      lower_(std::move(lower)),
+      upper_(std::move(upper)),
+      sides_(std::move(sides)) {
+  std::vector<std::vector<SkinCarrier>*> all{&lower_, &upper_, &held};
+  for (ObstacleSide& side : sides_) all.push_back(&side.carriers);
+  std::map<int, int> place;
+  for (const auto* carriers : all)
+    for (const SkinCarrier& carrier : *carriers)
+      for (const auto& [node, weight] : carrier) place.emplace(node, 0);
+  for (auto& [node, at] : place) {
+    at = int(nodes_.size());
+    nodes_.push_back(node);
+  }
+  for (auto* carriers : all)
+    for (SkinCarrier& carrier : *carriers)
+      for (auto& [node, weight] : carrier) node = place.at(node);
+  compliance_ = compliance(nodes_);
+  if (held.empty()) return;
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(3 * Index(held.size()), compliance_.rows());
+  for (std::size_t p = 0; p < held.size(); ++p)
+    for (const auto& [node, weight] : held[p])
+      at.block<3, 3>(3 * Index(p), 3 * node).diagonal().array() += weight;
+  const Eigen::MatrixXd moved = at * compliance_;
+  Eigen::MatrixXd own = moved * at.transpose();
+  own.diagonal().array() += give * own.diagonal().mean();
+  const Eigen::MatrixXd reaction = own.ldlt().solve(moved);
+  holding_ = -at.transpose() * reaction;
+  compliance_ -= moved.transpose() * reaction;
+  compliance_ = 0.5 * (compliance_ + compliance_.transpose()).eval();
+}
+
+/// As near as kWithin_m to touching, where what is carried by nodes_ has moved besides.
+std::vector<MouthContact::Pair> MouthContact::pairs_at(const FreeFrame& frame, const Points& lower,
+                                                       const Points& upper,
+                                                       const Eigen::VectorXd& moved) const {
+  std::vector<Pair> out;
+  if (!lower_.empty())
+    for (const LipPair& pair : surfaces_->pairs(lower + followed(lower_, moved),
+                                                upper + followed(upper_, moved), kWithin_m)) {
+      Row& row = out.emplace_back(Pair{pair.gap_m, {}}).row;
+      add(lower_[std::size_t(pair.point)], pair.normal, row);
+      for (std::size_t k = 0; k < 3; ++k)
+        add(upper_[std::size_t(pair.on[k])], -pair.weight[Index(k)] * pair.normal, row);
+    }
+  const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+  int place = 0;
+  for (std::size_t s = 0; s < sides_.size(); ++s) {
+    const ObstaclePlaces& places = *sides_[s].places;
+    const Eigen::Isometry3d& pose = places.obstacle().with_jaw ? frame.jaw_now_from_rest : still;
+    for (Index i = 0; i < places.count(); ++i, ++place) {
+      const SkinCarrier& carrier = sides_[s].carriers[std::size_t(i)];
+      if (carrier.empty()) continue;
+      Vec3 outward;
+      const Vec3 at = frame.at_sides[s].row(i).transpose() + followed(carrier, moved);
+      const double gap_m = places.gap_m(i, at, pose, outward);
+      if (gap_m > kWithin_m) continue;
+      add(carrier, outward, out.emplace_back(Pair{gap_m, {}, place}).row);
+    }
+  }
+  for (Pair& pair : out) gather(pair.row);
+  return out;
+}
+
+MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
+  Correction out;
+  const Points lower = frame.skin(surfaces_->lower(), Eigen::all).cast<double>();
+  const Points upper = frame.skin(surfaces_->upper(), Eigen::all).cast<double>();
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(compliance_.rows());
+  std::vector<Pair> pairs = pairs_at(frame, lower, upper, moved), planes;
+  out.before_m = out.after_m = depth_of(pairs);
+  out.force.setZero(compliance_.rows());
+  out.moved = moved;
+  if (out.before_m < kFelt_m) return out;
+  Eigen::MatrixXd response, between;
+  Eigen::VectorXd gap, lambda;
+  while (out.rounds < kMostRounds && !pairs.empty()) {
+    const auto count = Index(pairs.size());
+    gap.resize(count);
+    response.setZero(compliance_.rows(), count);
+    for (Index i = 0; i < count; ++i) {
+      const Pair& pair = pairs[std::size_t(i)];
+      gap[i] = pair.gap_m - along(pair.row, moved);
+      for (const auto& [node, derivative] : pair.row)
+        response.col(i).noalias() += compliance_.middleCols<3>(3 * Index(node)) * derivative;
+    }
+    between.resize(count, count);
+    for (Index i = 0; i < count; ++i)
+      for (Index k = 0; k <= i; ++k)
+        between(i, k) = between(k, i) = along(pairs[std::size_t(i)].row, response.col(k));
+    // Pairs that nothing can move (skin that follows the recording, held nodes) are left as they
+    // are.
+    std::vector<Pair> movable;
+    for (Index i = 0; i < count; ++i)
+      if (between(i, i) > 0) movable.push_back(pairs[std::size_t(i)]);
+    if (movable.size() < pairs.size()) {
+      pairs = std::move(movable);
+      continue;
+    }
+    between.diagonal().array() += kRidge * between.diagonal().maxCoeff();
+    lambda.setZero(count);
+    const fem::Complementarity solved =
+        fem::solve_complementarity(between, gap, kSolved_m, kMostSweeps, lambda);
+    moved.noalias() = response * lambda;
+    ++out.rounds;
+    std::vector<Pair> now = pairs_at(frame, lower, upper, moved);
+    const double depth = depth_of(now);
+    if (depth < out.after_m) {
+      out.after_m = depth;
+      out.residual_m = solved.residual;
+      out.moved = moved;
+      out.force.setZero(compliance_.rows());
+      out.pairs = 0;
+      for (Index i = 0; i < count; ++i) {
+        if (lambda[i] <= 0) continue;
+        ++out.pairs;
+        for (const auto& [node, derivative] : pairs[std::size_t(i)].row)
+          out.force.segment<3>(3 * node) += lambda[i] * derivative;
+      }
+    }
+    if (depth < kSettled_m) break;
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].gap_m = gap[Index(i)];
+    keep_faces(pairs, lambda, planes);
+    pairs = std::move(now);
+    if (out.rounds >= kFacesFrom) add_other_faces(planes, moved, pairs);
+  }
+  if (holding_.rows() > 0) out.force += (holding_ * out.force).eval();
+  return out;
+}
+
+void MouthContact::take_off(const Eigen::VectorXd& moved, PointsF& skin,
+                            std::vector<Points>& at_sides) const {
+  const auto off = [&](const std::vector<int>& vertices, const std::vector<SkinCarrier>& carriers) {
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+      skin.row(vertices[i]) -= followed(carriers[i], moved).cast<float>().transpose();
+  };
+  off(surfaces_->lower(), lower_);
+  off(surfaces_->upper(), upper_);
+  for (std::size_t s = 0; s < sides_.size(); ++s)
+    for (std::size_t i = 0; i < sides_[s].carriers.size(); ++i)
+      at_sides[s].row(Index(i)) -= followed(sides_[s].carriers[i], moved).transpose();
+}
+
+}  // namespace hyperex::simulate

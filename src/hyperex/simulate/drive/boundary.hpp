@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "hyperex/fem/form/system.hpp"
+#include "hyperex/simulate/drive/drive.hpp"
+#include "hyperex/simulate/drive/jaw.hpp"
+#include "hyperex/simulate/drive/skin_measured.hpp"
+#include "hyperex/simulate/options.hpp"
+
+namespace hyperex::simulate {
+
+/// The skin and the field that follow the motion's points: patches around the driven points,
+/// measured nodes, and the interpolated field at the inner surface. What the support does not
+/// change.
+struct DrivenSkin {
+  std::vector<int> rows;          ///< of the motion's points that drive
+  std::vector<int> nodes;         ///< outer nodes whose displacement is prescribed, rising
+  Eigen::MatrixXd weights;        ///< |nodes| x P: displacement = weights * that of the points
+  Eigen::MatrixXd field_weights;  ///< |inner nodes| x P, likewise
+};
+
+/// Throws InputError for points that do not exist or lie far off the skin.
+DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                       const AlignedMotion& motion, const MeasuredRegion& region,
+                       const DriveOptions& drive);
+
+/// Rows of the motion's points that carry the jaw: those that the options name, else those over the
+/// chin (ibug68_6 to 10) among `driven`, else ibug68_8 or pogonion; none where there are none.
+/// Throws InputError for a name that the motion has not.
+std::vector<int> jaw_rows(const AlignedMotion& motion, const std::vector<int>& driven,
+                          const SupportOptions& support);
+
+/// Everything that is prescribed to the tissue over time: patches of skin and measured nodes follow
+/// the tracked points, held nodes stay, nodes over the mandible follow the jaw, springs pull
+/// towards the bones.
+class Boundary {
+ public:
+  Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+           const AlignedMotion& motion, const MeasuredRegion& region, const DriveOptions& drive,
+           const SupportOptions& support);
+  /// With what was found before. `mesh` must outlive this.
+  Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+           const AlignedMotion& motion, std::shared_ptr<const DrivenSkin> driven,
+           const SupportOptions& support);
+
+  /// Nothing driven by points: what forces act against. Springs that would follow the points'
+  /// field hold the rest position, the jaw is given to forces_of_jaw().
+  Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+           const SupportOptions& support);
+
+  /// The same springs and held nodes, with nothing prescribed that moves.
+  Boundary released() const;
+
+  /// Adds the springs' stiffness (their blocks lie within the pattern of K).
+  void add_springs(fem::SparseMatrix& stiffness) const;
+  /// Whether add_springs() adds the same to any matrix.
+  bool same_springs(const Boundary& other) const;
+  /// Sorted unknowns 3 n + axis.
+  const std::vector<int>& prescribed() const { return prescribed_; }
+  /// The jaw's displacement x -> turn x + slide (turn is a rotation less the identity) that follows
+  /// displacements of all the motion's points (P x 3), from the last answer on.
+  struct JawMotion {
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+    Vec3 slide = Vec3::Zero();
+  };
+  JawMotion follow(const Points& point_displacement);
+  /// Forces (all unknowns, N) of the springs that follow the jaw: linear in its motion.
+  Eigen::VectorXd forces_of_jaw(const JawMotion& jaw) const;
+  double jaw_opening_deg() const { return jaw_.opening_deg(); }  ///< of the last answer
+
+  /// Sets values (one a prescribed unknown) and forces (all unknowns): linear in both arguments.
+  void prescribe(const Points& point_displacement, const JawMotion& jaw,
+                 Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<Eigen::VectorXd> force) const;
+
+  /// Per point of the motion: whether its displacement acts on the tissue other than by the jaw.
+  std::vector<char> acting_points() const;
+  bool jaw_acts() const;
+  const std::vector<int>& driven_nodes() const { return driven_->nodes; }
+  std::vector<int> held_nodes() const;
+  Eigen::Index node_count() const { return mesh_.volume.nodes.rows(); }
+  int skull_count() const { return skull_count_; }
+  int mandible_count() const { return mandible_count_; }
+  /// Rows of the motion's points that drive.
+  const std::vector<int>& driven_rows() const { return driven_->rows; }
+
+ private:
+  struct Spring {
+    int node;
+    Eigen::Matrix3d stiffness;  // N/m
+    enum Target { rest, jaw, field } target;
+    int row;                 // of the field
+    Vec3 at = Vec3::Zero();  // of the jaw: the place on it that the spring follows
+    double share = 1;        // of that place's displacement
+  };
+  void hold_border(const io::Landmarks& landmarks, const SupportOptions& support);
+  void set_bones(const io::Landmarks& landmarks, const SupportOptions& support);
+  void number_unknowns();
+
+  const tissue::TissueMesh& mesh_;
+  const Points rest_;  // of the motion's points
+  Jaw jaw_;
+  std::shared_ptr<const DrivenSkin> driven_;
+  std::vector<int> jaw_rows_, fixed_nodes_;
+  std::vector<Spring> springs_;
+  std::vector<int> prescribed_;
+  std::vector<std::pair<int, int>> source_;  // per prescribed node: kind (0 fixed, 1 driven), row
+  int skull_count_ = 0, mandible_count_ = 0;
+};
+
+/// Sorted unknowns: `prescribed` and the three of each of the nodes.
+std::vector<int> with_nodes(const std::vector<int>& prescribed, const std::vector<int>& nodes);
+
+}  // namespace hyperex::simulate

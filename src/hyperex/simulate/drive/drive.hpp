@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/simulate/drive/alignment.hpp"
+#include "hyperex/simulate/drive/skin_places.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
+
+namespace hyperex::simulate {
+
+struct DrivenPoint {
+  std::string name;
+  Vec3 rest;  ///< scan frame, m
+};
+
+/// The displacement of the face between driven points: radial-basis interpolation (rbf.hpp) of
+/// their displacements and of `still` places, which do not move. It meets every driven point. So
+/// that the lips can part, it is interpolated on a face whose mouth is opened: what lies above the
+/// mouth by the walk on the skin is shifted up, what lies below down, each by up to
+/// `mouth_shift_m`. Linear in the points' displacements.
+class DriveField {
+ public:
+  DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>& still,
+             const tissue::TissueMesh& mesh, const Vec3& up, double mouth_shift_m);
+  /// u(place j) = sum_i weight(j, i) d_i; `margin[j]`: of place j, as TissueMesh::upper_margin.
+  Eigen::MatrixXd weights(const Points& places, const std::vector<double>& margin) const;
+  const std::vector<DrivenPoint>& points() const { return points_; }
+  /// The points on the face whose mouth is opened.
+  Points opened_points() const { return centres_.topRows(Eigen::Index(points_.size())); }
+  /// How far the mouth was opened, over the most that it is: 0 to 1.
+  double openness() const;
+
+  /// A place on the face whose mouth is opened.
+  Vec3 opened(const Vec3& p, double margin) const;
+
+ private:
+  std::vector<DrivenPoint> points_;
+  Points centres_;  // opened: the points, then the still places
+  Vec3 shift_;      // of what lies wholly above the mouth
+};
+
+/// How far the lips part in a motion (m): the greatest difference, upwards, between the mean
+/// displacements of its upper and its lower lip's points, halved for each side's shift and at most
+/// 10 mm; 0 where one lip has no points. Of the motion as recorded: a gain scales its effect.
+double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_rows,
+                   const Vec3& up);
+
+/// Where the face is taken to be still between the driven points: brows, eyes, nose and temples
+/// (ibug68_0 to 3, 13 to 16, 17 to 47), save those that are driven themselves.
+std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
+                               const io::Landmarks& landmarks);
+
+/// Skin nodes that take prescribed displacements: a patch around each driven point, reaching
+/// `patch_radius_m` where the lips part as far as counts and half as far again where they stay
+/// closed, never across the slit, and in any case the nodes that carry the point. In a patch the
+/// displacement is the field's, which is the better guess than the tissue's where nothing parts and
+/// the worse one where the lips do (docs/fidelity.md), corrected so that the driven points end
+/// where they are driven: the field meets them, the mesh, linear between its nodes, does not.
+struct DrivenPatches {
+  std::vector<int> nodes;   ///< outer nodes, rising
+  Eigen::MatrixXd weights;  ///< |nodes| x |points|
+  CarrierMatrix carriers;   ///< |points| x |outer nodes|: what the driven points' places follow
+};
+
+/// Throws InputError ("source: ...") where a point lies farther than 25 mm from the skin.
+DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
+                             double patch_radius_m, const std::string& source);
+
+}  // namespace hyperex::simulate

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/drive/support.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+
+namespace hyperex::simulate {
+namespace {
+using face::ibug;
+
+constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
+constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.010, jaw_below_lip_m = 0.016;
+constexpr double border_free_m = 0.035;
+constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
+
+class BoneMap {
+ public:
+  explicit BoneMap(const io::Landmarks& landmarks) : frame_(face::face_frame(landmarks)) {
+    for (int k = 0; k < 17; ++k) jaw_line_.push_back(frame_.local(landmarks.at(face::ibug(k))));
+    for (int k = 48; k < 68; ++k) lips_.push_back(frame_.local(landmarks.at(face::ibug(k))));
+    nose_base_ = frame_.local(landmarks.at(face::ibug(33)));
+    ear_base_ = 0.5 * (jaw_line_[2] + jaw_line_[14]);
+    lower_lip_ = frame_.local(landmarks.at(face::ibug(57))).y();
+  }
+
+  /// `inner` and `outer`: the two ends of the layer at one node.
+  Bone under(const Vec3& inner, const Vec3& outer) const {
+    const Vec3 q = frame_.local(inner), p = frame_.local(outer);
+    const double to_lips = distance_to_lips(p);
+    if (q.y() > skull_line(q.z()) && to_lips >= skull_off_lips_m) return Bone::skull;
+    if (p.y() < lower_lip_ - jaw_below_lip_m && p.y() > jaw_edge(p.x()) - jaw_below_edge_m &&
+        distance_to_jaw(p, chin_first, chin_last) < jaw_reach_m && to_lips >= jaw_off_lips_m)
+      return Bone::mandible;
+    return Bone::none;
+  }
+
+  /// From a point in the face's frame to the nearest of the lips' points.
+  double distance_to_lips(const Vec3& p) const {
+    double best = 1;
+    for (const Vec3& l : lips_) best = std::min(best, (p - l).norm());
+    return best;
+  }
+
+  /// The place of the jaw's line between two of its points nearest to a point in the face's frame.
+  Vec3 nearest_on_jaw(const Vec3& p, int first, int last) const {
+    Vec3 best = jaw_line_[first];
+    for (int k = first; k < last; ++k) {
+      const Vec3 e = jaw_line_[k + 1] - jaw_line_[k];
+      const double t = std::clamp((p - jaw_line_[k]).dot(e) / e.squaredNorm(), 0.0, 1.0);
+      const Vec3 at = jaw_line_[k] + t * e;
+      if ((p - at).norm() < (p - best).norm()) best = at;
+    }
+    return best;
+  }
+  double distance_to_jaw(const Vec3& p, int first, int last) const {
+    return (p - nearest_on_jaw(p, first, last)).norm();
+  }
+
+  EdgeOfJaw edge_from(const Vec3& outer) const {
+    const Vec3 p = frame_.local(outer), at = nearest_on_jaw(p, chin_first, chin_last);
+    return {p.y() < at.y(), frame_.world(at), (p - at).norm()};
+  }
+
+  const face::FaceFrame& frame() const { return frame_; }
+
+ private:
+  /// Height of the skull's lower border at depth z.
+  double skull_line(double z) const {
+    const double t = std::clamp((z - ear_base_.z()) / (nose_base_.z() - ear_base_.z()), -0.5, 1.2);
+    return ear_base_.y() + t * (nose_base_.y() - ear_base_.y());
+  }
+
+  /// Height of the jaw's lower edge at x; above everything beside the face.
+  double jaw_edge(double x) const {
+    for (int k = 0; k < 16; ++k) {
+      const Vec3 &a = jaw_line_[k], &b = jaw_line_[k + 1];
+      if ((x - a.x()) * (x - b.x()) <= 0 && a.x() != b.x())
+        return a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+    }
+    return 1;
+  }
+
+  face::FaceFrame frame_;
+  std::vector<Vec3> jaw_line_, lips_;
+  Vec3 nose_base_, ear_base_;
+  double lower_lip_ = 0;
+};
+
+}  // namespace
+
+std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  const BoneMap map(landmarks);
+  const auto& volume = mesh.volume;
+  std::vector<Bone> bones(volume.surface_nodes());
+  for (int v = 0; v < volume.surface_nodes(); ++v)
+    bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v));
+  return bones;
+}
+
+std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  const BoneMap map(landmarks);
+  std::vector<EdgeOfJaw> out;
+  for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
+    out.push_back(map.edge_from(mesh.volume.nodes.row(v)));
+  return out;
+}
+
+std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,
+                                      const io::Landmarks& landmarks) {
+  const BoneMap map(landmarks);
+  const Points& skin = mesh.volume.outer.points;
+  std::vector<double> distances(skin.rows());
+  for (Eigen::Index v = 0; v < skin.rows(); ++v)
+    distances[v] = map.distance_to_lips(map.frame().local(skin.row(v)));
+  return distances;
+}
+
+std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  const BoneMap map(landmarks);
+  const Points& skin = mesh.volume.outer.points;
+  std::vector<char> near(skin.rows());
+  for (Eigen::Index v = 0; v < skin.rows(); ++v)
+    near[v] = map.distance_to_jaw(map.frame().local(skin.row(v)), 4, 12) < border_free_m;
+  return near;
+}
+
+Eigen::VectorXd node_areas(const TriMesh& surface) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.points.rows());
+  const Eigen::VectorXd triangles = triangle_areas(surface);
+  for (Eigen::Index f = 0; f < triangles.size(); ++f)
+    for (int k = 0; k < 3; ++k) areas[surface.triangles(f, k)] += triangles[f] / 3;
+  return areas;
+}
+
+}  // namespace hyperex::simulate

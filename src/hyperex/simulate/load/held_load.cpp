@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/load/held_load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/fem/solve/static_solve.hpp"
+#include "hyperex/motion/resample.hpp"
+#include "hyperex/muscles/muscle_names.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/simulate/drive/input_shapes.hpp"
+
+namespace hyperex::simulate {
+namespace {
+
+/// The counterpart's index.
+int counterpart(const std::vector<std::string>& muscles, std::size_t m) {
+  const auto it = std::find(muscles.begin(), muscles.end(), muscles::other_side(muscles[m]));
+  return static_cast<int>(it == muscles.end() ? m : it - muscles.begin());
+}
+
+/// Courses (rows) at times.
+Eigen::MatrixXd at_times(const std::vector<double>& time_s, const Eigen::MatrixXd& course,
+                         const std::vector<double>& times_s) {
+  const auto count = static_cast<Eigen::Index>(times_s.size());
+  Eigen::MatrixXd out(course.rows(), count);
+  if (time_s.size() < 2) return course.col(0).replicate(1, count);
+  const Eigen::MatrixXd slope = motion::spline_slopes(time_s, course.transpose()).transpose();
+  const auto last = static_cast<Eigen::Index>(time_s.size()) - 1;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double t = times_s[std::size_t(k)];
+    const auto next = std::upper_bound(time_s.begin() + 1, time_s.begin() + last, t);
+    const Eigen::Index i = next - time_s.begin() - 1;
+    const double h = time_s[std::size_t(i) + 1] - time_s[std::size_t(i)];
+    const double x = std::clamp((t - time_s[std::size_t(i)]) / h, 0.0, 1.0);
+    const double y = 1 - x;
+    out.col(k) = (1 + 2 * x) * y * y * course.col(i) + x * x * (3 - 2 * x) * course.col(i + 1) +
+                 h * x * y * (y * slope.col(i) - x * slope.col(i + 1));
+  }
+  return out;
+}
+
+/// At `count` times, `dt_s` apart, from 0.
+Eigen::MatrixXd at_steps(const std::vector<double>& time_s, const Eigen::MatrixXd& course,
+                         double dt_s, Eigen::Index count) {
+  std::vector<double> times_s;
+  for (Eigen::Index k = 0; k < count; ++k) times_s.push_back(static_cast<double>(k) * dt_s);
+  return at_times(time_s, course, times_s);
+}
+
+}  // namespace
+
+Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
+                             const std::vector<MuscleGain>& gains,
+                             const muscles::MuscleTable& table) {
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(muscles.size()));
+  for (const MuscleGain& gain : gains) {
+    bool found = false;
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+      if (!muscles::names_for(muscles[m], table).contains(gain.muscle)) continue;
+      factor[static_cast<Eigen::Index>(m)] *= gain.gain;
+      found = true;
+    }
+    if (found) continue;
+    const auto called = muscles::muscles_called(gain.muscle, table);
+    if (!called.empty())
+      throw InputError("muscles.gain", fmt::format("{} is no muscle; did you mean {}?", gain.muscle,
+                                                   fmt::join(called, " or ")));
+    throw InputError("muscles.gain", fmt::format("{} is no muscle; there are {}", gain.muscle,
+                                                 fmt::join(muscles::gain_names(table), ", ")));
+  }
+  return factor;
+}
+
+MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options) {
+  MuscleCourse out = muscles;
+  if (options.mirrored)
+    for (std::size_t m = 0; m < muscles.names.size(); ++m) {
+      const int from = counterpart(muscles.names, m);
+      out.activation.row(static_cast<Eigen::Index>(m)) = muscles.activation.row(from);
+      out.sigma.row(static_cast<Eigen::Index>(m)) = muscles.sigma.row(from);
+    }
+  if (muscles.names.empty() || (!options.mirrored && options.gains.empty())) return out;
+  out.groups.clear();
+  out.group_activation.resize(0, 0);
+  out.group_sigma.resize(0, 0);
+  const Eigen::VectorXd factor = muscle_gains(muscles.names, options.gains, options.table());
+  out.activation = factor.asDiagonal() * out.activation;
+  out.sigma = factor.asDiagonal() * out.sigma;
+  return out;
+}
+
+Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,
+                           const muscles::MuscleTable& table) {
+  Eigen::MatrixXd sums =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(groups.size()), muscles.activation.cols());
+  for (std::size_t m = 0; m < muscles.names.size(); ++m) {
+    const std::string& name = muscles.names[m];
+    const std::string side = name.substr(name.size() - 2);
+    const muscles::TemplateMuscle* muscle =
+        muscles::find_muscle(name.substr(0, name.size() - 2), table);
+    if (!muscle) continue;
+    const auto group = std::find(groups.begin(), groups.end(), muscle->group + side);
+    if (group != groups.end())
+      sums.row(group - groups.begin()) += muscles.activation.row(static_cast<Eigen::Index>(m));
+  }
+  return sums;
+}
+
+Eigen::MatrixXd course_at(const HeldLoad& load, Eigen::Index first_row, Eigen::Index rows,
+                          const std::vector<double>& times_s) {
+  return at_times(load.time_s, load.course.middleRows(first_row, rows), times_s);
+}
+
+Eigen::Index jaw_row(const HeldLoad& load) {
+  return (load.wide_bands ? 2 : 1) * Eigen::Index(load.muscles.names.size());
+}
+
+namespace {
+
+/// The course after mirroring and gains.
+Eigen::MatrixXd changed_course(const HeldLoad& load, const MuscleOptions& options) {
+  Eigen::MatrixXd course = load.course;
+  const auto& names = load.muscles.names;
+  if (names.empty()) return course;
+  const Eigen::VectorXd factor = muscle_gains(names, options.gains, options.table());
+  const auto count = static_cast<Eigen::Index>(names.size());
+  for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * count; ++m) {
+    const Eigen::Index own = m % count;
+    const int from = options.mirrored ? counterpart(names, std::size_t(own)) : int(own);
+    course.row(m) = factor[own] * load.course.row(m - own + from);
+  }
+  return course;
+}
+
+}  // namespace
+
+Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, double time_s) {
+  const Eigen::VectorXd now = at_times(load.time_s, changed_course(load, options), {time_s});
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(load.force.rows());
+  for (Eigen::Index k = 0; k < now.size(); ++k)  // most muscles are at rest
+    if (now[k] != 0) out += now[k] * load.force.col(k);
+  return out;
+}
+
+fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
+                    double tolerance, Eigen::Index prescribed) {
+  Eigen::MatrixXd course = changed_course(load, options);
+  // Each row as large as the force that it stands for.
+  const Eigen::VectorXd size = load.force.colwise().norm().transpose().cwiseMax(1e-12);
+  course = size.asDiagonal() * course;
+  return compressed_drive(at_steps(load.time_s, course, dt_s, steps + 1 + kBeyond), dt_s, steps,
+                          tolerance, prescribed, load.force.rows(),
+                          [&](const Eigen::VectorXd& direction, Eigen::Ref<Eigen::VectorXd> values,
+                              Eigen::Ref<Eigen::VectorXd> force) {
+                            values.setZero();
+                            force.noalias() = load.force * direction.cwiseQuotient(size);
+                          });
+}
+
+HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change) {
+  std::vector<Eigen::Index> changed;
+  for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * change.size(); ++m)
+    if (change[m % change.size()] != 0) changed.push_back(m);
+  HeldLoad out;
+  out.time_s = load.time_s;
+  out.force = load.force(Eigen::all, changed);
+  out.course = load.course(changed, Eigen::all);
+  for (std::size_t i = 0; i < changed.size(); ++i)
+    out.course.row(Eigen::Index(i)) *= change[changed[i] % change.size()];
+  return out;
+}
+
+std::vector<char> turning_columns(const HeldLoad& load, const muscles::MuscleTable& table) {
+  std::vector<char> out(std::size_t(load.force.cols()), 0);
+  const std::size_t count = load.muscles.names.size();
+  for (std::size_t m = 0; m < (load.wide_bands ? 2 : 1) * count; ++m) {
+    const std::string& name = load.muscles.names[m % count];
+    const auto* muscle = muscles::find_muscle(name.substr(0, name.size() - 2), table);
+    out[m] = muscle && muscle->cheek;
+  }
+  return out;
+}
+
+HeldLoad with_columns(const HeldLoad& load, const std::vector<char>& wanted) {
+  HeldLoad out = load;
+  for (std::size_t c = 0; c < wanted.size(); ++c)
+    if (!wanted[c]) out.course.row(Eigen::Index(c)).setZero();
+  return out;
+}
+
+HeldLoad reactions_of(const fem::Drive& drive, const fem::SparseMatrix& stiffness,
+                      const std::vector<int>& prescribed, double dt_s) {
+  HeldLoad load;
+  const fem::StaticSolver solver(stiffness, prescribed);
+  load.force.resize(stiffness.rows(), drive.shapes());
+  for (Eigen::Index k = 0; k < drive.shapes(); ++k) {
+    const Eigen::VectorXd force =
+        drive.force.rows() > 0 ? Eigen::VectorXd(drive.force.col(k)) : Eigen::VectorXd();
+    load.force.col(k) = stiffness * solver.solve(drive.prescribed.col(k), force);
+  }
+  load.course = drive.s;
+  for (int step = 0; step <= drive.steps(); ++step) load.time_s.push_back(step * dt_s);
+  return load;
+}
+
+}  // namespace hyperex::simulate

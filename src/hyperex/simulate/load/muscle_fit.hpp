@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Dense>
+#include <array>
+#include <vector>
+
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/simulate/drive/jaw.hpp"
+
+namespace hyperex::simulate {
+
+/// The mandible's pose: opening about the axis through the condyles, turning to the side, tilting
+/// (rad), sliding along the face's axes (m).
+using JawPose = Eigen::Matrix<double, 6, 1>;
+
+/// The jaw's displacement as turn (9, column by column) and slide (3) of Boundary::JawMotion.
+class JawKinematics {
+ public:
+  explicit JawKinematics(const io::Landmarks& landmarks) : hinge_(landmarks) {}
+  Eigen::Matrix<double, 12, 1> motion(const JawPose& pose) const;
+  Eigen::Matrix<double, 12, 6> derivative(const JawPose& pose) const;
+
+ private:
+  JawHinge hinge_;
+};
+
+/// What is known of the numbers to fit before any point is seen: 1 sigma.
+struct FitPriors {
+  double activation = 0.2;
+  double ring = 0.2;  ///< of muscles that act as rings
+  double tone = 0.1;  ///< of muscles that may relax below rest, on that side
+  double opening_rad = 0.35, turn_rad = 0.03, tilt_rad = 0.02, slide_m = 0.002;
+  Eigen::VectorXd readiness = {};     ///< per muscle: a factor on the three of it; empty: all 1
+  std::vector<int> counterpart = {};  ///< of each muscle, on the other side; -1 or empty: none
+  double side_correlation = 0;        ///< of its activation with the counterpart's: 0 to below 1
+};
+
+/// Points as functions of activations and the jaw's motion: 3 P x M and 3 P x 12, m. With wide
+/// bands a muscle at a moves them by a ((1 - w) of_muscles + w of_wide), w = wide_share(a).
+struct PointResponse {
+  Eigen::MatrixXd of_muscles, of_jaw, of_wide;
+  double half = 0.5;  ///< the activation at which half of the force is in the wide band
+  double wide_share(double a) const { return a > 0 ? a / (a + half) : 0; }
+};
+
+struct FitResult {
+  Eigen::VectorXd activation;
+  JawPose jaw = JawPose::Zero();
+  Eigen::MatrixXd covariance;  ///< of the activations, no bound seen
+  Eigen::VectorXd left_over;   ///< observed less modelled, 3 P, m
+};
+
+class MuscleFit {
+ public:
+  /// `sigma_m`: of a coordinate's error. `tone[m]`: may go below 0; `ring[m]`: acts as a
+  /// ring.
+  MuscleFit(PointResponse response, const JawKinematics& jaw, const FitPriors& priors,
+            double sigma_m, std::vector<char> tone, std::vector<char> ring);
+  /// `displacement`: of the points, 3 P. Starts from the last answer.
+  FitResult fit(const Eigen::VectorXd& displacement);
+  double wide_share(double activation) const { return response_.wide_share(activation); }
+
+ private:
+  PointResponse response_;
+  JawKinematics jaw_;
+  FitPriors priors_;
+  double sigma_m_;
+  std::vector<char> tone_, ring_;
+  Eigen::MatrixXd blend(const Eigen::MatrixXd& narrow, const Eigen::MatrixXd& wide) const;
+  double sigma_of(Eigen::Index muscle) const;
+  void add_priors(Eigen::MatrixXd& h) const;
+  FitResult last_;
+};
+
+}  // namespace hyperex::simulate

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/load/muscle_load.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hyperex/fem/solve/node_order.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/simulate/drive/skin_places.hpp"
+#include "hyperex/simulate/drive/support.hpp"
+#include "hyperex/simulate/load/muscle_fit.hpp"
+#include "hyperex/simulate/load/muscle_model.hpp"
+
+namespace hyperex::simulate {
+namespace {
+
+/// Of what is left over at the points, this share of the greatest may be lost between its shapes.
+constexpr double kLeftOverLost = 1e-4;
+
+/// Displacements at the points (3 P x n) of nodal ones (3 |nodes| x n).
+Eigen::MatrixXd at_points(const CarrierMatrix& carrier, const Eigen::MatrixXd& nodal) {
+  Eigen::MatrixXd out(3 * carrier.rows(), nodal.cols());
+  for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
+    const Points moved = carrier * Eigen::Map<const Points>(nodal.col(c).data(), carrier.cols(), 3);
+    out.col(c) = Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
+  }
+  return out;
+}
+
+/// The points that drive.
+struct Driven {
+  std::vector<int> rows;
+  CarrierMatrix carrier;
+
+  Driven(const tissue::TissueMesh& mesh, const AlignedMotion& motion, const DriveOptions& drive) {
+    std::vector<std::string> names;
+    for (const std::string& name : drive.names_in(motion.motion))
+      if (const int row = motion.motion.index_of(name);
+          row >= 0 && !std::count(rows.begin(), rows.end(), row)) {
+        rows.push_back(row);
+        names.push_back(name);
+      }
+    Points rest(static_cast<Eigen::Index>(rows.size()), 3);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rest.row(static_cast<Eigen::Index>(i)) = motion.rest.row(rows[i]);
+    carrier = carriers(mesh, skin_places(mesh, names, rest));
+  }
+  bool few() const { return rows.size() <= std::size_t(kFewPoints); }
+  Eigen::VectorXd of(const Points& all) const {
+    Eigen::VectorXd out(3 * static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      out.segment<3>(3 * static_cast<Eigen::Index>(i)) = all.row(rows[i]).transpose();
+    return out;
+  }
+};
+
+MuscleModelOptions model_options(const SimulationOptions& options) {
+  return {muscle_support(options.support, options.muscles), options.muscles.shape,
+          options.muscles.widening};
+}
+
+int counterpart_of(const std::vector<muscles::MuscleLine>& lines, const std::string& name) {
+  const std::string other = muscles::other_side(name);
+  for (std::size_t m = 0; m < lines.size(); ++m)
+    if (lines[m].name == other) return int(m);
+  return -1;
+}
+
+MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const Driven& driven,
+                 const MuscleOptions& options) {
+  const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
+  FitPriors priors;
+  priors.activation = options.activation_sigma;
+  priors.ring = options.ring_sigma;
+  priors.tone = options.tone_sigma;
+  priors.slide_m = options.slide_sigma_m;
+  priors.side_correlation = options.side_correlation;
+  std::vector<char> tone, ring;
+  priors.readiness.resize(Eigen::Index(model.lines().size()));
+  for (const muscles::MuscleLine& line : model.lines()) {
+    priors.counterpart.push_back(counterpart_of(model.lines(), line.name));
+    const muscles::TemplateMuscle& muscle = options.table()[std::size_t(line.row)];
+    priors.readiness[Eigen::Index(tone.size())] = muscle.readiness;
+    tone.push_back(muscle.tone);
+    ring.push_back(muscle.kind == muscles::MuscleKind::ring);
+  }
+  return MuscleFit(
+      {at_points(driven.carrier, model.response()), at_points(driven.carrier, model.jaw_response()),
+       at_points(driven.carrier, model.wide_response()), options.half},
+      JawKinematics(landmarks), priors, sigma, std::move(tone), std::move(ring));
+}
+
+/// Displacements of the patches' nodes (3 |patch nodes| x n) as the field between the driven points
+/// has them where these are displaced by the columns of `of_points` (3 P).
+Eigen::MatrixXd field_in_patches(const DrivenSkin& patches, const Driven& driven,
+                                 const Eigen::MatrixXd& of_points, Eigen::Index points) {
+  Eigen::MatrixXd out(3 * Eigen::Index(patches.nodes.size()), of_points.cols());
+  for (Eigen::Index c = 0; c < of_points.cols(); ++c) {
+    Points all = Points::Zero(points, 3);
+    for (std::size_t i = 0; i < driven.rows.size(); ++i)
+      all.row(driven.rows[i]) = of_points.col(c).segment<3>(3 * Eigen::Index(i)).transpose();
+    const Points patch = patches.weights * all;
+    out.col(c) = Eigen::Map<const Eigen::VectorXd>(patch.data(), patch.size());
+  }
+  return out;
+}
+
+/// What the field between the driven points makes of the patches beyond what nodal displacements
+/// (3 |nodes| x n) make of them, the points being where these have them.
+Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& driven,
+                                  const Eigen::MatrixXd& nodal, Eigen::Index points) {
+  Eigen::MatrixXd out = field_in_patches(patches, driven, at_points(driven.carrier, nodal), points);
+  for (std::size_t j = 0; j < patches.nodes.size(); ++j)
+    out.middleRows<3>(3 * Eigen::Index(j)) -= nodal.middleRows<3>(3 * patches.nodes[j]);
+  return out;
+}
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Forces that hold the patches' nodes so displaced (columns), the rest of the face being in
+/// equilibrium without.
+Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patches,
+                               const Eigen::MatrixXd& displaced,
+                               const std::function<void()>& between) {
+  const std::vector<int>& held = model.boundary().prescribed();
+  const std::vector<int> prescribed = with_nodes(held, patches.nodes);
+  fem::PartitionedFactor factor(
+      model.stiffness(), prescribed, "patches of the driven points", {},
+      fem::LinearSolver::automatic,
+      std::make_shared<const fem::NodeOrder>(
+          restricted(*model.order(), int(model.stiffness().rows()), held, prescribed)));
+  const auto unknown = [&](Eigen::Index row) { return 3 * patches.nodes[row / 3] + int(row % 3); };
+  const std::vector<int>& place = factor.partition().free_index;
+  const Rows held_at = displaced;
+  Rows right = Rows::Zero(Eigen::Index(factor.free().size()), displaced.cols());
+  for (Eigen::Index row = 0; row < held_at.rows(); ++row)
+    for (fem::SparseMatrix::InnerIterator it(model.stiffness(), unknown(row)); it; ++it)
+      if (place[it.row()] >= 0) right.row(place[it.row()]) -= it.value() * held_at.row(row);
+  Eigen::MatrixXd free = right;
+  factor.solve(free, between);
+  right = free;
+  // Of the rest the forces are zero.
+  Rows moved = Rows::Zero(model.stiffness().rows(), displaced.cols());
+  for (std::size_t i = 0; i < factor.free().size(); ++i)
+    moved.row(factor.free()[i]) = right.row(Eigen::Index(i));
+  for (Eigen::Index row = 0; row < held_at.rows(); ++row)
+    moved.row(unknown(row)) = held_at.row(row);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model.stiffness().rows(), displaced.cols());
+  Eigen::RowVectorXd sum(displaced.cols());
+  for (Eigen::Index row = 0; row < held_at.rows(); ++row) {
+    sum.setZero();
+    for (fem::SparseMatrix::InnerIterator it(model.stiffness(), unknown(row)); it; ++it)
+      sum += it.value() * moved.row(it.row());
+    out.row(unknown(row)) = sum;
+  }
+  return out;
+}
+
+/// The forces of muscles and jaw, then of the left-over's directions: columns of a HeldLoad. In the
+/// patches the tissue under the muscles' forces and the field between the points are two guesses of
+/// how the skin moves: of each column its `tissue_share` of the one and the rest of the other.
+Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
+                          const Eigen::MatrixXd& left_over, const Eigen::VectorXd& tissue_share,
+                          Eigen::Index points, const std::function<void()>& between) {
+  const Eigen::Index rows = model.force().rows();
+  const Eigen::Index columns =
+      model.force().cols() + model.wide_force().cols() + model.jaw_force().cols();
+  Eigen::MatrixXd own(rows, columns), moved(rows, columns);
+  own << model.force(), model.wide_force(), model.jaw_force();
+  moved << model.response(), model.wide_response(), model.jaw_response();
+  Eigen::MatrixXd displaced(3 * Eigen::Index(patches.nodes.size()), own.cols() + left_over.cols());
+  displaced << field_less_tissue(patches, driven, moved, points) *
+                   (1 - tissue_share.array()).matrix().asDiagonal(),
+      field_in_patches(patches, driven, left_over, points);
+  Eigen::MatrixXd out = holding_forces(model, patches, displaced, between);
+  out.leftCols(own.cols()) += own;
+  return out;
+}
+
+/// Of each column of forces_of() but the left-over's: narrow bands, wide ones, the jaw's.
+Eigen::VectorXd tissue_shares(const MuscleModel& model, bool few, const MuscleOptions& options) {
+  const auto count = static_cast<Eigen::Index>(model.lines().size());
+  Eigen::VectorXd of_muscle(count);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const bool cheek = options.table()[std::size_t(model.lines()[std::size_t(m)].row)].cheek;
+    of_muscle[m] = !few    ? options.many_muscle_share
+                   : cheek ? options.few_cheek_share
+                           : options.few_lip_share;
+  }
+  Eigen::VectorXd out(count + model.wide_force().cols() + model.jaw_force().cols());
+  out << of_muscle, of_muscle.head(model.wide_force().cols()),
+      Eigen::VectorXd::Constant(model.jaw_force().cols(), options.jaw_share);
+  return out;
+}
+
+/// Names the groups of each side, in the template's order; 1 where a muscle (column) is in a group.
+Eigen::MatrixXd name_groups(const std::vector<muscles::MuscleLine>& lines,
+                            const muscles::MuscleTable& table, std::vector<std::string>& groups) {
+  Eigen::MatrixXd members = Eigen::MatrixXd::Zero(0, static_cast<Eigen::Index>(lines.size()));
+  for (std::size_t m = 0; m < lines.size(); ++m) {
+    const std::string name = table[std::size_t(lines[m].row)].group + (lines[m].left ? "_L" : "_R");
+    const auto at = std::find(groups.begin(), groups.end(), name) - groups.begin();
+    if (at == static_cast<std::ptrdiff_t>(groups.size())) {
+      groups.push_back(name);
+      members.conservativeResize(members.rows() + 1, Eigen::NoChange);
+      members.bottomRows<1>().setZero();
+    }
+    members(at, static_cast<Eigen::Index>(m)) = 1;
+  }
+  return members;
+}
+
+/// Orthonormal directions of the columns, as many as matter.
+Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
+  const auto& size = svd.singularValues();
+  Eigen::Index kept = 0;
+  while (kept < size.size() && size[kept] > kLeftOverLost * size[0] && size[kept] > 1e-9) ++kept;
+  return svd.matrixU().leftCols(kept);
+}
+
+}  // namespace
+
+SupportOptions muscle_support(const SupportOptions& given, const MuscleOptions& options) {
+  SupportOptions support = given;
+  support.skull_layer = options.skull_layer;
+  support.mandible_layer = options.mandible_layer;
+  support.teeth_layer = options.teeth_layer;
+  support.teeth_reach_m = options.teeth_reach_m;
+  support.field_pa_per_m = options.foundation_pa_per_m;
+  support.throat_pa_per_m = options.throat_pa_per_m;
+  support.throat_reach_m = options.throat_reach_m;
+  return support;
+}
+
+void stiffen_lips(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                  const MuscleOptions& options, fem::Material& material) {
+  const std::vector<double> to_lips = distances_to_lips(mesh, landmarks);
+  const auto columns = static_cast<int>(mesh.volume.surface_nodes());
+  for (Eigen::Index t = 0; t < mesh.volume.tets.rows(); ++t) {
+    double distance = 0;
+    for (int a = 0; a < 4; ++a) distance += 0.25 * to_lips[mesh.volume.tets(t, a) % columns];
+    material.young_pa[std::size_t(t)] *=
+        1 + (options.lip_stiffening - 1) * std::exp(-std::pow(distance / options.lip_reach_m, 2));
+  }
+}
+
+MuscleModel muscle_model(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                         const SimulationOptions& options, const fem::SparseMatrix& stiffness,
+                         std::shared_ptr<const fem::NodeOrder> order,
+                         const std::function<void()>& between) {
+  return {mesh,
+          landmarks,
+          stiffness,
+          options.muscles.table(),
+          model_options(options),
+          std::move(order),
+          between};
+}
+
+HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                     const AlignedMotion& motion, const MeasuredRegion& region,
+                     const SimulationOptions& options, const MuscleModel& model,
+                     const std::function<void()>& between) {
+  // First, since it says what is wrong with the points.
+  const Driven driven(mesh, motion, options.drive);
+  DriveOptions drive = options.drive;
+  if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
+  const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
+  MuscleFit fit = fit_of(landmarks, model, driven, options.muscles);
+  const JawKinematics jaw(landmarks);
+
+  HeldLoad load;
+  const auto count = static_cast<Eigen::Index>(model.lines().size());
+  const auto samples = static_cast<Eigen::Index>(motion.motion.time_s.size());
+  load.wide_bands = model.wide_force().cols() > 0;
+  MuscleCourse& muscle = load.muscles;
+  for (const muscles::MuscleLine& line : model.lines()) muscle.names.push_back(line.name);
+  const Eigen::Index of_jaw = jaw_row(load);
+  const Eigen::MatrixXd members =
+      name_groups(model.lines(), options.muscles.table(), muscle.groups);
+  muscle.group_activation.resize(members.rows(), samples);
+  muscle.group_sigma.resize(members.rows(), samples);
+  muscle.activation.resize(count, samples);
+  muscle.sigma.resize(count, samples);
+  muscle.jaw_opening_deg.resize(samples);
+  Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
+  Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    if (between) between();
+    load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
+    const Points moved = options.drive.gain * (motion.motion.positions[std::size_t(k)] -
+                                               motion.motion.positions.front());
+    const FitResult fitted = fit.fit(driven.of(moved));
+    muscle.activation.col(k) = fitted.activation;
+    muscle.sigma.col(k) = fitted.covariance.diagonal().cwiseSqrt();
+    muscle.group_activation.col(k) = members * fitted.activation;
+    muscle.group_sigma.col(k) =
+        (members * fitted.covariance * members.transpose()).diagonal().cwiseSqrt();
+    muscle.jaw_opening_deg[k] = fitted.jaw[0] * 180 / std::numbers::pi;
+    for (Eigen::Index m = 0; m < count; ++m) {
+      const double a = fitted.activation[m];
+      const double wide = load.wide_bands ? fit.wide_share(a) * a : 0;
+      course(m, k) = a - wide;
+      if (load.wide_bands) course(count + m, k) = wide;
+    }
+    course.col(k).tail<12>() = jaw.motion(fitted.jaw);
+    left_over.col(k) = fitted.left_over;
+  }
+  muscle.time_s = load.time_s;
+  load.greatest_opening_deg = muscle.jaw_opening_deg.maxCoeff();
+
+  const Eigen::MatrixXd directions = directions_of(left_over);
+  load.course.resize(course.rows() + directions.cols(), samples);
+  load.course << course, directions.transpose() * left_over;
+  load.force =
+      forces_of(model, patches, driven, directions,
+                tissue_shares(model, driven.few(), options.muscles), motion.rest.rows(), between);
+  load.patch_nodes = patches.nodes;
+  return load;
+}
+
+}  // namespace hyperex::simulate

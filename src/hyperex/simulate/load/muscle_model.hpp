@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hyperex/fem/form/assembler.hpp"
+#include "hyperex/fem/solve/partitioned_factor.hpp"
+#include "hyperex/muscles/muscle_forces.hpp"
+#include "hyperex/simulate/drive/boundary.hpp"
+
+namespace hyperex::simulate {
+
+struct MuscleModelOptions {
+  SupportOptions support;
+  muscles::ForceShape shape;
+  double widening = 1;    ///< of a pull's band when it is strong, over that when it is weak
+  double unit_m = 0.010;  ///< a muscle at 1 moves the skin by this much where most
+};
+
+/// What unit pulls of the muscles and unit motions of the jaw make of a face at rest: one
+/// factorisation of the stiffness without driven points, a solution for each.
+class MuscleModel {
+ public:
+  /// `stiffness`: assembled, without the springs, which are added here. `between` (may be empty):
+  /// called again and again; may throw, which ends it.
+  MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+              const fem::SparseMatrix& stiffness,
+              const std::vector<muscles::TemplateMuscle>& muscles,
+              const MuscleModelOptions& options,
+              std::shared_ptr<const fem::NodeOrder> order = nullptr,
+              const std::function<void()>& between = {});
+
+  const std::vector<muscles::MuscleLine>& lines() const { return lines_; }
+  const Boundary& boundary() const { return boundary_; }
+  const fem::SparseMatrix& stiffness() const { return stiffness_; }  ///< with springs
+  const std::shared_ptr<const fem::NodeOrder>& order() const { return factor_->order(); }
+  /// 3 |nodes| x |lines|, N and m: of a muscle at 1.
+  const Eigen::MatrixXd& force() const { return force_; }
+  const Eigen::MatrixXd& response() const { return response_; }
+  /// The same with the wide bands; no columns where widening is 1.
+  const Eigen::MatrixXd& wide_force() const { return wide_force_; }
+  const Eigen::MatrixXd& wide_response() const { return wide_response_; }
+  /// 3 |nodes| x 12: of each entry of the jaw's turn (column by column), then of its slide (m).
+  const Eigen::MatrixXd& jaw_force() const { return jaw_force_; }
+  const Eigen::MatrixXd& jaw_response() const { return jaw_response_; }
+
+ private:
+  std::vector<muscles::MuscleLine> lines_;
+  Boundary boundary_;
+  fem::SparseMatrix stiffness_;
+  std::optional<fem::PartitionedFactor> factor_;
+  /// Displacements (3 |nodes| x n) under forces.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& force, const std::function<void()>& between);
+  void scale_to_unit(double unit_m, const std::function<void()>& between, Eigen::MatrixXd& force,
+                     Eigen::MatrixXd& response);
+  const tissue::TissueMesh& mesh_;
+  Eigen::MatrixXd force_, response_, wide_force_, wide_response_, jaw_force_, jaw_response_;
+};
+
+}  // namespace hyperex::simulate

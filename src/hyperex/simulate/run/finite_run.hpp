@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "hyperex/fem/form/assembler.hpp"
+#include "hyperex/fem/time/drive.hpp"
+#include "hyperex/fem/time/finite_newton.hpp"
+#include "hyperex/simulate/load/nodal_course.hpp"
+#include "hyperex/simulate/run/solve.hpp"
+
+namespace hyperex::simulate {
+
+/// What moves a face at finite strain. Drives are given at steps of `step_s` and taken linearly
+/// between them.
+struct FiniteDrive {
+  double step_s = 0.002;
+  fem::Drive still;    ///< what is prescribed, and forces whose direction stays
+  fem::Drive turning;  ///< forces that turn with the tissue about them; no shapes: none
+  const NodalCourse* forces = nullptr;  ///< N, whose direction stays; null: none
+  /// Displacements (m) of nodes that are prescribed besides those of `still`; null: none.
+  const NodalCourse* places = nullptr;
+};
+
+struct FiniteSolution {
+  Solution solution;
+  /// What acts on the nodes of `places` besides the other forces, N: in the place of the
+  /// displacements they make the same motion.
+  NodalCourse reactions;
+  int steps = 0, parts = 0, iterations = 0, factorisations = 0;
+};
+
+/// From rest, in steps that end at `step_ends_s` (0 first) or parts of them; displacements at
+/// `times` (in steps of the drive), by cubics between steps. `newton` prescribes what `still` does
+/// and the nodes of `places`. Throws NumericalError as FiniteNewton::step().
+FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assembler,
+                          const std::vector<int>& still_prescribed, const FiniteDrive& drive,
+                          const std::vector<double>& step_ends_s, const std::vector<double>& times,
+                          const StepProgress& progress = {});
+
+}  // namespace hyperex::simulate

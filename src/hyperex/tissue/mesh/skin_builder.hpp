@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Inside the room: the scan's skin on its way to the tissue's mesh.
+#include <string>
+#include <vector>
+
+#include "hyperex/geometry/clean_mesh.hpp"
+#include "hyperex/geometry/cut_surface.hpp"
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
+
+namespace hyperex::tissue {
+
+/// The cleaned scan, cut where asked, and the same cut in the scan as given.
+class SkinBuilder {
+ public:
+  /// Fills `out.skin` and what belongs to it; all must outlive this. Throws InputError.
+  SkinBuilder(const TriMesh& scan, const io::Landmarks& landmarks, const std::string& source,
+              TissueMesh& out);
+
+  void cut(LipCut mode);
+
+  /// Where the scan has more than thinned_above_vertices: `out.skin` becomes a thinned working
+  /// copy, and what it was `out.full`. `held`: of the scan's vertices, those to keep.
+  void thin(double element_size_m, const std::vector<char>& held);
+
+  /// The working copy.
+  const TriMesh& mesh() const { return clean_.mesh; }
+
+  /// Values at the working copy's vertices, taken to those of the skin; 0 where it has none.
+  std::vector<double> on_skin(const std::vector<double>& values) const;
+
+ private:
+  void apply(const CutSurface& cut);
+  int scan_corner(int vertex, int clean_triangle, int scan_triangle) const;
+  int skin_vertex(int vertex) const;
+  Eigen::Index skin_row(Eigen::Index clean_triangle) const;
+  std::vector<MeshPlace> places_of_skin(const ThinMesh& thin) const;
+
+  const TriMesh& scan_;
+  const io::Landmarks& landmarks_;
+  std::string source_;
+  TissueMesh& out_;
+  CleanMesh clean_;
+  Eigen::Index uncut_triangles_ = 0;  // of the working copy, before the cut
+};
+
+}  // namespace hyperex::tissue

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hyperex/core/bounds.hpp"
+#include "hyperex/geometry/insert_line.hpp"
+#include "hyperex/geometry/thin_mesh.hpp"
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/tissue/mesh/rim.hpp"
+#include "hyperex/tissue/mesh/thickness.hpp"
+#include "hyperex/tissue/mesh/volume_mesh.hpp"
+#include "hyperex/tissue/options.hpp"
+
+namespace hyperex::tissue {
+
+enum class LipCut { automatic, always, never };
+
+struct TissueMeshOptions {
+  double element_size_m = 0.0033;  ///< edges at the mouth; they grow smoothly away from it
+  int layers = 2;                  ///< of elements between the skin and the inner surface
+  double thickness_m = 0;  ///< > 0: the same everywhere; 0: published_depths(), interpolated
+  /// Used where thickness_m is 0: in the place of the published depths at the same landmarks.
+  std::vector<DepthAt> depths;
+  std::filesystem::path depth_per_vertex;  ///< instead, where it gives any: a row a scan vertex
+  std::vector<DepthRegion> depth_regions;  ///< applied in turn
+  LipCut cut_lips = LipCut::automatic;
+  double trim_border_m = 0;  ///< this much is taken off the scan's outer border
+  static constexpr Bounds element_size_m_in{0.0005, 0.03}, layers_in{1, 8},
+      thickness_m_in = tissue::thickness_m_in,
+      trim_border_m_in{0, 0.05};  ///< a thickness may be 0 besides
+};
+
+/// A scan with more vertices is thinned to edges of a third of an element (thin_mesh) before it is
+/// meshed and drawn.
+constexpr Eigen::Index thinned_above_vertices = 60000;
+
+/// The skin of a scan that was thinned, as TissueMesh::skin would else have it.
+struct FullSkin {
+  TriMesh skin;
+  Eigen::Index scan_vertices = 0;
+  std::vector<EdgePoint> appended;
+  std::vector<int> source_triangle;
+  std::vector<int> kept;           ///< of each vertex of the thinned skin, the one of `skin` it is
+  std::vector<int> kept_triangle;  ///< of each triangle of it, the one whose corners moved to it
+  std::vector<MeshPlace> places;   ///< of each vertex of `skin` on the thinned skin
+};
+
+/// Where a point of the skin sits on the simulated outer surface.
+struct Anchor {
+  std::array<int, 3> node{};  ///< outer nodes of the volume mesh
+  Vec3 weight = Vec3::Zero();
+};
+
+/// A scan made ready for simulation.
+struct TissueMesh {
+  /// The scan as given; where its lips were cut, triangles of the scan are replaced by a piece of
+  /// themselves, and new vertices and the other pieces are appended.
+  /// Of a scan with very many vertices a thinned one, which counts as the scan from there on.
+  TriMesh skin;
+  std::shared_ptr<const FullSkin> full;  ///< where the scan was thinned
+  Eigen::Index scan_vertices = 0;
+  std::vector<EdgePoint> appended;   ///< where each appended vertex lies on the scan
+  std::vector<int> source_triangle;  ///< of each skin triangle, the scan's that it is (a piece of)
+  Points lip_cut;                    ///< the line of the cut, empty where none was made
+  VolumeMesh volume;
+  std::vector<Anchor> anchors;  ///< per skin vertex
+  std::vector<RimVertex> rim;   ///< what moves otherwise than its anchor, in rising order
+  std::vector<double>
+      upper_margin;  ///< per outer node: walk to the lower minus to the upper lip (m)
+  std::vector<double> skin_upper_margin;  ///< the same, per skin vertex
+  std::vector<char> on_border;  ///< per outer node: on the outer border, not at mouth or eyes
+  MeshQuality quality;
+  double mean_distance_mm = 0,
+         max_distance_mm = 0;      ///< scan vertices to the simulated outer surface
+  std::vector<std::string> notes;  ///< what was mended, trimmed or cut, a sentence each
+};
+
+/// build_tissue_mesh() in two steps, as what needs the skin alone need not wait for the volume.
+class TissueMeshBuilder {
+ public:
+  /// Makes the skin. `scan` and `landmarks` must outlive this. Throws as build_tissue_mesh().
+  TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& landmarks,
+                    const TissueMeshOptions& options, std::string source,
+                    const std::vector<char>& held = {});
+
+  /// `skin`, all that stands above `volume` in TissueMesh, and `skin_upper_margin`: may be read
+  /// while build() runs.
+  const TissueMesh& with_skin() const { return *mesh_; }
+
+  /// The same mesh, whole. Once.
+  std::shared_ptr<const TissueMesh> build();
+
+ private:
+  const io::Landmarks& landmarks_;
+  TissueMeshOptions options_;
+  std::string source_;
+  std::shared_ptr<TissueMesh> mesh_ = std::make_shared<TissueMesh>();
+  TriMesh working_copy_;
+  Eigen::VectorXd skin_depth_;  ///< empty where no file gives any
+};
+
+/// Cleans a working copy, cuts joined lips, mends small holes, remeshes with a size that grows away
+/// from the mouth, and builds the layer. `landmarks` must hold the 68 iBUG points
+/// (complete_landmarks). `source` names the scan in errors. `held`, per
+/// scan vertex: stays where the scan is thinned (empty: none). Throws InputError where the scan
+/// cannot serve.
+TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
+                             const TissueMeshOptions& options, const std::string& source,
+                             const std::vector<char>& held = {});
+
+}  // namespace hyperex::tissue

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/geometry/types.hpp"
+
+namespace hyperex::tissue {
+
+/// A layer of soft tissue between the skin and an inner surface: prisms over the triangles of the
+/// outer surface, each cut into three tetrahedra.
+struct VolumeMesh {
+  Points nodes;     ///< level by level: node = level * surface_nodes + vertex; level 0 is the skin
+  Tetrahedra tets;  ///< positive volume; those of one prism follow one another
+  TriMesh outer;    ///< the skin side (vertices = nodes of level 0)
+  int layers = 0;   ///< of prisms; levels of nodes are layers + 1
+  Eigen::VectorXd thickness_m;  ///< per outer vertex, as built
+  std::vector<std::string> notes;
+
+  Eigen::Index surface_nodes() const { return outer.points.rows(); }
+  int inner_node(int vertex) const { return static_cast<int>(layers * surface_nodes()) + vertex; }
+};
+
+/// No layer of positive volume fits under some triangles.
+struct FoldedSurface : NumericalError {
+  FoldedSurface(const std::string& message, std::vector<int> where)
+      : NumericalError(message), triangles(std::move(where)) {}
+  std::vector<int> triangles;  ///< of the outer surface
+};
+
+struct VolumeMeshOptions {
+  int layers = 2;
+  /// Least volume of a tetrahedron as a share of its prism's ideal (area x height / 3); more is
+  /// tried first.
+  double least_volume_share = 0.01;
+};
+
+/// `outer`: manifold, oriented outwards. `thickness_m`: wanted, per outer vertex, > 0. Where the
+/// layer would fold (concave or thin places) the direction is smoothed and, failing that, the
+/// thickness is reduced, until every tetrahedron has positive volume; the notes say how often.
+/// Throws FoldedSurface where no positive layer exists (a folded outer surface).
+VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
+                             const VolumeMeshOptions& options = {});
+
+/// Quality of a tetrahedral mesh.
+struct MeshQuality {
+  double least_volume_mm3 = 0, mean_volume_mm3 = 0, total_volume_mm3 = 0;
+  double least_dihedral_deg = 0, greatest_dihedral_deg = 0;
+  /// Share of tetrahedra whose least dihedral angle lies in [0,5), [5,10), [10,20), [20,30), [30,
+  /// 90] degrees.
+  std::vector<double> least_dihedral_shares;
+  double worst_radius_ratio = 0;  ///< least 3 inradius / circumradius; 1 is regular
+};
+inline constexpr double dihedral_bounds_deg[] = {0, 5, 10, 20, 30, 90};
+MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets);
+
+/// The whole surface of the layer of tissue: skin, inner surface (turned inwards), and between them
+/// along the borders. Its points: those of the skin, then those of the inner surface.
+TriMesh boundary_of(const VolumeMesh& volume);
+
+}  // namespace hyperex::tissue

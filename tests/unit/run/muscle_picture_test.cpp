@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/run/muscle_picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "hyperex/render/time_plot.hpp"
+#include "unit/muscles/a_face.hpp"
+
+namespace hyperex::run {
+namespace {
+
+/// Two samples; the second is the one of most activation.
+simulate::MuscleCourse course(double left, double right) {
+  simulate::MuscleCourse course;
+  course.names = {"zyg_major_L", "zyg_major_R"};
+  course.time_s = {0, 0.1};
+  course.activation.resize(2, 2);
+  course.activation << 0, left, 0, right;
+  return course;
+}
+
+int pixels_of(const render::Image& image, const render::Colour& colour, double from, double to) {
+  const auto near = [](std::uint8_t byte, double value) {
+    return std::abs(byte - 255 * value) < 3;
+  };
+  int count = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = int(from * image.width); x < int(to * image.width); ++x) {
+      const std::uint8_t* p = image.pixel(x, y);
+      count += near(p[0], colour.r) && near(p[1], colour.g) && near(p[2], colour.b);
+    }
+  return count;
+}
+
+TEST(MusclePicture, AMuscleIsAsBroadAsItIsActiveOnItsOwnSide) {
+  const muscles::test::AFace& face = muscles::test::a_face();
+  const auto draw = [&](double left, double right) {
+    return draw_muscles(face.mesh, face.landmarks, course(left, right));
+  };
+  const render::Image weak = draw(0.05, 0.05), left = draw(0.9, 0.05);
+  ASSERT_EQ(weak.width, left.width);
+  const render::Colour zygomatic = render::face_colour(1);
+  // From the left: the right side, in front, the left side, the names.
+  const double cell = 440.0 / weak.width;
+  const auto added = [&](double from, double to) {
+    return pixels_of(left, zygomatic, from, to) - pixels_of(weak, zygomatic, from, to);
+  };
+  EXPECT_EQ(added(0, 0.9 * cell), 0) << "the right side draws no left muscle";
+  EXPECT_GT(added(cell, 2 * cell), 200);
+  EXPECT_GT(added(2.2 * cell, 3.1 * cell), 200);
+}
+
+TEST(MusclePicture, HasADiscForEachMuscle) {
+  const muscles::test::AFace& face = muscles::test::a_face();
+  const render::Image image = draw_muscles(face.mesh, face.landmarks, course(0, 0));
+  for (std::size_t branch = 0; branch < 5; ++branch)
+    EXPECT_GT(pixels_of(image, render::face_colour(branch), 0, 1), 300) << branch;
+}
+
+}  // namespace
+}  // namespace hyperex::run

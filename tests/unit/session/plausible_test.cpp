@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/plausible.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/stabilise.hpp"
+
+namespace hyperex::session {
+using namespace scene;
+namespace {
+
+/// One triangle of the simulated skin, `off_m` above a vertex of the scan that is its middle.
+tissue::TissueMesh skin_off_by(double off_m) {
+  tissue::TissueMesh mesh;
+  mesh.volume.outer.points = (Points(3, 3) << 0, 0, 0, 0.03, 0, 0, 0, 0.03, 0).finished();
+  mesh.skin.points = (Points(1, 3) << 0.01, 0.01, -off_m).finished();
+  tissue::Anchor anchor;
+  anchor.node = {0, 1, 2};
+  anchor.weight = Vec3::Constant(1.0 / 3);
+  mesh.anchors = {anchor};
+  return mesh;
+}
+
+TEST(SkinWarning, NamesThePlaceOnTheFace) {
+  const io::Landmarks landmarks = {{"alare_L", {0.01, 0.02, -0.009}}, {"nasion", {1, 0, 0}}};
+  const SkinOff off = skin_off_scan(skin_off_by(0.009), landmarks);
+  EXPECT_NEAR(off.distance_mm, 9, 1e-9);
+  EXPECT_EQ(off.landmark, "alare_L");
+  EXPECT_THAT(skin_warning(off), testing::AllOf(testing::HasSubstr("up to 9.0 mm off the scan"),
+                                                testing::HasSubstr("10 mm from alare_L")));
+  EXPECT_EQ(skin_warning(skin_off_scan(skin_off_by(0.004), landmarks)), "");
+}
+
+TEST(SkinWarning, LeavesEarsAndNeckAside) {
+  EXPECT_EQ(skin_off_scan(skin_off_by(0.009), {{"ibug68_16", {0.01, 0.05, 0}}}).distance_mm, 0);
+  EXPECT_EQ(skin_warning(skin_off_scan(skin_off_by(0.009), {})), "");
+}
+
+const std::filesystem::path kData = std::filesystem::path(HYPEREX_SHARED_DIR) / "data";
+
+/// The samples from `first` on, or all of them backwards.
+motion::Motion cut(motion::Motion m, std::size_t first) {
+  m.time_s.erase(m.time_s.begin(), m.time_s.begin() + long(first));
+  m.positions.erase(m.positions.begin(), m.positions.begin() + long(first));
+  return m;
+}
+motion::Motion backwards(motion::Motion m) {
+  std::reverse(m.positions.begin(), m.positions.end());
+  return m;
+}
+
+TEST(AverageFace, TellsHowRealRecordingsStart) {
+  if (!std::filesystem::exists(kData)) GTEST_SKIP() << "the shared recordings are not here";
+  const auto read = [](const std::string& file) {
+    return motion::stabilise(motion::read_motion(kData / file)).motion;
+  };
+  const FaceAtRest average = average_face();
+  const auto told = [&](const motion::Motion& m) { return start_warning(m, average); };
+  const auto smile = read("real/spacetime/smile_mm.csv"),
+             opening = read("rgbd/subject_A_mouth_open/truth_landmarks68_camera_m.csv"),
+             talk = read("rgbd/subject_A_talk/truth_landmarks68_camera_m.csv");
+  for (const auto& good : {smile, opening, talk}) EXPECT_EQ(told(good), "");
+  EXPECT_THAT(told(backwards(smile)), testing::HasSubstr("nearer to an average face"));
+  EXPECT_THAT(told(cut(opening, 40)), testing::HasSubstr("seems to start in an expression"));
+  for (auto exchanged : {smile, opening, talk}) {
+    EXPECT_NO_THROW(check_sides(exchanged, average));
+    for (Points& sample : exchanged.positions) sample.col(0) *= -1;
+    EXPECT_THROW(check_sides(exchanged, average), InputError);
+  }
+}
+
+TEST(IdleLawWarning, NamesKeysOfFiniteStrainWhereNothingHasIt) {
+  Scene scene;
+  EXPECT_EQ(idle_law_warning(scene), "");
+  scene.origins["tissue.law"] = {};
+  scene.origins["tissue.maxwell"] = {};
+  EXPECT_THAT(idle_law_warning(scene), testing::EndsWith(": tissue.law, tissue.maxwell"));
+  Variant variant;
+  variant.scene.model.strain = simulate::Strain::finite;
+  scene.variants.push_back(variant);
+  EXPECT_EQ(idle_law_warning(scene), "");
+  scene.variants.clear();
+  scene.model.strain = simulate::Strain::finite;
+  EXPECT_EQ(idle_law_warning(scene), "");
+}
+
+}  // namespace
+}  // namespace hyperex::session

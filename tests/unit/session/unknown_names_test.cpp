@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/unknown_names.hpp"
+
+#include <gmock/gmock.h>
+
+namespace hyperex::session {
+namespace {
+
+TEST(NearestLandmark, FindsTheSlipAndKeepsTheSide) {
+  for (const auto& [given, meant] : {std::pair{"cheilon_L", "cheilion_L"},
+                                     {"cheilion_r", "cheilion_R"},
+                                     {"left_alare", "alare_L"},
+                                     {"exocanthion_right", "exocanthion_R"},
+                                     {"Nasion", "nasion"},
+                                     {"pogonoin", "pogonion"},
+                                     {"ibug_48", "ibug68_48"},
+                                     {"54", "ibug68_54"}})
+    EXPECT_EQ(nearest_landmark(given), meant) << given;
+}
+
+TEST(NearestLandmark, GuessesNoSideAndNothingFarOff) {
+  EXPECT_EQ(nearest_landmark("cheilion"), "cheilion_L or cheilion_R");
+  for (const char* name : {"my_own_mark", "ibug68_99", "scar_12", "cheilion_L", "", "x"})
+    EXPECT_EQ(nearest_landmark(name), "") << name;
+}
+
+TEST(NearestRegion, KeepsTheSide) {
+  EXPECT_EQ(nearest_region("\"right_cheek\""), "cheek_R");
+  EXPECT_EQ(nearest_region("cheek_r"), "cheek_R");
+  EXPECT_EQ(nearest_region("chek"), "cheek");
+  EXPECT_EQ(nearest_region("cheek_R"), "");
+  EXPECT_EQ(nearest_region("elbow"), "");
+}
+
+TEST(MisspeltLandmarks, AreTakenOutOfTheUnknown) {
+  std::vector<std::string> unknown = {"cheilon_L", "my_own_mark"};
+  EXPECT_THAT(misspelt_landmarks(unknown),
+              testing::ElementsAre("landmark cheilon_L is not known and left aside; did you mean "
+                                   "cheilion_L?"));
+  EXPECT_THAT(unknown, testing::ElementsAre("my_own_mark"));
+}
+
+}  // namespace
+}  // namespace hyperex::session

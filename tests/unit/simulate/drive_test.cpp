@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/drive/drive.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "hyperex/anatomy/lips.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/geodesic.hpp"
+#include "simulate/small_face.hpp"
+
+namespace hyperex::simulate {
+namespace {
+
+class Drive : public testing::Test {
+ protected:
+  const test::SmallFace face_ = test::small_face();
+
+  /// Points at skin nodes, so that the field can be read off there.
+  std::vector<DrivenPoint> at_nodes(const std::vector<std::string>& names) const {
+    std::vector<DrivenPoint> points;
+    for (const auto& name : names)
+      points.push_back({name, face_.mesh.skin.points.row(node_of(name)).transpose()});
+    return points;
+  }
+  int node_of(const std::string& name) const {
+    const Points& skin = face_.mesh.skin.points;
+    const int lip = anatomy::lip_of(name);
+    int best = -1;
+    for (int v = 0; v < skin.rows(); ++v) {
+      if (lip * face_.mesh.upper_margin[v] < 0) continue;
+      const Vec3 p = face_.landmarks.at(name);
+      if (best < 0 ||
+          (skin.row(v).transpose() - p).norm() < (skin.row(best).transpose() - p).norm())
+        best = v;
+    }
+    return best;
+  }
+  DriveField field_of(const std::vector<DrivenPoint>& points,
+                      const std::vector<Vec3>& still) const {
+    return DriveField(points, still, face_.mesh, face::face_frame(face_.landmarks).y, 0.010);
+  }
+  DrivenPatches patches(const std::vector<std::string>& names, double radius = 0.006,
+                        bool still = false) const {
+    const auto points = at_nodes(names);
+    const DriveField field =
+        field_of(points, still ? still_places(points, face_.landmarks) : std::vector<Vec3>{});
+    return driven_patches(field, face_.mesh, radius, "motion.csv");
+  }
+};
+
+TEST_F(Drive, MeetsEveryDrivenPoint) {
+  const auto& names = test::seven_points();
+  for (const bool still : {false, true}) {
+    const DrivenPatches p = patches(names, 0.006, still);
+    EXPECT_TRUE(std::is_sorted(p.nodes.begin(), p.nodes.end()));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto at = std::find(p.nodes.begin(), p.nodes.end(), node_of(names[i]));
+      ASSERT_NE(at, p.nodes.end()) << names[i];
+      Eigen::RowVectorXd expected = Eigen::RowVectorXd::Zero(7);
+      expected[static_cast<Eigen::Index>(i)] = 1;
+      EXPECT_LT((p.weights.row(at - p.nodes.begin()) - expected).norm(), 1e-9) << names[i];
+    }
+  }
+}
+
+/// How far the places of the points follow each point's unit displacement: |points| x |points|.
+Eigen::MatrixXd reached(const DrivenPatches& p) {
+  return Eigen::MatrixXd(p.carriers)(Eigen::all, p.nodes) * p.weights;
+}
+
+TEST_F(Drive, PointsBetweenTheNodesEndWhereTheyAreDriven) {
+  const TriMesh& skin = face_.mesh.skin;
+  std::vector<DrivenPoint> points = at_nodes(test::seven_points());
+  for (DrivenPoint& point : points)  // into the middle of a triangle
+    for (int f = 0; f < skin.triangles.rows(); ++f)
+      if ((skin.triangles.row(f).array() == node_of(point.name)).any()) {
+        point.rest.setZero();
+        for (int k = 0; k < 3; ++k)
+          point.rest += skin.points.row(skin.triangles(f, k)).transpose() / 3;
+      }
+  const auto still = still_places(points, face_.landmarks);
+  for (const double radius : {1e-9, 0.006, 0.012}) {
+    const DrivenPatches p =
+        driven_patches(field_of(points, still), face_.mesh, radius, "motion.csv");
+    EXPECT_LT((reached(p) - Eigen::MatrixXd::Identity(7, 7)).cwiseAbs().maxCoeff(), 1e-3) << radius;
+  }
+}
+
+TEST_F(Drive, PointsAtAlmostOnePlaceAreMetInTheMean) {
+  std::vector<DrivenPoint> points = at_nodes({"ibug68_8", "ibug68_7"});
+  points[1].rest = points[0].rest + Vec3(0.00003, 0.00002, 0);
+  const DrivenPatches p = driven_patches(field_of(points, {}), face_.mesh, 0.012, "motion.csv");
+  const Eigen::MatrixXd at = reached(p);
+  EXPECT_NEAR((at(0, 0) + at(1, 0)) / 2, 0.5, 0.02);
+  EXPECT_NEAR((at(0, 1) + at(1, 1)) / 2, 0.5, 0.02);
+  EXPECT_LT(p.weights.cwiseAbs().maxCoeff(), 1.5) << "the skin is not folded between them";
+}
+
+TEST_F(Drive, ACommonTranslationIsFollowed) {
+  const DrivenPatches p = patches(test::seven_points());
+  for (Eigen::Index j = 0; j < p.weights.rows(); ++j) EXPECT_NEAR(p.weights.row(j).sum(), 1, 1e-9);
+}
+
+TEST_F(Drive, StillPlacesHoldTheRestOfTheFace) {
+  const auto points = at_nodes(test::seven_points());
+  const auto still = still_places(points, face_.landmarks);
+  EXPECT_EQ(still.size(), 4u + 4u + 31u) << "0 to 3, 13 to 16, 17 to 47";
+  const DriveField field = field_of(points, still);
+  Points at(2, 3);
+  std::vector<double> margin;
+  for (int i = 0; i < 2; ++i) {
+    at.row(i) = face_.landmarks.at(face::ibug(i ? 45 : 27)).transpose();
+    margin.push_back(face_.mesh.upper_margin[nearest_vertex(face_.mesh.skin.points, at.row(i))]);
+  }
+  EXPECT_LT(field.weights(at, margin).cwiseAbs().maxCoeff(), 1e-9);
+  auto brow = at_nodes({"ibug68_19", "ibug68_8"});
+  EXPECT_EQ(still_places(brow, face_.landmarks).size(), 38u) << "a driven one is not still";
+}
+
+TEST_F(Drive, LipsPart) {
+  const std::vector<std::string> names = {"ibug68_50", "ibug68_51", "ibug68_52",
+                                          "ibug68_56", "ibug68_57", "ibug68_58"};
+  const DrivenPatches p = patches(names, 0.012, true);
+  const Points& skin = face_.mesh.skin.points;
+  double between[2] = {0, 0};  // how much inner lips follow the lower points: lower, upper side
+  int count[2] = {0, 0};
+  for (std::size_t j = 0; j < p.nodes.size(); ++j) {
+    bool inner = false;
+    for (int k : {62, 66})
+      inner |=
+          (skin.row(p.nodes[j]).transpose() - face_.landmarks.at(face::ibug(k))).norm() < 0.006;
+    if (!inner) continue;
+    const bool upper = face_.mesh.upper_margin[p.nodes[j]] > 0;
+    between[upper] += p.weights.row(j).tail(3).sum();
+    ++count[upper];
+  }
+  ASSERT_GT(count[0], 0);
+  ASSERT_GT(count[1], 0);
+  EXPECT_GT(between[0] / count[0], 0.75) << "the lower lip goes with its points";
+  EXPECT_LT(between[1] / count[1], 0.25) << "the upper one hardly";
+}
+
+TEST_F(Drive, ALipsPatchStaysOnThatLip) {
+  for (const auto& [name, lip] : {std::pair{"ibug68_62", 1}, {"ibug68_66", -1}, {"ibug68_57", -1}})
+    for (int v : patches({name}, 0.015).nodes)
+      EXPECT_EQ(face_.mesh.upper_margin[v] > 0, lip > 0) << name;
+}
+
+TEST_F(Drive, PatchesReachTheRadius) {
+  const Points& skin = face_.mesh.skin.points;
+  const DrivenPatches alone = patches({"ibug68_8"}, 0.015);
+  EXPECT_GT(alone.nodes.size(), 1u);
+  const Vec3 chin = skin.row(node_of("ibug68_8"));
+  for (int v = 0; v < skin.rows(); ++v) {
+    const bool driven = std::count(alone.nodes.begin(), alone.nodes.end(), v) > 0;
+    EXPECT_EQ(driven, (skin.row(v).transpose() - chin).norm() < 0.015) << v;
+  }
+}
+
+TEST_F(Drive, ATinyPatchIsOneNodeAPoint) {
+  const DrivenPatches p = patches(test::seven_points(), 1e-9);
+  EXPECT_EQ(p.nodes.size(), 7u);
+}
+
+TEST_F(Drive, APointOffTheSkinIsRefused) {
+  std::vector<DrivenPoint> points = at_nodes({"ibug68_8", "ibug68_51"});
+  points[1].rest += Vec3(0, 0, 0.04);
+  try {
+    driven_patches(field_of(points, {}), face_.mesh, 0.006, "motion.csv");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(),
+                testing::AllOf(testing::HasSubstr("motion.csv"), testing::HasSubstr("ibug68_51")));
+  }
+}
+
+TEST(LipParting, IsHalfTheGreatestDifferenceOfTheLips) {
+  AlignedMotion motion;
+  motion.motion.names = {"ibug68_51", "ibug68_57", "ibug68_8"};
+  motion.rest = Points::Zero(3, 3);
+  const auto sample = [](double upper, double lower) {
+    Points p = Points::Zero(3, 3);
+    p(0, 1) = upper;
+    p(1, 1) = lower;
+    p(2, 1) = -1;  // the chin is no lip
+    return p;
+  };
+  motion.motion.positions = {sample(0, 0), sample(0.001, -0.005), sample(0.004, 0.003)};
+  const Vec3 up = Vec3::UnitY();
+  EXPECT_NEAR(lip_parting(motion, {0, 1, 2}, up), 0.003, 1e-12);
+  motion.motion.positions.push_back(sample(0.01, -0.03));
+  EXPECT_EQ(lip_parting(motion, {0, 1, 2}, up), 0.010);
+  EXPECT_EQ(lip_parting(motion, {0, 2}, up), 0);
+}
+
+}  // namespace
+}  // namespace hyperex::simulate

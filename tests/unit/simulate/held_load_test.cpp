@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/load/held_load.hpp"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/fem/solve/static_solve.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
+
+namespace hyperex::simulate {
+namespace {
+using testing::HasSubstr;
+
+const std::vector<std::string> kNames = {"zyg_major_L", "zyg_major_R", "malaris_L",
+                                         "malaris_R",   "mentalis_L",  "mentalis_R"};
+
+Eigen::VectorXd gains(const std::vector<MuscleGain>& of) {
+  return muscle_gains(kNames, of);
+}
+
+TEST(MuscleGains, NameAMuscleABranchOrASide) {
+  using V = Eigen::Matrix<double, 6, 1>;
+  EXPECT_EQ(gains({}), V::Ones());
+  EXPECT_EQ(gains({{"zyg_major_R", 0.5}}), (V() << 1, 0.5, 1, 1, 1, 1).finished());
+  EXPECT_EQ(gains({{"zygomatic_L", 0.2}}), (V() << 0.2, 1, 0.2, 1, 1, 1).finished());
+  EXPECT_EQ(gains({{"mandibular_R", 0}}), (V() << 1, 1, 1, 1, 1, 0).finished());
+  EXPECT_EQ(gains({{"side_R", 0.25}}), (V() << 1, 0.25, 1, 0.25, 1, 0.25).finished());
+  EXPECT_EQ(gains({{"side_R", 0.5}, {"zygomatic_R", 0.5}, {"malaris_R", 2}}),
+            (V() << 1, 0.25, 1, 0.5, 1, 0.5).finished())
+      << "several multiply";
+}
+
+TEST(MuscleGains, AnUnknownNameIsToldWithThoseThereAre) {
+  for (const char* name : {"zyg_major", "zygomatic", "zyg_major_l", "side", "", "temporal_L"}) {
+    try {
+      gains({{name, 1}});
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("muscles.gain"));
+      EXPECT_THAT(error.what(), HasSubstr(std::string(name) + " is no muscle"));
+      EXPECT_THAT(error.what(), HasSubstr("mandibular_L, mandibular_R"));
+    }
+  }
+}
+
+TEST(MuscleGains, EveryNameIsListed) {
+  const std::vector<std::string> names = muscles::gain_names();
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+  EXPECT_EQ(names.size(), 2 * (muscles::muscle_template().size() + 5 + 1));
+  std::vector<std::string> all;
+  for (const auto& muscle : muscles::muscle_template())
+    for (const char* side : {"_L", "_R"}) all.push_back(muscle.name + side);
+  for (const std::string& name : names) EXPECT_NO_THROW(muscle_gains(all, {{name, 0.5}})) << name;
+}
+
+TEST(GroupSums, AddMusclesOfAGroupAndASide) {
+  MuscleCourse course;
+  course.names = kNames;
+  course.activation = Eigen::MatrixXd::Random(6, 3);
+  const auto group = [](const char* muscle) { return muscles::find_muscle(muscle)->group; };
+  ASSERT_NE(group("zyg_major"), group("mentalis"));
+  muscles::MuscleTable table = muscles::muscle_template();
+  for (muscles::TemplateMuscle& muscle : table)
+    if (muscle.name == "malaris") muscle.group = group("zyg_major");
+  const Eigen::MatrixXd sums =
+      group_sums(course, {group("mentalis") + "_R", group("zyg_major") + "_L", "none_L"}, table);
+  ASSERT_EQ(sums.rows(), 3);
+  EXPECT_EQ(sums.row(0), course.activation.row(5));
+  EXPECT_EQ(sums.row(1), course.activation.row(0) + course.activation.row(2));
+  EXPECT_EQ(sums.row(2).norm(), 0);
+  EXPECT_EQ(group_sums(MuscleCourse{}, {"none_L"}, table).cols(), 0);
+}
+
+TEST(ChangedMuscles, AreMirroredAndThenScaled) {
+  MuscleCourse course;
+  course.names = kNames;
+  course.time_s = {0, 1};
+  course.activation.resize(6, 2);
+  course.activation << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12;
+  course.sigma = 0.1 * course.activation;
+  MuscleOptions options;
+  options.mirrored = true;
+  options.gains = {{"zyg_major_L", 0.5}};
+  const MuscleCourse out = changed_muscles(course, options);
+  Eigen::MatrixXd wanted(6, 2);
+  wanted << 1.5, 2, 1, 2, 7, 8, 5, 6, 11, 12, 9, 10;
+  EXPECT_LT((out.activation - wanted).norm(), 1e-15);
+  EXPECT_LT((out.sigma - 0.1 * wanted).norm(), 1e-15);
+  EXPECT_EQ(out.names, kNames);
+  options.gains.clear();
+  EXPECT_EQ(changed_muscles(changed_muscles(course, options), options).activation,
+            course.activation)
+      << "twice mirrored";
+}
+
+class LoadOfMuscles : public testing::Test {
+ protected:
+  static constexpr int kUnknowns = 60, kOthers = 4, kSamples = 9, kStepsBetween = 5;
+  static constexpr double kDt = 0.01;
+
+  LoadOfMuscles() {
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    const auto matrix = [&](Eigen::Index rows, Eigen::Index cols) {
+      return Eigen::MatrixXd(
+          Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random); }));
+    };
+    load_.muscles.names = kNames;
+    load_.wide_bands = true;
+    const Eigen::Index columns = 12 + kOthers;
+    load_.force = matrix(kUnknowns, columns);
+    load_.force.rightCols(kOthers) *= 1e4;  // the jaw's are far greater than a muscle's
+    load_.course = matrix(columns, kSamples);
+    load_.course.bottomRows(kOthers) *= 1e-4;
+    load_.course.col(0).setZero();
+    for (int k = 0; k < kSamples; ++k) load_.time_s.push_back(k * kStepsBetween * kDt);
+    load_.muscles.time_s = load_.time_s;
+  }
+  fem::Drive drive() const {
+    return drive_of(load_, options_, kDt, (kSamples + 2) * kStepsBetween, 1e-9, 7);
+  }
+  /// The drive's forces at the samples are `wanted` (a column each).
+  void expect_at_samples(const Eigen::MatrixXd& wanted) const {
+    const fem::Drive drive = this->drive();
+    ASSERT_EQ(drive.force.rows(), kUnknowns);
+    ASSERT_EQ(drive.prescribed.rows(), 7);
+    EXPECT_EQ(drive.prescribed.cwiseAbs().maxCoeff(), 0) << "nothing prescribed moves";
+    for (int k = 0; k < kSamples + 2; ++k)
+      EXPECT_LT((drive.force_at(k * kStepsBetween) - wanted.col(std::min(k, kSamples - 1))).norm(),
+                1e-6 * wanted.norm())
+          << k;
+  }
+
+  HeldLoad load_;
+  MuscleOptions options_;
+};
+
+TEST_F(LoadOfMuscles, IsTheSamplesAndHeldAfterTheLast) {
+  expect_at_samples(load_.force * load_.course);
+  const fem::Drive drive = this->drive();
+  EXPECT_LT((drive.force * drive.rate.col(0)).norm(), 1e-6 * load_.force.norm())
+      << "begins at rest";
+}
+
+TEST_F(LoadOfMuscles, OfGainNothingLeavesTheJawAndTheLeftOver) {
+  options_.gains = {{"side_L", 0}, {"side_R", 0}};
+  expect_at_samples(load_.force.rightCols(kOthers) * load_.course.bottomRows(kOthers));
+}
+
+TEST_F(LoadOfMuscles, ScalesBothBandsOfAMuscle) {
+  options_.gains = {{"zyg_major_R", 0.3}, {"mentalis_L", 2}};
+  Eigen::MatrixXd course = load_.course;
+  for (const int row : {1, 6 + 1}) course.row(row) *= 0.3;
+  for (const int row : {4, 6 + 4}) course.row(row) *= 2;
+  expect_at_samples(load_.force * course);
+}
+
+TEST_F(LoadOfMuscles, AsRecordedAndWhatGainsAddAreTheLoadWithGains) {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(6);
+  change[1] = -0.7, change[4] = 1;
+  const HeldLoad added = added_by_gains(load_, change);
+  EXPECT_EQ(added.force.cols(), 4) << "two bands each of the two that change";
+  EXPECT_EQ(added.time_s, load_.time_s);
+  EXPECT_TRUE(added.muscles.names.empty());
+  Eigen::MatrixXd course = load_.course;
+  for (const int row : {1, 6 + 1}) course.row(row) *= 0.3;
+  for (const int row : {4, 6 + 4}) course.row(row) *= 2;
+  const Eigen::MatrixXd wanted = load_.force * course;
+  EXPECT_LT((load_.force * load_.course + added.force * added.course - wanted).norm(),
+            1e-12 * wanted.norm());
+}
+
+TEST_F(LoadOfMuscles, MirroredEachTakesItsCounterpartsCourse) {
+  options_.mirrored = true;
+  options_.gains = {{"malaris_L", 0.5}};  // of the muscle that acts, after mirroring
+  Eigen::MatrixXd course = load_.course;
+  for (int row = 0; row < 12; row += 2) course.row(row).swap(course.row(row + 1));
+  for (const int row : {2, 6 + 2}) course.row(row) *= 0.5;
+  expect_at_samples(load_.force * course);
+}
+
+TEST_F(LoadOfMuscles, WithoutMuscleNamesIsAsItStands) {
+  load_.muscles = {};
+  options_.mirrored = true;
+  expect_at_samples(load_.force * load_.course);
+}
+
+/// Between samples: the C2 cubic spline that rests at both ends, of which a cubic that does so is
+/// its own.
+TEST_F(LoadOfMuscles, BetweenSamplesIsTheSpline) {
+  const double end = load_.time_s.back();
+  const auto smooth = [&](double t) {
+    return t >= end ? 1 : t * t * (3 * end - 2 * t) / std::pow(end, 3);
+  };
+  for (int k = 0; k < kSamples; ++k) load_.course.col(k).setConstant(smooth(load_.time_s[k]));
+  const Eigen::VectorXd whole = load_.force.rowwise().sum();
+  const fem::Drive drive = this->drive();
+  for (int k = 0; k <= drive.steps(); ++k)
+    EXPECT_LT((drive.force_at(k) - smooth(k * kDt) * whole).norm(), 1e-6 * whole.norm()) << k;
+}
+
+/// Stiffness of a chain with some cross-links, symmetric positive definite.
+fem::SparseMatrix stiffness(int n) {
+  Eigen::MatrixXd k = 0.3 * Eigen::MatrixXd::Identity(n, n);
+  for (int i = 0; i < n; ++i)
+    for (const int far : {1, 5})
+      if (i + far < n) {
+        const double s = 1 + 0.1 * i + far;
+        k(i, i) += s, k(i + far, i + far) += s;
+        k(i, i + far) -= s, k(i + far, i) -= s;
+      }
+  return k.sparseView();
+}
+
+TEST(ReactionsOf, MoveItAsWhatWasPrescribed) {
+  constexpr int n = 30;
+  const fem::SparseMatrix k = stiffness(n);
+  const std::vector<int> prescribed = {0, 4, 5, 17, 29};
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  const auto matrix = [&](Eigen::Index rows, Eigen::Index cols) {
+    return Eigen::MatrixXd(
+        Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random); }));
+  };
+  for (const bool forces : {true, false}) {
+    fem::Drive drive;
+    drive.prescribed = matrix(5, 3);
+    drive.prescribed.row(0).setZero();  // held
+    if (forces) drive.force = matrix(n, 3);
+    drive.s = matrix(3, 11);
+    drive.rate = drive.second = Eigen::MatrixXd::Zero(3, 11);
+    const HeldLoad load = reactions_of(drive, k, prescribed, 0.02);
+    EXPECT_TRUE(load.muscles.names.empty());
+    EXPECT_EQ(load.course, drive.s);
+    ASSERT_EQ(load.time_s.size(), 11u);
+    EXPECT_DOUBLE_EQ(load.time_s[10], 0.2);
+    const fem::StaticSolver whole(k, prescribed), released(k, {0});
+    for (int step = 0; step < 11; ++step) {
+      const Eigen::VectorXd wanted = whole.solve(drive.prescribed_at(step).d, drive.force_at(step));
+      const Eigen::VectorXd got =
+          released.solve(Eigen::VectorXd::Zero(1), load.force * load.course.col(step));
+      EXPECT_LT((got - wanted).norm(), 1e-10 * wanted.norm()) << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hyperex::simulate

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the jaw is in each frame of a run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/simulate/drive/point_curve.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+#include "simulate/small_face.hpp"
+
+namespace hyperex::simulate {
+namespace {
+
+class JawCourse : public testing::TestWithParam<DriveBy> {
+ protected:
+  JawCourse() {
+    options_.drive.by = GetParam();
+    options_.time.step_s = 0.01;
+    options_.time.still_times_s = {0.2};
+  }
+  SimulationResult run() const { return simulate(face_.mesh, face_.landmarks, motion_, options_); }
+
+  const test::SmallFace face_ = test::small_face();
+  const AlignedMotion motion_ = test::mouth_opening(face_.landmarks, 10, 13, 30);
+  SimulationOptions options_;
+};
+
+TEST_P(JawCourse, CarriesTheChinAsItWasRecorded) {
+  const SimulationResult result = run();
+  const auto& p = result.performance;
+  ASSERT_EQ(p.jaw_now_from_rest.size(), p.frame_time_s.size());
+  EXPECT_LT((p.jaw_now_from_rest[0].matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-9);
+  const PointCurve points(motion_, 1);
+  const int row = motion_.motion.index_of(face::ibug(8));
+  const Vec3 chin = motion_.rest.row(row);
+  double widest = 0;
+  for (std::size_t f = 0; f < p.frame_time_s.size(); ++f) {
+    const Eigen::Isometry3d& jaw = p.jaw_now_from_rest[f];
+    EXPECT_LT((jaw.linear() * jaw.linear().transpose() - Eigen::Matrix3d::Identity()).norm(),
+              1e-12);
+    const Vec3 wanted = points.at(p.frame_time_s[f]).row(row);
+    // The jaw has its own priors: three quarters of a millimetre at 10 degrees.
+    EXPECT_LT((jaw * chin - chin - wanted).norm(), 1e-3) << f;
+    widest = std::max(widest, Eigen::AngleAxisd(jaw.linear()).angle());
+  }
+  EXPECT_NEAR(widest, result.report.greatest_opening_deg * M_PI / 180, 0.02);
+  EXPECT_GT(widest, 0.12);
+}
+
+TEST_P(JawCourse, IsKnownAtStillsToo) {
+  const SimulationResult result = run();
+  ASSERT_EQ(result.still_jaw_now_from_rest.size(), 1u);
+  // 0.2 s is the time of frame 6.
+  EXPECT_LT((result.still_jaw_now_from_rest[0].matrix() -
+             result.performance.jaw_now_from_rest[6].matrix())
+                .norm(),
+            1e-9);
+}
+
+TEST_P(JawCourse, AHeldJawStays) {
+  options_.support.mandible = Mandible::held;
+  for (const Eigen::Isometry3d& jaw : run().performance.jaw_now_from_rest)
+    EXPECT_EQ(jaw.matrix(), Eigen::Matrix4d::Identity());
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, JawCourse,
+                         testing::Values(DriveBy::displacement, DriveBy::muscles,
+                                         DriveBy::reactions));
+
+TEST(JawOfAMeasuredFace, IsTheChinsWhereAllIsMeasured) {
+  const test::SmallFace face = test::small_face();
+  const AlignedMotion motion = test::mouth_opening(face.landmarks, 10, 13, 30);
+  SimulationOptions options;
+  options.region.measured = Measured::all;
+  const SimulationResult result = simulate(face.mesh, face.landmarks, motion, options);
+  EXPECT_GT(Eigen::AngleAxisd(result.performance.jaw_now_from_rest[6].linear()).angle(), 0.12);
+}
+
+}  // namespace
+}  // namespace hyperex::simulate

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/drive/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/geodesic.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+#include "simulate/small_face.hpp"
+#include "support/sheet_mesh.hpp"
+
+namespace hyperex::simulate {
+namespace {
+
+using face::ibug;
+
+TEST(BonesUnder, FollowTheAnatomy) {
+  const test::SmallFace face = test::small_face();
+  const auto bones = bones_under(face.mesh, face.landmarks);
+  ASSERT_EQ(static_cast<Eigen::Index>(bones.size()), face.mesh.volume.surface_nodes());
+  const Points& skin = face.mesh.skin.points;
+  const auto at = [&](const Vec3& p) { return bones[nearest_vertex(skin, p)]; };
+  const auto landmark = [&](int k) { return face.landmarks.at(ibug(k)); };
+  for (int k : {19, 24, 27, 36, 45}) EXPECT_EQ(at(landmark(k)), Bone::skull) << k;
+  EXPECT_EQ(at(landmark(8)), Bone::mandible);
+  for (int k : {51, 57}) EXPECT_EQ(at(landmark(k)), Bone::none) << k;  // lips
+  for (const Bone bone : {Bone::none, Bone::skull, Bone::mandible})
+    EXPECT_GT(std::count(bones.begin(), bones.end(), bone), 5) << int(bone);
+}
+
+TEST(BonesUnder, AreAlikeOnBothSides) {
+  const test::SmallFace face = test::small_face();
+  const auto bones = bones_under(face.mesh, face.landmarks);
+  const Points& skin = face.mesh.skin.points;
+  int alike = 0, pairs = 0;
+  for (int v = 0; v < skin.rows(); ++v) {
+    const Vec3 mirrored(-skin(v, 0), skin(v, 1), skin(v, 2));
+    const int w = nearest_vertex(skin, mirrored);
+    if ((skin.row(w).transpose() - mirrored).norm() > 1e-4) continue;
+    ++pairs;
+    alike += bones[v] == bones[w];
+  }
+  EXPECT_GT(pairs, 200);
+  EXPECT_GT(alike, 0.97 * pairs);
+}
+
+TEST(NearJaw, IsTheLowerFaceOnly) {
+  const test::SmallFace face = test::small_face();
+  const auto near = near_jaw(face.mesh, face.landmarks);
+  const auto at = [&](int k) {
+    return near[nearest_vertex(face.mesh.skin.points, face.landmarks.at(ibug(k)))];
+  };
+  for (int k : {5, 8, 11}) EXPECT_TRUE(at(k)) << k;
+  for (int k : {0, 16, 19, 24, 27, 30, 36, 45}) EXPECT_FALSE(at(k)) << k;
+}
+
+TEST(EdgeOfJaw, IsTheLineOfTheChin) {
+  const test::SmallFace face = test::small_face();
+  const std::vector<EdgeOfJaw> edge = edge_of_jaw(face.mesh, face.landmarks);
+  const Points& skin = face.mesh.volume.outer.points;
+  std::vector<Vec3> line;  // in steps of less than 0.1 mm
+  for (int k = 5; k < 11; ++k)
+    for (int step = 0; step < 1000; ++step)
+      line.push_back((1 - step / 1e3) * face.landmarks.at(ibug(k)) +
+                     step / 1e3 * face.landmarks.at(ibug(k + 1)));
+  line.push_back(face.landmarks.at(ibug(11)));
+  for (Eigen::Index v = 0; v < skin.rows(); v += 7) {
+    double least = 1;
+    for (const Vec3& p : line) least = std::min(least, (p - skin.row(v).transpose()).norm());
+    const EdgeOfJaw& e = edge[std::size_t(v)];
+    EXPECT_NEAR(e.distance_m, least, 1e-4) << v;
+    EXPECT_NEAR((e.nearest - skin.row(v).transpose()).norm(), e.distance_m, 1e-12) << v;
+  }
+  const auto at = [&](const Vec3& p) { return edge[std::size_t(nearest_vertex(skin, p))]; };
+  EXPECT_FALSE(at(face.landmarks.at(ibug(57))).below) << "the lower lip";
+  EXPECT_FALSE(at(face.landmarks.at(ibug(30))).below) << "the nose";
+}
+
+TEST(NodeAreas, ShareOutTheSurface) {
+  const auto sheet = hyperex::test::sheet_mesh({6, 5}, {0.06, 0.05});
+  const Eigen::VectorXd areas = node_areas(sheet.mesh);
+  EXPECT_NEAR(areas.sum(), 0.003, 1e-15);
+  EXPECT_NEAR(areas[sheet.vertex(3, 2)], 1e-4, 1e-15) << "a cell's worth inside";
+  EXPECT_NEAR(areas[sheet.vertex(3, 0)], 0.5e-4, 1e-15) << "half on the border";
+  const test::SmallFace face = test::small_face();
+  EXPECT_NEAR(node_areas(face.mesh.skin).sum(), triangle_areas(face.mesh.skin).sum(), 1e-12);
+}
+
+}  // namespace
+}  // namespace hyperex::simulate
