@@ -13,7 +13,9 @@
 #include "hyperex/session/kept_order.hpp"
 #include "hyperex/session/obstacles.hpp"
 #include "hyperex/session/plausible.hpp"
+#include "hyperex/session/run_notes.hpp"
 #include "hyperex/session/simulation_options.hpp"
+#include "hyperex/session/symmetry_measures.hpp"
 #include "hyperex/session/teeth.hpp"
 #include "hyperex/tissue/mesh/skin_depth.hpp"
 #include "live.hpp"
@@ -117,15 +119,15 @@ void OpenFace::take(scene::Scene next) {
   session::Inputs& inputs = inputs_;
   std::vector<std::string> before = std::exchange(inputs.driven, driven);
   std::optional<tissue::TissueField> field;
-  std::vector<run::VariantRun> runs;
+  std::vector<session::VariantRun> runs;
   simulate::SimulationOptions options;
   std::vector<simulate::SimulationOptions> of_runs;
   try {
     field = fields_->of(next);
-    runs = run::prepare_variants(next, inputs, *fields_);
+    runs = session::prepare_variants(next, inputs, *fields_);
     options = options_of(next, inputs, field);
     check(options);
-    for (const run::VariantRun& run : runs) {
+    for (const session::VariantRun& run : runs) {
       of_runs.push_back(options_of(run.scene, run.inputs, run.field));
       check(of_runs.back());
     }
@@ -155,7 +157,7 @@ void OpenFace::take(scene::Scene next) {
     next_variant_.reset();
   }
   stale_ = stale_ || !same_base;
-  std::vector<run::VariantRun> old_runs = std::exchange(runs_, std::move(runs));
+  std::vector<session::VariantRun> old_runs = std::exchange(runs_, std::move(runs));
   std::vector<Standing> old = std::exchange(standing_, std::vector<Standing>(runs_.size()));
   for (std::size_t i = 0; i < runs_.size() && same_base; ++i) {
     std::size_t known = 0;
@@ -184,7 +186,7 @@ simulate::Simulator& OpenFace::simulator_of(std::size_t face) {
   if (face == 0) return *simulator_;
   std::optional<simulate::Simulator>& own = standing_.at(face - 1).simulator;
   if (!own) {
-    const run::VariantRun& run = runs_[face - 1];
+    const session::VariantRun& run = runs_[face - 1];
     if (!next_variant_) simulator_->still(0);  // finds the forces, where there are none yet
     simulate::Simulator made = next_variant_ ? std::move(*next_variant_) : *simulator_;
     next_variant_.reset();
@@ -270,7 +272,7 @@ void OpenFace::run(const simulate::RunCallbacks& callbacks) {
   if (stale_) {
     simulation_ = simulator_->run(callbacks);
     symmetry_ =
-        run::symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, twin);
+        session::symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, twin);
     modes_ = report::displacement_modes(simulation_.performance.skin_displacement_m);
     stale_ = false;
     twin_.reset();
@@ -281,10 +283,10 @@ void OpenFace::run(const simulate::RunCallbacks& callbacks) {
   }
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (!standing_[i].stale) continue;
-    run::VariantRun& run = runs_[i];
+    session::VariantRun& run = runs_[i];
     run.simulation = simulator_of(i + 1).run(callbacks);
-    run.symmetry = run::symmetry_measures(run.scene, run.inputs, face_.at_rest,
-                                          run.simulation.performance, twin);
+    run.symmetry = session::symmetry_measures(run.scene, run.inputs, face_.at_rest,
+                                              run.simulation.performance, twin);
     standing_[i].stale = standing_[i].bands = false;
   }
 }
@@ -301,17 +303,17 @@ void OpenFace::find_bands(const std::function<bool()>& cancelled) {
     twin_ = session::simulate_twin(scene_, inputs_, field_ ? &*field_ : nullptr, plane, *simulator_,
                                    cancelled);
     symmetry_ =
-        run::symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, *twin_);
+        session::symmetry_measures(scene_, inputs_, face_.at_rest, simulation_.performance, *twin_);
     twin_->skin_displacement_m.clear();
   }
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (standing_[i].bands) continue;
-    run::VariantRun& run = runs_[i];
+    session::VariantRun& run = runs_[i];
     simulate::Simulator spent = simulator_of(i + 1);
     const session::MirroredTwin twin = session::simulate_variants_twin(
         run.scene, run.inputs, run.field ? &*run.field : nullptr, plane, spent, *twin_, cancelled);
-    run.symmetry = run::symmetry_measures(run.scene, run.inputs, face_.at_rest,
-                                          run.simulation.performance, twin);
+    run.symmetry = session::symmetry_measures(run.scene, run.inputs, face_.at_rest,
+                                              run.simulation.performance, twin);
     standing_[i].bands = true;
   }
 }
@@ -324,9 +326,13 @@ run::Results OpenFace::results() const {
   out.notes.insert(out.notes.end(), teeth_notes_.begin(), teeth_notes_.end());
   out.notes.insert(out.notes.end(), face_.mesh->notes.begin(), face_.mesh->notes.end());
   out.notes.insert(out.notes.end(), warnings_.begin(), warnings_.end());
-  for (const std::string& note : simulation_.report.notes) {
-    out.notes.push_back(note);
-    out.warnings.push_back(note);
+  std::vector<Note> found = session::run_warnings(simulation_.report, simulation_.performance);
+  if (up_to_date())
+    for (Note& note : session::variant_warnings(simulation_, runs_))
+      found.push_back(std::move(note));
+  for (const Note& note : found) {
+    out.notes.push_back(note.text);
+    out.warnings.push_back(note.text);
   }
   return out;
 }
@@ -354,7 +360,7 @@ json OpenFace::activations(report::BinaryBlock& block) const {
     return block.add(values);
   };
   json faces = json::array({rows(base)});
-  for (const run::VariantRun& run : runs_)
+  for (const session::VariantRun& run : runs_)
     faces.push_back(rows(run.simulation.performance.muscles));
   return {{"names", base.names}, {"time_s", base.time_s}, {"faces", faces}};
 }

@@ -10,10 +10,10 @@
 
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/run/outputs.hpp"
-#include "hyperex/run/variant_run.hpp"
 #include "hyperex/session/mirrored_twin.hpp"
 #include "hyperex/session/prepared_face.hpp"
 #include "hyperex/session/tissue_fields.hpp"
+#include "hyperex/session/variants.hpp"
 
 namespace hyperex::studio {
 
@@ -114,8 +114,8 @@ class OpenFace {
   metrics::SymmetryMeasures symmetry_;
   std::optional<session::MirroredTwin> twin_;  ///< of base as it is; none: not run yet
   report::DisplacementModes modes_;
-  std::vector<run::VariantRun> runs_;  ///< of the variants
-  std::vector<Standing> standing_;     ///< of each of them
+  std::vector<session::VariantRun> runs_;  ///< of the variants
+  std::vector<Standing> standing_;         ///< of each of them
 };
 
 /// Every key with its value, in the units of scene files: {"tissue.young_kpa": 150}.

@@ -10,7 +10,6 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/face/face_frame.hpp"
-#include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/canvas.hpp"
@@ -157,27 +156,6 @@ std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak) {
     return off(a) < off(b);
   }) = peak;
   return frames;
-}
-
-metrics::SymmetryMeasures symmetry_measures(const scene::Scene& scene,
-                                            const session::Inputs& inputs,
-                                            const metrics::RestAsymmetry& at_rest,
-                                            const simulate::Performance& p,
-                                            const session::MirroredTwin& twin) {
-  const double jitter_m = inputs.jitter_m * scene.drive.gain;
-  metrics::SymmetryMeasures all;
-  run_together(
-      {[&] {
-         all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m, twin.skin_displacement_m);
-       },
-       [&] {
-         all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
-         all.excursions = metrics::excursions_of(p.landmarks, jitter_m, scene.output.lowpass_hz);
-       }});
-  all.no_mesh_floor = twin.why_not;
-  if (twin.why_not.empty())
-    metrics::add_mesh_floor(all.curve, all.excursions, p.landmarks, twin.landmarks);
-  return all;
 }
 
 void write_contact_sheet(const Results& r, const std::filesystem::path& file) {

@@ -54,14 +54,6 @@ std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double en
 /// comes nearest to the peak moved onto it.
 std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak);
 
-/// S(t), excursions and the asymmetry map of a simulated face, judged by the jitter of its input
-/// and by its mirrored twin, if it has one.
-metrics::SymmetryMeasures symmetry_measures(const scene::Scene& scene,
-                                            const session::Inputs& inputs,
-                                            const metrics::RestAsymmetry& at_rest,
-                                            const simulate::Performance& performance,
-                                            const session::MirroredTwin& twin);
-
 /// Rest and the still shapes from the front and three-quarter, coloured by displacement.
 void write_contact_sheet(const Results& results, const std::filesystem::path& file);
 

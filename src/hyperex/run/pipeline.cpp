@@ -31,7 +31,9 @@
 #include "hyperex/session/obstacles.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/prepared_face.hpp"
+#include "hyperex/session/run_notes.hpp"
 #include "hyperex/session/simulation_options.hpp"
+#include "hyperex/session/symmetry_measures.hpp"
 #include "hyperex/session/teeth.hpp"
 #include "hyperex/session/tissue_fields.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -40,9 +42,6 @@ namespace hyperex::run {
 using Json = nlohmann::ordered_json;
 
 namespace {
-/// A share of the tetrahedra below which inverted ones are no warning.
-constexpr double kFewInverted = 1e-3;
-
 Json quality_json(const tissue::TissueMesh& mesh, const session::SkinOff& off) {
   const tissue::MeshQuality& q = mesh.quality;
   Json shares = Json::object();
@@ -133,22 +132,6 @@ Json summary_of(const Results& r, const session::SkinOff& off) {
   return s;
 }
 
-/// What the simulation has to say that a user should not overlook.
-std::vector<std::string> warnings_of(const simulate::SimulationReport& report,
-                                     const simulate::Performance& p) {
-  std::vector<std::string> notes = report.notes;
-  if (report.lip_overlap_mm > kLipsPass_mm)
-    notes.push_back(
-        fmt::format("the lips pass through each other by up to {:.1f} mm", report.lip_overlap_mm));
-  if (report.inverted_tets > 0 && report.inverted_tets > kFewInverted * double(p.tets.rows()))
-    notes.push_back(fmt::format(
-        "{} of {} tetrahedra are turned inside out in some frame: the motion is too "
-        "large for {} there",
-        report.inverted_tets, p.tets.rows(),
-        p.model.strain == simulate::Strain::finite ? "these elements" : "linear strain"));
-  return notes;
-}
-
 /// At finite strain: single elements whose volume changes much. Patches of them keep theirs, so
 /// that the skin's motion is hardly affected.
 std::vector<std::string> volume_warning(const Json& at_peak) {
@@ -162,18 +145,6 @@ std::vector<std::string> volume_warning(const Json& at_peak) {
       "at the peak the volume of single elements is {:.2f} to {:.2f} times that at "
       "rest (99 % below {:.2f}): their stress says little; use percentiles, or a finer mesh there",
       least, most, volume["p99"].get<double>())};
-}
-
-/// Variants that change nothing are a slip of the pen more often than a wish.
-std::vector<std::string> idle_variants(const Json& table) {
-  constexpr double kSame_mm = 1e-3;
-  std::vector<std::string> notes;
-  for (std::size_t i = 1; i < table.size(); ++i)
-    if (const Json& most = table[i]["greatest_distance_mm"];
-        most.is_number() && most.get<double>() < kSame_mm)
-      notes.push_back(fmt::format("variant {} moves as base does: what it changes has no effect",
-                                  table[i]["name"].get<std::string>()));
-  return notes;
 }
 
 /// After what was noted so far.
@@ -196,6 +167,11 @@ class NotesPlace {
 
 void warn(const std::vector<std::string>& notes, Results& results) {
   NotesPlace(results).warn(notes, results);
+}
+void warn(const std::vector<Note>& notes, Results& results) {
+  std::vector<std::string> texts;
+  for (const Note& note : notes) texts.push_back(note.text);
+  warn(texts, results);
 }
 
 }  // namespace
@@ -267,7 +243,7 @@ Json run_into(scene::Scene scene, const std::filesystem::path& directory) {
   session::TissueFields fields(inputs, mesh);
   const std::optional<tissue::TissueField> field = fields.of(scene);
   if (field) options.tissue.element = field->element;
-  std::vector<VariantRun> variants = prepare_variants(scene, inputs, fields);
+  std::vector<VariantRun> variants = session::prepare_variants(scene, inputs, fields);
   seconds["tissue"] = stage.lap();
 
   simulate::Simulator simulator(face.mesh, inputs.landmarks, inputs.motion, std::move(options));
@@ -300,8 +276,8 @@ Json run_into(scene::Scene scene, const std::filesystem::path& directory) {
   {
     Progress measuring("measuring", 0);
     run_together({[&] {
-                    symmetry =
-                        symmetry_measures(scene, inputs, at_rest, simulation.performance, twin);
+                    symmetry = session::symmetry_measures(scene, inputs, at_rest,
+                                                          simulation.performance, twin);
                   },
                   [&] { off = session::skin_off_scan(mesh, inputs.landmarks); }});
   }
@@ -319,19 +295,17 @@ Json run_into(scene::Scene scene, const std::filesystem::path& directory) {
   results.notes.insert(results.notes.end(), teeth_notes.begin(), teeth_notes.end());
   results.notes.insert(results.notes.end(), inputs.warnings.begin(), inputs.warnings.end());
   results.warnings = inputs.warnings;
-  if (const auto warning = session::skin_warning(off); !warning.empty()) warn({warning}, results);
-  const Eigen::Index tets = mesh.volume.tets.rows();
-  if (const int few = simulation.report.inverted_tets;
-      few > 0 && few <= kFewInverted * double(tets))
-    results.notes.push_back(fmt::format(
-        "{} of {} tetrahedra turned inside out in some frame, too few to matter", few, tets));
-  if (scene.contact.any() && simulation.report.contact.frames == 0) {
-    results.notes.push_back("contact: nothing touches in any frame");
-    spdlog::info("{}", results.notes.back());
+  if (const auto warning = session::skin_warning(off); !warning.empty())
+    warn(std::vector{warning}, results);
+  for (const Note& note : session::notes_on_contact_and_elements(
+           simulation.report, simulation.performance, scene.contact)) {
+    results.notes.push_back(note.text);
+    if (note.id == "contact.none") spdlog::info("{}", note.text);
   }
-  warn(warnings_of(simulation.report, simulation.performance), results);
+  warn(session::run_warnings(simulation.report, simulation.performance), results);
   const NotesPlace before_doubts(results);
-  if (const auto& note = results.symmetry.map->plane.note; !note.empty()) warn({note}, results);
+  if (const auto& note = results.symmetry.map->plane.note; !note.empty())
+    warn(std::vector{note}, results);
   if (!twin.why_not.empty())
     results.notes.push_back("the mesh's own floor of symmetry is not known: " + twin.why_not);
   Json summary = summary_of(results, off);
@@ -348,19 +322,18 @@ Json run_into(scene::Scene scene, const std::filesystem::path& directory) {
                 [&] {
                   if (variants.empty()) return;
                   Stopwatch own;
-                  simulate_variants(variants, simulator, twin, *results.symmetry.map);
+                  session::simulate_variants(variants, simulator, twin, *results.symmetry.map);
                   seconds["variants"] = own.lap();
                   summary["variants"] = write_variants(results, variants, mesh, directory);
                 }});
   if (search) before_doubts.warn(search->doubts(results.warnings), results);
   if (glb) {
     summary["glb"] = glb_json(*glb);
-    if (const auto note = glb_note(scene.output, *glb); !note.empty()) warn({note}, results);
+    if (const auto note = glb_note(scene.output, *glb); !note.empty())
+      warn(std::vector{note}, results);
   }
   if (!variants.empty()) {
-    warn(idle_variants(summary["variants"]["table"]), results);
-    warn(lips_that_pass(variants, simulation.report.lip_overlap_mm), results);
-    warn(gains_hardly_known(simulation.performance.muscles, variants), results);
+    warn(session::variant_warnings(simulation, variants), results);
   }
   seconds["export"] = stage.lap() - seconds.value("variants", 0.0);
   seconds["total"] = total.lap();

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "hyperex/report/html_report.hpp"
-#include "hyperex/run/variant_run.hpp"
+#include "hyperex/run/outputs.hpp"
+#include "hyperex/session/variants.hpp"
 
 namespace hyperex::run {
+using session::VariantRun;
 
 /// What a page of a run and its variants shows. What is given must outlive it.
 class ReplayPage {

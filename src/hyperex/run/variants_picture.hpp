@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "hyperex/metrics/variant_comparison.hpp"
-#include "hyperex/run/variant_run.hpp"
+#include "hyperex/run/outputs.hpp"
+#include "hyperex/session/variants.hpp"
 
 namespace hyperex::run {
+using session::VariantRun;
 
 /// The face of the scene and of each variant at the scene's peak, from the front and three-quarter,
 /// coloured by the greatest distance over time from base, to a scale on which none of

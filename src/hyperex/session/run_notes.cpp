@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/run_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperex::session {
+namespace {
+
+/// A share of the tetrahedra below which inverted ones are no warning.
+constexpr double kFewInverted = 1e-3;
+/// Lips that pass through each other by less are no warning.
+constexpr double kLipsPass_mm = 0.5;
+
+void warn(const char* id, const char* key, std::string text, std::vector<Note>& notes) {
+  notes.push_back({id, Severity::warning, std::move(text), key});
+}
+
+bool few_are_inverted(int inverted, Eigen::Index tets) {
+  return inverted <= kFewInverted * double(tets);
+}
+
+/// The greatest distance of any vertex in any frame, m; infinite where the frames differ in number.
+double greatest_distance_m(const simulate::Performance& a, const simulate::Performance& b) {
+  const auto &of_a = a.skin_displacement_m, &of_b = b.skin_displacement_m;
+  if (of_a.size() != of_b.size()) return std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (std::size_t f = 0; f < of_a.size(); ++f) {
+    if (of_a[f].rows() != of_b[f].rows()) return std::numeric_limits<double>::infinity();
+    if (of_a[f].rows() > 0)
+      most = std::max(most, double((of_a[f] - of_b[f]).rowwise().norm().maxCoeff()));
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport& report,
+                                                const simulate::Performance& p,
+                                                const simulate::ContactOptions& contact) {
+  std::vector<Note> notes;
+  const Eigen::Index tets = p.tets.rows();
+  if (report.inverted_tets > 0 && few_are_inverted(report.inverted_tets, tets))
+    notes.push_back({"tissue.few_inverted", Severity::note,
+                     fmt::format("{} of {} tetrahedra turned inside out in some frame, too few to "
+                                 "matter",
+                                 report.inverted_tets, tets),
+                     ""});
+  if (contact.any() && report.contact.frames == 0)
+    notes.push_back({"contact.none", Severity::note, "contact: nothing touches in any frame", ""});
+  return notes;
+}
+
+std::vector<Note> run_warnings(const simulate::SimulationReport& report,
+                               const simulate::Performance& p) {
+  std::vector<Note> notes;
+  for (const std::string& note : report.notes) warn("simulation.remark", "", note, notes);
+  if (report.lip_overlap_mm > kLipsPass_mm)
+    warn("lips.pass_through", "contact.lips",
+         fmt::format("the lips pass through each other by up to {:.1f} mm", report.lip_overlap_mm),
+         notes);
+  if (report.inverted_tets > 0 && !few_are_inverted(report.inverted_tets, p.tets.rows()))
+    warn("tissue.inverted", "tissue.strain",
+         fmt::format(
+             "{} of {} tetrahedra are turned inside out in some frame: the motion is too "
+             "large for {} there",
+             report.inverted_tets, p.tets.rows(),
+             p.model.strain == simulate::Strain::finite ? "these elements" : "linear strain"),
+         notes);
+  return notes;
+}
+
+std::vector<Note> idle_variants(const simulate::Performance& base,
+                                const std::vector<VariantRun>& runs) {
+  constexpr double kSame_m = 1e-6;
+  std::vector<Note> notes;
+  for (const VariantRun& run : runs)
+    if (greatest_distance_m(base, run.simulation.performance) < kSame_m)
+      warn("variant.no_effect", "",
+           fmt::format("variant {} moves as base does: what it changes has no effect",
+                       run.scene.title),
+           notes);
+  return notes;
+}
+
+std::vector<Note> lips_that_pass(const std::vector<VariantRun>& runs, double base_mm) {
+  constexpr double kAsBase_mm = 0.1;
+  std::vector<Note> notes;
+  for (const VariantRun& run : runs)
+    if (const double mm = run.simulation.report.lip_overlap_mm;
+        mm > kLipsPass_mm && (base_mm <= kLipsPass_mm || mm > base_mm + kAsBase_mm))
+      warn(
+          "variant.lips_pass_through", "contact.lips",
+          fmt::format(
+              "variant {}: the lips pass through each other by up to {:.1f} mm ({:.1f} mm in base)",
+              run.scene.title, mm, base_mm),
+          notes);
+  return notes;
+}
+
+std::vector<Note> gains_hardly_known(const simulate::MuscleCourse& base,
+                                     const std::vector<VariantRun>& runs) {
+  std::vector<Note> notes;
+  for (const VariantRun& run : runs) {
+    const simulate::MuscleCourse& own = run.simulation.performance.muscles;
+    if (own.names != base.names || own.activation.cols() != base.activation.cols()) continue;
+    bool known = false;
+    Eigen::Index most = -1, when = 0;
+    for (Eigen::Index m = 0; m < base.activation.rows(); ++m) {
+      if (own.activation.row(m) == base.activation.row(m)) continue;
+      Eigen::Index at = 0;
+      const double greatest = base.activation.row(m).cwiseAbs().maxCoeff(&at);
+      known = known || greatest > base.sigma(m, at);
+      if (most < 0 || greatest > std::abs(base.activation(most, when))) most = m, when = at;
+    }
+    if (most >= 0 && !known)
+      warn("variant.muscle_hardly_used", "muscles.gain",
+           fmt::format("variant {}: in this recording {} is active by at most {:.2f} +- {:.2f} (1 "
+                       "sigma), less than "
+                       "its uncertainty, so that what its strength changes is hardly known; a "
+                       "recording that uses it "
+                       "more, such as a broad smile, or the whole branch of the nerve tells more",
+                       run.scene.title, base.names[std::size_t(most)], base.activation(most, when),
+                       base.sigma(most, when)),
+           notes);
+  }
+  return notes;
+}
+
+std::vector<Note> variant_warnings(const simulate::SimulationResult& base,
+                                   const std::vector<VariantRun>& runs) {
+  std::vector<Note> all = idle_variants(base.performance, runs);
+  for (auto& more : {lips_that_pass(runs, base.report.lip_overlap_mm),
+                     gains_hardly_known(base.performance.muscles, runs)})
+    all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+}  // namespace hyperex::session

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// What a finished run must say: found here once, shown by the program, the studio and Python.
+#include <vector>
+
+#include "hyperex/core/note.hpp"
+#include "hyperex/session/variants.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+
+namespace hyperex::session {
+
+/// Notes, no warnings: few inverted tetrahedra (`tissue.few_inverted`: at most 0.1 %), contact that
+/// never acts (`contact.none`).
+std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport& report,
+                                                const simulate::Performance& performance,
+                                                const simulate::ContactOptions& contact);
+
+/// What a user should not overlook: `simulation.remark` (the report's own notes),
+/// `lips.pass_through` (by more than 0.5 mm), `tissue.inverted` (more than 0.1 % of the
+/// tetrahedra).
+std::vector<Note> run_warnings(const simulate::SimulationReport& report,
+                               const simulate::Performance& performance);
+
+/// `variant.no_effect`: a variant that moves as base does, to 0.001 mm. It is probably a mistake.
+std::vector<Note> idle_variants(const simulate::Performance& base,
+                                const std::vector<VariantRun>& runs);
+
+/// `variant.lips_pass_through`: lips that pass through each other by more than 0.5 mm, and farther
+/// than base's, which run_warnings() reports.
+std::vector<Note> lips_that_pass(const std::vector<VariantRun>& runs, double base_mm);
+
+/// `variant.muscle_hardly_used`: a variant changes the strength of muscles, none of which the
+/// recording uses by more than its own uncertainty (1 sigma), so that its effect is hardly known.
+std::vector<Note> gains_hardly_known(const simulate::MuscleCourse& base,
+                                     const std::vector<VariantRun>& runs);
+
+/// All of the last three.
+std::vector<Note> variant_warnings(const simulate::SimulationResult& base,
+                                   const std::vector<VariantRun>& runs);
+
+}  // namespace hyperex::session

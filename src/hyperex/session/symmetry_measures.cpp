@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/symmetry_measures.hpp"
+
+#include "hyperex/core/run_together.hpp"
+#include "hyperex/metrics/mesh_floor.hpp"
+
+namespace hyperex::session {
+
+metrics::SymmetryMeasures symmetry_measures(const scene::Scene& scene, const Inputs& inputs,
+                                            const metrics::RestAsymmetry& at_rest,
+                                            const simulate::Performance& p,
+                                            const MirroredTwin& twin) {
+  const double jitter_m = inputs.jitter_m * scene.drive.gain;
+  metrics::SymmetryMeasures all;
+  run_together(
+      {[&] {
+         all.map = metrics::asymmetry_of(at_rest, p.skin_displacement_m, twin.skin_displacement_m);
+       },
+       [&] {
+         all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
+         all.excursions = metrics::excursions_of(p.landmarks, jitter_m, scene.output.lowpass_hz);
+       }});
+  all.no_mesh_floor = twin.why_not;
+  if (twin.why_not.empty())
+    metrics::add_mesh_floor(all.curve, all.excursions, p.landmarks, twin.landmarks);
+  return all;
+}
+
+}  // namespace hyperex::session

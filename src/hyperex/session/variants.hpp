@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/metrics/asymmetry.hpp"
+#include "hyperex/metrics/symmetry_tables.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/session/mirrored_twin.hpp"
+#include "hyperex/session/tissue_fields.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
+
+namespace hyperex::session {
+
+/// One variant's run on the mesh and motion of base, the scene without a variant.
+struct VariantRun {
+  std::string folder;                        ///< of its outputs, in variants/
+  scene::Scene scene;                        ///< the variant's; output.* says what its folder holds
+  Inputs inputs;                             ///< the scene's, with the variant's driven points
+  std::optional<tissue::TissueField> field;  ///< where the tissue differs from place to place
+  simulate::SimulationResult simulation;
+  metrics::SymmetryMeasures symmetry;
+};
+
+/// The runs of scene.variants, not simulated yet. Mesh, landmarks, motion and its alignment are the
+/// scene's own. Throws InputError naming the variant's key for tissue that cannot be.
+std::vector<VariantRun> prepare_variants(const scene::Scene& scene, const Inputs& inputs,
+                                         TissueFields& fields);
+
+/// Simulates all at once. Each begins with the stages that the simulators of base and of its twin
+/// have. Throws NumericalError naming the variant that cannot be solved.
+void simulate_variants(std::vector<VariantRun>& runs, const simulate::Simulator& base,
+                       const MirroredTwin& base_twin, const metrics::RestAsymmetry& at_rest);
+
+}  // namespace hyperex::session

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/run_notes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace hyperex::session {
+namespace {
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+
+auto is(const char* id, Severity severity, const char* key) {
+  return AllOf(Field(&Note::id, id), Field(&Note::severity, severity), Field(&Note::key, key));
+}
+auto is_warning(const char* id, const char* key) {
+  return is(id, Severity::warning, key);
+}
+auto says(const char* part) {
+  return Field(&Note::text, HasSubstr(part));
+}
+
+simulate::Performance moving(float first_m, float second_m) {
+  simulate::Performance p;
+  p.skin_displacement_m = {PointsF::Zero(2, 3), PointsF::Zero(2, 3)};
+  p.skin_displacement_m[1](0, 0) = first_m;
+  p.skin_displacement_m[1](1, 2) = second_m;
+  return p;
+}
+
+TEST(RunWarnings, LipsThatPassByMoreThanHalfAMillimetre) {
+  simulate::SimulationReport report;
+  report.lip_overlap_mm = 0.5;
+  EXPECT_THAT(run_warnings(report, {}), ElementsAre());
+  report.lip_overlap_mm = 0.52;
+  EXPECT_THAT(run_warnings(report, {}),
+              ElementsAre(is_warning("lips.pass_through", "contact.lips")));
+  EXPECT_THAT(run_warnings(report, {}), ElementsAre(says("0.5 mm")));
+}
+
+TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {
+  simulate::SimulationReport report;
+  simulate::Performance p;
+  p.tets.resize(3000, 4);
+  report.inverted_tets = 3;
+  EXPECT_THAT(run_warnings(report, p), ElementsAre());
+  EXPECT_THAT(notes_on_contact_and_elements(report, p, {}),
+              ElementsAre(is("tissue.few_inverted", Severity::note, "")));
+  report.inverted_tets = 4;
+  EXPECT_THAT(run_warnings(report, p), ElementsAre(is_warning("tissue.inverted", "tissue.strain")));
+  EXPECT_THAT(run_warnings(report, p), ElementsAre(says("4 of 3000")));
+  EXPECT_THAT(run_warnings(report, p), ElementsAre(says("linear strain")));
+  EXPECT_THAT(notes_on_contact_and_elements(report, p, {}), ElementsAre());
+  p.model.strain = simulate::Strain::finite;
+  EXPECT_THAT(run_warnings(report, p), ElementsAre(says("these elements")));
+}
+
+TEST(RunWarnings, TheReportsOwnRemarksComeFirst) {
+  simulate::SimulationReport report;
+  report.notes = {"forces were found anew"};
+  report.lip_overlap_mm = 2;
+  EXPECT_THAT(run_warnings(report, {}),
+              ElementsAre(is_warning("simulation.remark", ""),
+                          is_warning("lips.pass_through", "contact.lips")));
+}
+
+TEST(NotesOnContact, SayThatNothingTouchesOnlyWhereContactIsOn) {
+  simulate::SimulationReport report;
+  simulate::ContactOptions contact;
+  EXPECT_THAT(notes_on_contact_and_elements(report, {}, contact), ElementsAre());
+  contact.eyes = true;
+  EXPECT_THAT(notes_on_contact_and_elements(report, {}, contact),
+              ElementsAre(is("contact.none", Severity::note, "")));
+  report.contact.frames = 1;
+  EXPECT_THAT(notes_on_contact_and_elements(report, {}, contact), ElementsAre());
+}
+
+TEST(GainsHardlyKnown, NamesAMuscleThatTheRecordingUsesLessThanItIsKnown) {
+  simulate::MuscleCourse base;
+  base.names = {"zyg_major_L", "zyg_major_R"};
+  base.activation = Eigen::MatrixXd{{0, 0.9}, {0.1, 0.2}};
+  base.sigma = Eigen::MatrixXd{{0.3, 0.3}, {0.4, 0.42}};
+  std::vector<VariantRun> runs(4);
+  const char* names[] = {"tissue alone", "weak right", "weak left", "weak both"};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].scene.title = names[i];
+    runs[i].simulation.performance.muscles = base;
+  }
+  const auto weaken = [&](std::size_t run, Eigen::Index muscle) {
+    runs[run].simulation.performance.muscles.activation.row(muscle) *= 0.3;
+  };
+  weaken(1, 1);
+  weaken(2, 0);
+  weaken(3, 0);
+  weaken(3, 1);
+  const std::vector<Note> notes = gains_hardly_known(base, runs);
+  EXPECT_THAT(notes, ElementsAre(is_warning("variant.muscle_hardly_used", "muscles.gain")));
+  EXPECT_THAT(notes,
+              ElementsAre(AllOf(says("weak right"), says("zyg_major_R"), says("0.20 +- 0.42"))));
+  EXPECT_THAT(gains_hardly_known({}, runs), ElementsAre());
+}
+
+TEST(LipsThatPass, AreThoseOfVariantsThatPassFartherThanBase) {
+  std::vector<VariantRun> runs(4);
+  const double overlap_mm[] = {0.4, 0.6, 1.4, 2};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].scene.title = "v" + std::to_string(i);
+    runs[i].simulation.report.lip_overlap_mm = overlap_mm[i];
+  }
+  EXPECT_THAT(
+      lips_that_pass(runs, 0),
+      ElementsAre(says("v1"), says("v2"), AllOf(says("v3"), says("2.0 mm (0.0 mm in base)"))));
+  EXPECT_THAT(lips_that_pass(runs, 1.35), ElementsAre(says("v3"))) << "base's own is reported once";
+  EXPECT_THAT(lips_that_pass({}, 3), ElementsAre());
+}
+
+TEST(IdleVariants, MoveAsBaseDoesToAThousandthOfAMillimetre) {
+  std::vector<VariantRun> runs(4);
+  const simulate::Performance base = moving(0.01F, 0.002F);
+  runs[0].simulation.performance = base;
+  runs[1].simulation.performance = moving(0.01F, 0.0020005F);
+  runs[2].simulation.performance = moving(0.01F, 0.002002F);
+  runs[3].simulation.performance = base;
+  runs[3].simulation.performance.skin_displacement_m.pop_back();
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].scene.title = "v" + std::to_string(i);
+  EXPECT_THAT(idle_variants(base, runs),
+              ElementsAre(AllOf(is_warning("variant.no_effect", ""), says("v0 ")), says("v1 ")));
+}
+
+TEST(VariantWarnings, HoldEachKind) {
+  simulate::SimulationResult base;
+  base.performance = moving(0, 0);
+  base.performance.muscles.names = {"zyg_major_L"};
+  base.performance.muscles.activation = Eigen::MatrixXd::Constant(1, 1, 0.1);
+  base.performance.muscles.sigma = Eigen::MatrixXd::Constant(1, 1, 0.2);
+  std::vector<VariantRun> runs(1);
+  runs[0].simulation = base;
+  runs[0].simulation.performance.muscles.activation *= 0.3;
+  runs[0].simulation.report.lip_overlap_mm = 1;
+  EXPECT_THAT(variant_warnings(base, runs),
+              ElementsAre(is_warning("variant.no_effect", ""),
+                          is_warning("variant.lips_pass_through", "contact.lips"),
+                          is_warning("variant.muscle_hardly_used", "muscles.gain")));
+}
+
+}  // namespace
+}  // namespace hyperex::session
