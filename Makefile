@@ -95,8 +95,8 @@ coverage: ## which lines the tests run: a table by room, build/coverage/report/i
 
 lint: ## formatting, words and clang-tidy over everything (some 30 minutes of CPU)
 	scripts/setup.sh --lint
-	cmake --preset release -DHYPEREX_TESTS=ON
-	cmake --build --preset release --parallel $(JOBS)
+	cmake --preset lint
+	cmake --build --preset lint --target hx_generated
 	scripts/lint.sh
 
 fresh: ## all this on an empty Debian 12, as root and as a user with sudo (needs root; COLD=1: no caches; PACKAGES=1: make deb, used there)

@@ -51,14 +51,6 @@ class Stages {
   std::string file_;
 };
 
-/// Whether the model picked the direct or the iterative solver.
-template <class Model>
-std::string solver_of(const Model& model) {
-  if constexpr (requires { model.solver(); })
-    return model.solver() == decltype(model.solver())::iterative ? "iterative" : "direct";
-  return "direct";
-}
-
 /// Moves a full model `steps` steps; seconds a step.
 double steps_of(fem::Newmark& newmark, const fem::Drive& drive, int steps) {
   std::vector<double> s;
@@ -90,7 +82,6 @@ void measure(const Request& request, Json& out) {
       return fem::Newmark(std::move(system), face.prescribed(), fem::NewmarkOptions{face.dt_s()});
     });
     out["free_unknowns"] = newmark.free_count();
-    out["solver"] = solver_of(newmark);
     out["analyse_s"] = newmark.analyse_seconds();
     out["factor_s"] = newmark.factor_seconds();
     out["factor_bytes"] = 8 * newmark.factor_entries();

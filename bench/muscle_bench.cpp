@@ -17,15 +17,16 @@
 #include <memory>
 #include <sstream>
 
-#include "hyperex/anatomy/teeth/teeth_fit.hpp"
+#include "hyperex/core/kept_results.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/baseline.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/roughness.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
-#include "hyperex/session/simulation_options.hpp"
 #include "hyperex/simulate/contact/lip_surfaces.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 
@@ -43,9 +44,9 @@ bool listed(const std::string& key, const std::string& name) {
   return !has(key) || ("," + given[key] + ",").find("," + name + ",") != std::string::npos;
 }
 
-simulate::SimulationOptions options_of(const scene::Scene& scene, const session::Inputs& inputs) {
+simulate::SimulationOptions options_of(const session::FaceSession& session) {
   constexpr double kpa_per_mm = 1e6, mm = 1e-3;
-  simulate::SimulationOptions o = session::simulation_options(scene, inputs);
+  simulate::SimulationOptions o = session.options(0);
   if (has("finite")) o.model.strain = simulate::Strain::finite;
   take("finite_step", o.solver.finite_step_s);
   o.contact.lips = has("contact");
@@ -92,16 +93,15 @@ simulate::SimulationOptions options_of(const scene::Scene& scene, const session:
   return o;
 }
 
-/// Scenes of one scan share its mesh.
-std::shared_ptr<const tissue::TissueMesh> mesh_of(const scene::Scene& scene,
-                                                  const session::Inputs& inputs) {
-  static std::map<std::string, std::shared_ptr<const tissue::TissueMesh>> meshes;
-  const std::string file = scene.scan.source.file.string();
-  auto& mesh = meshes[file];
-  if (!mesh)
-    mesh = std::make_shared<const tissue::TissueMesh>(
-        tissue::build_tissue_mesh(inputs.scan.mesh, inputs.landmarks, scene.mesh, file));
-  return mesh;
+/// With meshes and landmarks that were found before, as a run takes them; driven as the scene says,
+/// or by displacement.
+session::FaceSession session_of(const std::string& scene_file) {
+  scene::Scene scene = scene::read_scene(scene_file);
+  scene.kept = KeptResults(user_cache_folder());
+  scene.origins.emplace("drive.by", scene::Origin{scene.file, 0});
+  if (has("teeth")) scene.contact.teeth = true;
+  if (has("eyes")) scene.contact.eyes = true;
+  return session::FaceSession(std::move(scene), {.certainty = session::Certainty::on_request});
 }
 
 struct Score {
@@ -109,19 +109,6 @@ struct Score {
   std::vector<double> share;    ///< of the warp's error
   double apart = std::nan("");  ///< the same of the lips, where the truth's own are apart
 };
-
-/// Teeth and eyeballs of a face.
-std::shared_ptr<const std::vector<simulate::Obstacle>> obstacles_of(
-    const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
-  auto out = std::make_shared<std::vector<simulate::Obstacle>>();
-  if (has("teeth"))
-    *out = simulate::teeth_to_touch(
-        anatomy::fit_teeth(mesh.volume.outer, tissue::boundary_of(mesh.volume), landmarks).teeth);
-  if (has("eyes"))
-    for (const simulate::Obstacle& eye : simulate::eyes_to_touch(mesh.skin.points, landmarks))
-      out->push_back(eye);
-  return out;
-}
 
 /// Vertices of the lips that pass through each other in a motion of the skin: of such a truth no
 /// face with contact can come near there.
@@ -158,11 +145,11 @@ double mean_mm(const Eigen::VectorXd& distance_m, const metrics::Region* region,
 
 Score score_scan(const std::string& name, const std::string& scene_file,
                  const std::string& truth_file, const std::string& kind) {
-  const scene::Scene scene = scene::read_scene(scene_file);
-  const session::Inputs inputs = session::read_inputs(scene);
-  const auto mesh = mesh_of(scene, inputs);
-  simulate::Simulator simulator(mesh, inputs.landmarks, inputs.motion, options_of(scene, inputs));
-  simulator.set_obstacles(obstacles_of(*mesh, inputs.landmarks));
+  const session::FaceSession session = session_of(scene_file);
+  const session::Inputs& inputs = session.inputs();
+  const auto mesh = session.shared_mesh();
+  simulate::Simulator simulator = session.simulator();
+  simulator.set_options(options_of(session));
   const auto result = simulator.run();
   const simulate::Performance& p = result.performance;
   const Points rest = mesh->skin.points.topRows(mesh->scan_vertices);
@@ -236,8 +223,8 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
       {"eyes", {"Leye_Down", "Reye_Down"}}};
   static const std::vector<std::string> skull = {"ForeHead_L", "ForeHead_M",  "ForeHead_R",
                                                  "NoseTop",    "Leye_Inside", "Reye_Inside"};
-  const scene::Scene scene = scene::read_scene(scene_file);
-  const session::Inputs inputs = session::read_inputs(scene);
+  const session::FaceSession session = session_of(scene_file);
+  const session::Inputs& inputs = session.inputs();
   const simulate::AlignedMotion& motion = inputs.motion;
   const auto moved = [&](std::size_t frame, const std::string& point) -> Vec3 {
     const int row = motion.motion.index_of(point);
@@ -260,12 +247,11 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
   io::Landmarks landmarks = inputs.landmarks;
   for (const std::string& point : test)
     landmarks[point] = motion.rest.row(motion.motion.index_of(point)).transpose();
-  simulate::SimulationOptions options = options_of(scene, inputs);
+  simulate::SimulationOptions options = options_of(session);
   options.time.frame_rate_hz = 1;
   options.time.end_s = double(frames.size() + 1);
   const auto result =
-      simulate::Simulator(mesh_of(scene, inputs), landmarks, through(motion, frames), options)
-          .run();
+      simulate::Simulator(session.shared_mesh(), landmarks, through(motion, frames), options).run();
   const motion::Motion& tracks = result.performance.landmarks;
 
   std::map<std::string, double> run, warp;

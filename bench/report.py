@@ -381,11 +381,10 @@ limited to 20 GiB.
                 cells.append(f"{time(done['seconds'])}, {size(done['peak_bytes'])}" if done
                              else "stopped here" if stopped else "-")
             out.append([element, r.get("nodes", "-"), r.get("free_unknowns", "-"), *cells,
-                        r.get("solver", "direct") if "factor_bytes" in r else "-",
                         size(r.get("factor_bytes")), r.get("basis_size", "-"),
                         size(r.get("peak_bytes"))])
     text += table(["element", "nodes", "unknowns", "mesh", "assembly", "factor", "step", "basis",
-                   "solver", "factor's size", "basis vectors", "greatest memory"], out)
+                   "factor's size", "basis vectors", "greatest memory"], out)
     for r in rows:
         if "failed" in r:
             text += f"\n{r['element']}, {r.get('nodes', '?')} nodes: {r['failed']}.\n"

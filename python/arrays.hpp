@@ -16,8 +16,8 @@ namespace py = pybind11;
 py::array read_only(py::array array);
 
 template <class Scalar, int Columns, int Order>
-py::array view(const Eigen::Matrix<Scalar, Eigen::Dynamic, Columns, Order>& matrix,
-               py::handle owner) {
+py::array_t<Scalar> view(const Eigen::Matrix<Scalar, Eigen::Dynamic, Columns, Order>& matrix,
+                         py::handle owner) {
   if constexpr (Columns == 1)
     return read_only(py::array_t<Scalar>({matrix.size()}, {sizeof(Scalar)}, matrix.data(), owner));
   static_assert(Columns == 1 || Order & Eigen::RowMajor, "rows of NumPy's arrays are contiguous");
@@ -28,7 +28,7 @@ py::array view(const Eigen::Matrix<Scalar, Eigen::Dynamic, Columns, Order>& matr
 }
 
 template <class Scalar>
-py::array view(const std::vector<Scalar>& values, py::handle owner) {
+py::array_t<Scalar> view(const std::vector<Scalar>& values, py::handle owner) {
   return read_only(py::array_t<Scalar>({static_cast<py::ssize_t>(values.size())}, {sizeof(Scalar)},
                                        values.data(), owner));
 }

@@ -134,7 +134,7 @@ void bind_landmarks(py::module_& m) {
   m.def(
       "landmark_doubts",
       [](const io::Landmarks& given, const TriMesh& mesh) {
-        return anatomy::landmark_doubts(given, mesh);
+        return texts_of(anatomy::landmark_doubts(given, mesh));
       },
       "landmarks"_a, "mesh"_a, Unlocked(),
       "Landmarks that are probably not where their names say: a sentence each.");

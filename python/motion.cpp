@@ -72,11 +72,6 @@ py::array head_pose(const Motion& motion) {
   return poses;
 }
 
-const Words<simulate::AlignmentMethod> kMethods = {
-    {"nonrigid", simulate::AlignmentMethod::nonrigid},
-    {"similarity", simulate::AlignmentMethod::similarity},
-    {"normalised", simulate::AlignmentMethod::normalised}};
-
 Motion stabilised(const Motion& motion, const Names& rigid_points) {
   motion::StabiliseOptions options;
   options.rigid_points = rigid_points;
@@ -92,7 +87,7 @@ Motion filled(const Motion& motion, double max_gap_s) {
 
 simulate::AlignedMotion aligned(const Motion& motion, const io::Landmarks& landmarks,
                                 const std::string& method) {
-  return simulate::align(motion, landmarks, from_word(kMethods, "method", method));
+  return simulate::align(motion, landmarks, from_word<simulate::AlignmentMethod>("method", method));
 }
 
 simulate::AlignedMotion prepared(const Motion& motion, const io::Landmarks& landmarks,

@@ -83,7 +83,14 @@ void bind_report(py::module_& m) {
       .def_property_readonly(
           "in_eyes_mm", [](const SimulationReport& r) { return r.contact.eyes_left_mm; },
           "Of lids in eyeballs, likewise.")
-      .def_readonly("notes", &SimulationReport::notes, "A sentence each.")
+      .def_property_readonly(
+          "notes",
+          [](const SimulationReport& r) {
+            std::vector<std::string> texts;
+            for (const Note& note : r.notes) texts.push_back(note.text);
+            return texts;
+          },
+          "A sentence each.")
       .def("__repr__", [](const SimulationReport& r) {
         return fmt::format(
             "<hyperex.SimulationReport: {} unknowns, {} in the reduced model, {} steps, lips "

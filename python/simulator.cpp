@@ -3,6 +3,7 @@
 #include "hyperex/simulate/run/simulator.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <chrono>
@@ -10,6 +11,7 @@
 #include <memory>
 
 #include "bind.hpp"
+#include "callbacks.hpp"
 #include "hyperex/core/error.hpp"
 #include "meshes.hpp"
 #include "obstacles.hpp"
@@ -43,56 +45,6 @@ TissueValues completed(TissueValues values, std::size_t tets) {
   }
   return values;
 }
-
-/// Calls Python back from a run. What a callback throws ends the run and is thrown by finish().
-class Callbacks {
- public:
-  Callbacks(py::object progress, py::object cancelled)
-      : progress_(std::move(progress)), cancelled_(std::move(cancelled)) {}
-
-  simulate::RunCallbacks for_run() {
-    simulate::RunCallbacks callbacks;
-    if (!progress_.is_none())
-      callbacks.progress = [this](double share) {
-        const py::gil_scoped_acquire locked;
-        guarded([&] { progress_(share); });
-      };
-    callbacks.cancelled = [this] { return must_end(); };
-    return callbacks;
-  }
-  void rethrow_if_any() const {
-    if (thrown_) std::rethrow_exception(thrown_);
-  }
-
- private:
-  /// Python is asked every 20 ms at most: a step takes less than a millisecond.
-  bool must_end() {
-    if (thrown_) return true;
-    const auto now = std::chrono::steady_clock::now();
-    if (now < ask_again_) return false;
-    ask_again_ = now + std::chrono::milliseconds(20);
-    bool end = false;
-    const py::gil_scoped_acquire locked;
-    guarded([&] {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      end = !cancelled_.is_none() && cancelled_().cast<bool>();
-    });
-    return end || thrown_;
-  }
-  template <class Call>
-  void guarded(Call call) {
-    if (thrown_) return;
-    try {
-      call();
-    } catch (...) {
-      thrown_ = std::current_exception();
-    }
-  }
-
-  py::object progress_, cancelled_;
-  std::exception_ptr thrown_;
-  std::chrono::steady_clock::time_point ask_again_{};
-};
 
 /// As a UserWarning at the line that called run(), once a line unless Python's filters say other.
 void warn_of_forces_found_anew(const simulate::SimulationReport& report) {
@@ -153,11 +105,8 @@ class PythonSimulator {
   SimulationOptions with_all_values(SimulationOptions options) const {
     if (const auto& model = options.model;
         model.strain != simulate::Strain::finite && !(model.law == fem::Hyperelastic{}))
-      throw InputError(InputProblem{{},
-                                    0,
-                                    "model.law",
-                                    std::string(fem::to_string(model.law.law)),
-                                    "strain=\"finite\" beside it: small strain has no law"});
+      spdlog::warn("model.law = {} has no effect: only finite strain has a law (strain=\"finite\")",
+                   fem::to_string(model.law.law));
     options.tissue = completed(std::move(options.tissue), tets());
     return options;
   }

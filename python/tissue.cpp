@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh of the soft tissue, and what the tissue is made of.
 #include "arrays.hpp"
+#include "hyperex/core/check_options.hpp"
 #include "hyperex/session/thinned_scan.hpp"
 #include "hyperex/simulate/options.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
@@ -13,24 +14,8 @@ namespace {
 using simulate::TissueValues;
 using tissue::TissueMeshOptions;
 
-void check(const TissueMeshOptions& o) {
-  std::vector<InputProblem> problems;
-  const auto in = [&](const char* name, double value, const Bounds& bounds, bool or_zero = false) {
-    if (bounds.holds(value) || (or_zero && value == 0)) return;
-    problems.push_back({{},
-                        0,
-                        name,
-                        fmt::format("{:g}", value),
-                        fmt::format("a number from {:g} to {:g}{}", bounds.least, bounds.most,
-                                    or_zero ? ", or 0" : "")});
-  };
-  in("element_size_m", o.element_size_m, o.element_size_m_in);
-  in("layers", o.layers, o.layers_in);
-  in("thickness_m", o.thickness_m, o.thickness_m_in, true);
-  in("trim_border_m", o.trim_border_m, o.trim_border_m_in);
-  for (const tissue::DepthRegion& region : o.depth_regions)
-    in("depth_regions.depth_m", region.depth_m, o.thickness_m_in);
-  if (!problems.empty()) throw InputError(problems);
+void check(const TissueMeshOptions& options) {
+  if (const auto problems = out_of_bounds(options); !problems.empty()) throw InputError(problems);
 }
 
 SharedTissueMesh of_face(const Face& face, const TissueMeshOptions& options) {
@@ -45,29 +30,6 @@ SharedTissueMesh of_surface(const TriMesh& mesh, const io::Landmarks& landmarks,
   check(options);
   return std::make_shared<tissue::TissueMesh>(
       tissue::build_tissue_mesh(mesh, landmarks, options, source));
-}
-
-void bind_mesh_options(py::module_& m) {
-  using tissue::DepthRegion;
-  using tissue::LipCut;
-  OptionsClass<DepthRegion>(m, "DepthRegion", "Thickness in a painted part of the skin.")
-      .field("painted", &DepthRegion::painted,
-             "A file of weights from 0 to 1, a row a vertex of the scan, or the scan painted red.")
-      .field("depth_m", &DepthRegion::depth_m, "Where the weight is 1: 0.001 to 0.04 m.");
-  OptionsClass<TissueMeshOptions>(m, "TissueMeshOptions", "How the soft tissue is meshed.")
-      .field("element_size_m", &TissueMeshOptions::element_size_m,
-             "Edges at the mouth, 0.0005 to 0.03 m; they grow away from it.")
-      .field("layers", &TissueMeshOptions::layers, "Of elements under the skin, 1 to 8.")
-      .field("thickness_m", &TissueMeshOptions::thickness_m,
-             "Of the tissue, 0.001 to 0.04 m; 0: published depths, interpolated.")
-      .field("depth_per_vertex", &TissueMeshOptions::depth_per_vertex,
-             "A file of thickness_mm, a row a vertex of the scan, where it gives any; empty: none.")
-      .list("depth_regions", &TissueMeshOptions::depth_regions, "DepthRegions, applied in turn.")
-      .word("cut_lips", &TissueMeshOptions::cut_lips,
-            {{"auto", LipCut::automatic}, {"always", LipCut::always}, {"never", LipCut::never}},
-            "auto, always or never.")
-      .field("trim_border_m", &TissueMeshOptions::trim_border_m,
-             "Taken off the scan's outer border, 0 to 0.05 m.");
 }
 
 void bind_mesh(py::module_& m) {
@@ -95,7 +57,9 @@ void bind_mesh(py::module_& m) {
       .def_readonly("mean_distance_mm", &TissueMesh::mean_distance_mm,
                     "From the scan's vertices to the simulated skin.")
       .def_readonly("max_distance_mm", &TissueMesh::max_distance_mm)
-      .def_readonly("notes", &TissueMesh::notes, "What was mended, trimmed or cut.")
+      .def_property_readonly(
+          "notes", [](const TissueMesh& mesh) { return texts_of(mesh.notes); },
+          "What was mended, trimmed or cut.")
       .def("__repr__", [](const TissueMesh& mesh) {
         return fmt::format("<hyperex.TissueMesh of {} nodes, {} tetrahedra>",
                            mesh.volume.nodes.rows(), mesh.volume.tets.rows());
@@ -131,13 +95,15 @@ void value_field(OptionsClass<TissueValues>& tissue, const char* name, tissue::P
         else
           self.element[p].assign(array.data(), array.data() + array.size());
       },
-      doc);
+      "float | NDArray[np.float64]", doc);
 }
 
 }  // namespace
 
 void bind_tissue(py::module_& m) {
-  bind_mesh_options(m);
+  OptionsClass<tissue::DepthAt>(m, "DepthAt");
+  OptionsClass<tissue::DepthRegion>(m, "DepthRegion");
+  OptionsClass<TissueMeshOptions>(m, "TissueMeshOptions");
   bind_mesh(m);
   OptionsClass<TissueValues> tissue(
       m, "Tissue", "What the tissue is made of: each a number, or an array of one a tetrahedron.");

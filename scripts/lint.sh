@@ -7,7 +7,7 @@
 #   scripts/lint.sh --format           formatting alone (seconds)
 #   scripts/lint.sh --words            words alone (seconds)
 #   scripts/lint.sh --tidy [FILE...]   the checks alone, over these .cpp files
-# The checks read build/release/compile_commands.json and need what a build generates: build first.
+# The checks read build/lint/compile_commands.json and the headers that a build generates: make lint makes both.
 # clang's two need version 14, Debian 12's: others format and warn differently.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -42,15 +42,15 @@ words() {
 
 tidy() {
   is_fourteen clang-tidy
-  local database=build/release/compile_commands.json file files=()
-  [[ -f "$database" ]] || die "$database is missing: make test (or cmake --preset release, and build)"
+  local database=build/lint/compile_commands.json file files=()
+  [[ -f "$database" ]] || die "$database is missing: make lint (or cmake --preset lint, and build hx_generated)"
   (($#)) || set -- $(git ls-files '*.cpp')
   for file; do  # what is not built here (for another sanitizer, say) has no command
     grep -qF "/$file\"" "$database" && files+=("$file")
   done
   ((${#files[@]})) || { echo "lint: no file to check"; return; }
   printf '%s\n' "${files[@]}" |
-    xargs -P "$(nproc)" -n 1 clang-tidy --quiet -p build/release 2> >(grep -v 'warnings generated' >&2 || true) ||
+    xargs -P "$(nproc)" -n 1 clang-tidy --quiet -p build/lint 2> >(grep -v 'warnings generated' >&2 || true) ||
     die "clang-tidy complains (above)"
   echo "lint: ${#files[@]} files pass clang-tidy"
 }

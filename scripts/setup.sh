@@ -25,6 +25,7 @@ packages=(
   libboost-dev             # Beast: the server of the studio
   libembree-dev libtbb-dev # rays and closest points; threads
   libtinygltf-dev libtinyobjloader-dev libstb-dev zlib1g-dev
+  libarchive-dev           # recordings that come as a zip
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   nettle-dev               # SHA-256: what was computed before
   libopencv-dnn-dev libflatbuffers-dev flatbuffers-compiler  # the landmark networks

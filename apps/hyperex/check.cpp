@@ -7,16 +7,17 @@
 
 #include "commands.hpp"
 #include "hyperex/core/printable.hpp"
-#include "hyperex/run/pipeline.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/face_session.hpp"
 
 namespace hyperex::cli {
 
 void add_check(CLI::App& program) {
-  struct Options {
+  struct CheckOptions {
     std::filesystem::path scene;
     std::vector<std::string> overrides;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       program.add_subcommand("check",
                              "Check a scene and the files it names, and report every problem. "
@@ -27,12 +28,12 @@ void add_check(CLI::App& program) {
       ->allow_extra_args(false);
   command->footer("Example: hyperex check examples/demo.toml");
   command->callback([options] {
-    const run::Checked checked =
-        run::check_scene(scene::read_scene(options->scene, options->overrides));
-    for (const auto& note : checked.notes) std::cout << printable(note) << '\n';
-    for (const auto& warning : checked.warnings)
-      std::cout << "warning: " << printable(warning) << '\n';
-    const auto count = checked.warnings.size();
+    const std::vector<Note> found =
+        session::check(scene::read_scene(options->scene, options->overrides));
+    const std::vector<std::string> warnings = texts_of(found, Severity::warning);
+    for (const auto& note : texts_of(found, Severity::note)) std::cout << printable(note) << '\n';
+    for (const auto& warning : warnings) std::cout << "warning: " << printable(warning) << '\n';
+    const auto count = warnings.size();
     std::cout << options->scene.string() << ": no problems found in what was checked"
               << (count == 0   ? ""
                   : count == 1 ? ", but one warning"

@@ -17,6 +17,7 @@ void add_presets(CLI::App& program);
 void add_run(CLI::App& program);
 void add_sample(CLI::App& program);
 void add_scene_reference(CLI::App& program);
+void add_notes_reference(CLI::App& program);
 void add_studio(CLI::App& program);
 void add_sweep(CLI::App& program);
 void add_symmetry(CLI::App& program);

@@ -20,7 +20,7 @@
 namespace hyperex::cli {
 namespace {
 
-struct Options {
+struct LandmarksOptions {
   std::filesystem::path scan, out, picture;
   std::string unit;
 };
@@ -29,7 +29,7 @@ std::string text(const Vec3& v) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
 }
 
-void run(const Options& options) {
+void run(const LandmarksOptions& options) {
   check_outputs({options.out, options.picture}, {options.scan});
   const bool for_slicer = options.out.string().ends_with(".mrk.json");
   check_output_kinds({{options.out,
@@ -70,7 +70,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_landmarks(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LandmarksOptions>();
   CLI::App* command =
       program.add_subcommand("landmarks",
                              "Find the landmarks of a scan in any orientation: the 68 iBUG points "

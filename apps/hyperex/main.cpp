@@ -80,6 +80,7 @@ void add_subcommands(CLI::App& program) {
   hyperex::cli::add_track(program);
   hyperex::cli::add_presets(program);
   hyperex::cli::add_scene_reference(program);
+  hyperex::cli::add_notes_reference(program);
 }
 
 // "/root/m.csv: Permission denied"
@@ -157,7 +158,7 @@ int status_of(CLI::App& program, int argc, char** argv) {
 int main(int argc, char** argv) {
   keep_freed_memory();
   hyperex::open_standard_streams();
-  // A file that may grow no further is then a failed write, told in words, not the end. So is a
+  // A file that may grow no further is then a failed write with a message, not the end. So is a
   // pipe whose reader has left: a message that nobody reads is no reason to end.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);

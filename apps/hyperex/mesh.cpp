@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kThickness = "thickness (mm)";
 
-struct Options {
+struct MeshOptions {
   std::filesystem::path scan, landmarks, out;
   std::string unit;
   double element_size_mm = 3.3, thickness_mm = 0, trim_border_mm = 0;
@@ -42,16 +42,16 @@ std::filesystem::path landmarks_beside(const std::filesystem::path& scan) {
 /// Read, or found where there are none.
 io::Landmarks landmarks_of(const io::Scan& scan, const std::filesystem::path& file) {
   if (!file.empty()) return io::read_landmarks(file);
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   auto found =
       session::find_landmarks(scan, "no landmarks beside the scan, and no --landmarks", notes);
-  for (const auto& note : notes) std::cerr << note << '\n';
+  for (const Note& note : notes) std::cerr << note.text << '\n';
   return found;
 }
 
 void print(const tissue::TissueMesh& mesh, const std::filesystem::path& out) {
   const auto& q = mesh.quality;
-  for (const auto& note : mesh.notes) std::cout << note << '\n';
+  for (const Note& note : mesh.notes) std::cout << note.text << '\n';
   std::cout << fmt::format(
       "{} nodes, {} tetrahedra, {:.1f} cm^3\n"
       "volume of a tetrahedron: least {:.3f} mm^3, mean {:.2f} mm^3\n"
@@ -68,7 +68,7 @@ void print(const tissue::TissueMesh& mesh, const std::filesystem::path& out) {
       mesh.mean_distance_mm, mesh.max_distance_mm, out.string());
 }
 
-void run(const Options& options) {
+void run(const MeshOptions& options) {
   const auto file = options.landmarks.empty() ? landmarks_beside(options.scan) : options.landmarks;
   check_outputs({options.out}, {options.scan, file});
   check_output_kinds({{options.out, {".vtu"}, "<?xml", {"type=\"UnstructuredGrid\"", kThickness}}});
@@ -79,7 +79,7 @@ void run(const Options& options) {
     std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
   const io::Landmarks given = landmarks_of(scan, file);
   if (const auto unknown = anatomy::unknown_landmarks(given); !unknown.empty())
-    std::cerr << anatomy::unknown_landmarks_note(unknown) << '\n';
+    std::cerr << anatomy::unknown_landmarks_note(unknown).text << '\n';
   const auto landmarks =
       anatomy::complete_landmarks(given, scan.mesh, (file.empty() ? options.scan : file).string());
   tissue::TissueMeshOptions mesh_options;
@@ -104,7 +104,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_mesh(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MeshOptions>();
   CLI::App* command = program.add_subcommand(
       "mesh", "Make the soft-tissue mesh under a scan and report its quality");
   command->add_option("SCAN", options->scan, "PLY, OBJ, STL, glTF or GLB")->required();

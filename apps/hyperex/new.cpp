@@ -62,11 +62,11 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
 }  // namespace
 
 void add_new(CLI::App& program) {
-  struct Options {
+  struct NewOptions {
     std::string scan, motion;
     fs::path to;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NewOptions>();
   CLI::App* command = program.add_subcommand(
       "new", "Write a first scene, with comments, for a scan and a recording");
   command

@@ -35,7 +35,7 @@ void print_muscles() {
     std::cout << fmt::format("{:14} {:11} {}\n", muscle.name, muscle.branch, muscle.latin);
 }
 
-void print() {
+void print_presets() {
   std::cout << "Presets, for tissue.preset\n";
   for (const tissue::TissuePreset& preset : tissue::tissue_presets()) {
     std::cout << fmt::format("\n{}: {}\n  source: {}\n", preset.name, preset.summary,
@@ -70,7 +70,7 @@ void add_presets(CLI::App& program) {
           "List published tissue parameters and presets of variants (palsies, scar, age) "
           "with their sources, the named regions of the face, and the muscles")
       ->footer("Example: hyperex presets")
-      ->callback(print);
+      ->callback(print_presets);
 }
 
 }  // namespace hyperex::cli

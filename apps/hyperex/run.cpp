@@ -11,12 +11,12 @@
 #include "commands.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
-#include "hyperex/run/pipeline.hpp"
+#include "hyperex/run/run_scene.hpp"
 
 namespace hyperex::cli {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::filesystem::path scene, out;
   std::vector<std::string> overrides;
   bool verify = false, no_cache = false;
@@ -127,7 +127,7 @@ std::string variant_lines(const nlohmann::ordered_json& summary) {
   return lines;
 }
 
-void run(const Options& options) {
+void run(const RunOptions& options) {
   take_library_memory();
   auto overrides = options.overrides;
   if (options.verify) overrides.push_back("solver.verify=true");
@@ -168,7 +168,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_run(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   CLI::App* command =
       program.add_subcommand("run", "Re-enact a recorded expression on a scanned face");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();

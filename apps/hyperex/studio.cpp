@@ -15,7 +15,7 @@ namespace hyperex::cli {
 
 namespace {
 
-/// A colour picture alone does not tell whether it is a mirror's, and left and right depend on it.
+/// Whether a colour picture is mirrored cannot be seen in it, and left and right depend on it.
 void check_device(const std::string& device, const std::string& mirrored) {
   if (device.empty()) {
     if (!mirrored.empty()) throw InputError("studio: --mirrored is for a camera: give --device");

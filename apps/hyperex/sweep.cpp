@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using study::State;
 
-struct Options {
+struct SweepOptions {
   fs::path study, out;
   std::string one;
   int jobs = 0;  ///< 0: default_jobs()
@@ -42,7 +42,7 @@ std::string cases_words(std::size_t count) {
   return fmt::format("{} case{}", count, count == 1 ? "" : "s");
 }
 
-study::Study read(const Options& options) {
+study::Study read(const SweepOptions& options) {
   study::Study study = study::read_study(options.study);
   if (!options.out.empty()) study.out = options.out;
   return study;
@@ -90,7 +90,7 @@ void print_list(const study::Study& study, const std::vector<study::PlannedCase>
                              planned[i].hash.substr(0, 10), printable(study.cases[i].name));
 }
 
-study::Called called(const Options& options, const study::Study& study) {
+study::Called called(const SweepOptions& options, const study::Study& study) {
   const auto whole = [](const fs::path& path) { return fs::absolute(path).lexically_normal(); };
   return {fs::read_symlink("/proc/self/exe"), whole(options.study), whole(study.out)};
 }
@@ -142,8 +142,8 @@ void print_end(const study::Study& study, const std::vector<State>& states, std:
                            count(State::not_run) + count(State::running));
   if (before > 0) std::cout << fmt::format("; {} had been finished before", before);
   std::cout << fmt::format(
-      "\nwritten to {}:\n  {:<12} a row a case: what it changes, its measures\n"
-      "  {:<12} a folder a case, as hyperex run writes it\n"
+      "\nwritten to {}:\n  {:<12} one row per case: changed keys, measures\n"
+      "  {:<12} one folder per case, as hyperex run writes it\n"
       "  {:<12} the command and the messages of each case\n",
       study.out.string(), "study.csv", "cases/", "logs/");
 }
@@ -162,7 +162,7 @@ void warn_of_own_forces(const study::Study& study) {
         "(docs/studies.md)");
 }
 
-void run(const Options& options, const study::Study& study,
+void run(const SweepOptions& options, const study::Study& study,
          const std::vector<study::PlannedCase>& planned) {
   study::check_study_folder(study.out);
   const std::vector<std::size_t> cases = to_run(study, planned, options.one);
@@ -196,7 +196,7 @@ void run(const Options& options, const study::Study& study,
   throw std::runtime_error(text);
 }
 
-void sweep(const Options& options) {
+void sweep(const SweepOptions& options) {
   const study::Study study = read(options);
   const std::vector<study::PlannedCase> planned = plan(study);
   if (options.list) {
@@ -216,7 +216,7 @@ void sweep(const Options& options) {
 }  // namespace
 
 void add_sweep(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepOptions>();
   CLI::App* command = program.add_subcommand("sweep",
                                              "Run a parameter study: one scene with many values of "
                                              "its keys, and one table of the results");

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -18,7 +16,6 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
-#include "hyperex/face/point_words.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
@@ -30,12 +27,13 @@
 #include "hyperex/session/recording_jitter.hpp"
 #include "symmetry_frames.hpp"
 #include "symmetry_picture.hpp"
+#include "symmetry_print.hpp"
 
 namespace hyperex::cli {
 namespace {
 namespace fs = std::filesystem;
 
-struct Options {
+struct SymmetryOptions {
   fs::path motion, out, excursions, picture, map, map_ply, landmarks;
   double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz;
   double end_s = std::numeric_limits<double>::infinity();
@@ -43,76 +41,7 @@ struct Options {
   bool keep_head = false;
 };
 
-std::string cell(double value, int digits) {
-  return std::isfinite(value) ? fmt::format("{:10.{}f}", value, digits)
-                              : fmt::format("{:>10}", "-");
-}
-
-/// As many samples as fit on a screen, evenly spaced.
-void print_curve(const metrics::SymmetryCurve& curve) {
-  constexpr std::size_t rows = 20;
-  const std::size_t count = curve.time_s.size(), every = (count + rows - 1) / rows;
-  std::cout << fmt::format("{:>10} {:>10} {:>10} {:>10} {:>10}\n", "time (s)", "xi_L", "xi_R",
-                           "S (ln)", "S_floor");
-  for (std::size_t i = 0; i < count; i += every)
-    std::cout << fmt::format("{:10.4f} {} {} {} {}{}\n", curve.time_s[i], cell(curve.xi_left[i], 5),
-                             cell(curve.xi_right[i], 5), cell(curve.s[i], 5),
-                             cell(curve.noise.empty() ? NAN : std::log(curve.noise[i]), 3),
-                             i > 0 && curve.undecided(i) ? "  undecided" : "");
-  if (every > 1)
-    std::cout << fmt::format("one in {} of {} samples; --out FILE.csv writes all\n", every, count);
-  std::cout << fmt::format("floor: |xi_L - xi_R| = {:.3g}, S = {:.3f}\n", curve.floor,
-                           std::log(curve.floor));
-}
-
-/// Which figures of a pair jitter alone may have made.
-std::string undecided_note(const metrics::PairExcursion& p) {
-  std::vector<std::string> figures;
-  if (p.undecided) figures.push_back("excursion");
-  if (p.peak_speed_undecided) figures.push_back("speed");
-  if (p.speed_correlation_undecided) figures.push_back("correlation");
-  return figures.empty() ? "" : fmt::format("  undecided: {}", fmt::join(figures, ", "));
-}
-
-void print_excursions(const metrics::Excursions& excursions) {
-  std::cout << fmt::format("\n{:<43}{:>32}{:>33}{:>13}\n", "", "excursion (mm)  ",
-                           "peak speed (mm/s)  ", "correlation");
-  std::cout << fmt::format("{:<43} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "point",
-                           "L", "R", "R/L", "L", "R", "R/L", "of speeds");
-  for (const metrics::PairExcursion& p : excursions.pairs)
-    std::cout << fmt::format("{:<43} {} {} {} {} {} {}   {}{}\n", face::point_words(p.name),
-                             cell(p.left_side.excursion_mm, 2), cell(p.right_side.excursion_mm, 2),
-                             cell(p.excursion_ratio, 3), cell(p.left_side.peak_speed_mm_s, 1),
-                             cell(p.right_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),
-                             cell(p.speed_correlation, 3), undecided_note(p));
-  if (excursions.lowpass_hz > 0)
-    std::cout << fmt::format(
-        "speeds smoothed with a cut-off of {:g} Hz; undecided: within what "
-        "jitter alone makes\n",
-        excursions.lowpass_hz);
-}
-
-void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter) {
-  const metrics::SymmetryCurve& curve = all.curve;
-  size_t undecided = 0;
-  for (size_t i = 1; i < curve.time_s.size(); ++i) undecided += curve.undecided(i);
-  std::cout << fmt::format("\nstretch: {}", metrics::verdict_of(curve));
-  if (curve.jitter_m > 0)
-    std::cout << fmt::format("; jitter {:.2f} mm leaves {} of {} samples undecided",
-                             1e3 * curve.jitter_m, undecided, curve.time_s.size() - 1);
-  std::cout << '\n' << jitter.how << '\n';
-  if (all.map && !all.map->frames.empty()) {
-    const auto& worst = all.map->frames[static_cast<size_t>(all.map->worst_frame)];
-    std::cout << fmt::format(
-        "asymmetry of the surface at {:.3f} s: face rms {:.2f} mm, 95 % below {:.2f} mm; mouth rms "
-        "{:.2f} mm, 95 % below {:.2f} mm (at rest, taken out: rms {:.2f} mm)\n",
-        curve.time_s[static_cast<size_t>(all.map->worst_frame)], worst.face_rms_mm,
-        worst.face_p95_mm, worst.mouth_rms_mm, worst.mouth_p95_mm, all.map->rest_rms_mm);
-  }
-  std::cout << "This is no medical device: the figures describe a motion and diagnose nothing.\n";
-}
-
-/// The jitter that the run judged its figures by; none where its summary does not tell.
+/// The jitter that the run judged its figures by; none where its summary has no such number.
 std::optional<double> jitter_of_run(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   if (!fs::exists(file)) return std::nullopt;
@@ -124,7 +53,7 @@ std::optional<double> jitter_of_run(const fs::path& folder) {
 }
 
 /// The number of --jitter-mm; none where it is "auto".
-std::optional<double> stated_jitter_mm(const Options& options) {
+std::optional<double> stated_jitter_mm(const SymmetryOptions& options) {
   if (options.jitter_mm == "auto") return std::nullopt;
   const auto value = io::parse_number(options.jitter_mm);
   if (!value || !(*value >= 0) || !(*value <= 20))
@@ -134,15 +63,15 @@ std::optional<double> stated_jitter_mm(const Options& options) {
 }
 
 /// `steady`: head pose out. `run`: the folder of a run, or empty.
-session::RecordedJitter jitter_of(const Options& options, const motion::Motion& steady,
+session::RecordedJitter jitter_of(const SymmetryOptions& options, const motion::Motion& steady,
                                   const fs::path& run) {
   const auto stated = stated_jitter_mm(options);
   if (!stated) {
-    const auto told = run.empty() ? std::nullopt : jitter_of_run(run);
-    if (told && *told >= 0)
-      return {*told, true,
+    const auto of_run = run.empty() ? std::nullopt : jitter_of_run(run);
+    if (of_run && *of_run >= 0)
+      return {*of_run, true,
               fmt::format("jitter of the recorded points, from the run's summary.json: {:.2f} mm",
-                          1e3 * *told)};
+                          1e3 * *of_run)};
     return session::recorded_jitter(steady);
   }
   return {1e-3 * *stated, true,
@@ -175,7 +104,7 @@ motion::Motion without_head(const motion::Motion& motion, bool keep_head) {
   }
 }
 
-void write_map(const Options& options, const SurfaceFrames& frames,
+void write_map(const SymmetryOptions& options, const SurfaceFrames& frames,
                const std::vector<PointsF>& displacement, const metrics::Asymmetry& map) {
   const auto worst = static_cast<size_t>(map.worst_frame);
   const TriMesh moved{frames.rest.points + displacement[worst].cast<double>(),
@@ -193,9 +122,9 @@ void write_map(const Options& options, const SurfaceFrames& frames,
     io::write_ply(options.map_ply, moved, frames.unit, {{"asymmetry_mm", map_mm}});
 }
 
-/// What is written and printed, with a surface or without.
-void tell(const Options& options, const metrics::SymmetryMeasures& all,
-          const session::RecordedJitter& jitter) {
+/// Writes the files asked for and prints the rest.
+void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all,
+            const session::RecordedJitter& jitter) {
   for (const std::string& stand_in : all.curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
   if (!options.picture.empty())
@@ -211,7 +140,7 @@ void tell(const Options& options, const metrics::SymmetryMeasures& all,
   print_summary(all, jitter);
 }
 
-void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
+void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> unit) {
   SurfaceFrames frames =
       read_surface_frames(options.motion, options.landmarks, unit, options.rate_hz);
   if (!options.keep_head) steady(frames);
@@ -227,7 +156,7 @@ void run_surfaces(const Options& options, std::optional<io::LengthUnit> unit) {
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
-  tell(options, all, jitter);
+  report(options, all, jitter);
 }
 
 /// The files of a folder, each of which may be a frame.
@@ -237,7 +166,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-void check_outputs_of(const Options& options, const std::vector<fs::path>& inputs) {
+void check_outputs_of(const SymmetryOptions& options, const std::vector<fs::path>& inputs) {
   check_outputs({options.out, options.excursions, options.picture, options.map, options.map_ply},
                 inputs);
   check_output_kinds({{options.out, {".csv"}, "time_s,xi_L,xi_R,S_ln"},
@@ -262,8 +191,8 @@ motion::Motion until(motion::Motion motion, double end_s) {
   return motion;
 }
 
-void run(const Options& options) {
-  stated_jitter_mm(options);  // a wrong one is told before the work, not after
+void run(const SymmetryOptions& options) {
+  stated_jitter_mm(options);  // refused before the work, not after
   std::optional<io::LengthUnit> unit;
   if (!options.unit.empty()) unit = io::length_unit(options.unit);
   fs::path file = options.motion, run_folder;
@@ -283,22 +212,22 @@ void run(const Options& options) {
                                   "a folder of surfaces; points alone have no map"});
   const motion::Motion motion = until(motion::read_motion(file, unit), options.end_s);
   metrics::SymmetryMeasures all;
-  all.curve = metrics::symmetry_of(motion, options.floor);  // tells first which points are missing
+  all.curve = metrics::symmetry_of(motion, options.floor);  // throws where points are missing
   const motion::Motion steady = without_head(motion, options.keep_head);
-  for (const std::string& warning : {session::exchanged_warning(motion, session::average_face()),
-                                     session::timing_warning(motion)})
-    if (!warning.empty()) spdlog::warn("{}", warning);
+  for (const auto& warning : {session::exchanged_warning(motion, session::average_face()),
+                              session::timing_warning(motion)})
+    if (warning) spdlog::warn("{}", warning->text);
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);
   warn_of_unknown(jitter);
   if (jitter.jitter_m > 0) all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
   all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);
-  tell(options, all, jitter);
+  report(options, all, jitter);
 }
 
 }  // namespace
 
 void add_symmetry(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SymmetryOptions>();
   CLI::App* command = program.add_subcommand(
       "symmetry",
       "Symmetry of a motion: the relative change of the distances from each mouth corner to its "
@@ -308,7 +237,7 @@ void add_symmetry(CLI::App& program) {
   command
       ->add_option("MOTION", options->motion,
                    "Named points over time, CSV or TRC; a run's folder; or a folder of PLY or OBJ "
-                   "files, one a frame, the first at rest")
+                   "files, one per frame, the first at rest")
       ->required();
   command->add_option("--out", options->out, "Write the curves (CSV) here");
   command->add_option("--excursions", options->excursions,

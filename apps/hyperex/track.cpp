@@ -25,7 +25,7 @@
 namespace hyperex::cli {
 namespace {
 
-struct Options {
+struct TrackOptions {
   std::string recording, device, model = "canonical";
   TrackOutputs outputs;
   std::filesystem::path score, camera, plots;
@@ -89,27 +89,28 @@ void print_score(const tracking::Score& score, bool json) {
 void say_what_was_tracked(const tracking::Tracking& tracking) {
   std::size_t lost = 0, several = 0;
   std::string faults;
-  constexpr std::size_t told = 3;
+  constexpr std::size_t listed = 3;
   for (const auto& frame : tracking.frames) {
     if (frame.faces_in_view > 1) ++several;
     if (frame.valid) continue;
-    if (lost++ < told)
+    if (lost++ < listed)
       faults += fmt::format("{}frame {} ({})", lost > 1 ? ", " : ": ", frame.index, frame.fault);
   }
   const auto& times = tracking.times;
   const double frames = std::max<double>(1, double(times.frames));
   spdlog::info("{} frames, {} not valid{}{}", tracking.frames.size(), lost, faults,
-               lost > told ? fmt::format(" and {} more", lost - told) : "");
+               lost > listed ? fmt::format(" and {} more", lost - listed) : "");
   if (several) spdlog::warn("several faces in {} frames: the largest was followed", several);
   spdlog::info(
-      "ms a frame: network {:.1f}, pictures {:.1f}, fit {:.1f}; the person's shape {:.0f} ms once",
+      "ms per frame: network {:.1f}, pictures {:.1f}, fit {:.1f}; the person's shape {:.0f} ms "
+      "once",
       1e3 * times.network_s / frames, 1e3 * times.picture_s / frames, 1e3 * times.fit_s / frames,
       1e3 * times.neutral_s);
 }
 
-/// Whether the pictures are to be turned back. A colour picture alone does not tell, and a mirrored
-/// one would swap left and right in silence: of a webcam it must be said.
-bool asked_mirrored(const Options& options, const std::string& spec) {
+/// Whether the pictures are to be mirrored back. It cannot be seen in a colour picture, and a
+/// mirrored one would silently swap left and right: for a webcam the user must say it.
+bool asked_mirrored(const TrackOptions& options, const std::string& spec) {
   if (!options.mirrored.empty()) return options.mirrored == "yes";
   if (capture::source_kind(spec) == capture::SourceKind::webcam)
     throw InputError("track: " + spec +
@@ -119,12 +120,13 @@ bool asked_mirrored(const Options& options, const std::string& spec) {
 }
 
 /// Said only of a video that could be opened.
-void warn_of_video(const Options& options, const std::string& recording) {
+void warn_of_video(const TrackOptions& options, const std::string& recording) {
   if (options.mirrored.empty() && !options.json &&
       capture::source_kind(recording) == capture::SourceKind::video)
     spdlog::warn(
-        "{}: taken as not mirrored, as a video does not tell; where it is mirrored, left and right "
-        "are swapped: say --mirrored yes",
+        "{}: assumed not mirrored; a video file has no such flag. If it is mirrored, left and "
+        "right "
+        "are swapped: give --mirrored yes",
         recording);
 }
 
@@ -135,14 +137,14 @@ tracking::FrameVisitor visitor_of(tracking::PreviewMovie* preview) {
   };
 }
 
-std::vector<std::filesystem::path> outputs_of(const Options& options) {
+std::vector<std::filesystem::path> outputs_of(const TrackOptions& options) {
   std::vector<std::filesystem::path> files = options.outputs.files();
   files.push_back(options.plots);
   return files;
 }
 
 /// The files that are read: of a folder those that lie in it, its pictures aside.
-std::vector<std::filesystem::path> inputs_of(const Options& options) {
+std::vector<std::filesystem::path> inputs_of(const TrackOptions& options) {
   std::vector<std::filesystem::path> files = {options.camera};
   std::string played = options.device;
   if (played.starts_with("play:")) files.push_back(played.substr(5));
@@ -158,7 +160,7 @@ std::vector<std::filesystem::path> inputs_of(const Options& options) {
   return files;
 }
 
-void run(const Options& options) {
+void run(const TrackOptions& options) {
   if (!options.outputs.any() && options.plots.empty() && options.score.empty())
     throw InputError(
         "track: nothing to do: give --out, --trc, --preview, --glb, --livelink, --plots or "
@@ -220,7 +222,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_track(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TrackOptions>();
   CLI::App* command =
       program.add_subcommand("track",
                              "Track a face through a recording of colour and depth: its motion in "
@@ -247,7 +249,7 @@ void add_track(CLI::App& program) {
       ->add_option(
           "--mirrored", options->mirrored,
           "yes: the pictures show the world as a mirror does and are turned back; no: they "
-          "do not. A webcam must be said, a video is taken as not mirrored")
+          "do not. Required for a webcam; a video is assumed not to be mirrored")
       ->check([](const std::string& said) {
         return said == "yes" || said == "no" ? "" : "expected yes or no, not \"" + said + "\"";
       })

@@ -25,7 +25,7 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  void tell(const tracking::LiveStatus& s, int neutral_frames) {
+  void show(const tracking::LiveStatus& s, int neutral_frames) {
     constexpr auto pause = std::chrono::milliseconds(200);
     const auto now = std::chrono::steady_clock::now();
     if (!terminal_ || (shown_ && now < last_ + pause)) return;
@@ -76,7 +76,7 @@ tracking::Tracking track_live(capture::FrameSource& source, const expression::Fa
     tracking::LiveOptions how;
     if (seconds) how.seconds = *seconds;
     how.stop = [&] { return request.requested(); };
-    how.status = [&](const auto& status) { line.tell(status, options.neutral_frames); };
+    how.status = [&](const auto& status) { line.show(status, options.neutral_frames); };
     live = tracking::track_live(source, model, options, how, visit);
   }
   tell_outcome(live);

@@ -20,7 +20,7 @@ struct TrackOutputs {
 
   /// Every file, those beside the motion among them; some empty.
   std::vector<std::filesystem::path> files() const;
-  /// The same with what tells earlier ones from other files.
+  /// The same, with what distinguishes earlier outputs from other files.
   std::vector<OutputFile> kinds(const expression::FaceModel& model) const;
   bool any() const {
     return !motion.empty() || !trc.empty() || !preview.empty() || !glb.empty() ||
@@ -30,7 +30,7 @@ struct TrackOutputs {
 
 void add_output_options(CLI::App& command, TrackOutputs& outputs);
 
-/// Draws while tracking runs; null where no preview is asked for. Throws InputError for a name that
+/// Draws while tracking runs; null where no preview is requested. Throws InputError for a name that
 /// is none of a video.
 std::unique_ptr<tracking::PreviewMovie> preview_of(const TrackOutputs& outputs,
                                                    const expression::FaceModel& model,

@@ -19,10 +19,10 @@ constexpr auto kTellEach = std::chrono::milliseconds(200);
 /// A page that is out of sight draws nothing: what it was sent counts as lost after this.
 constexpr auto kLostAfter = std::chrono::seconds(1);
 /// A gap of more samples than this is stepped over in as many.
-constexpr int kMostSteps = 4;
+constexpr int kMostStepsOfLive = 4;
 constexpr std::size_t kDelays = 90;
 
-double seconds(std::chrono::steady_clock::duration time) {
+double seconds_of(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double>(time).count();
 }
 
@@ -196,7 +196,7 @@ void Live::reenact(const Tracked& tracked) {
   const LiveSample& sample = tracked.sample;
   const Points now = motion_->displacement(sample);
   const int steps =
-      std::clamp(int(std::lround((sample.time_s - last_s_) / interval_s_)), 1, kMostSteps);
+      std::clamp(int(std::lround((sample.time_s - last_s_) / interval_s_)), 1, kMostStepsOfLive);
   PointsF shape;
   for (int k = 1; k <= steps; ++k)
     shape = simulator_->step(last_ + (now - last_) * (double(k) / steps));
@@ -204,7 +204,7 @@ void Live::reenact(const Tracked& tracked) {
   last_s_ = sample.time_s;
   {
     const std::lock_guard lock(mutex_);
-    step_s_ = seconds(Clock::now() - begun);
+    step_s_ = seconds_of(Clock::now() - begun);
   }
   send_shape(shape, sample.time_s, tracked.arrived);
 }
@@ -235,7 +235,7 @@ void Live::drawn(std::int64_t frame) {
                                 [&](const Sent& sent) { return sent.frame == frame; });
   if (one == ahead_.end()) return;
   const auto now = Clock::now();
-  delays_s_.push_back(seconds(now - one->arrived));
+  delays_s_.push_back(seconds_of(now - one->arrived));
   if (delays_s_.size() > kDelays) delays_s_.pop_front();
   ahead_.erase(ahead_.begin(), one + 1);
   ++drawn_;

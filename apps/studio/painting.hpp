@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What is painted on the skin, as files that tissue.region and mesh.thickness_region name.
+// Painted regions as files that tissue.region and mesh.thickness_region name.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace hyperex::studio {
 
-/// Writes a region painted on the skin into `folder`, as a CSV with a column `weight` and a row a
-/// vertex of the scan (of one that was thinned, of the whole scan), and returns its name, which is
-/// made of what the file holds: the same paint is the same file. `vertices` of the skin and, for
-/// each, the share in `shares`, above 0 to 1; all others 0. Throws InputError for anything else.
+/// Writes a painted region into `folder` and returns the file's name: a CSV with a column `weight`
+/// and one row per vertex of the scan (of the whole scan where it was thinned). The name is a hash
+/// of the contents, so the same paint is the same file. `vertices`: of the skin; `shares`: one for
+/// each of them, in (0, 1]; other vertices have 0. Throws InputError for anything else.
 std::string write_painting(const tissue::TissueMesh& mesh, const nlohmann::json& vertices,
                            const nlohmann::json& shares, const std::filesystem::path& folder);
 

@@ -8,7 +8,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/nesting.hpp"
 
-// The file, carried inside.
+// Embeds the file.
 __asm__(
     ".pushsection .rodata\n"
     ".global hyperex_studio_protocol_begin\n"
@@ -32,8 +32,8 @@ constexpr std::size_t kLongestText = 4096;
   throw InputError(what);
 }
 
-/// What is wrong with a value; empty where nothing is.
-std::string wrong_with(const json& value, const json& field) {
+/// What is expected of a value instead; empty for a sound one.
+std::string expectation_missed(const json& value, const json& field) {
   const std::string type = field.at("type");
   if (type == "json") return "";
   if (type == "boolean") return value.is_boolean() ? "" : "true or false";
@@ -66,17 +66,17 @@ const json& protocol() {
 }
 
 Request read_request(std::string_view text, std::int64_t& id) {
-  if (io::line_nested_too_deep_json(text) > 0) refuse("a request nested too deeply");
+  if (io::line_nested_too_deep_json(text) > 0) refuse("malformed request: nested too deeply");
   json message = json::parse(text, nullptr, false);
-  if (!message.is_object()) refuse("no request: expected a JSON object");
+  if (!message.is_object()) refuse("malformed request: expected a JSON object");
   const auto given = message.find("id");
   if (given == message.end() || !given->is_number_integer())
-    refuse("no request: expected \"id\", a whole number");
+    refuse("malformed request: expected \"id\", a whole number");
   id = given->get<std::int64_t>();
   const auto name = message.find("do");
   const json& requests = protocol().at("requests");
   if (name == message.end() || !name->is_string() || !requests.contains(name->get<std::string>()))
-    refuse("\"do\" names no request");
+    refuse("unknown request: expected one of protocol.json as \"do\"");
   Request request{id, name->get<std::string>(), json::object()};
   const json& fields = requests.at(request.name).at("fields");
   for (const auto& [key, field] : fields.items()) {
@@ -85,13 +85,13 @@ Request read_request(std::string_view text, std::int64_t& id) {
       if (field.value("optional", false)) continue;
       refuse(fmt::format("{}: {} is missing", request.name, key));
     }
-    if (const std::string expected = wrong_with(*value, field); !expected.empty())
+    if (const std::string expected = expectation_missed(*value, field); !expected.empty())
       refuse(fmt::format("{}: {}: expected {}", request.name, key, expected));
     request.fields[key] = *value;
   }
   for (const auto& [key, value] : message.items())
     if (key != "id" && key != "do" && !fields.contains(key))
-      refuse(fmt::format("{}: a field that it does not have", request.name));
+      refuse(fmt::format("{}: unknown field", request.name));
   return request;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Messages as apps/studio/protocol.json describes them; the page's types are made of the same file.
+// Messages as described by apps/studio/protocol.json, from which the page's types are generated.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,11 +17,11 @@ const nlohmann::json& protocol();
 struct Request {
   std::int64_t id = 0;
   std::string name;
-  nlohmann::json fields;  ///< as protocol() has them: types and ranges are checked
+  nlohmann::json fields;  ///< types and ranges checked against protocol()
 };
 
-/// Throws InputError, one sentence, for what is no request. `id` is set as far as there is one, so
-/// that the answer finds its question.
+/// Parses and checks a request. Throws InputError, one sentence, where it is malformed. Sets `id`
+/// even then, if the text has one, so that the error can be sent as the answer.
 Request read_request(std::string_view text, std::int64_t& id);
 
 /// A binary message: the length of its text, the text, zeros up to a multiple of 8, the block.

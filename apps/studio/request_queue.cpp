@@ -9,7 +9,7 @@ bool is_live(const Request& request) {
 
 namespace {
 
-/// Whether `later` leaves nothing of `request` to be seen.
+/// Whether the effect of `request` is overwritten by `later`.
 bool replaces(const Request& later, const Request& request) {
   return is_live(request) && later.name == "set" &&
          later.fields.at("face") == request.fields.at("face");

@@ -12,20 +12,20 @@
 
 namespace hyperex::studio {
 
-/// Whether a request is one of many that a slider makes while it is held.
+/// Whether a slider that is held has sent the request.
 bool is_live(const Request& request);
 
-/// Requests between the network's thread and the one that answers. Of live changes of one face, one
-/// after the other, the last one counts.
+/// Requests on their way from the network's thread to the one that answers. Of consecutive live
+/// changes of one face only the last is answered.
 class RequestQueue {
  public:
   static constexpr std::size_t kMost = 256;
   static constexpr std::chrono::milliseconds kForever = std::chrono::milliseconds::max();
 
-  /// False where so many wait that this one is refused.
+  /// False where the queue is full or closed.
   bool push(Request request);
-  /// The next one; waits so long for it. Requests that a later one made needless are put into
-  /// `superseded`. Nothing where none came or the queue is closed.
+  /// The next request, after waiting for at most `wait`. Appends requests that a later one has
+  /// replaced to `superseded`. Empty where none came or the queue is closed.
   std::optional<Request> pop(std::chrono::milliseconds wait, std::vector<Request>& superseded);
   bool empty() const;
   void close();

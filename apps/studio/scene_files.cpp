@@ -14,7 +14,7 @@
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/scene_text.hpp"
 #include "hyperex/scene/toml_values.hpp"
-#include "server.hpp"
+#include "upload_name.hpp"
 
 __asm__(
     ".pushsection .rodata\n"
@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Paths in the values of a key, those in rows of tables too.
+/// Visits the paths in the value of a key, also in rows of tables.
 void for_paths(const scene::KeyInfo& key, json& value, const std::function<void(json&)>& visit) {
   if (key.kind == scene::Kind::path && value.is_string() && value != "embedded") visit(value);
   if (key.kind != scene::Kind::rows || !value.is_array()) return;
@@ -54,13 +54,13 @@ void for_paths_of_tables(json& tables, const std::function<void(json&)>& visit) 
   }
 }
 
-/// A scene's text with the paths in it visited.
+/// A scene's text after `visit` has changed its paths.
 std::string with_paths(const std::string& text, const std::function<void(json&)>& visit) {
   json before;
   try {
     before = scene::parse_toml(text).root;
   } catch (const scene::TornToml&) {
-    return text;  // reading the scene will say what is wrong with it
+    return text;  // reading the scene reports the error
   }
   json after = before;
   for_paths_of_tables(after, visit);
@@ -118,7 +118,7 @@ json with_uploads(const std::string& key, json value, const fs::path& uploads,
 
 std::string with_uploads(const std::string& text, const fs::path& uploads) {
   const auto taken = [&](json& path) {
-    // A scene that the studio saved names its files in a folder beside it.
+    // A saved scene names files in a folder beside it; uploads have no folders.
     const std::string name = fs::path(path.get<std::string>()).filename().string();
     if (!is_upload_name(name) || !fs::exists(uploads / name))
       throw InputError(fmt::format("the scene names {}: open that file together with it", name));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Scenes that the studio makes, and the files that a scene names when it moves to another folder.
+// Built-in scenes, and the files that a scene names when it moves to another folder.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,30 +9,30 @@
 
 namespace hyperex::studio {
 
-/// The face that comes with the program, with a smile that its muscles make; names
-/// "smile_arkit.csv" beside it.
+/// A scene of the embedded face, moved by its muscles; names "smile_arkit.csv" beside it.
 std::string embedded_scene();
-/// That file.
+/// The contents of "smile_arkit.csv".
 std::string_view embedded_smile();
 
-/// No path of a page reaches the file system: where `value` of the key holds paths (those in rows
-/// of tables too) each becomes that of the file of this name in `uploads`; "embedded" and those in
-/// `known` stay. Throws InputError for any other.
+/// Replaces each path in the value of a key, also in rows of tables, by the file of this name in
+/// `uploads`, so that no path of a page reaches the file system. "embedded" and paths in `known`
+/// stay. Throws InputError for a name that is not there.
 nlohmann::json with_uploads(const std::string& key, nlohmann::json value,
                             const std::filesystem::path& uploads,
                             const std::vector<std::string>& known);
-/// The same for all that a scene that was uploaded names.
+/// The same for all paths of an uploaded scene.
 std::string with_uploads(const std::string& text, const std::filesystem::path& uploads);
-/// Unpacks a zip with a recording's folder (rgb.txt in it) into `uploads` and removes the zip: that
-/// folder, by its own name or, where the files lie bare in it, the zip's. Throws InputError.
+/// Unpacks a zip with a recording (a folder with rgb.txt) into `uploads` and removes the zip.
+/// Returns the folder, named as in the zip, or after the zip where its files are in no folder.
+/// Throws InputError.
 std::filesystem::path unpacked_recording(const std::filesystem::path& zip,
                                          const std::filesystem::path& uploads);
-/// Every path that a scene's values hold (options_json()).
+/// Every path in a scene's values (options_json()).
 std::vector<std::string> paths_of(const nlohmann::json& options);
 
-/// Writes the scene `text`, which stands in `from`, to `to`. Files that it names are named from
-/// there; those that lie in one of `copied` (folders) are copied into a folder beside it.
-/// Throws InputError where that cannot be written.
+/// Writes the text of the scene file `from` to `to`. Relative paths are adapted; files inside one
+/// of the folders `copied` are copied into a folder beside `to`. Throws InputError where writing
+/// fails.
 void save_scene(const std::string& text, const std::filesystem::path& from,
                 const std::vector<std::filesystem::path>& copied, const std::filesystem::path& to);
 

@@ -3,11 +3,13 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hyperex/core/kept_results.hpp"
@@ -21,35 +23,40 @@
 namespace hyperex::studio {
 
 struct SessionOptions {
-  std::filesystem::path started;    ///< the scene or scan that the command named; empty: none
+  std::filesystem::path started;    ///< the scene or scan named on the command line; empty: none
   std::filesystem::path save_into;  ///< the folder that "save" writes to
-  std::filesystem::path folder;     ///< the session's own: uploads, what is kept against a crash
-  std::filesystem::path rescued;    ///< the folder of a session that died, its scene.toml in it
+  std::filesystem::path folder;     ///< the session's own: uploads and the autosaved scene
+  std::filesystem::path rescued;    ///< the folder of a session that crashed, with its scene.toml
   std::string program;              ///< "hyperex 1.0.0"
   std::string device;               ///< a camera (capture::open_device); empty: none
-  bool mirrored = false;            ///< its pictures are a mirror's
-  bool bands = true;                ///< error bands are found when nothing else is to do
+  bool mirrored = false;            ///< the camera's pictures are mirrored
+  bool bands = true;                ///< error bands are computed while the session is idle
   KeptResults kept;
 };
 
-/// What one user does: a scene's text, its history, and the face that is open. Answers requests in
-/// the order they come, on one thread; messages go out through `send`.
+/// One user's work: the scene's text, its history and the open face. Answers requests in their
+/// order on one thread and sends messages through `send`.
 class Session {
  public:
   using Send = std::function<void(std::string message, bool binary, const std::string& replaces)>;
+  /// Handles one request: its fields in, the fields of its answer out. Errors are exceptions.
+  using Handler = nlohmann::json (Session::*)(const nlohmann::json& fields);
+
   Session(SessionOptions options, Send send);
 
-  /// Answers; errors are answers too.
+  /// The handler of each request of protocol.json, by name.
+  static const std::map<std::string_view, Handler>& handlers();
+  /// Sends the answer to a request. An error is an answer, too.
   void answer(const Request& request);
-  /// Whether files of the user hold all that was done.
+  /// Whether the user's own files hold all changes.
   bool saved() const { return saved_; }
-  /// Whether the folder that was rescued holds what no file of the user holds.
+  /// Whether the rescued folder holds work that no file of the user holds.
   bool keeps_rescued() const { return keeps_rescued_; }
-  /// A shape of the live face was drawn: from any thread.
+  /// The page has drawn a frame of the live face. May be called from any thread.
   void drawn(std::int64_t frame);
-  /// Something to do when no request waits: a motion that is not up to date.
+  /// Whether there is work to do while no request waits: a motion, a variant's forces or bands.
   bool has_work() const;
-  /// Does it; ended early where `cancelled` says so, to be begun again.
+  /// Does the next piece of it. Stops early where `cancelled` returns true; it then starts anew.
   void work(const std::function<bool()>& cancelled);
 
  private:
@@ -57,7 +64,8 @@ class Session {
     std::string text;
     std::filesystem::path file;
   };
-  nlohmann::json hello();
+  // Handlers, in the order of protocol.json.
+  nlohmann::json hello(const nlohmann::json& fields);
   nlohmann::json open(const nlohmann::json& fields);
   nlohmann::json set(const nlohmann::json& fields);
   nlohmann::json add_variant(const nlohmann::json& fields);
@@ -65,59 +73,89 @@ class Session {
   nlohmann::json rename_variant(const nlohmann::json& fields);
   nlohmann::json paint(const nlohmann::json& fields);
   nlohmann::json region_shares(const nlohmann::json& fields);
-  nlohmann::json undo_or_redo(std::vector<Step>& from, std::vector<Step>& to);
+  nlohmann::json undo(const nlohmann::json& fields);
+  nlohmann::json redo(const nlohmann::json& fields);
   nlohmann::json move_landmark(const nlohmann::json& fields);
-  nlohmann::json landmarks_done();
-  nlohmann::json free_name(const nlohmann::json& fields);
-  nlohmann::json discard_autosave();
-  nlohmann::json save(const nlohmann::json& fields);
-  /// A name for a file or folder in the folder that the studio writes to; throws InputError.
-  static void check_save_name(const std::string& name);
-  /// Something of the user's, which is never replaced.
-  bool is_anothers(const std::filesystem::path& path) const;
+  nlohmann::json landmarks_done(const nlohmann::json& fields);
   nlohmann::json live_start(const nlohmann::json& fields);
+  nlohmann::json live_stop(const nlohmann::json& fields);
+  nlohmann::json live_neutral(const nlohmann::json& fields);
+  nlohmann::json live_record(const nlohmann::json& fields);
+  nlohmann::json live_drawn(const nlohmann::json& fields);
   nlohmann::json live_take(const nlohmann::json& fields);
-  Live& need_live();
+  nlohmann::json free_name(const nlohmann::json& fields);
+  nlohmann::json discard_autosave(const nlohmann::json& fields);
+  nlohmann::json save(const nlohmann::json& fields);
+
+  /// The open face. Throws InputError where there is none.
+  OpenFace& require_face();
+  /// The live face. Throws InputError where there is none.
+  Live& require_live();
+
+  // Opening (session_open.cpp).
+  void open_text(const std::string& text, const std::filesystem::path& file);
+  /// Reads and meshes a face and reports its warnings. Replaces the open face only if that
+  /// succeeds.
+  void make_face(const std::string& text, const std::filesystem::path& file);
+  /// A scene of a scan, moved by a recording, or by the built-in smile where there is none.
+  std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
+  /// Writes the built-in smile beside the session's scene.
+  void write_smile() const;
+  std::filesystem::path uploads() const { return options_.folder / "uploads"; }
+
+  // Changes and their history (session_edits.cpp).
+  /// Every path that the scene or one of its variants names.
+  std::vector<std::string> known_paths() const;
+  /// The scene's text with changed keys of a face.
+  std::string text_with_changes(const nlohmann::json& changes, int face);
+  void apply(const std::string& text);
+  /// Makes the text the scene and adds one step to the history.
+  void commit(const std::string& text);
+  void step_history(std::vector<Step>& from, std::vector<Step>& to);
+
+  // Files (session_files.cpp).
+  /// Throws InputError for a name that no file in the user's folder may have.
+  static void check_save_name(const std::string& name);
+  /// Whether a file is there that this session did not write. Such a file is never replaced.
+  bool is_foreign(const std::filesystem::path& path) const;
+  std::filesystem::path save_scene_file(const std::string& name);
+  /// Runs the scene. All results go into a folder, or only the report into a file.
+  std::filesystem::path save_run(const std::filesystem::path& folder);
+  std::filesystem::path save_report(const std::filesystem::path& file);
+  /// Returns `path`. Throws InputError where it is foreign.
+  std::filesystem::path require_own(const std::filesystem::path& path) const;
+  void autosave();
+
+  // Live (session_live.cpp).
   void end_live();
-  /// What the live face is made of follows the scene.
+  /// Gives the live face the scene's present tissue and drive.
   void refresh_live();
 
-  OpenFace& need_face();
-  /// Every path that the scene or a variant of it names.
-  std::vector<std::string> known_paths() const;
-  /// Reads and meshes, and says what is probably wrong; the face that is open goes only then.
-  void make_face(const std::string& text, const std::filesystem::path& file);
-  std::filesystem::path uploads() const { return options_.folder / "uploads"; }
-  /// The smile that the program carries, beside the session's scene.
-  void write_smile() const;
-  void open_text(const std::string& text, const std::filesystem::path& file);
-  /// The text becomes the scene; one step of the history.
-  void commit(const std::string& text);
-  void apply(const std::string& text);
-  /// The scene's text with the changes of a face.
-  std::string changed(const nlohmann::json& wanted, int face);
-  std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
-  void send_scene();
-  void send_shape(std::size_t face, double time_s);
+  // Background work (session.cpp).
+  void run_motion(const std::function<bool()>& cancelled);
   void expect_variant();
   void find_bands(const std::function<bool()>& cancelled);
+
+  // Events (session_events.cpp).
+  void send_scene();
+  void send_shape(std::size_t face, double time_s);
   void send_motion(Stopwatch& watch);
-  void tell(const std::string& stage, double share = -1);
-  void say(const char* level, const std::string& text);
-  void keep();
+  /// An empty stage: done. A negative share: not known.
+  void report_progress(const std::string& stage, double share = -1);
+  void log(const char* level, const std::string& text);
 
   SessionOptions options_;
   Send send_;
   std::unique_ptr<OpenFace> face_;
-  Step now_;  // what was committed last; the face may be ahead of it while a slider is dragged
+  Step now_;  ///< the last commit; the face is ahead of it while a slider is dragged
   std::vector<Step> undo_, redo_;
   bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
        saved_ = true, keeps_rescued_ = true;
   std::vector<std::filesystem::path> written_;
-  std::optional<SurfaceTree> scan_;  ///< of the face that is open, once a landmark was moved
+  std::optional<SurfaceTree> scan_;  ///< of the open face; built when a landmark is first moved
   io::Landmarks moved_;              ///< since the last landmarks_done()
   int landmark_files_ = 0, takes_ = 0;
-  mutable std::mutex live_mutex_;  // of the pointer: drawn() comes from another thread
+  mutable std::mutex live_mutex_;  ///< guards the pointer: drawn() runs on another thread
   std::unique_ptr<Live> live_;
   std::size_t live_face_ = 0;
 };

@@ -30,17 +30,17 @@ fs::path state_folder() {
   return {};
 }
 
-/// One process after the other, while it lives.
-class Turn {
+/// A lock between processes.
+class Lock {
  public:
-  explicit Turn(const fs::path& file)
+  explicit Lock(const fs::path& file)
       : file_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600)) {
     if (file_ >= 0) flock(file_, LOCK_EX);
   }
-  ~Turn() {
+  ~Lock() {
     if (file_ >= 0) close(file_);
   }
-  Turn(const Turn&) = delete;
+  Lock(const Lock&) = delete;
 
  private:
   int file_;
@@ -56,14 +56,14 @@ SessionFolder::SessionFolder() {
     make_among_temporary_files();
     return;
   }
-  // Of this user alone: uploads are faces.
+  // Readable by this user only: uploads are faces.
   fs::permissions(folder, fs::perms::owner_all, error);
-  const Turn turn(folder / ".lock");  // of studios that begin at the same time
+  const Lock lock(folder / ".lock");  // against studios that start at the same time
   fs::file_time_type youngest = fs::file_time_type::min();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (!entry.is_directory(error)) continue;
-    const InUse nobodys(entry.path());
-    if (!nobodys.held()) continue;
+    const InUse abandoned(entry.path());
+    if (!abandoned.held()) continue;
     const fs::path scene = entry.path() / "scene.toml";
     const bool there = fs::is_regular_file(scene, error);
     const auto written = fs::last_write_time(there ? scene : entry.path(), error);
@@ -79,18 +79,18 @@ SessionFolder::SessionFolder() {
   if (!error) fs::permissions(path_, fs::perms::owner_all, error);
   if (error)
     throw InputError(path_, "cannot be made (" + error.message() +
-                                "): expected a folder for what "
-                                "the studio keeps; XDG_STATE_HOME names another place");
+                                "): expected a place for the "
+                                "studio's files; set XDG_STATE_HOME to another one");
   in_use_ = std::make_unique<InUse>(path_);
 }
 
-/// Where there is no home: of this user alone, and offered to no later studio.
+/// Without a home: readable by this user only, and not offered to a later studio.
 void SessionFolder::make_among_temporary_files() {
   std::string name = (fs::temp_directory_path() / "hyperex-studio-XXXXXX").string();
   if (!mkdtemp(name.data()))
     throw InputError(name,
-                     "cannot be made: expected a folder for what the studio keeps; "
-                     "XDG_STATE_HOME names another place");
+                     "cannot be made: expected a place for the studio's files; set "
+                     "XDG_STATE_HOME to another one");
   path_ = name;
   in_use_ = std::make_unique<InUse>(path_);
 }

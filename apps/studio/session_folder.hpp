@@ -7,9 +7,9 @@
 
 namespace hyperex::studio {
 
-/// The folder of one session, for uploads and for the scene as it is: what a later session offers
-/// where this one dies. It lies in $XDG_STATE_HOME/hyperex/studio, else
-/// ~/.local/state/hyperex/studio; without a home among the temporary files.
+/// The folder of one session, for uploads and the autosaved scene, which a later session offers if
+/// this one crashes. It lies in $XDG_STATE_HOME/hyperex/studio, else ~/.local/state/hyperex/studio,
+/// else, without a home, among the temporary files.
 class SessionFolder {
  public:
   SessionFolder();
@@ -18,9 +18,9 @@ class SessionFolder {
   SessionFolder(const SessionFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// The youngest folder that a session which is no more left behind with a scene in it; empty
-  /// where there is none.
+  /// The newest folder with a scene that an ended session has left; empty where there is none.
   const std::filesystem::path& rescued() const { return rescued_; }
+  /// Keeps the folder.
   void leave() { left_ = true; }
 
  private:

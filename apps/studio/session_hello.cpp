@@ -51,14 +51,14 @@ json keys_json() {
   for (const scene::Key& key : scene::keys()) {
     json one = {{"name", key.name},
                 {"kind", kind_name(key.kind)},
-                {"unit", key.unit},
+                {"unit", key.unit.name},
                 {"choices", key.choices},
                 {"description", key.description},
                 {"default", key.get ? key.get(defaults) : json()}};
-    if (key.range.low < key.range.high) {
-      one["low"] = key.range.low;
-      one["high"] = key.range.high;
-      one["above_low"] = key.range.above_low;
+    if (key.range.least < key.range.most) {
+      one["low"] = key.range.least;
+      one["high"] = key.range.most;
+      one["above_low"] = key.range.above_least;
       one["or_zero"] = key.range.or_zero;
     }
     out.push_back(std::move(one));
@@ -95,7 +95,7 @@ json regions_json() {
   return out;
 }
 
-/// What a session left behind, and when.
+/// The work of a crashed session, and its age; null where there is none.
 json rescued_json(const fs::path& folder) {
   const fs::path file = folder / "scene.toml";
   std::error_code error;
@@ -104,7 +104,7 @@ json rescued_json(const fs::path& folder) {
   try {
     title = scene::parse_toml(read_file(file)).root.value("title", "");
   } catch (const std::exception&) {
-    // Opening it will say what is wrong.
+    // Opening it reports the error.
   }
   const auto age = fs::file_time_type::clock::now() - fs::last_write_time(file, error);
   return {{"title", title},
@@ -113,10 +113,10 @@ json rescued_json(const fs::path& folder) {
 
 }  // namespace
 
-json Session::hello() {
+json Session::hello(const json&) {
   face_sent_ = false;
   motion_due_ = face_ != nullptr;
-  // A slider that was held when the page went is let go.
+  // A slider that was held when the page closed is released.
   if (face_ && face_->text() != now_.text) apply(now_.text);
   return {{"program", options_.program},
           {"keys", keys_json()},

@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 json Session::move_landmark(const json& fields) {
-  const io::Landmarks& known = need_face().inputs().landmarks;
+  const io::Landmarks& known = require_face().inputs().landmarks;
   const std::string name = fields.at("name");
   if (!known.count(name)) throw InputError(name + ": no landmark of this face");
   const io::Scan& scan = face_->inputs().scan;
@@ -37,15 +37,15 @@ json Session::move_landmark(const json& fields) {
   io::Landmarks all = known;
   for (const auto& [one, place] : moved_) all[one] = place;
   const Vec3 now = all.at(name);
-  if (names.size() > 1) all.erase(names[1]);  // said once, by the name that was asked for
+  if (names.size() > 1) all.erase(names[1]);  // one doubt per place, under the requested name
   return {{"position", {now.x(), now.y(), now.z()}},
-          {"warnings", anatomy::landmark_doubts(all, scan.mesh)}};
+          {"warnings", texts_of(anatomy::landmark_doubts(all, scan.mesh))}};
 }
 
-json Session::landmarks_done() {
-  io::Landmarks all = need_face().inputs().landmarks;
+json Session::landmarks_done(const json&) {
+  io::Landmarks all = require_face().inputs().landmarks;
   for (const auto& [name, place] : moved_) all[name] = place;
-  // A name of its own each time: undo goes back to the one before.
+  // A new name each time, so that undo finds the previous file.
   const fs::path file = options_.folder / fmt::format("landmarks-{}.mrk.json", ++landmark_files_);
   io::write_landmarks(file, all, face_->inputs().scan.unit);
   std::string text = scene::with_value(now_.text, "scan.landmarks", file.string());

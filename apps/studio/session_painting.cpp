@@ -10,17 +10,17 @@ namespace hyperex::studio {
 using nlohmann::json;
 
 json Session::paint(const json& fields) {
-  const tissue::TissueMesh& mesh = need_face().mesh();
+  const tissue::TissueMesh& mesh = require_face().session().mesh();
   return {{"file", write_painting(mesh, fields.at("vertices"), fields.at("shares"), uploads())}};
 }
 
 json Session::region_shares(const json& fields) {
-  need_face();
+  require_face();
   json row = fields.at("region");
   if (!row.is_object()) throw InputError("region: expected a row of tissue.region");
   for (const char* key : {"young_kpa", "viscosity_pa_s", "poisson", "density_kg_m3"})
     row.erase(key);
-  row["young_factor"] = 2;  // some change; its share is asked for
+  row["young_factor"] = 2;  // any change: only its share matters
   const json rows = with_uploads("tissue.region", json::array({row}), uploads(), known_paths());
   const Eigen::VectorXf shares =
       face_->region_shares(scene::with_value(now_.text, "tissue.region", rows)).cast<float>();

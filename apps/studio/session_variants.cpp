@@ -12,8 +12,8 @@ using nlohmann::json;
 
 namespace {
 
-/// A name for a face, in words for whoever gave it; `others`: all variants but the one that it is
-/// for.
+/// Throws InputError, in terms of the page, for a name that the face may not have. `others`: the
+/// blocks of all other variants.
 void check_face_name(const std::string& name, const std::vector<json>& others) {
   if (!scene::is_variant_name(name))
     throw InputError(
@@ -36,7 +36,7 @@ json Session::add_variant(const json& fields) {
   block["name"] = fields.at("name");
   if (const std::string preset = fields.value("preset", ""); !preset.empty())
     block["preset"] = preset;
-  if (block.size() == 1) block["motion"]["gain"] = values_of(need_face().scene())["motion.gain"];
+  if (block.size() == 1) block["motion"]["gain"] = values_of(require_face().scene())["motion.gain"];
   blocks.push_back(block);
   commit(scene::with_variants(now_.text, blocks));
   return {{"face", blocks.size()}};

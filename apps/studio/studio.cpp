@@ -29,9 +29,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A page that leads to the address, which only this user can read: what is on a command line every
-/// user of the machine can.
-std::string door(const std::string& address, const fs::path& folder) {
+/// A page that forwards to the address and that only this user can read: other users of the machine
+/// can see a command line, and with it the token. Returns its URL.
+std::string redirect_page(const std::string& address, const fs::path& folder) {
   const fs::path file = folder / "open.html";
   write_file_atomically(file, [&](std::ostream& out) {
     out << "<!doctype html><meta http-equiv=\"refresh\" content=\"0;url=" << address << "\">\n";
@@ -40,7 +40,7 @@ std::string door(const std::string& address, const fs::path& folder) {
   return "file://" + file.string();
 }
 
-/// By the desktop's own opener, which may not be there.
+/// Uses the desktop's opener, which may be missing.
 void open_browser(std::string address) {
   std::string program = "xdg-open";
   char* arguments[] = {program.data(), address.data(), nullptr};
@@ -49,7 +49,7 @@ void open_browser(std::string address) {
   posix_spawn_file_actions_init(&quiet);
   posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", 1, 0);
   posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", 1, 0);
-  posix_spawnattr_t own_session;  // Ctrl+C here must not end the browser
+  posix_spawnattr_t own_session;  // so that Ctrl+C here does not end the browser
   posix_spawnattr_init(&own_session);
   posix_spawnattr_setflags(&own_session, POSIX_SPAWN_SETSID);
   if (posix_spawnp(&child, program.c_str(), &quiet, &own_session, arguments, environ) != 0)
@@ -58,11 +58,11 @@ void open_browser(std::string address) {
   posix_spawn_file_actions_destroy(&quiet);
 }
 
-/// A slider that is held goes on within this time, or is let go, which is another request. Until
-/// then the whole motion would only be in the way of the next shape.
+/// A slider that is held moves again within this time or is released, which is another request.
+/// Until then computing the whole motion would only delay the next shape.
 constexpr std::chrono::milliseconds kHeldFor{500};
 
-/// Takes requests out of the queue and works while none waits.
+/// Answers requests of the queue, and works while none waits.
 void answer_all(RequestQueue& queue, Session& session, Server& server) {
   bool held = false;
   while (!queue.closed()) {
@@ -81,17 +81,58 @@ void answer_all(RequestQueue& queue, Session& session, Server& server) {
   }
 }
 
+/// Puts a message of the page into the queue. Answers it here only where it is no sound request, or
+/// must neither wait nor interrupt what is computed.
+void receive(const std::string& text, RequestQueue& queue, Session& session, Server& server) {
+  std::int64_t id = -1;
+  try {
+    Request request = read_request(text, id);
+    if (request.name == "live_drawn") {
+      session.drawn(request.fields.at("frame"));
+      server.send(json{{"answer", id}}.dump(), false);
+    } else if (!queue.push(std::move(request))) {
+      throw InputError("too many requests wait");
+    }
+  } catch (const InputError& error) {
+    const json answer = {{"answer", id}, {"error", error.what()}};
+    server.send(answer.dump(-1, ' ', false, json::error_handler_t::replace), false);
+  }
+}
+
+SessionOptions session_options(const StudioOptions& options, const SessionFolder& folder) {
+  return {.started = options.started.empty() ? fs::path() : fs::absolute(options.started),
+          .save_into = fs::absolute(options.save_into).lexically_normal(),
+          .folder = folder.path(),
+          .rescued = folder.rescued(),
+          .program = "Hyperex " + options.version,
+          .device = options.device,
+          .mirrored = options.mirrored,
+          .kept = options.kept};
+}
+
+/// Keeps the session's folder where it holds unsaved work, and the rescued one likewise.
+void leave_unsaved_work(const Session& session, SessionFolder& folder) {
+  if (!session.keeps_rescued()) {
+    std::error_code ignored;
+    fs::remove_all(folder.rescued(), ignored);
+  }
+  if (session.saved()) return;
+  folder.leave();
+  std::cerr << "Unsaved work is kept: the next studio offers to open it.\n";
+}
+
 }  // namespace
 
 void run_studio(const StudioOptions& options) {
   if (!options.started.empty() && !fs::is_regular_file(options.started))
     throw InputError(options.started, "no such file: expected a scene (.toml) or a scan");
   if (!fs::is_directory(options.save_into))
-    throw InputError(options.save_into, "no such folder: expected one that saved files go into");
+    throw InputError(options.save_into, "no such folder: expected one for saved files");
   const StopOnRequest stop;
   SessionFolder folder;
   RequestQueue queue;
   std::unique_ptr<Server> server;
+  std::unique_ptr<Session> session;
   ServerOptions how;
   how.page = report::page_template(report::Page::studio);
   how.token = new_token();
@@ -99,56 +140,25 @@ void run_studio(const StudioOptions& options) {
   how.uploads = folder.path() / "uploads";
   fs::create_directory(how.uploads);
   ServerEvents events;
-  std::unique_ptr<Session> session;
-  events.request = [&](const std::string& text) {
-    std::int64_t id = -1;
-    try {
-      Request request = read_request(text, id);
-      if (request.name == "live_drawn") {  // must not wait, nor break off what is computed
-        session->drawn(request.fields.at("frame"));
-        server->send(json{{"answer", id}}.dump(), false);
-        return;
-      }
-      if (!queue.push(std::move(request))) throw InputError("too many requests wait");
-    } catch (const InputError& error) {
-      server->send(json{{"answer", id}, {"error", error.what()}}.dump(
-                       -1, ' ', false, json::error_handler_t::replace),
-                   false);
-    }
-  };
+  events.request = [&](const std::string& text) { receive(text, queue, *session, *server); };
   events.uploaded = [](const std::string& name) { spdlog::info("uploaded: {}", name); };
   server = std::make_unique<Server>(std::move(how), std::move(events));
-  session = std::make_unique<Session>(
-      SessionOptions{
-          .started = options.started.empty() ? fs::path() : fs::absolute(options.started),
-          .save_into = fs::absolute(options.save_into).lexically_normal(),
-          .folder = folder.path(),
-          .rescued = folder.rescued(),
-          .program = "Hyperex " + options.version,
-          .device = options.device,
-          .mirrored = options.mirrored,
-          .kept = options.kept},
-      [&](std::string message, bool binary, const std::string& replaces) {
-        server->send(std::move(message), binary, replaces);
-      });
+  session =
+      std::make_unique<Session>(session_options(options, folder),
+                                [&](std::string message, bool binary, const std::string& replaces) {
+                                  server->send(std::move(message), binary, replaces);
+                                });
   std::thread network([&] { server->run(); });
   std::thread worker([&] { answer_all(queue, *session, *server); });
   std::cout << server->address() << std::endl;
-  std::cerr << "The studio is open at this address on this machine alone; Ctrl+C ends it.\n";
-  if (options.open_browser) open_browser(door(server->address(), folder.path()));
+  std::cerr << "The studio is open at this address, on this machine only; Ctrl+C ends it.\n";
+  if (options.open_browser) open_browser(redirect_page(server->address(), folder.path()));
   while (!stop.requested()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   queue.close();
   worker.join();
   server->stop();
   network.join();
-  if (!session->keeps_rescued()) {
-    std::error_code ignored;
-    fs::remove_all(folder.rescued(), ignored);
-  }
-  if (!session->saved()) {
-    folder.leave();
-    std::cerr << "What was not saved is kept: the next studio offers it.\n";
-  }
+  leave_unsaved_work(*session, folder);
 }
 
 }  // namespace hyperex::studio

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// hyperex studio: a server, and one thread that answers what comes in through it.
+// hyperex studio: a server, and one thread that answers its requests.
 #include <filesystem>
 #include <string>
 
@@ -9,18 +9,18 @@
 namespace hyperex::studio {
 
 struct StudioOptions {
-  std::filesystem::path started;    ///< a scene or a scan; empty: the face that the program carries
+  std::filesystem::path started;    ///< a scene or a scan; empty: the embedded face
   std::filesystem::path save_into;  ///< where saved files go
-  unsigned short port = 0;          ///< 0: one that is free
+  unsigned short port = 0;          ///< 0: any free one
   bool open_browser = true;
   std::string device;     ///< a camera (capture::open_device); empty: none
-  bool mirrored = false;  ///< its pictures are a mirror's
+  bool mirrored = false;  ///< its pictures are mirrored
   std::string version;
   KeptResults kept;
 };
 
 /// Serves until it is interrupted. Prints the address on standard output. Throws InputError where
-/// it cannot begin.
+/// it cannot start.
 void run_studio(const StudioOptions& options);
 
 }  // namespace hyperex::studio

@@ -5,10 +5,10 @@
 
 namespace hyperex::studio {
 
-/// 128 random bits of the system's generator as 32 hexadecimal digits.
+/// 128 random bits of the system's generator, as 32 hexadecimal digits. Throws NumericalError.
 std::string new_token();
 
-/// Takes as long for a guess that is nearly right as for one that is wrong from the start.
+/// Compares in a time that does not depend on where the texts differ.
 bool same_token(std::string_view given, std::string_view own);
 
 }  // namespace hyperex::studio

@@ -10,19 +10,26 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/midsagittal.hpp"
-#include "hyperex/session/simulation_options.hpp"
 
 namespace hyperex::bench {
+namespace {
+
+/// The experiments state what drives them; where a scene does not, its default holds.
+scene::Scene with_own_drive(scene::Scene scene) {
+  scene.origins.emplace("drive.by", scene::Origin{scene.file, 0});
+  return scene;
+}
+
+}  // namespace
 
 Study::Study(const std::filesystem::path& scene, const std::vector<std::string>& overrides)
-    : scene_(scene::read_scene(scene, overrides)),
-      inputs_(session::read_inputs(scene_)),
-      mesh_(std::make_shared<const tissue::TissueMesh>(tissue::build_tissue_mesh(
-          inputs_.scan.mesh, inputs_.landmarks, scene_.mesh, inputs_.scan.file.string()))),
-      frame_(face::face_frame(inputs_.landmarks)),
-      fields_(inputs_, *mesh_),
-      base_(mesh_, inputs_.landmarks, inputs_.motion,
-            session::simulation_options(scene_, inputs_)) {
+    : scene_(with_own_drive(scene::read_scene(scene, overrides))),
+      session_(scene_, {.certainty = session::Certainty::on_request}),
+      frame_(face::face_frame(session_.inputs().landmarks)),
+      base_(session_.simulator()) {
+  simulate::SimulationOptions options = base_.options();
+  options.tissue.element = {};  // every trial has its own
+  base_.set_options(std::move(options));
   base_.run();
 }
 
@@ -31,11 +38,11 @@ std::string Study::name() const {
 }
 
 Tissue Study::tissue_of(const scene::Scene& scene) {
-  if (const auto field = fields_.of(scene)) return field->element;
-  const auto uniform = tissue::uniform_parameters(scene.tissue);
-  Tissue tissue;
+  const simulate::TissueValues values = session_.tissue_of(scene);
+  Tissue tissue = values.element;
   for (int p = 0; p < tissue::parameter_count; ++p)
-    tissue[p].assign(std::size_t(mesh_->volume.tets.rows()), uniform[p]);
+    if (tissue[p].empty())
+      tissue[p].assign(std::size_t(mesh().volume.tets.rows()), values.uniform[p]);
   return tissue;
 }
 
@@ -93,14 +100,14 @@ void Study::simulate_all(
 }
 
 metrics::SymmetryCurve Study::symmetry_of(const motion::Motion& landmarks) const {
-  return metrics::symmetry_of(landmarks, scene_.output.symmetry_floor, inputs_.jitter_m);
+  return metrics::symmetry_of(landmarks, scene_.output.symmetry_floor, inputs().jitter_m);
 }
 
 simulate::AlignedMotion Study::mirrored_motion() const {
   const metrics::MidsagittalPlane plane =
-      metrics::midsagittal_plane(inputs_.scan.mesh, inputs_.landmarks);
-  simulate::AlignedMotion mirrored = inputs_.motion;
-  const motion::Motion& from = inputs_.motion.motion;
+      metrics::midsagittal_plane(inputs().scan.mesh, inputs().landmarks);
+  simulate::AlignedMotion mirrored = inputs().motion;
+  const motion::Motion& from = inputs().motion.motion;
   for (std::size_t p = 0; p < from.names.size(); ++p) {
     const int other = from.index_of(face::mirrored_landmark(from.names[p]));
     if (other < 0) continue;  // without a counterpart it moves as it did

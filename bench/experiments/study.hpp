@@ -9,8 +9,9 @@
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/symmetry.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
-#include "hyperex/session/tissue_fields.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 
 namespace hyperex::bench {
@@ -36,8 +37,8 @@ class Study {
   Study& operator=(const Study&) = delete;
 
   const scene::Scene& scene() const { return scene_; }
-  const session::Inputs& inputs() const { return inputs_; }
-  const tissue::TissueMesh& mesh() const { return *mesh_; }
+  const session::Inputs& inputs() const { return session_.inputs(); }
+  const tissue::TissueMesh& mesh() const { return session_.mesh(); }
   const face::FaceFrame& frame() const { return frame_; }
   bool embedded() const { return scene_.scan.source.embedded; }
   /// "embedded face", "subject A"
@@ -69,10 +70,8 @@ class Study {
   simulate::SimulationOptions options_of(const Trial& trial) const;
 
   scene::Scene scene_;
-  session::Inputs inputs_;
-  std::shared_ptr<const tissue::TissueMesh> mesh_;
+  session::FaceSession session_;
   face::FaceFrame frame_;
-  session::TissueFields fields_;
   simulate::Simulator base_;  // has run: what every trial begins with
 };
 

@@ -244,9 +244,6 @@ def write_python(file, stub, module):
     page = [title("Python API"),
             ".. py:module:: hyperex\n\nThe names of ``import hyperex``, made from the module's type stub and its "
             "docstrings. How they are used, with programs: :doc:`/docs/python`. Arrays are NumPy's, in SI units.\n\n"]
-    short = [(node.targets[0].id, ast.unparse(node.value)) for node in ast.parse(text).body if isinstance(node, ast.Assign)]
-    page.append("Names that stand for longer types:\n\n"
-                + "".join(f"* ``{name}``: ``{meaning}``\n" for name, meaning in short) + "\n")
     seen = set()
     for node in ast.parse(text).body:
         for number in [n for n in groups if n < node.lineno]:

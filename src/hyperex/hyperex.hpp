@@ -3,6 +3,9 @@
 // All that a program of your own needs (docs/library.md): from a scan and a recorded motion to the
 // moving face and its measures. Needs Eigen; SI units throughout.
 
+// The front door: a face from its inputs to its results.
+#include "hyperex/session/face_session.hpp"
+
 // In: scans, landmarks, motions.
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/remarks.hpp"

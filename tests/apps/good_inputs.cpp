@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "apps/good_inputs.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -48,14 +49,24 @@ io::Landmarks good_landmarks() {
   return anatomy::embedded_face().landmarks;
 }
 
+void write_opening(const fs::path& folder, std::size_t first, std::size_t count,
+                   const std::function<void(motion::Motion&)>& change) {
+  motion::Motion m = motion::embedded_mouth_opening(good_landmarks());
+  const auto cut = [&](auto& samples) {
+    samples.erase(samples.begin(), samples.begin() + long(first));
+    samples.resize(std::min(count, samples.size()));
+  };
+  cut(m.time_s);
+  cut(m.positions);
+  change(m);
+  motion::write_motion_csv(folder / "motion.csv", m);
+}
+
 void write_good_inputs(const fs::path& folder) {
   const auto face = anatomy::embedded_face();
   write_mm(folder / "face.ply", face.mesh);
   io::write_landmarks(folder / "face_landmarks.json", face.landmarks, io::LengthUnit::millimetre);
-  motion::Motion opening = motion::embedded_mouth_opening(face.landmarks);
-  opening.time_s.resize(16);
-  opening.positions.resize(16);
-  motion::write_motion_csv(folder / "motion.csv", opening);
+  write_opening(folder, 0, 16);
   put(folder / "scene.toml",
       "[scan]\n"
       "file = \"face.ply\"\n"
@@ -71,7 +82,7 @@ void write_good_inputs(const fs::path& folder) {
       "end_s = 0.2\n"
       "frame_rate_hz = 10\n"
       "[output]\n"
-      "contact_times_s = [0.1]\n");
+      "picture_times_s = [0.1]\n");
 }
 
 }  // namespace hyperex

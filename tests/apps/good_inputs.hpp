@@ -3,16 +3,23 @@
 // A scan, its landmarks, a recording and a scene that the program takes, made of the face that it
 // carries: the ground on which a test spoils one thing.
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/motion/motion.hpp"
 
 namespace hyperex {
 
 /// Writes face.ply (mm, binary), face_landmarks.json (mm), motion.csv (mm, 30 Hz, 0.5 s) and
 /// scene.toml (coarse and short: a run takes a second) into `folder`.
 void write_good_inputs(const std::filesystem::path& folder);
+
+/// Writes motion.csv anew: at most `count` samples of the mouth opening from `first` on, changed.
+void write_opening(
+    const std::filesystem::path& folder, std::size_t first, std::size_t count,
+    const std::function<void(motion::Motion&)>& change = [](motion::Motion&) {});
 
 TriMesh good_face();             ///< metres
 io::Landmarks good_landmarks();  ///< metres

@@ -26,7 +26,7 @@ class Sweep : public GoodInputs {
     std::ofstream(in("study.toml"))
         << "scene = \"base.toml\"\nout = \"out\"\n"
            "set = { mesh.element_size_mm = 9, motion.time_scale = 0.1, output.vtu = false, "
-           "output.glb = false, output.report = false, output.contact_times_s = [0] }\n"
+           "output.glb = false, output.report = false, output.picture_times_s = [0] }\n"
         << rest;
   }
   std::vector<std::string> column(const std::string& name) const {
@@ -60,7 +60,7 @@ TEST_F(Sweep, RunsEachCaseOnceAndMakesATable) {
   const Outcome alone = call(
       "run base.toml --out alone --set mesh.element_size_mm=9 --set motion.time_scale=0.1 --set "
       "output.vtu=false --set output.glb=false --set output.report=false --set "
-      "'output.contact_times_s=[0]' --set tissue.viscosity_pa_s=5000");
+      "'output.picture_times_s=[0]' --set tissue.viscosity_pa_s=5000");
   ASSERT_EQ(alone.status, 0) << alone.err;
   const auto summary = nlohmann::ordered_json::parse(read_file(in("alone/summary.json")));
   EXPECT_EQ(column("max_displacement_mm")[1], summary["max_displacement_mm"].dump());

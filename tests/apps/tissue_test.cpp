@@ -22,7 +22,7 @@ class Tissue : public ProgramTest {
         call("run '" HYPEREX_SOURCE_DIR "/examples/" + example + ".toml' --out " + example +
              " --set time.end_s=0.7 --set mesh.element_size_mm=5"
              " --set output.vtu=false --set output.glb=false"
-             " --set output.report=false --set 'output.contact_times_s=[0]'");
+             " --set output.report=false --set 'output.picture_times_s=[0]'");
     EXPECT_EQ(run.status, 0) << run.err;
     const auto scalars = io::read_ply_scalars(in(example + "/skin_peak.ply"));
     return scalars.at(0).values;

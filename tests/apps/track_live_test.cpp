@@ -15,7 +15,7 @@ namespace hyperex {
 namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-const fs::path recording = fs::path(HYPEREX_SHARED_DIR) / "data/rgbd/subject_A_talk";
+const fs::path talk_recording = fs::path(HYPEREX_SHARED_DIR) / "data/rgbd/subject_A_talk";
 
 std::vector<std::vector<std::string>> table(const fs::path& file) {
   std::vector<std::vector<std::string>> rows;
@@ -32,13 +32,13 @@ class TrackLive : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    if (!fs::exists(recording)) GTEST_SKIP() << "no " << recording;
+    if (!fs::exists(talk_recording)) GTEST_SKIP() << "no " << talk_recording;
   }
 };
 
 TEST_F(TrackLive, EndsAfterSomeSecondsAndSaysWhatWasDropped) {
   const Outcome outcome =
-      call("track --device play:" + recording.string() + " --seconds 2 --out m.csv");
+      call("track --device play:" + talk_recording.string() + " --seconds 2 --out m.csv");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("live: "), HasSubstr(" dropped")));
   const auto pose = table(in("m.pose.csv"));
@@ -57,7 +57,8 @@ TEST_F(TrackLive, EndsAfterSomeSecondsAndSaysWhatWasDropped) {
 }
 
 TEST_F(TrackLive, WhenInterruptedWhatWasTrackedIsWritten) {
-  const std::string device = "play:" + recording.string(), out = in("m.csv"), err = in("err.txt");
+  const std::string device = "play:" + talk_recording.string(), out = in("m.csv"),
+                    err = in("err.txt");
   const pid_t program = ::fork();
   if (program == 0) {
     const int to = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -80,7 +81,7 @@ TEST_F(TrackLive, WhenInterruptedWhatWasTrackedIsWritten) {
 }
 
 TEST_F(TrackLive, RefusesWhatDoesNotGoTogether) {
-  const std::string folder = recording.string();
+  const std::string folder = talk_recording.string();
   for (const auto& [arguments, words] :
        {std::pair{"track " + folder + " --device kinect --out m.csv", "excludes"},
         {"track " + folder + " --seconds 2 --out m.csv", "--seconds is for a camera"},

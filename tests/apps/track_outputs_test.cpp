@@ -42,7 +42,7 @@ TEST_F(TrackOutputs, AVideosMirrorIsTakenAsNone) {
   for (int frame = 0; frame < 3; ++frame) video.add(cv::Mat(48, 64, CV_8UC3, cv::Scalar(90)));
   video.finish();
   const Outcome unsaid = call("track v.mp4 --out m.csv");
-  EXPECT_THAT(unsaid.err, HasSubstr("v.mp4: taken as not mirrored"));
+  EXPECT_THAT(unsaid.err, HasSubstr("v.mp4: assumed not mirrored"));
   std::ofstream(in("torn.mp4")) << "no video";
   EXPECT_THAT(call("track torn.mp4 --out m.csv").err, Not(HasSubstr("mirrored")));
   for (const char* said : {"yes", "no"})

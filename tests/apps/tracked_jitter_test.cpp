@@ -44,16 +44,16 @@ double true_jitter_m(const motion::Motion& tracked, const motion::Motion& truth,
 }
 
 TEST_P(TrackedJitter, IsEstimatedFromTheFileAlone) {
-  const fs::path recording = kRecordings / GetParam();
-  if (!fs::exists(recording)) GTEST_SKIP() << "no " << recording;
-  ASSERT_EQ(call("track '" + recording.string() + "' --out m.csv").status, 0);
-  put(in("run.toml"), "scan.file = \"embedded\"\nmotion.recording = '" + recording.string() +
+  const fs::path recorded = kRecordings / GetParam();
+  if (!fs::exists(recorded)) GTEST_SKIP() << "no " << recorded;
+  ASSERT_EQ(call("track '" + recorded.string() + "' --out m.csv").status, 0);
+  put(in("run.toml"), "scan.file = \"embedded\"\nmotion.recording = '" + recorded.string() +
                           "'\nmesh.element_size_mm = 10\nmesh.layers = 1\n"
                           "time = { step_s = 0.05, end_s = 0.2 }\noutput = { glb = false, report = "
                           "false }\n");
   const motion::Motion tracked = motion::stabilise(motion::read_motion(in("m.csv"))).motion;
   const motion::Motion truth =
-      motion::stabilise(motion::read_motion(recording / "truth_landmarks68_camera_m.csv")).motion;
+      motion::stabilise(motion::read_motion(recorded / "truth_landmarks68_camera_m.csv")).motion;
   std::vector<int> columns;
   for (const int k : {48, 54, 36, 45, 40, 41, 46, 47, 31, 35, 50, 52})
     columns.push_back(tracked.index_of("ibug68_" + std::to_string(k)));

@@ -20,7 +20,7 @@ class Variants : public ProgramTest {
         call("run '" HYPEREX_SOURCE_DIR "/examples/variants.toml' --out " + out +
              " --set motion.time_scale=0.25 --set mesh.element_size_mm=7 --set output.vtu=false"
              " --set output.glb=false --set output.report=false"
-             " --set 'output.contact_times_s=[0]' " +
+             " --set 'output.picture_times_s=[0]' " +
              more);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
@@ -56,7 +56,7 @@ TEST_F(Variants, ColumnsOfASideHoldThatSide) {
   std::ofstream(in("cheeks.toml"))
       << "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\", time_scale = 0.25 }\n"
          "mesh = { element_size_mm = 7 }\n"
-         "output = { vtu = false, glb = false, report = false, contact_times_s = [0] }\n"
+         "output = { vtu = false, glb = false, report = false, picture_times_s = [0] }\n"
          "[[variant]]\nname = \"right\"\n"
          "tissue = { region = [{ name = \"cheek_R\", young_factor = 10 }] }\n"
          "[[variant]]\nname = \"left\"\n"
@@ -88,11 +88,11 @@ TEST_F(Variants, ColumnsOfASideHoldThatSide) {
   }
 }
 
-struct Fault {
+struct VariantFault {
   const char *name, *block, *line;
 };
 
-class FaultyVariant : public ProgramTest, public testing::WithParamInterface<Fault> {};
+class FaultyVariant : public ProgramTest, public testing::WithParamInterface<VariantFault> {};
 
 TEST_P(FaultyVariant, IsRefusedInOneLineBeforeAnythingIsSimulated) {
   std::ofstream(in("scene.toml"))
@@ -112,31 +112,31 @@ TEST_P(FaultyVariant, IsRefusedInOneLineBeforeAnythingIsSimulated) {
 INSTANTIATE_TEST_SUITE_P(
     Variant, FaultyVariant,
     testing::Values(
-        Fault{"Point", "drive = { points = [\"nobody\"] }\n",
+        VariantFault{"Point", "drive = { points = [\"nobody\"] }\n",
               "drive.points = [\"nobody\"]: expected names of points in the recording embedded "
               "motion (nobody is none)"},
-        Fault{"Region", "tissue = { region = [{ name = \"cheek_Q\", young_factor = 2 }] }\n",
+        VariantFault{"Region", "tissue = { region = [{ name = \"cheek_Q\", young_factor = 2 }] }\n",
               "tissue.region[0].name = \"cheek_Q\": expected the name of a region (hyperex presets "
               "lists "
               "them); did you mean cheek?"},
-        Fault{"SideOfARegion",
+        VariantFault{"SideOfARegion",
               "tissue = { region = [{ name = \"right_cheek\", young_factor = 2 }] }\n",
               "tissue.region[0].name = \"right_cheek\": expected the name of a region (hyperex "
               "presets "
               "lists them); did you mean cheek_R?"},
-        Fault{"Side",
+        VariantFault{"Side",
               "tissue = { point = [{ landmark = \"cheek_R\", side = \"L\", young_kpa = 5 }] }\n",
               "tissue.point[0].side = \"L\": expected \"R\" or none"},
-        Fault{
+        VariantFault{
             "Empty",
             "tissue = { region = [{ scar_points_mm = [[500, 0, 0], [510, 0, 0]], young_factor = 2 "
             "}] }\n",
             "tissue.region[0].scar_points_mm"},
-        Fault{"Indefinite", "tissue = { region = [{ name = \"cheek_R\", poisson_factor = 2 }] }\n",
+        VariantFault{"Indefinite", "tissue = { region = [{ name = \"cheek_R\", poisson_factor = 2 }] }\n",
               "tissue.region[0].poisson_factor = 2.0: expected Poisson's ratio to stay from"},
-        Fault{"Negative", "tissue = { young_kpa = -3 }\n",
+        VariantFault{"Negative", "tissue = { young_kpa = -3 }\n",
               "tissue.young_kpa = -3: expected a number from 0.001"},
-        Fault{"NotToVary", "mesh = { layers = 3 }\n",
+        VariantFault{"NotToVary", "mesh = { layers = 3 }\n",
               "mesh.layers = 3: expected a key of what may vary"}),
     [](const auto& fault) { return std::string(fault.param.name); });
 

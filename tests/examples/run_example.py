@@ -17,7 +17,7 @@ full = "--full" in sys.argv[5:]
 
 # A coarse mesh, a quarter of the time, the figures alone.
 SHORT = ["mesh.element_size_mm=8", "output.vtu=false", "output.glb=false", "output.report=false",
-         "output.contact_times_s=[0]"]
+         "output.picture_times_s=[0]"]
 # The time of a scene that says its own, and of a recording, which is tracked as it is.
 END_S = {"recorded_smile": 0.8}
 

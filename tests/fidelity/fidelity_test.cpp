@@ -93,7 +93,7 @@ class Fidelity : public ProgramTest {
     fs::remove_all(in("out"));
     const Outcome run =
         call(fmt::format("run '{}' --out out --set output.vtu=false --set output.glb=false --set "
-                         "output.report=false --set 'output.contact_times_s=[0]'{}{}",
+                         "output.report=false --set 'output.picture_times_s=[0]'{}{}",
                          scene.string(), peak, more));
     if (run.status != 0) throw std::runtime_error(run.err);
     const Outcome compared = call(fmt::format(

@@ -16,7 +16,7 @@ namespace hyperex::fuzz {
 namespace {
 namespace fs = std::filesystem;
 
-std::uint64_t mutations() {
+std::uint64_t program_mutations() {
   const char* text = std::getenv("HYPEREX_PROGRAM_MUTATIONS");
   return text == nullptr ? 4 : std::strtoull(text, nullptr, 10);
 }
@@ -36,7 +36,7 @@ class MutatedInProgram : public ProgramTest {
 
   /// `name`: where the input goes; `command` reads it and, if at all, writes out.csv.
   void try_reader(const std::string& format, const std::string& name, const std::string& command) {
-    for (std::uint64_t number = 0; number < mutations(); ++number) {
+    for (std::uint64_t number = 0; number < program_mutations(); ++number) {
       // Others than the readers' own test takes first.
       put(name, mutated(reader(format).seeds, 1000000 + number));
       const std::set<std::string> before = files();

@@ -189,7 +189,7 @@ Seeds scene_seeds() {
       "[drive]\npoints = [\"ibug68_48\", \"ibug68_54\"]\n[[variant]]\nname = \"stiff\"\n"
       "tissue = { young_kpa = 400, density_kg_m3 = 1_000 }\n",
       "scan.file = 'embedded'\nmotion.file = \"\"\"embedded\"\"\"\noutput.vtu = false\n"
-      "output.contact_times_s = [0.1, 0.2]\ntime.end_s = 1 # s\n"};
+      "output.picture_times_s = [0.1, 0.2]\ntime.end_s = 1 # s\n"};
 }
 
 Seeds camera_seeds() {

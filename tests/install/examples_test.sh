@@ -18,17 +18,21 @@ build() {  # FOLDER FLAGS
 }
 build build ""
 for program in programs/*.cpp; do  # those that are run below
-  [[ " first_run own_mesh stiffness_sweep " == *" $(basename "$program" .cpp) "* ]] || said "$program is not run here"
+  [[ " first_run own_mesh stiffness_sweep what_if " == *" $(basename "$program" .cpp) "* ]] || said "$program is not run here"
 done
 build/first_run > first.txt 2> /dev/null
 build/stiffness_sweep > sweep.csv
 build/own_mesh > own.txt
+build/what_if "$source/examples/mouth_open.toml" tissue.young_kpa 300 after.glb > what_if.txt
 cat first.txt sweep.csv
 
 # The same numbers as those of `hyperex run examples/mouth_open.toml`.
 read -r left right < <(awk -F, '$1 == "cheilion" { printf "%.2f %.2f\n", $2, $3 }' "$demo/excursions.csv")
 grep -qx "excursion of the corners: left $left mm, right $right mm" first.txt ||
   said "the program's corners travel $left and $right mm"
+grep -qx "base: corners of the mouth left $left mm, right $right mm" what_if.txt ||
+  { cat what_if.txt; said "the session's corners do not travel $left and $right mm"; }
+[[ $(wc -l < what_if.txt) == 2 && -s after.glb ]] || said "the session gave no second face"
 # Five rows; stiffer tissue does not give the same.
 [[ $(wc -l < sweep.csv) == 6 ]] || said "the sweep is not whole"
 [[ $(tail -n +2 sweep.csv | cut -d, -f2 | sort -u | wc -l) == 5 ]] || said "stiffness changes nothing"

@@ -11,7 +11,7 @@ cp -r "$1/apps/hyperex" "$work/apps/"
 cp -r "$1/src/hyperex" "$work/src/"
 echo '#include "hyperex/scene/scene.hpp"' >> "$work/src/hyperex/io/scan.cpp"
 echo '#include "hyperex/simulate/run/simulator.hpp"' >> "$work/src/hyperex/simulate/drive/drive.cpp"
-echo '#include "hyperex/run/pipeline.hpp"' >> "$work/src/hyperex/session/inputs.cpp"
+echo '#include "hyperex/run/run_scene.hpp"' >> "$work/src/hyperex/session/inputs.cpp"
 said=$("$1/tests/layout/includes_test.sh" "$work") && { echo "an upward include is not seen"; exit 1; }
 echo '#include "hyperex/hyperex.hpp"' >> "$work/src/hyperex/io/ply.cpp"
 said+=$("$1/tests/layout/includes_test.sh" "$work") && { echo "an include of everything is not seen"; exit 1; }

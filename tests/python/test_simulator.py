@@ -185,9 +185,14 @@ class Forces(unittest.TestCase):
 
 class Contact(unittest.TestCase):
     def test_lips(self):
-        drive = small_simulator().options.drive.replace(gain=-1)  # shut farther than they are
-        passing = small_simulator(drive=drive).run().report
-        touching = small_simulator(drive=drive, contact=hyperex.ContactOptions(lips=True)).run().report
+        opening = hyperex.embedded_mouth_opening(face().landmarks, head_moves=False)
+        shut = hyperex.Motion(opening.names, opening.time_s,
+                              2 * opening.positions_m[:1] - opening.positions_m)
+        simulator = small_simulator()  # shut farther than they are
+        simulator.set_motion(hyperex.prepare_motion(shut, face().landmarks))
+        passing = simulator.run().report
+        simulator.set_options(hyperex.SimulationOptions(contact=hyperex.ContactOptions(lips=True)))
+        touching = simulator.run().report
         self.assertEqual(passing.contact_frames, 0)
         self.assertGreater(touching.contact_frames, 0)
         self.assertGreater(passing.lip_overlap_mm, 0.5)

@@ -12,7 +12,7 @@ END
   cat > "$work/my study/study.toml" << END
 scene = "base.toml"
 out = "out"
-set = { mesh.element_size_mm = 9, motion.time_scale = 0.1, output.vtu = false, output.glb = false, output.report = false, output.contact_times_s = [0] }
+set = { mesh.element_size_mm = 9, motion.time_scale = 0.1, output.vtu = false, output.glb = false, output.report = false, output.picture_times_s = [0] }
 [[grid.case]]
 name = "first"
 [[grid.case]]

@@ -18,11 +18,12 @@
 namespace hyperex::fem {
 namespace {
 
-constexpr double kAgreement = 1e-6;  // of the greatest displacement; ccx prints seven digits
-constexpr double kShear = 2e4, kPoisson = 0.45;
+constexpr double kAgreementOfPrints =
+    1e-6;  // of the greatest displacement; ccx prints seven digits
+constexpr double kShear_pa = 2e4, kPoissonRatio = 0.45;
 
 /// A model, and the same in the library.
-struct Compared {
+struct ComparedFinite {
   test::CalculixModel model;
   Material material;
   std::vector<int> prescribed;
@@ -57,14 +58,14 @@ struct Compared {
   }
 };
 
-struct Pulled : Compared {
+struct Pulled : ComparedFinite {
   Pulled() {
     const test::BoxMesh box = test::box_mesh({4, 3, 3}, Vec3(0.04, 0.03, 0.03), 0.15);
     model.nodes = box.nodes;
     model.tets = box.tets;
-    const double young = 2 * kShear * (1 + kPoisson);
-    material = test::uniform_material(box.tets.rows(), young, kPoisson, 0, 1000);
-    model.hyperelastic = {kShear / 2, 0, 0, bulk_modulus_pa(young, kPoisson)};
+    const double young = 2 * kShear_pa * (1 + kPoissonRatio);
+    material = test::uniform_material(box.tets.rows(), young, kPoissonRatio, 0, 1000);
+    model.hyperelastic = {kShear_pa / 2, 0, 0, bulk_modulus_pa(young, kPoissonRatio)};
     model.dt_s = 0.25;
     // One end is held, the other stretched by half, sheared, and turned by 0.4 rad.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix();
@@ -91,7 +92,7 @@ struct Pulled : Compared {
 
 /// The face that the program carries, held at its outer border; its driven patches go where they
 /// are at the peak of the embedded opening of the mouth, `share` of the way.
-struct OpenMouth : Compared {
+struct OpenMouth : ComparedFinite {
   OpenMouth(double element_size_m, double share, int steps, double young, double poisson) {
     const anatomy::EmbeddedFace face = anatomy::embedded_face();
     tissue::TissueMeshOptions options;
@@ -143,16 +144,16 @@ TEST_F(CalculiXHyperelastic, NeoHookean) {
   law.law = HyperelasticLaw::isochoric_neo_hookean;
   law.barrier = false;
   const auto ccx = test::run_calculix(pulled.model).displacement_m;
-  EXPECT_LT(pulled.apart(law, ccx, "neo-Hookean"), kAgreement);
+  EXPECT_LT(pulled.apart(law, ccx, "neo-Hookean"), kAgreementOfPrints);
   // The check is worth something if it fails where a law is a little off.
   law.barrier = true;
-  EXPECT_GT(pulled.apart(law, ccx, "with the barrier"), 10 * kAgreement);
+  EXPECT_GT(pulled.apart(law, ccx, "with the barrier"), 10 * kAgreementOfPrints);
   law.barrier = false;
   law.law = HyperelasticLaw::mooney_rivlin;
   law.c01 = 0.01;
-  EXPECT_GT(pulled.apart(law, ccx, "a hundredth of I2bar"), 10 * kAgreement);
+  EXPECT_GT(pulled.apart(law, ccx, "a hundredth of I2bar"), 10 * kAgreementOfPrints);
   law.law = HyperelasticLaw::neo_hookean;
-  EXPECT_GT(pulled.apart(law, ccx, "I1 in place of I1bar"), 10 * kAgreement);
+  EXPECT_GT(pulled.apart(law, ccx, "I1 in place of I1bar"), 10 * kAgreementOfPrints);
 }
 
 TEST_F(CalculiXHyperelastic, Yeoh) {
@@ -161,17 +162,17 @@ TEST_F(CalculiXHyperelastic, Yeoh) {
   law.law = HyperelasticLaw::yeoh;
   law.c30 = 0.2;
   law.barrier = false;
-  pulled.model.hyperelastic->c20_pa = law.c20 * kShear / 2;
-  pulled.model.hyperelastic->c30_pa = law.c30 * kShear / 2;
+  pulled.model.hyperelastic->c20_pa = law.c20 * kShear_pa / 2;
+  pulled.model.hyperelastic->c30_pa = law.c30 * kShear_pa / 2;
   const auto ccx = test::run_calculix(pulled.model).displacement_m;
-  EXPECT_LT(pulled.apart(law, ccx, "Yeoh"), kAgreement);
+  EXPECT_LT(pulled.apart(law, ccx, "Yeoh"), kAgreementOfPrints);
   law.c30 *= 1.01;
-  EXPECT_GT(pulled.apart(law, ccx, "c30 by 1 %"), 10 * kAgreement);
+  EXPECT_GT(pulled.apart(law, ccx, "c30 by 1 %"), 10 * kAgreementOfPrints);
 }
 
 /// Of elements that are not prescribed as a whole: the greatest stretch, and the least ratio of
 /// volumes.
-std::pair<double, double> extremes(const Compared& model, const Eigen::VectorXd& d) {
+std::pair<double, double> extremes(const ComparedFinite& model, const Eigen::VectorXd& d) {
   const Assembler assembler(model.model.nodes, model.model.tets, ElementKind::tet4);
   const FiniteStrain form(assembler, model.material, {});
   const Points stretch = form.principal_stretches(d);

@@ -9,9 +9,10 @@
 namespace hyperex::fem {
 namespace {
 
-constexpr double kYoung = 192.4e3, kPoisson = 0.45, kEta = 476.8, kTraction = 500;
+constexpr double kYoung_pa = 192.4e3, kPoissonRatio = 0.45, kEta = 476.8, kTraction = 500;
 const Vec3 kSize(0.04, 0.02, 0.02);
-constexpr double kBulk = kYoung / 3 / (1 - 2 * kPoisson), kShear = kYoung / 2 / (1 + kPoisson);
+constexpr double kBulk = kYoung_pa / 3 / (1 - 2 * kPoissonRatio),
+                 kShear_pa = kYoung_pa / 2 / (1 + kPoissonRatio);
 
 /// Largest |strain - formula| / end strain over three relaxation times. `viscosity_share`: the part
 /// of eta with which the form resists stretching (the printed form halves it).
@@ -20,7 +21,7 @@ double creep_error(ViscousForm form, double viscosity_share) {
   // Next to no inertia: the slowest elastic wave is a thousand times quicker than the creep.
   const System s =
       assemble(box.nodes, box.tets,
-               test::uniform_material(box.tets.rows(), kYoung, kPoisson, kEta, 1e-3, form));
+               test::uniform_material(box.tets.rows(), kYoung_pa, kPoissonRatio, kEta, 1e-3, form));
   std::vector<int> rollers;
   for (int axis = 0; axis < 3; ++axis)
     for (const int u :
@@ -51,16 +52,16 @@ double creep_error(ViscousForm form, double viscosity_share) {
   const double dt_s = 5e-5;
   Newmark newmark(s, rollers, {dt_s});
   newmark.set_state(stretch(kTraction / (9 * kBulk), 0), stretch(0, kTraction / (3 * eta)),
-                    stretch(0, -kTraction * kShear / (3 * eta * eta)));
+                    stretch(0, -kTraction * kShear_pa / (3 * eta * eta)));
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rollers.size()));
-  const double end = kTraction / (9 * kBulk) + kTraction / (3 * kShear);
+  const double end = kTraction / (9 * kBulk) + kTraction / (3 * kShear_pa);
   const int far = box.node(4, 2, 2);
   double worst = 0;
-  for (int i = 1; i * dt_s < 3 * kEta / kShear; ++i) {
+  for (int i = 1; i * dt_s < 3 * kEta / kShear_pa; ++i) {
     newmark.step(still, test::flat(force));
     const double t = i * dt_s;
-    const double expected =
-        kTraction / (9 * kBulk) + kTraction / (3 * kShear) * (1 - std::exp(-kShear * t / eta));
+    const double expected = kTraction / (9 * kBulk) +
+                            kTraction / (3 * kShear_pa) * (1 - std::exp(-kShear_pa * t / eta));
     worst = std::max(worst, std::abs(newmark.displacement()[3 * far] / kSize.x() - expected) / end);
   }
   return worst;

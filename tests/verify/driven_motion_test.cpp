@@ -105,13 +105,13 @@ struct Recorded {
   }
 };
 
-struct Errors {
+struct MotionErrors {
   double d, v, driven_a;
 };
 
-Errors errors(const Recorded& recorded, const Recorded::Course& found,
-              const Recorded::Course& truth) {
-  Errors e{0, 0, 0};
+MotionErrors errors(const Recorded& recorded, const Recorded::Course& found,
+                    const Recorded::Course& truth) {
+  MotionErrors e{0, 0, 0};
   double d = 0, v = 0, a = 0;
   for (std::size_t k = 0; k < truth.at_knots.size(); ++k) {
     const Kinematics &x = found.at_knots[k], &y = truth.at_knots[k];
@@ -133,7 +133,7 @@ Errors errors(const Recorded& recorded, const Recorded::Course& found,
 TEST(DrivenMotion, ConvergesWithOrderTwoWhereTheDerivativesAreGiven) {
   const Recorded recorded;
   const Recorded::Course truth = recorded.run(512, false);
-  std::vector<Errors> given, alone;
+  std::vector<MotionErrors> given, alone;
   for (const int steps : {8, 16, 32, 64}) {
     given.push_back(errors(recorded, recorded.run(steps, false), truth));
     alone.push_back(errors(recorded, recorded.run(steps, true), truth));

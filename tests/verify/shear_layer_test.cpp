@@ -15,8 +15,8 @@ namespace {
 using Complex = std::complex<double>;
 
 // The default tissue's shear modulus; Poisson's ratio has no part in the solution.
-constexpr double kHeight = 0.02, kDensity = 1100, kShear = 64.35e3, kPoisson = 0.3;
-constexpr double kYoung = 2 * (1 + kPoisson) * kShear;
+constexpr double kHeight = 0.02, kDensity = 1100, kShear = 64.35e3, kLayerPoisson = 0.3;
+constexpr double kLayerYoung = 2 * (1 + kLayerPoisson) * kShear;
 
 /// Half as wide as high; nodes move along x alone, not at all at the base.
 struct Layer {
@@ -26,9 +26,9 @@ struct Layer {
 
   Layer(int cells, double viscosity_pa_s, bool driven)
       : box(test::box_mesh({cells / 2, cells / 2, cells}, Vec3(0.01, 0.01, kHeight), 0.1)),
-        system(assemble(
-            box.nodes, box.tets,
-            test::uniform_material(box.tets.rows(), kYoung, kPoisson, viscosity_pa_s, kDensity))) {
+        system(assemble(box.nodes, box.tets,
+                        test::uniform_material(box.tets.rows(), kLayerYoung, kLayerPoisson,
+                                               viscosity_pa_s, kDensity))) {
     for (Eigen::Index n = 0; n < box.nodes.rows(); ++n) {
       const int u = static_cast<int>(3 * n);
       if (box.nodes(n, 2) < 1e-9 || (driven && is_top(u))) prescribed.push_back(u);

@@ -14,19 +14,19 @@ namespace hyperex::fem {
 namespace {
 
 constexpr double kLength = 0.1, kWidth = 0.02, kDepth = 0.01;
-constexpr double kYoung = 192.4e3, kDensity = 1100;
+constexpr double kBarYoung = 192.4e3, kBarDensity = 1100;
 
 /// Clamped at x = 0. Poisson's ratio 0: then the bar's theories hold without a correction at the
 /// clamp.
-struct Bar {
+struct Cantilever {
   test::BoxMesh box;
   System system;
   std::vector<int> held, free;
 
-  explicit Bar(std::array<int, 3> cells)
+  explicit Cantilever(std::array<int, 3> cells)
       : box(test::box_mesh(cells, Vec3(kLength, kWidth, kDepth))),
         system(assemble(box.nodes, box.tets,
-                        test::uniform_material(box.tets.rows(), kYoung, 0, 0, kDensity))),
+                        test::uniform_material(box.tets.rows(), kBarYoung, 0, 0, kBarDensity))),
         held(test::unknowns_where(box.nodes, [](const Vec3& p) { return p.x() < 1e-9; })),
         free(test::complement(system.mass.cols(), held)) {}
 
@@ -46,7 +46,7 @@ struct Mode {
 };
 
 /// The mode nearest to a frequency: inverse iteration from a guess of its shape.
-Mode mode_near(const Bar& bar, double omega, const std::function<Vec3(double)>& guess) {
+Mode mode_near(const Cantilever& bar, double omega, const std::function<Vec3(double)>& guess) {
   const SparseMatrix k = bar.among_free(bar.system.stiffness), m = bar.among_free(bar.system.mass);
   const Eigen::SparseLU<SparseMatrix> factor(k - omega * omega * m);
   Points start(bar.box.nodes.rows(), 3);
@@ -74,7 +74,8 @@ void expect_frequency(double formula, double shift, std::array<int, 3> cells,
   std::vector<double> found;
   for (int level = 0; level < 3; ++level) {
     const int f = 1 << level;
-    found.push_back(mode_near(Bar({f * cells[0], f * cells[1], f * cells[2]}), shift, guess).omega);
+    found.push_back(
+        mode_near(Cantilever({f * cells[0], f * cells[1], f * cells[2]}), shift, guess).omega);
     std::printf("%3d cells along: %.4f Hz, %+.2f %%\n", f * cells[0], found.back() / 2 / M_PI,
                 100 * (found.back() / formula - 1));
   }
@@ -86,7 +87,7 @@ void expect_frequency(double formula, double shift, std::array<int, 3> cells,
 }
 
 TEST(ClampedBar, StretchesAtItsNaturalFrequency) {
-  const double omega = M_PI / 2 / kLength * std::sqrt(kYoung / kDensity);
+  const double omega = M_PI / 2 / kLength * std::sqrt(kBarYoung / kBarDensity);
   expect_frequency(
       omega, omega, {12, 2, 2}, [](double s) { return Vec3(std::sin(M_PI / 2 * s), 0, 0); }, 2e-5);
 }
@@ -95,20 +96,20 @@ TEST(ClampedBar, StretchesAtItsNaturalFrequency) {
 /// M, Q), and the end's (M, Q) as they follow from the clamp's must be able to vanish.
 double timoshenko_omega() {
   const double area = kWidth * kDepth, inertia = area * kDepth * kDepth / 12;
-  const double shear = 5.0 / 6 * kYoung / 2 * area;
+  const double shear = 5.0 / 6 * kBarYoung / 2 * area;
   const auto determinant = [&](double omega) {
     Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
     a(0, 1) = 1;  // w' = psi + Q / (kappa G A)
     a(0, 3) = 1 / shear;
-    a(1, 2) = 1 / (kYoung * inertia);               // psi' = M / (E I)
-    a(2, 1) = -kDensity * inertia * omega * omega;  // M' = -Q - rho I omega^2 psi
+    a(1, 2) = 1 / (kBarYoung * inertia);               // psi' = M / (E I)
+    a(2, 1) = -kBarDensity * inertia * omega * omega;  // M' = -Q - rho I omega^2 psi
     a(2, 3) = -1;
-    a(3, 0) = -kDensity * area * omega * omega;  // Q' = -rho A omega^2 w
+    a(3, 0) = -kBarDensity * area * omega * omega;  // Q' = -rho A omega^2 w
     return Eigen::Matrix4d((a * kLength).exp()).bottomRightCorner<2, 2>().determinant();
   };
   // Below Euler and Bernoulli's frequency, which is a little too high.
   const double thin =
-      1.8751 * 1.8751 / (kLength * kLength) * std::sqrt(kYoung * inertia / (kDensity * area));
+      1.8751 * 1.8751 / (kLength * kLength) * std::sqrt(kBarYoung * inertia / (kBarDensity * area));
   double low = 0.8 * thin, high = thin;
   if (determinant(low) * determinant(high) >= 0) throw std::logic_error("no frequency between");
   for (int i = 0; i < 60; ++i) {
@@ -125,7 +126,7 @@ TEST(ClampedBar, BendsAtItsNaturalFrequency) {
 
 TEST(ClampedBar, TimeStepsTurnTheFrequencyAsTheFormula) {
   // Average acceleration makes of cos(w t) exactly cos(i theta), tan(theta / 2) = w dt / 2.
-  const Bar bar({16, 2, 2});
+  const Cantilever bar({16, 2, 2});
   const Mode mode = mode_near(bar, 0, [](double s) { return Vec3(0, 0, s * s); });
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bar.held.size()));
   for (const double share : {0.3, 1.0, 3.0}) {

@@ -46,23 +46,9 @@ const prefs = {
   'network.connectivity-service.enabled': false,
 };
 
-export async function launchFirefox(own = {}) {
-  const profile = await mkdtemp(join(tmpdir(), 'hyperex-firefox-'));
-  const lines = Object.entries({ ...prefs, ...own }).map(([key, value]) => `user_pref(${JSON.stringify(key)}, ${JSON.stringify(value)});\n`);
-  await writeFile(join(profile, 'user.js'), lines.join(''));
-  const display = await startDisplay();
-  const child = spawn(firefoxProgram(), ['--no-remote', '--profile', profile, '--remote-debugging-port', '0', '--width', '1280', '--height', '800', 'about:blank'], {
-    stdio: ['ignore', 'ignore', 'pipe'], env: { ...process.env, HOME: profile, DISPLAY: display.name, LIBGL_ALWAYS_SOFTWARE: '1' },
-  });
-  const ended = new Promise((done) => child.on('close', done));
-  const address = await new Promise((done, fail) => {
-    createInterface({ input: child.stderr }).on('line', (line) => {
-      const found = /WebDriver BiDi listening on (ws:\S+)/.exec(line);
-      if (found) done(found[1]);
-    });
-    void ended.then((code) => fail(new Error(`Firefox ended with ${code}`)));
-  });
-  const socket = new WebSocket(`${address}/session`);
+/** Commands and events of WebDriver BiDi over one socket. */
+async function connect(address) {
+  const socket = new WebSocket(address);
   await new Promise((done, fail) => socket.once('open', done).once('error', fail));
   let id = 0;
   const waiting = new Map();
@@ -82,6 +68,26 @@ export async function launchFirefox(own = {}) {
     waiting.set(++id, { done, fail });
     socket.send(JSON.stringify({ id, method, params }));
   });
+  return { socket, send, heard };
+}
+
+export async function launchFirefox(own = {}) {
+  const profile = await mkdtemp(join(tmpdir(), 'hyperex-firefox-'));
+  const lines = Object.entries({ ...prefs, ...own }).map(([key, value]) => `user_pref(${JSON.stringify(key)}, ${JSON.stringify(value)});\n`);
+  await writeFile(join(profile, 'user.js'), lines.join(''));
+  const display = await startDisplay();
+  const child = spawn(firefoxProgram(), ['--no-remote', '--profile', profile, '--remote-debugging-port', '0', '--width', '1280', '--height', '800', 'about:blank'], {
+    stdio: ['ignore', 'ignore', 'pipe'], env: { ...process.env, HOME: profile, DISPLAY: display.name, LIBGL_ALWAYS_SOFTWARE: '1' },
+  });
+  const ended = new Promise((done) => child.on('close', done));
+  const address = await new Promise((done, fail) => {
+    createInterface({ input: child.stderr }).on('line', (line) => {
+      const found = /WebDriver BiDi listening on (ws:\S+)/.exec(line);
+      if (found) done(found[1]);
+    });
+    void ended.then((code) => fail(new Error(`Firefox ended with ${code}`)));
+  });
+  const { socket, send, heard } = await connect(`${address}/session`);
   await send('session.new', { capabilities: {} });
   return {
     /** A page that remembers what the console complains of. */

@@ -287,7 +287,7 @@ describe('a report with variants', () => {
     assert.equal(apart, same, 'the distance between two faces is one');
     assert.ok(own > 1 && apart > 0.05 && apart <= data.variants[0].max_difference_mm, `${own} mm, ${apart} mm apart`);
     assert.ok(apart >= Math.abs(own - other) - 0.02 && apart <= own + other + 0.02, `${apart} between ${own} and ${other}`);
-    assert.match(await page.locator('#said').textContent(), new RegExp(`base: displacement ${own.toFixed(2)} mm, Difference`));
+    assert.match(await page.locator('#announcement').textContent(), new RegExp(`base: displacement ${own.toFixed(2)} mm, Difference`));
     if (pictures) await page.screenshot({ path: join(pictures, 'readout.png') });
     await page.keyboard.press('Home');
     await drawn(page, '0 1');

@@ -117,7 +117,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.waitForFunction(() => document.getElementById('save-name').value === 'a-smile-2');
     await page.fill('#save-name', 'weaker');
     await page.click('[data-save=scene]');
-    await page.waitForSelector('.told:has-text("weaker.toml")');
+    await page.waitForSelector('.save-sheet .status:has-text("weaker.toml")');
     await page.keyboard.press('Escape');
     assert.ok(!(await page.locator('#unsaved').isVisible()));
     const file = join(studio.folder, 'weaker.toml');

@@ -49,7 +49,7 @@ test('Firefox: a landmark corrected, a muscle weakened, compared, saved and run 
   await page.click('#save-menu');
   await page.fill('#save-name', 'weaker');
   await page.click('[data-save=scene]');
-  await page.until(() => /weaker\.toml/.test(document.querySelector('.told')?.textContent ?? ''));
+  await page.until(() => /weaker\.toml/.test(document.querySelector('.save-sheet .status')?.textContent ?? ''));
   const out = join(studio.folder, 'out');
   await run(['run', join(studio.folder, 'weaker.toml'), '--out', out], studio);
   const summary = JSON.parse(await readFile(join(out, 'summary.json'), 'utf8'));

@@ -58,7 +58,7 @@ describe('the studio live', { skip, concurrency: false }, () => {
     await page.click('#save-menu');
     await page.fill('#save-name', 'take');
     await page.click('[data-save=scene]');
-    await page.waitForSelector('.told:has-text("take.toml")');
+    await page.waitForSelector('.save-sheet .status:has-text("take.toml")');
     const out = join(studio.folder, 'out');
     await run(['run', join(studio.folder, 'take.toml'), '--out', out], studio);
     const summary = JSON.parse(await readFile(join(out, 'summary.json'), 'utf8'));
@@ -84,7 +84,7 @@ describe('the studio live', { skip, concurrency: false }, () => {
     await page.click('#save-menu');
     await page.fill('#save-name', 'zipped');
     await page.click('[data-save=scene]');
-    await page.waitForSelector('.told:has-text("zipped.toml")');
+    await page.waitForSelector('.save-sheet .status:has-text("zipped.toml")');
     assert.ok(existsSync(join(studio.folder, 'zipped_files', 'opening', 'rgb.txt')));
     assert.match(await readFile(join(studio.folder, 'zipped.toml'), 'utf8'), /recording = "zipped_files\/opening"/);
     await run(['check', join(studio.folder, 'zipped.toml')], studio);

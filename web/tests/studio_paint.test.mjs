@@ -193,7 +193,7 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
     await page.click('#save-menu');
     await page.fill('#save-name', 'painted');
     await page.click('[data-save=scene]');
-    await page.waitForSelector('.told:has-text("painted.toml")');
+    await page.waitForSelector('.save-sheet .status:has-text("painted.toml")');
     await page.keyboard.press('Escape');
     const out = join(studio.folder, 'out');
     await run(['run', join(studio.folder, 'painted.toml'), '--out', out], studio);
@@ -267,7 +267,7 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
     await page.click('#save-menu');
     await page.fill('#save-name', 'thick');
     await page.click('[data-save=scene]');
-    await page.waitForSelector('.told:has-text("thick.toml")');
+    await page.waitForSelector('.save-sheet .status:has-text("thick.toml")');
     await page.keyboard.press('Escape');
     const out = join(studio.folder, 'out');
     await run(['run', join(studio.folder, 'thick.toml'), '--out', out], studio);
@@ -288,7 +288,7 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
     await page.click('#tab-paint');
     await page.locator('#face').focus();
     await page.keyboard.press('Enter');
-    assert.equal(await page.locator('#said').textContent(), 'Brush down');
+    assert.equal(await page.locator('#announcement').textContent(), 'Brush down');
     for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowLeft');
     assert.equal((await patches(page)).length, 0, 'not before it is lifted');
     await page.keyboard.press('Escape');
@@ -383,9 +383,9 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
     await page.click('#save-menu');
     await page.fill('#save-name', 'points');
     await page.click('[data-save=landmarks_json]');
-    await page.waitForSelector('.told:has-text("points.json")');
+    await page.waitForSelector('.save-sheet .status:has-text("points.json")');
     await page.click('[data-save=landmarks]');
-    await page.waitForSelector('.told:has-text("points.mrk.json")');
+    await page.waitForSelector('.save-sheet .status:has-text("points.mrk.json")');
     await page.keyboard.press('Escape');
     const saved = JSON.parse(await readFile(join(studio.folder, 'points.json'), 'utf8'));
     const [right, left] = [saved.points.cheek_R, saved.points.cheek_L];

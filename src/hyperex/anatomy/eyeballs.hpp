@@ -17,8 +17,8 @@ struct FaceCorners {
   Vec3 forward;  ///< unit length: where a head held upright looks
 };
 
-/// Of the iBUG points or their anatomical names; nothing without the outer corners of the eyes and
-/// those of the mouth.
+/// From the iBUG points or their anatomical names; nothing without the outer corners of the eyes
+/// and those of the mouth.
 std::optional<FaceCorners> face_corners(const io::Landmarks& landmarks);
 
 /// A sphere that looks along `gaze` (unit length).

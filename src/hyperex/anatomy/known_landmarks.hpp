@@ -9,7 +9,7 @@
 
 namespace hyperex::anatomy {
 
-/// One row a landmark, in the order of the names.
+/// One row per landmark, in the order of the names.
 struct KnownLandmarks {
   std::vector<std::string> names;
   Points canonical, given;  ///< metres of either face

@@ -36,6 +36,10 @@ struct Doubt {
 };
 using Doubts = std::map<std::string, Doubt>;
 
+Note doubtful(std::string text) {
+  return make_warning("landmarks.doubtful", std::move(text));
+}
+
 void add(Doubts& doubts, const std::string& name, double distance_m, const std::string& reason) {
   Doubt& doubt = doubts[name];
   doubt.weight = std::max(doubt.weight, 1e3 * distance_m);
@@ -61,7 +65,7 @@ void doubt_pairs(const io::Landmarks& given, Doubts& doubts) {
     add(doubts, first ? name : other, apart,
         fmt::format("{:.1f} mm from {}, which names the same place{}", 1e3 * apart,
                     first ? other : name,
-                    known ? "" : " (one of the two is wrong; too few others tell which)"));
+                    known ? "" : " (one of the two is wrong; too few others to say which)"));
   }
 }
 
@@ -99,21 +103,21 @@ void doubt_surface(const io::Landmarks& given, const TriMesh& scan, Doubts& doub
 
 }  // namespace
 
-std::vector<std::string> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found) {
-  std::vector<std::string> sentences;
+std::vector<Note> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found) {
+  std::vector<Note> notes;
   io::Landmarks left = given;
   for (;;) {
     const auto surprises = landmark_surprises(left, found);
     const LandmarkSurprise* worst = worst_of(surprises, kDeviations);
-    if (worst == nullptr) return sentences;
-    sentences.push_back(fmt::format(
+    if (worst == nullptr) return notes;
+    notes.push_back(doubtful(fmt::format(
         "landmark {} is {:.1f} mm from where the landmarks found on the scan put it: {}",
-        worst->name, 1e3 * worst->distance_m, kRemedy));
+        worst->name, 1e3 * worst->distance_m, kRemedy)));
     left.erase(worst->name);
   }
 }
 
-std::vector<std::string> landmark_doubts(const io::Landmarks& given, const TriMesh& scan) {
+std::vector<Note> landmark_doubts(const io::Landmarks& given, const TriMesh& scan) {
   Doubts doubts;
   doubt_pairs(given, doubts);
   doubt_surprises(given, doubts);
@@ -121,18 +125,20 @@ std::vector<std::string> landmark_doubts(const io::Landmarks& given, const TriMe
   std::vector<std::pair<std::string, Doubt>> order(doubts.begin(), doubts.end());
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& a, const auto& b) { return a.second.weight > b.second.weight; });
-  std::vector<std::string> sentences;
+  std::vector<Note> notes;
   if (order.size() > 3 && double(order.size()) > kManyShare * double(given.size())) {
-    sentences.push_back(fmt::format(
-        "{} of {} landmarks are not where the others or the scan put them (the farthest, {}, by "
-        "{:.1f} mm): do they belong to this scan and this person at rest?",
-        order.size(), given.size(), order.front().first, order.front().second.weight));
-    return sentences;
+    notes.push_back(make_warning(
+        "landmarks.many_doubtful",
+        fmt::format(
+            "{} of {} landmarks are not where the others or the scan put them (the farthest, {}, "
+            "by {:.1f} mm): do they belong to this scan and this person at rest?",
+            order.size(), given.size(), order.front().first, order.front().second.weight)));
+    return notes;
   }
   for (const auto& [name, doubt] : order)
-    sentences.push_back(
-        fmt::format("landmark {} is {}: {}", name, fmt::join(doubt.reasons, ", and "), kRemedy));
-  return sentences;
+    notes.push_back(doubtful(
+        fmt::format("landmark {} is {}: {}", name, fmt::join(doubt.reasons, ", and "), kRemedy)));
+  return notes;
 }
 
 }  // namespace hyperex::anatomy

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/note.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
 
@@ -34,8 +35,9 @@ std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given);
 std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given,
                                                  const io::Landmarks& found);
 
-/// Landmarks that are probably not where their names say, a sentence each, with the distance in mm
-/// and what to do; the most doubtful first. Three questions:
+/// Landmarks that are probably not where their names say: `landmarks.doubtful` for each, with the
+/// distance in mm and what to do, the most doubtful first; where there are many, only
+/// `landmarks.many_doubtful`. Three questions:
 ///  * two names of one place (face::same_place) are more than 5 mm apart: the one that the others
 ///    put farther off is named;
 ///  * a landmark is more than 7 mm and 3.5 standard deviations (2.75 of at most 20 landmarks) from
@@ -43,12 +45,12 @@ std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given,
 ///    judged;
 ///  * a landmark is more than 5 mm off the scan's surface.
 /// Nothing is refused here: complete_landmarks does that, with far wider bounds.
-std::vector<std::string> landmark_doubts(const io::Landmarks& given, const TriMesh& scan);
+std::vector<Note> landmark_doubts(const io::Landmarks& given, const TriMesh& scan);
 
 /// The same by landmarks that were found on this scan: those more than 7 mm and 3.5 standard
 /// deviations from where they put them (landmark_surprises). Of single landmarks moved by 10 mm on
 /// three faces that finds over 99 % of eyes and lips, 98 % of brows and nose, 12 % of the outline
 /// of the jaw, along which a place is not defined any better.
-std::vector<std::string> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found);
+std::vector<Note> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found);
 
 }  // namespace hyperex::anatomy

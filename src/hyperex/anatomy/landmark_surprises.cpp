@@ -22,7 +22,7 @@ constexpr double kChin_m = 8e-3, kJaw_m = 3e-3, kBrow_m = 2e-3, kPlace_m = 1.5e-
 // The similarity's parameters are free: a prior so wide that it says nothing.
 constexpr double kFree = 1.0;
 constexpr std::size_t kFewest = 5;
-constexpr double kLeastSpread = 0.04;
+constexpr double kLeastSpreadOfGiven = 0.04;
 
 double place_m(const std::string& name) {
   if (name == "pogonion") return kChin_m;
@@ -98,7 +98,7 @@ std::vector<LandmarkSurprise> surprises_of(const KnownLandmarks& known, const Ma
 }
 
 bool too_few(const KnownLandmarks& known) {
-  return known.names.size() < kFewest || spread_off_line(known.given) < kLeastSpread;
+  return known.names.size() < kFewest || spread_off_line(known.given) < kLeastSpreadOfGiven;
 }
 
 Matrix inverse(const Matrix& positive) {

@@ -206,11 +206,13 @@ std::vector<std::string> unknown_landmarks(const io::Landmarks& given) {
   return names;
 }
 
-std::string unknown_landmarks_note(const std::vector<std::string>& names) {
-  return fmt::format("{} not known and left aside: {}; docs/landmarks.md has the names",
-                     names.size() == 1 ? "one landmark's name is"
-                                       : fmt::format("the names of {} landmarks are", names.size()),
-                     listed(names));
+Note unknown_landmarks_note(const std::vector<std::string>& names) {
+  return make_note(
+      "landmarks.unknown",
+      fmt::format("{} not known and left aside: {}; docs/landmarks.md has the names",
+                  names.size() == 1 ? "one landmark's name is"
+                                    : fmt::format("the names of {} landmarks are", names.size()),
+                  listed(names)));
 }
 
 CompletedLandmarks complete_landmarks(const io::Landmarks& given,

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/note.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
 
@@ -36,8 +37,8 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh&
 /// The names of `given` that the canonical face does not know: own ones, or misspelt.
 std::vector<std::string> unknown_landmarks(const io::Landmarks& given);
 
-/// A sentence for the user on such names (one or more): a handful of them, and where the known ones
+/// `landmarks.unknown` on such names (one or more): a handful of them, and where the known ones
 /// stand.
-std::string unknown_landmarks_note(const std::vector<std::string>& names);
+Note unknown_landmarks_note(const std::vector<std::string>& names);
 
 }  // namespace hyperex::anatomy

@@ -81,7 +81,7 @@ void close_holes(Eigen::MatrixXd& height) {
     }
 }
 
-Eigen::MatrixXd smoothed(const Eigen::MatrixXd& height) {
+Eigen::MatrixXd smoothed_height(const Eigen::MatrixXd& height) {
   const int reach = int(std::ceil(3 * kSmoothing / kPixel));
   Eigen::VectorXd kernel(2 * reach + 1);
   for (int i = -reach; i <= reach; ++i)
@@ -154,7 +154,7 @@ std::optional<LipLine> find_lip_line(const TriMesh& scan, const Points& guess,
     if (!(map.height.col(c).maxCoeff() > -std::numeric_limits<double>::infinity())) return {};
   const Eigen::MatrixXd foremost = map.height;
   close_holes(map.height);
-  map.height = smoothed(map.height);
+  map.height = smoothed_height(map.height);
   const Eigen::Index arm = Eigen::Index(std::lround(kCreaseArm / kPixel)), rows = map.height.rows();
   Eigen::MatrixXd crease = Eigen::MatrixXd::Zero(rows, map.height.cols());
   for (Eigen::Index r = arm; r + arm < rows; ++r)

@@ -9,7 +9,7 @@
 
 namespace hyperex::anatomy {
 
-/// Which lip a vertex belongs to, told by walking on the surface, since across a closed mouth the
+/// Which lip a vertex belongs to, found by walking on the surface, since across a closed mouth the
 /// other lip is nearer through the air. Per vertex: walk to the lower lip minus walk to the upper
 /// one (m); above 0 on the upper side. Infinite walks count as far (0 where both are).
 /// Where the mouth is open it is shifted to be 0 at its corners (between them linearly), and at

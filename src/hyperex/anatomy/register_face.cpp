@@ -65,7 +65,7 @@ Vec3 closest_on_line(const Vec3& p, const Points& line) {
   return best;
 }
 
-/// The scan, with what closest points ask for.
+/// The scan, with what the search for closest points needs.
 class Target {
  public:
   explicit Target(const TriMesh& scan)
@@ -129,7 +129,7 @@ bool same_pattern(const Sparse& a, const Sparse& b) {
          std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
 }
 
-/// One step of the registration: the maps that least squares asks for.
+/// One step of the registration: the maps of least squares.
 class Solver {
  public:
   Solver(const Points& rest, const Triangles& triangles)
@@ -200,7 +200,7 @@ class Solver {
   Sparse ordered_;
 };
 
-/// Vertex -> where the scan's surface, or the border of its eye openings, asks it to be.
+/// Vertex -> where the scan's surface, or the border of its eye openings, pulls it to.
 std::vector<std::pair<int, Vec3>> surface_pulls(const Target& target, const Points& points,
                                                 const RegisterOptions& options) {
   std::vector<std::pair<int, Vec3>> pulls;

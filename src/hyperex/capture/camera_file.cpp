@@ -18,13 +18,13 @@ namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 
-/// The values of one camera file, each asked for by its key and checked.
+/// The values of one camera file, each read by its key and checked.
 class Reader {
  public:
   Reader(const fs::path& file, const toml::table& table) : file_(file), table_(table) {}
 
   double number(const std::string& key, double low, double high, const std::string& expected) {
-    asked_.insert(key);
+    known_.insert(key);
     const toml::node* node = table_.get(key);
     if (node == nullptr) throw problem(0, key, "missing", expected);
     const auto value = node->value<double>();
@@ -43,7 +43,7 @@ class Reader {
   void refuse_distortion() {
     for (const char* key : {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"}) {
       if (!holds(key)) continue;
-      asked_.insert(key);
+      known_.insert(key);
       const toml::node& node = *table_.get(key);
       if (node.value<double>() != 0.0)
         throw problem(line(node), key, text(node),
@@ -53,7 +53,7 @@ class Reader {
   std::vector<std::string> unused() const {
     std::vector<std::string> notes;
     for (const auto& [key, node] : table_)
-      if (!asked_.contains(std::string(key.str())))
+      if (!known_.contains(std::string(key.str())))
         notes.push_back(fmt::format("{}:{}: {} is not used", file_.string(), line(node),
                                     io::quotable(key.str())));
     return notes;
@@ -80,7 +80,7 @@ class Reader {
 
   const fs::path& file_;
   const toml::table& table_;
-  std::set<std::string> asked_;
+  std::set<std::string> known_;
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace hyperex::capture {
 
-/// What a camera.toml tells:
+/// The contents of a camera.toml:
 ///   width, height          whole pixels > 0
 ///   fx, fy, cx, cy         pixels; pinhole without distortion, pixel centres at integers
 ///   depth_scale = 5000     stored depth value per metre, where depth is stored as whole numbers

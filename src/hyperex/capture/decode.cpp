@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::span<const unsigned char>;
 
-/// A header torn in the right place asks for any amount of memory.
-constexpr double most_pixels = 1 << 28;
+/// A corrupt header may call for any amount of memory.
+constexpr double kMostPixels = 1 << 28;
 
 bool begins_with(Bytes bytes, std::string_view magic) {
   return bytes.size() >= magic.size() &&
@@ -41,7 +41,7 @@ Decoded decode_jpeg(Bytes bytes, const std::string& name) {
   if (tjDecompressHeader3(decoder.get(), bytes.data(), bytes.size(), &width, &height, &subsampling,
                           &colours) != 0)
     return {{}, name + ": torn or no JPEG (" + tjGetErrorStr2(decoder.get()) + ")"};
-  if (double(width) * height > most_pixels)
+  if (double(width) * height > kMostPixels)
     return {{}, name + ": " + size_text(width, height) + " pixels are beyond reason"};
   cv::Mat picture(height, width, CV_8UC3);
   if (tjDecompress2(decoder.get(), bytes.data(), bytes.size(), picture.data, width,
@@ -52,7 +52,7 @@ Decoded decode_jpeg(Bytes bytes, const std::string& name) {
 }
 
 Decoded decode_png(Bytes bytes, PngAs as, const std::string& name) {
-  PngPicture png = read_png(bytes, as, most_pixels);
+  PngPicture png = read_png(bytes, as, kMostPixels);
   if (!png.fault.empty())
     return {{}, name + ": torn picture (cut short or damaged: " + png.fault + ")"};
   return {std::move(png.picture), {}};
@@ -78,7 +78,7 @@ std::vector<unsigned char> read_bytes(const fs::path& file, std::string& fault) 
   return bytes;
 }
 
-/// By its header; nothing where that cannot be read, which decoding then tells.
+/// By its header; nothing where that cannot be read: decoding then reports it.
 cv::Size size_of(Bytes bytes) {
   if (is_png(bytes)) return png_size(bytes);
   const std::unique_ptr<void, int (*)(void*)> decoder(tjInitDecompress(), tjDestroy);

@@ -18,7 +18,8 @@ struct Frame {
                       ///< 0 = no reading; empty = colour only
   bool valid = true;  ///< false: do not measure on it, see `fault`; pictures may be empty
   std::string fault;  ///< one line: why not valid; empty where valid
-  /// Of a live source: when the program had it in hand (Buffered sets it), else the clock's epoch.
+  /// When the program received the frame of a live source (Buffered sets it), else the clock's
+  /// epoch.
   std::chrono::steady_clock::time_point arrived = {};
 };
 

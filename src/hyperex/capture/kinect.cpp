@@ -108,7 +108,7 @@ class Kinect : public FrameSource {
       throw;
     }
   }
-  /// Asked for by listing: a driver may end the program when asked for a mode it has not.
+  /// Looked up in the list of modes: a driver may end the program when a mode is set that it lacks.
   void choose_depth_mode() {
     const auto set = [&](freenect_depth_format format) {
       for (int i = 0; i < freenect_get_depth_mode_count(); ++i) {

@@ -11,7 +11,7 @@ namespace hyperex::capture {
 /// depth in whole millimetres, registered to colour by the device's own parameters. Live: wrap it
 /// in LatestFrame, as open_source() does. Time is the device's clock (60 MHz), 0 at the first
 /// frame; colour and depth are paired where they are at most 20 ms apart. Not mirrored.
-/// The device does not tell its colour camera's intrinsics: SourceOptions::camera_file, else the
+/// The device does not report its colour camera's intrinsics: SourceOptions::camera_file, else the
 /// nominal 525 pixels (and a note says so).
 /// Where the driver offers raw depth alone, the nominal calibration registers it (and a note says
 /// so). Throws InputError where there is no Kinect, it cannot be opened, or gives no frame within 5

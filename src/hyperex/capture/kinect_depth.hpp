@@ -7,7 +7,7 @@
 namespace hyperex::capture {
 
 /// The nominal Kinect, for drivers that hand out raw depth only (Debian's fakenect). The lengths
-/// are those that libfreenect's registration takes for a device that tells none.
+/// are those that libfreenect's registration takes for a device that reports none.
 struct NominalKinect {
   static constexpr double emitter_m = 0.075;   ///< projector to depth camera
   static constexpr double baseline_m = 0.023;  ///< depth camera to colour camera, along x

@@ -10,8 +10,8 @@ namespace hyperex::capture {
 
 enum class SourceKind { folder, oni, still, video, kinect, openni, webcam, played };
 
-/// What a user's words for a source (open_source) stand for; nothing is opened. Throws InputError
-/// as open_source does.
+/// The kind of source that a user's text (as for open_source) names; nothing is opened. Throws
+/// InputError as open_source does.
 SourceKind source_kind(const std::string& spec);
 
 /// A source by what a user writes:

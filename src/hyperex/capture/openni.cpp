@@ -35,7 +35,7 @@ std::string reason() {
   return text.empty() ? "" : " (" + text + ")";
 }
 
-/// OpenNI remembers every thread that ever waited for a frame and later asks whether it still
+/// OpenNI remembers every thread that ever waited for a frame and later checks whether it still
 /// lives, which crashes where it does not. So one thread that never ends does all the waiting.
 class WaitingThread {
  public:
@@ -234,10 +234,10 @@ class OpenniSource : public FrameSource {
     openni::PlaybackControl* playback = device_.getPlaybackControl();
     if (playback == nullptr) throw InputError(name_ + ": is no recording");
     playback->setRepeatEnabled(false);
-    playback->setSpeed(-1);  // frame by frame, each when it is asked for
+    playback->setSpeed(-1);  // frame by frame, each when it is requested
     if (has_depth_)
       notes_.push_back(name_ +
-                       ": does not tell whether its depth was registered to colour; it is "
+                       ": does not say whether its depth was registered to colour; it is "
                        "taken to be");
   }
   void prepare_device() {

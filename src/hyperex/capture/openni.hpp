@@ -23,7 +23,7 @@ namespace hyperex::capture {
 std::unique_ptr<FrameSource> open_openni(const std::string& uri = "",
                                          const SourceOptions& options = {});
 
-/// Frame by frame in the order of the file, none dropped. A file does not tell whether its depth
+/// Frame by frame in the order of the file, none dropped. A file does not say whether its depth
 /// was registered to colour: it is taken to be, and a note says so. Throws InputError where it is
 /// no such file or holds no colour (or no depth: then with a note, colour only).
 std::unique_ptr<FrameSource> open_oni(const std::filesystem::path& file,

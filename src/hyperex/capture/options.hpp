@@ -14,7 +14,7 @@ struct SourceOptions {
   /// Webcams and phones lie between 50 and 75.
   double field_of_view_deg = 60;
   /// Frames of a recording decoded ahead on a thread, 2 MB each at 640 x 480 with depth; 0 = none,
-  /// each is read when it is asked for.
+  /// each is read when it is requested.
   std::size_t read_ahead_frames = 8;
 };
 

@@ -16,7 +16,7 @@ class FrameSource {
   FrameSource(const FrameSource&) = delete;
   FrameSource& operator=(const FrameSource&) = delete;
 
-  /// Of the colour picture; constant over the source.
+  /// Intrinsics of the colour picture, the same for all frames.
   virtual const Intrinsics& intrinsics() const = 0;
   /// False: colour only; metres are then unknown until a length in the picture is stated.
   virtual bool has_depth() const = 0;
@@ -27,7 +27,7 @@ class FrameSource {
   /// The next frame, nothing at the end. A faulty one comes as invalid with its `fault`, and with
   /// what could be read of it. Throws InputError at the end where fewer than one frame in ten was
   /// valid, and where a camera gives no frame at all; one that is lost later ends the source with a
-  /// note. The pictures are the caller's: the source does not touch them again.
+  /// note. The pictures belong to the caller: the source does not change them again.
   virtual std::optional<Frame> next() = 0;
   /// Frames that were lost because nobody fetched them in time (live sources).
   virtual std::size_t dropped() const { return 0; }

@@ -24,8 +24,8 @@ struct ListedFrame {
 /// Throws InputError naming the line where it is not "TIME FILE" with a finite time.
 std::vector<ListedPicture> read_picture_list(const std::filesystem::path& file);
 
-/// associations.txt: "TIME COLOUR TIME DEPTH" or, as some tools write it, depth first: told apart
-/// by the folders' names rgb/ and depth/. Same errors.
+/// associations.txt: "TIME COLOUR TIME DEPTH" or, as some tools write it, depth first:
+/// distinguished by the folders' names rgb/ and depth/. Same errors.
 std::vector<ListedFrame> read_associations(const std::filesystem::path& file);
 
 /// Pairs every colour picture with the depth picture nearest in time, nearest pairs first, each

@@ -29,7 +29,7 @@ cv::Mat as_bgr(const cv::Mat& picture) {
   return bgr;
 }
 
-/// What a file and a webcam share: the first picture is read early, as it alone tells the size.
+/// What a file and a webcam share: the first picture is read early, as only it has the size.
 class Capture : public FrameSource {
  public:
   const Intrinsics& intrinsics() const override { return intrinsics_; }

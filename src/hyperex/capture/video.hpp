@@ -20,8 +20,8 @@ std::unique_ptr<FrameSource> open_video(const std::filesystem::path& file,
                                         const SourceOptions& options = {});
 
 /// The webcam of that number (/dev/videoN), live: wrap it in LatestFrame, as open_source() does.
-/// Where a camera file is given, its picture size is asked for. Time begins at 0 with the first
-/// frame. Nothing tells whether the camera mirrors its picture: ask the user.
+/// Where a camera file is given, its picture size is requested. Time begins at 0 with the first
+/// frame. Whether the camera mirrors its picture is not known: the user must say it.
 std::unique_ptr<FrameSource> open_webcam(int number, const SourceOptions& options = {});
 
 }  // namespace hyperex::capture

@@ -61,7 +61,7 @@ VideoWriter::VideoWriter(const fs::path& file, int width_px, int height_px,
   if (!(frames_a_second > 0) || !std::isfinite(frames_a_second))
     throw std::invalid_argument("VideoWriter: the rate must be above 0");
   impl_ = std::make_unique<Impl>(file, width_px, height_px);
-  // The encoder does not tell a file that cannot be written from a codec that is not there.
+  // The encoder reports a file that cannot be written like a codec that is missing.
   errno = 0;
   if (!std::ofstream(impl_->temporary.path(), std::ios::binary))
     throw InputError(file, std::string("cannot be written (") + std::strerror(errno) + ")");

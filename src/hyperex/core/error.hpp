@@ -22,13 +22,13 @@ struct InputProblem {
   std::string sentence() const;
 };
 
-/// The user's input cannot be used. what() is one line, or one a problem, 20 at most.
+/// The user's input cannot be used. what() has one line per problem, at most 20.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const InputProblem& problem);
   explicit InputError(const std::vector<InputProblem>& problems);
   InputError(const std::filesystem::path& file, const std::string& message);
-  /// Sentences that are complete already, a line each.
+  /// Complete sentences, one per line.
   explicit InputError(const std::string& sentences);
 };
 

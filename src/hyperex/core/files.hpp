@@ -17,7 +17,7 @@ namespace hyperex {
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
 
-/// To be asked before the work that `outputs` are to hold; empty paths are passed over. Throws
+/// To be called before the work that `outputs` are to hold; empty paths are passed over. Throws
 /// InputError where one of them is a folder, could not be written for want of its folder or of the
 /// right, or is also one of `inputs` or another output. Removes what killed processes left of them.
 void check_outputs(const std::vector<std::filesystem::path>& outputs,

@@ -31,8 +31,9 @@ std::unique_lock<std::mutex> hold_off_interruption();
 /// Call once, from main().
 void end_cleanly_when_interrupted();
 
-/// While one lives, the first of these signals only asks for an end, and the program goes on to
-/// write what it has; the second ends it as above. One at a time.
+/// While an object of this class lives, the first of these signals only requests an end: the
+/// program goes on and writes what it has. The second signal ends it as above. One object at a
+/// time.
 class StopOnRequest {
  public:
   StopOnRequest();
@@ -40,11 +41,11 @@ class StopOnRequest {
   StopOnRequest(const StopOnRequest&) = delete;
   StopOnRequest& operator=(const StopOnRequest&) = delete;
   bool requested() const;
-  int signal() const;  ///< the signal that asked, where one did
+  int signal() const;  ///< the signal received, if any
 };
 
-/// Where an interruption is under way, does not return: what fails because its files are being
-/// removed is no error to tell.
+/// Does not return while an interruption is under way: a failure caused by the removal of files is
+/// not to be reported.
 void wait_if_interrupted();
 
 }  // namespace hyperex

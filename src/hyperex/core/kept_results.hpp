@@ -7,10 +7,10 @@
 
 namespace hyperex {
 
-/// A folder of results that take long to compute, each under a hash of all that it was made from.
-/// Never in the way: where the folder cannot be made, read or written there is simply none, an
-/// entry that is torn or changed counts as absent, and several processes may share it. The oldest
-/// entries go when all together exceed a bound.
+/// A cache: a folder of results that take long to compute, each under a hash of its inputs. It
+/// never causes an error: where the folder cannot be made, read or written there is no cache, and a
+/// torn or changed entry counts as absent. Several processes may share it. The oldest entries are
+/// removed when all together exceed a bound.
 class KeptResults {
  public:
   /// No folder: nothing is kept or found.
@@ -33,7 +33,7 @@ class KeptResults {
 /// $XDG_CACHE_HOME/hyperex, else ~/.cache/hyperex; empty where neither is an absolute path.
 std::filesystem::path user_cache_folder();
 
-/// Tells one build of the running program from another: its file's size and time.
+/// Identifies the build of the running program: its file's size and time.
 std::string program_identity();
 
 }  // namespace hyperex

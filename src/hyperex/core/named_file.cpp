@@ -31,7 +31,7 @@ NamedFiles::~NamedFiles() {
 
 fs::path named_file(const fs::path& folder, const std::string& name) {
   const fs::path path = folder / name;
-  if (listening) listening->asked_.push_back(path);
+  if (listening) listening->requested_.push_back(path);
   check_regular(path);
   std::error_code error;
   const fs::path inside = fs::canonical(folder.empty() ? "." : folder, error);

@@ -12,18 +12,19 @@ namespace hyperex {
 /// InputError: missing, outside, a folder, pipe or device.
 std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& name);
 
-/// While one lives: the paths that this thread asks named_file() for, also in vain. One at a time.
+/// Records the paths that this thread passes to named_file() while the object lives, whether or not
+/// they exist. One object at a time.
 class NamedFiles {
  public:
   NamedFiles();
   ~NamedFiles();
   NamedFiles(const NamedFiles&) = delete;
   NamedFiles& operator=(const NamedFiles&) = delete;
-  const std::vector<std::filesystem::path>& asked() const { return asked_; }
+  const std::vector<std::filesystem::path>& requested() const { return requested_; }
 
  private:
   friend std::filesystem::path named_file(const std::filesystem::path&, const std::string&);
-  std::vector<std::filesystem::path> asked_;
+  std::vector<std::filesystem::path> requested_;
 };
 
 /// As read_file, but a pipe is refused too, before it is opened: it might wait for ever.

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/core/one_thread.hpp"
 
-#include <dlfcn.h>
+#include "hyperex/core/loaded_symbol.hpp"
 
 namespace hyperex {
 
 namespace {
-
-/// A function of a library that may or may not be in this process.
-template <class Function>
-Function loaded(const char* name) {
-  return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
-}
 
 using Set = void (*)(int);
 using Get = int (*)();
@@ -19,19 +13,19 @@ using Get = int (*)();
 }  // namespace
 
 void keep_blas_to_one_thread() {
-  if (const auto set = loaded<Set>("openblas_set_num_threads")) set(1);
+  if (const auto set = loaded_symbol<Set>("openblas_set_num_threads")) set(1);
 }
 
 OneOpenMpThread::OneOpenMpThread() {
-  static const auto get = loaded<Get>("omp_get_max_active_levels");
-  static const auto set = loaded<Set>("omp_set_max_active_levels");
+  static const auto get = loaded_symbol<Get>("omp_get_max_active_levels");
+  static const auto set = loaded_symbol<Set>("omp_set_max_active_levels");
   if (!get || !set) return;
   levels_before_ = get();
   set(0);
 }
 
 OneOpenMpThread::~OneOpenMpThread() {
-  static const auto set = loaded<Set>("omp_set_max_active_levels");
+  static const auto set = loaded_symbol<Set>("omp_set_max_active_levels");
   if (set && levels_before_ >= 0) set(levels_before_);
 }
 

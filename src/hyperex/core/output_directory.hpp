@@ -13,8 +13,8 @@
 namespace hyperex {
 
 /// A folder of outputs filled under a temporary name; commit() gives it its own. A folder of that
-/// name may stand there when it holds nothing but what an earlier run is known to have written;
-/// those files, and no others, are then removed. A link to a folder is followed.
+/// name may exist if it holds only files that an earlier run is known to have written; those, and
+/// no others, are then removed. A link to a folder is followed.
 /// Without commit() the destructor removes everything, and so does an interruption.
 class OutputDirectory {
  public:

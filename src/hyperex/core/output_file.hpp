@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A single file that a command writes, and how an earlier one of its kind is told from a file of
-// the user's that happens to have the name.
+// A single file that a command writes, and how an earlier output is distinguished from a user's
+// file of the same name.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 namespace hyperex {
 
 struct OutputFile {
-  std::filesystem::path path;           ///< empty: not asked for
+  std::filesystem::path path;           ///< empty: not requested
   std::vector<std::string> extensions;  ///< as ".csv", lower case; one of them ends the name
-  /// How a file of this kind begins, and texts that its first 4 MiB hold too. Both empty: nothing
-  /// tells such a file from the user's, so none is replaced.
+  /// How a file of this kind begins, and texts that its first 4 MiB hold too. Both empty: an
+  /// output cannot be recognised, and no existing file is replaced.
   std::string begins;
   std::vector<std::string> holds = {};
 };
@@ -20,9 +20,9 @@ struct OutputFile {
 /// The same with the extension of its kind and the mark that render::write_png leaves in its files.
 OutputFile png_output(const std::filesystem::path& path);
 
-/// To be asked before any work, after check_outputs. Throws InputError for a name that does not end
-/// as the command's files do, and for a file that is there already and is not of that kind. Empty
-/// files may be replaced; a device or a pipe may have any name.
+/// To be called before any work, after check_outputs. Throws InputError for a name that does not
+/// end as the command's files do, and for a file that is there already and is not of that kind.
+/// Empty files may be replaced; a device or a pipe may have any name.
 void check_output_kinds(const std::vector<OutputFile>& outputs);
 
 }  // namespace hyperex

@@ -5,8 +5,8 @@
 
 namespace hyperex {
 
-/// `text` as it may go to a terminal, whatever names from files it holds: control characters but
-/// line breaks as "\x1b", each line cut after `most` characters, not within one of UTF-8's.
+/// `text` made safe for a terminal: control characters except line breaks are written as "\x1b",
+/// and each line is cut after `most` characters, never within a UTF-8 sequence.
 std::string printable(std::string_view text, std::size_t most = 600);
 
 /// The first `most` lines, and a last one that says how many more there are.

@@ -27,24 +27,24 @@ Progress::Progress(std::string label, long total)
   if (silenced) return;
   // On a terminal the label stands at once: some work is one long call that cannot report.
   if (::isatty(2)) draw(false);
-  teller_ = std::thread([this] { tell_now_and_then(); });
+  redrawer_ = std::thread([this] { redraw_periodically(); });
 }
 
 Progress::~Progress() {
-  if (teller_.joinable()) {
+  if (redrawer_.joinable()) {
     {
       const std::lock_guard lock(mutex_);
       over_ = true;
     }
     ended_.notify_one();
-    teller_.join();
+    redrawer_.join();
   }
   // Also of one long call that cannot report.
   if (shown_ || lasted_ || (!silenced && seconds() >= 1)) draw(true);
-  if (standing_) taken = false;
+  if (active_) taken = false;
 }
 
-void Progress::tell_now_and_then() {
+void Progress::redraw_periodically() {
   using std::chrono::seconds;
   constexpr seconds most{60}, lately{1};
   std::unique_lock lock(mutex_);
@@ -79,8 +79,8 @@ void Progress::update(long done) {
 
 void Progress::draw(bool last) {
   if (silenced) return;
-  if (!standing_ && taken.exchange(true)) return;
-  standing_ = shown_ = true;
+  if (!active_ && taken.exchange(true)) return;
+  active_ = shown_ = true;
   last_draw_ = Clock::now();
   constexpr int width = 30;
   const double share = last         ? 1.0

@@ -8,14 +8,13 @@
 
 namespace hyperex {
 
-/// A progress bar on standard error. On a terminal it redraws one line, whose seconds go on where
-/// the work cannot report; elsewhere it prints a line when it starts lasting (1 s), others after 2,
-/// 4, 8 ... seconds, at least one a minute, also where the work cannot report, and one at the end.
-/// Nothing at all for short work. One bar at a time: work within or beside other work that has its
-/// bar standing shows none until that is done.
+/// A progress bar on standard error. On a terminal it redraws one line; elsewhere it prints a line
+/// after 1 s, others after 2, 4, 8 ... s (at least one per minute), and one at the end. The seconds
+/// go on even where the work does not report. Short work shows nothing. One bar at a time: work
+/// within or beside other work whose bar is shown has none until that is done.
 class Progress {
  public:
-  /// `total` steps of work; 0 where the length is not known beforehand.
+  /// `total` steps of work; 0: unknown.
   Progress(std::string label, long total);
   ~Progress();
   Progress(const Progress&) = delete;
@@ -23,22 +22,22 @@ class Progress {
   /// `done` steps are finished. Cheap: may be called on every step.
   void update(long done);
   double seconds() const;
-  /// No bars at all, which is how every program begins: one that wants them says false.
+  /// True, as at the start of every program: no bars are shown.
   static void silence(bool silent);
 
  private:
   void draw(bool last);
-  /// In a thread of its own until the end.
-  void tell_now_and_then();
+  /// Runs in a thread of its own until the end.
+  void redraw_periodically();
   std::string label_;
   long total_;
-  bool standing_ = false, shown_ = false, lasted_ = false;
+  bool active_ = false, shown_ = false, lasted_ = false;
   std::chrono::steady_clock::time_point start_, last_draw_;
   long done_ = 0;
   bool over_ = false;
   std::mutex mutex_;  // of all that changes
   std::condition_variable ended_;
-  std::thread teller_;
+  std::thread redrawer_;
 };
 
 }  // namespace hyperex

@@ -9,7 +9,7 @@
 
 namespace hyperex {
 
-/// The quantile at `share` (0 to 1) of at least one value, rising; linear between neighbours.
+/// The quantile at `share` (0 to 1) of rising values, at least one; linear between neighbours.
 inline double quantile_of_sorted(const std::vector<double>& sorted, double share) {
   HX_ASSERT(!sorted.empty());
   const double position = share * static_cast<double>(sorted.size() - 1);
@@ -18,7 +18,7 @@ inline double quantile_of_sorted(const std::vector<double>& sorted, double share
   return sorted[low] + (position - static_cast<double>(low)) * (sorted[high] - sorted[low]);
 }
 
-/// One of at least one value: the middle one, the upper of two.
+/// The middle one of at least one value; of an even number the upper of the two.
 inline double median(std::vector<double> values) {
   HX_ASSERT(!values.empty());
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -26,7 +26,7 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Of the steps between two or more values.
+/// The median difference of consecutive values, at least two.
 inline double median_step(const std::vector<double>& values) {
   HX_ASSERT(values.size() > 1);
   std::vector<double> steps;

@@ -6,26 +6,26 @@
 
 namespace hyperex {
 namespace {
-struct Listening {
+struct ListenerSlot {
   std::mutex mutex;
   RemarkListener listener;
 };
-Listening& listening() {
-  static Listening one;
+ListenerSlot& listener_slot() {
+  static ListenerSlot one;
   return one;
 }
 }  // namespace
 
 void listen_to_remarks(RemarkListener listener) {
-  const std::lock_guard lock(listening().mutex);
-  listening().listener = std::move(listener);
+  const std::lock_guard lock(listener_slot().mutex);
+  listener_slot().listener = std::move(listener);
 }
 
 void remark(Remark kind, const std::string& sentence) {
   // Called without the mutex: a listener may wait for a lock that another remarking thread holds.
   const RemarkListener listener = [] {
-    const std::lock_guard lock(listening().mutex);
-    return listening().listener;
+    const std::lock_guard lock(listener_slot().mutex);
+    return listener_slot().listener;
   }();
   if (listener) listener(kind, sentence);
 }

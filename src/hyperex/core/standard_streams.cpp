@@ -31,7 +31,7 @@ Printed flush_standard_output() {
   int error = errno;
   const bool failed = failed_before || !std::cout || std::ferror(stdout) != 0;
   if (!failed) return {};
-  // Where nothing is left to send, whether the reader has left tells itself otherwise.
+  // Nothing is left to send: whether the reader has closed the pipe is then found by poll().
   pollfd output{STDOUT_FILENO, POLLOUT, 0};
   if (error == 0 && ::poll(&output, 1, 0) > 0 && (output.revents & POLLERR)) error = EPIPE;
   return {false, error == EPIPE, error != 0 ? std::strerror(error) : "some of it is lost"};

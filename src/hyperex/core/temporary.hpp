@@ -21,7 +21,7 @@ std::filesystem::path temporary_within(const std::filesystem::path& folder,
 bool is_temporary_of(const std::filesystem::path& target, const std::string& name);
 
 /// Marks a file or folder that exists as in use while this lives, by a lock that ends with the
-/// process, however that ends. Without a message where the file system knows no locks.
+/// process, however that ends. Does nothing where the file system has no locks.
 class InUse {
  public:
   explicit InUse(const std::filesystem::path& path);
@@ -39,8 +39,8 @@ class InUse {
 };
 
 /// Removes the temporary files and folders of `target` in `folder` that no living process uses: a
-/// killed one left them. An earlier output that it had moved aside is given its name again where
-/// nothing else has that. Says so in one line each; what cannot be removed stays without a word.
+/// killed one left them. An earlier output that it had moved aside gets its name back if that is
+/// free. Reports each in one line; what cannot be removed is left without a message.
 void remove_leftovers(const std::filesystem::path& target, const std::filesystem::path& folder);
 
 }  // namespace hyperex

@@ -15,7 +15,7 @@ namespace hyperex::expression {
 namespace {
 
 constexpr int kMostEntries = 1'000'000;
-constexpr const char *kVertices = "VERTEX LIST", *kFaces = "FACE LIST",
+constexpr const char *kVertexList = "VERTEX LIST", *kFaceList = "FACE LIST",
                      *kAnimation = "ANIMATION UNITS LIST", *kShape = "SHAPE UNITS LIST",
                      *kAnimationParameters = "ANIMATION PARAMETERS",
                      *kShapeParameters = "SHAPE PARAMETERS", *kTexture = "TEXTURE",
@@ -111,7 +111,7 @@ class Reader {
 
 TriMesh read_mesh(Reader& reader) {
   TriMesh mesh;
-  reader.needed_section(kVertices);
+  reader.needed_section(kVertexList);
   mesh.points.resize(reader.count("vertices"), 3);
   for (Eigen::Index v = 0; v < mesh.points.rows(); ++v) {
     const auto row =
@@ -119,7 +119,7 @@ TriMesh read_mesh(Reader& reader) {
     mesh.points.row(v) << row[0], row[1], row[2];
     reader.advance();
   }
-  reader.needed_section(kFaces);
+  reader.needed_section(kFaceList);
   mesh.triangles.resize(reader.count("faces"), 3);
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
     const std::string expected = fmt::format("three different vertices, 0 to {}, of face {} of {}",
@@ -166,18 +166,6 @@ Eigen::VectorXd read_parameters(Reader& reader, std::string_view section, std::s
   return parameters;
 }
 
-void write_units(std::ostream& out, const char* section, const std::vector<CandideUnit>& units) {
-  out << fmt::format("# {}:\n{}\n\n", section, units.size());
-  for (const auto& unit : units) {
-    out << fmt::format("# {}\n{}\n", unit.name, unit.vertices.size());
-    for (std::size_t i = 0; i < unit.vertices.size(); ++i) {
-      const auto d = unit.displacement.row(Eigen::Index(i));
-      out << fmt::format("{} {} {} {}\n", unit.vertices[i], d[0], d[1], d[2]);
-    }
-    out << '\n';
-  }
-}
-
 }  // namespace
 
 CandideFile read_candide(const std::filesystem::path& file) {
@@ -202,28 +190,6 @@ CandideFile read_candide(const std::filesystem::path& file) {
   reader.section(kEnd);
   if (reader.next()) reader.refuse("nothing more, or the next section");
   return candide;
-}
-
-void write_candide(const std::filesystem::path& file, const CandideFile& candide) {
-  write_file_atomically(file, [&](std::ostream& out) {
-    const auto& [points, triangles] = candide.mesh;
-    out << fmt::format("# {}:\n{}\n", kVertices, points.rows());
-    for (const auto p : points.rowwise()) out << fmt::format("{} {} {}\n", p[0], p[1], p[2]);
-    out << fmt::format("\n# {}:\n{}\n", kFaces, triangles.rows());
-    for (const auto t : triangles.rowwise()) out << fmt::format("{} {} {}\n", t[0], t[1], t[2]);
-    out << '\n';
-    write_units(out, kAnimation, candide.animation_units);
-    write_units(out, kShape, candide.shape_units);
-    out << fmt::format("# {}:\n", kAnimationParameters);
-    for (const double value : candide.animation_parameters) out << fmt::format("{}\n", value);
-    out << fmt::format("\n# {}:\n", kShapeParameters);
-    for (const double value : candide.shape_parameters) out << fmt::format("{}\n", value);
-    if (candide.texture.rows()) {
-      out << fmt::format("\n# {}:\n", kTexture);
-      for (const auto t : candide.texture.rowwise()) out << fmt::format("{} {}\n", t[0], t[1]);
-    }
-    out << fmt::format("\n# {}\n", kEnd);
-  });
 }
 
 }  // namespace hyperex::expression

@@ -13,7 +13,7 @@ namespace hyperex::expression {
 struct CandideUnit {
   std::string name;           ///< the comment above it
   std::vector<int> vertices;  ///< 0-based, in the file's order
-  Points displacement;        ///< one row an entry, model units
+  Points displacement;        ///< one row per entry, model units
 };
 
 /// A wireframe face of the CANDIDE family as its .wfm file holds it: y up, z forward, +x the
@@ -21,7 +21,7 @@ struct CandideUnit {
 struct CandideFile {
   TriMesh mesh;
   std::vector<CandideUnit> animation_units, shape_units;
-  Eigen::VectorXd animation_parameters, shape_parameters;             ///< one a unit
+  Eigen::VectorXd animation_parameters, shape_parameters;             ///< one per unit
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> texture;  ///< |V| x 2 or empty
 };
 
@@ -32,8 +32,5 @@ struct CandideFile {
 /// out of order, too few or too many lines, words that are no numbers, a vertex out of range, a
 /// face that uses a vertex twice, a count that is none.
 CandideFile read_candide(const std::filesystem::path& file);
-
-/// The same layout; what read_candide() gives back is equal, number for number.
-void write_candide(const std::filesystem::path& file, const CandideFile& candide);
 
 }  // namespace hyperex::expression

@@ -67,7 +67,7 @@ std::string with_side(std::string text, const char* side) {
   return star == std::string::npos ? text : text.replace(star, 1, side);
 }
 
-/// The rows completed to both halves, one entry a unit of the model.
+/// The rows completed to both halves, one entry per unit of the model.
 std::vector<UnitRows> both_sides(const UnitRows& rows, const std::vector<int>& mirror) {
   const auto other = [&](bool turn_x) {
     std::map<int, Vec3> at;

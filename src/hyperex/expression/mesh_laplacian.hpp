@@ -14,7 +14,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 SparseMatrix mesh_laplacian(const TriMesh& mesh);
 
 /// The field d with d_v = fixed[v] that minimises d^T `smoothness` d (|V| x |V|, positive
-/// semidefinite, definite on the free vertices: std::logic_error otherwise). One row a vertex.
+/// semidefinite, definite on the free vertices: std::logic_error otherwise). One row per vertex.
 Points smooth_fill(const SparseMatrix& smoothness, const std::map<int, Vec3>& fixed);
 
 }  // namespace hyperex::expression

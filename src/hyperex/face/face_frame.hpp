@@ -29,16 +29,16 @@ struct FaceFrame {
   }
 };
 
-/// Of a face with all its landmarks: x from outer eye corner to outer eye corner, y from chin to
-/// nasion, made orthogonal; the origin midway between the mouth corners. Needs ibug68_8, 27, 36,
-/// 45, 48, 54 (std::out_of_range otherwise: complete the landmarks first).
+/// The frame of a face with all its landmarks: x from outer eye corner to outer eye corner, y from
+/// chin to nasion, made orthogonal; the origin midway between the mouth corners. Needs ibug68_8,
+/// 27, 36, 45, 48, 54 (std::out_of_range otherwise: complete the landmarks first).
 FaceFrame face_frame(const io::Landmarks& landmarks);
 
-/// Of a face with the few landmarks that somebody set, where chin and nasion are often absent: y
-/// from the mouth to the outer eye corners, which leans back by some degrees against that of
-/// face_frame; the rest as there. Needs the outer corners of the eyes and those of the mouth, under
-/// their anatomical or their iBUG names (the former count where both are given); nullopt where one
-/// is absent or they lie on one line.
+/// The frame of a face with the few landmarks that a user set, where chin and nasion are often
+/// absent: y from the mouth to the outer eye corners, which leans back by some degrees against that
+/// of face_frame; the rest as there. Needs the outer corners of the eyes and those of the mouth,
+/// under their anatomical or their iBUG names (the former count where both are given); nullopt
+/// where one is absent or they lie on one line.
 std::optional<FaceFrame> face_frame_of_corners(const io::Landmarks& landmarks);
 
 }  // namespace hyperex::face

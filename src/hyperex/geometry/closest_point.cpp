@@ -126,7 +126,7 @@ namespace {
 
 constexpr Eigen::Index kFewTriangles = 5000;
 
-void check(const TriMesh& mesh) {
+void check_mesh(const TriMesh& mesh) {
   if (mesh.triangles.rows() == 0) throw std::invalid_argument("closest point: no triangles");
   if (!mesh.points.allFinite()) throw std::invalid_argument("closest point: a point is not finite");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.points.rows())
@@ -136,7 +136,7 @@ void check(const TriMesh& mesh) {
 }  // namespace
 
 SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) {
-  check(mesh);
+  check_mesh(mesh);
   impl_->mesh = mesh;
   const Vec3 low = mesh.points.colwise().minCoeff(), high = mesh.points.colwise().maxCoeff();
   impl_->centre = (low + high) / 2;
@@ -144,7 +144,7 @@ SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) 
   const RTCDevice device = embree_device();
   impl_->scene = rtcNewScene(device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-  // Few triangles are mostly asked about few points: a tree made fast serves better than a fast
+  // Meshes of few triangles usually get few queries: a tree made fast serves better than a fast
   // one.
   if (mesh.triangles.rows() < kFewTriangles)
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_LOW);

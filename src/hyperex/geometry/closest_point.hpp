@@ -19,8 +19,9 @@ struct ClosestPoint {
 
 /// Exact closest point on the closed triangle (a, b, c): the foot of the perpendicular where that
 /// lies inside, otherwise the nearest point of the three edges, the vertices included. (The signs
-/// of two negative barycentric weights do not tell edge from vertex in an obtuse triangle, so no
-/// region is inferred from them.) Slivers and triangles collapsed to a segment or a point are safe.
+/// of two negative barycentric weights do not distinguish edge from vertex in an obtuse triangle,
+/// so no region is inferred from them.) Slivers and triangles collapsed to a segment or a point are
+/// safe.
 ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Closest-point queries on a triangle mesh. The tree (Embree's bounding volumes, in single
@@ -39,7 +40,7 @@ class SurfaceTree {
   /// `p` finite. `within`: triangles farther than that (length unit of the mesh) are not looked at;
   /// ClosestPoint::triangle is -1 where there is none as near.
   ClosestPoint query(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const;
-  /// Of those triangles alone that `keep` holds, which has one entry a triangle.
+  /// Of those triangles alone that `keep` holds, which has one entry per triangle.
   ClosestPoint query_among(const std::vector<char>& keep, const Vec3& p,
                            double within = std::numeric_limits<double>::infinity()) const;
   /// A `within` with which query(p) answers the same and sooner: `near` is a point of the surface.

@@ -65,7 +65,7 @@ class Union {
   explicit Union(const TriMesh& mesh) : whole_(mesh) {
     for (TriMesh& part : components_of(mesh)) parts_.emplace_back(std::move(part));
   }
-  /// What the samples of a row tell of the next.
+  /// What one sample of a row passes on to the next.
   struct Row {
     std::vector<Before> part;
     Before whole;

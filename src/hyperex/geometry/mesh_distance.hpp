@@ -10,9 +10,9 @@
 namespace hyperex {
 
 /// The distance to a closed mesh itself, below 0 inside; exact, but not smooth where two places of
-/// the surface are as near (GridDistance is). Inside and outside are told by the normal at the
+/// the surface are as near (GridDistance is). Inside and outside follow from the normal at the
 /// closest point, on edges and corners by the angle-weighted one (Baerentzen and Aanaes, IEEE TVCG
-/// 11, 2005, 243). May be asked from several threads.
+/// 11, 2005, 243). Queries may run in parallel.
 class MeshDistance {
  public:
   /// `closed`: watertight, triangles outward. Throws std::invalid_argument where it is empty, not

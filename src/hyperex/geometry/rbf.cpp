@@ -36,7 +36,7 @@ Data merged(const Points& centres, const Points& values, double distance) {
   return data;
 }
 
-void check(const Points& centres, const Points& values, const RbfOptions& options) {
+void check_centres(const Points& centres, const Points& values, const RbfOptions& options) {
   if (centres.rows() == 0) throw std::invalid_argument("radial basis: no centres");
   if (centres.rows() != values.rows())
     throw std::invalid_argument("radial basis: as many values as centres are needed");
@@ -48,7 +48,7 @@ void check(const Points& centres, const Points& values, const RbfOptions& option
 }  // namespace
 
 Rbf::Rbf(const Points& centres, const Points& values, const RbfOptions& options) {
-  check(centres, values, options);
+  check_centres(centres, values, options);
   const Data data = merged(centres, values, options.merge_distance);
   centres_ = data.centres;
   origin_ = centres_.colwise().mean().transpose();
@@ -93,7 +93,7 @@ Points Rbf::at_all(const Points& x) const {
 
 Eigen::MatrixXd rbf_weights(const Points& centres, Eigen::Index moving, const Points& places) {
   Eigen::MatrixXd all(places.rows(), moving);
-  // Three centres at a time: one unit value an axis.
+  // Three centres at a time: one unit value per axis.
   for (Eigen::Index first = 0; first < moving; first += 3) {
     const Eigen::Index count = std::min<Eigen::Index>(3, moving - first);
     Points unit = Points::Zero(centres.rows(), 3);

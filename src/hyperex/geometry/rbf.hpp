@@ -27,7 +27,7 @@ class Rbf {
   Rbf(const Points& centres, const Points& values, const RbfOptions& options = {});
 
   Vec3 at(const Vec3& x) const;
-  /// One value a row, computed in parallel.
+  /// One value per row, computed in parallel.
   Points at_all(const Points& x) const;
   /// Centres left after merging.
   Eigen::Index centre_count() const { return centres_.rows(); }

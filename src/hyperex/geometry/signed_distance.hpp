@@ -4,7 +4,7 @@
 
 namespace hyperex {
 
-/// A closed surface as the distance to it: teeth, eyeballs, whatever skin may touch and not enter.
+/// A closed surface as the distance to it: teeth, eyeballs and other obstacles of the skin.
 class SignedDistance {
  public:
   virtual ~SignedDistance() = default;

@@ -13,17 +13,17 @@ struct Similarity {
   Vec3 translation = Vec3::Zero();
 
   Vec3 operator*(const Vec3& a) const { return scale * (rotation * a) + translation; }
-  /// One point a row.
+  /// One point per row.
   Points apply(const Points& a) const;
   Similarity inverse() const;
 };
 
-/// The rigid (scale = 1) or similarity transform b_from_a that least squares asks for:
+/// The rigid (scale = 1) or similarity transform b_from_a of least squares:
 ///   min sum_i w_i |b_i - (s R a_i + t)|^2,  det R = +1.
 /// Umeyama, "Least-squares estimation of transformation parameters between two point patterns",
 /// IEEE PAMI 13 (1991); Kabsch for the rigid case.
 /// `a`, `b`: n x 3, n >= 3, finite; `weights`: n values >= 0 with a positive sum, or empty for
-/// equal ones. Points on one line leave the rotation about it open: ask spread_off_line() first.
+/// equal ones. Points on one line leave the rotation about it open: check spread_off_line() first.
 /// Throws std::invalid_argument where sizes or weights are no good.
 Eigen::Isometry3d fit_rigid(const Points& a, const Points& b, const Eigen::VectorXd& weights = {});
 Similarity fit_similarity(const Points& a, const Points& b, const Eigen::VectorXd& weights = {});

@@ -2,229 +2,21 @@
 // glTF 2.0 in, text or binary, through tinygltf: all triangles of the scene, placed by their
 // nodes. Written files are made by the report room.
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <map>
 #include <set>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/core/files.hpp"
-#include "hyperex/core/named_file.hpp"
 #include "hyperex/core/remarks.hpp"
+#include "hyperex/io/gltf_accessors.hpp"
+#include "hyperex/io/gltf_file.hpp"
 #include "hyperex/io/image.hpp"
-#include "hyperex/io/nesting.hpp"
-#include "hyperex/io/number.hpp"
 #include "hyperex/io/raw_mesh.hpp"
 
 namespace hyperex::io {
 namespace {
-static_assert(std::endian::native == std::endian::little);
-
-/// Keeps pictures as encoded bytes. Those in a buffer are taken later, with a check of the range.
-bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, int,
-                  const unsigned char* bytes, int size, void*) {
-  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
-  image->as_is = true;
-  return true;
-}
-
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return std::string(trimmed(text).substr(0, 200));
-}
-
-/// What tinygltf may see of the disk: files in the scan's folder or below.
-struct Folder {
-  std::filesystem::path path;
-  std::string refusals;
-
-  static bool holds(const std::string& name, void* self) {
-    auto& folder = *static_cast<Folder*>(self);
-    try {
-      named_file(folder.path, std::filesystem::absolute(name).string());
-      return true;
-    } catch (const std::exception& refusal) {
-      // It asks for a file beside the scan, then for one in the current folder.
-      if (folder.refusals.empty()) folder.refusals = std::string("; ") + refusal.what();
-      return false;
-    }
-  }
-  static std::string as_it_is(const std::string& name, void*) { return name; }
-  static bool read(std::vector<unsigned char>* bytes, std::string* error, const std::string& name,
-                   void* self) {
-    if (!holds(name, self)) return false;
-    try {
-      const std::string text = read_regular_file(name);
-      bytes->assign(text.begin(), text.end());
-      return true;
-    } catch (const InputError& refusal) {
-      *error += refusal.what();
-      return false;
-    }
-  }
-  static bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&,
-                            void*) {
-    return false;
-  }
-};
-
-/// The JSON of a file that begins as a binary one does; the file itself otherwise.
-std::string_view json_of(const std::string& bytes, bool binary) {
-  if (!binary) return bytes;
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + 12, 4);
-  return std::string_view(bytes).substr(20, length);
-}
-
-tinygltf::Model load_model(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file);
-  const bool binary = bytes.starts_with("glTF");
-  if (binary) {
-    std::uint32_t length = 0;
-    if (bytes.size() >= 12) std::memcpy(&length, bytes.data() + 8, 4);
-    if (bytes.size() < 20 || bytes.size() < length)
-      throw InputError(
-          file, fmt::format("is torn: it has {} bytes; its header says {}", bytes.size(), length));
-  }
-  check_nesting_json(file, json_of(bytes, binary));
-  Folder beside{file.parent_path(), {}};
-  tinygltf::TinyGLTF loader;
-  loader.SetFsCallbacks(
-      {&Folder::holds, &Folder::as_it_is, &Folder::read, &Folder::write_nothing, &beside});
-  loader.SetImageLoader(&keep_encoded, nullptr);
-  tinygltf::Model model;
-  std::string error, warning;
-  const auto size = static_cast<unsigned>(bytes.size());
-  const std::string folder = file.parent_path().string();
-  bool sound = false;
-  try {
-    sound = binary
-                ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                              reinterpret_cast<const unsigned char*>(bytes.data()),
-                                              size, folder)
-                : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder);
-  } catch (const std::exception& exception) {
-    error = exception.what();
-  }
-  if (!sound) throw InputError(file, "is no sound glTF file: " + one_line(error) + beside.refusals);
-  if (!warning.empty())
-    remark(Remark::warning,
-           fmt::format("{}: {}{}", file.string(), one_line(warning), beside.refusals));
-  // Those that say how surfaces look leave the shape as it is; quantised values are read below.
-  for (const auto& extension : model.extensionsRequired)
-    if (!extension.starts_with("KHR_materials_") && extension != "KHR_mesh_quantization")
-      throw InputError(file, fmt::format("requires the extension {}, which is not supported; "
-                                         "expected plain triangles (export without compression)",
-                                         quotable(extension)));
-  return model;
-}
-
-/// Reads accessors, each checked against the bytes that are there.
-class Accessors {
- public:
-  Accessors(const std::filesystem::path& file, const tinygltf::Model& model)
-      : file_(file), model_(model) {}
-
-  std::size_t count(int id, const char* what) const { return accessor(id, what).count; }
-
-  /// `columns` numbers an item, row-major; integers that stand for fractions are scaled.
-  std::vector<double> read(int id, int columns, const char* what) const {
-    const tinygltf::Accessor& a = accessor(id, what);
-    const int stored = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(a.type));
-    const int width =
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(a.componentType));
-    if (a.sparse.isSparse || a.bufferView < 0)
-      fail(id, what, "is sparse or empty; expected its values in a buffer view");
-    if (stored < columns || stored > 4 || width <= 0)
-      fail(id, what, fmt::format("has another type; expected {} numbers an item", columns));
-    const auto [bytes, available] = view(a.bufferView, what);
-    const std::size_t item = static_cast<std::size_t>(stored) * width;
-    const std::size_t stride = model_.bufferViews[a.bufferView].byteStride
-                                   ? model_.bufferViews[a.bufferView].byteStride
-                                   : item;
-    // count is checked by division: a torn or false file must not make us allocate.
-    if (a.byteOffset > available || stride < item || available - a.byteOffset < item ||
-        (a.count - 1) > (available - a.byteOffset - item) / stride)
-      fail(id, what,
-           fmt::format("needs {} items of {} bytes; its buffer view is too short", a.count, item));
-    std::vector<double> values;
-    values.reserve(a.count * columns);
-    for (std::size_t i = 0; i < a.count; ++i)
-      for (int k = 0; k < columns; ++k)
-        values.push_back(
-            number(bytes + a.byteOffset + i * stride + k * width, a.componentType, a.normalized));
-    return values;
-  }
-
-  int columns(int id, const char* what) const {
-    return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor(id, what).type));
-  }
-
-  /// The bytes of a buffer view.
-  std::pair<const unsigned char*, std::size_t> view(int id, const char* what) const {
-    if (id < 0 || id >= static_cast<int>(model_.bufferViews.size()))
-      throw InputError(file_, fmt::format("{}: there is no buffer view {}", what, id));
-    const tinygltf::BufferView& v = model_.bufferViews[id];
-    if (v.buffer < 0 || v.buffer >= static_cast<int>(model_.buffers.size()))
-      throw InputError(file_, fmt::format("{}: there is no buffer {}", what, v.buffer));
-    const auto& data = model_.buffers[v.buffer].data;
-    if (v.byteOffset > data.size() || v.byteLength > data.size() - v.byteOffset)
-      throw InputError(file_,
-                       fmt::format("{}: buffer {} is too short: it has {} bytes, buffer view "
-                                   "{} needs {} from {} on",
-                                   what, v.buffer, data.size(), id, v.byteLength, v.byteOffset));
-    return {data.data() + v.byteOffset, v.byteLength};
-  }
-
- private:
-  const tinygltf::Accessor& accessor(int id, const char* what) const {
-    if (id < 0 || id >= static_cast<int>(model_.accessors.size()))
-      throw InputError(file_, fmt::format("{}: there is no accessor {}", what, id));
-    if (model_.accessors[id].count == 0) fail(id, what, "is empty; expected at least one item");
-    return model_.accessors[id];
-  }
-
-  [[noreturn]] void fail(int id, const char* what, const std::string& why) const {
-    throw InputError(file_, fmt::format("{}: accessor {} {}", what, id, why));
-  }
-
-  template <class T>
-  static double load(const unsigned char* bytes) {
-    T value;
-    std::memcpy(&value, bytes, sizeof value);
-    return static_cast<double>(value);
-  }
-
-  static double number(const unsigned char* bytes, int type, bool normalized) {
-    switch (type) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return normalized ? std::max(load<std::int8_t>(bytes) / 127, -1.)
-                          : load<std::int8_t>(bytes);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return load<std::uint8_t>(bytes) / (normalized ? 255 : 1);
-      case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return normalized ? std::max(load<std::int16_t>(bytes) / 32767, -1.)
-                          : load<std::int16_t>(bytes);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return load<std::uint16_t>(bytes) / (normalized ? 65535 : 1);
-      case TINYGLTF_COMPONENT_TYPE_INT:
-        return load<std::int32_t>(bytes);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return load<std::uint32_t>(bytes);
-      case TINYGLTF_COMPONENT_TYPE_DOUBLE:
-        return load<double>(bytes);
-      default:
-        return load<float>(bytes);
-    }
-  }
-
-  const std::filesystem::path& file_;
-  const tinygltf::Model& model_;
-};
 
 /// Walks the scene and joins what its nodes hold.
 class SceneReader {
@@ -376,7 +168,8 @@ class SceneReader {
     return index;
   }
 
-  /// 2 a vertex; empty where the primitive has none. Notes the first textured primitive's picture.
+  /// 2 per vertex; empty where the primitive has none. Notes the first textured primitive's
+  /// picture.
   std::vector<double> texture_coordinates(const tinygltf::Primitive& primitive,
                                           std::size_t vertices) {
     int set = 0, texture = -1;
@@ -423,7 +216,7 @@ class SceneReader {
 
   const std::filesystem::path& file_;
   const tinygltf::Model& model_;
-  Accessors accessors_;
+  GltfAccessors accessors_;
   RawMesh raw_;
   std::vector<double> xyz_;
   std::vector<std::uint8_t> rgba_;
@@ -436,7 +229,7 @@ class SceneReader {
 }  // namespace
 
 RawMesh read_gltf(const std::filesystem::path& file) {
-  const tinygltf::Model model = load_model(file);
+  const tinygltf::Model model = load_gltf(file);
   return SceneReader(file, model).read();
 }
 

@@ -134,7 +134,7 @@ class MaterialReader : public tinyobj::MaterialReader {
   std::filesystem::path folder_;
 };
 
-std::string one_line(std::string text) {
+std::string one_obj_line(std::string text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -184,9 +184,9 @@ RawMesh read_obj(const std::filesystem::path& file) {
   MaterialReader material_reader(file.parent_path());
   const bool sound = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
                                       &material_reader, false, false);
-  if (!sound) throw InputError(file, "is no sound OBJ file: " + one_line(error));
+  if (!sound) throw InputError(file, "is no sound OBJ file: " + one_obj_line(error));
   if (!warning.empty())
-    remark(Remark::warning, fmt::format("{}: {}", file.string(), one_line(warning)));
+    remark(Remark::warning, fmt::format("{}: {}", file.string(), one_obj_line(warning)));
 
   RawMesh raw;
   take_vertices(attributes, raw);

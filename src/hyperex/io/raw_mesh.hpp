@@ -15,7 +15,7 @@ struct RawMesh {
   Points points;
   std::vector<std::int64_t> corner;    ///< the vertex at each corner, face after face
   std::vector<std::int64_t> face_end;  ///< where each face's corners end in `corner`
-  std::vector<float> corner_uv;        ///< 2 a corner, v as in glTF; empty where there are none
+  std::vector<float> corner_uv;        ///< 2 per corner, v as in glTF; empty where there are none
   VertexColours vertex_colour;
   std::optional<Image> texture;
   std::vector<VertexScalar> vertex_scalars;  ///< PLY: properties of vertices that mean nothing here

@@ -12,7 +12,7 @@
 
 namespace hyperex::io {
 namespace {
-constexpr std::array units{LengthUnit::millimetre, LengthUnit::centimetre, LengthUnit::metre};
+constexpr std::array kUnits{LengthUnit::millimetre, LengthUnit::centimetre, LengthUnit::metre};
 // Middle side of a face's bounding box. What is guessed must be more likely than what is believed.
 constexpr double guess_min_m = 0.10, guess_max_m = 0.30;
 constexpr double stated_min_m = 0.08, stated_max_m = 0.45;
@@ -31,7 +31,7 @@ bool is_gltf(const std::filesystem::path& file) {
 
 RawMesh read_raw(const std::filesystem::path& file) {
   const std::string extension = extension_of(file);
-  std::error_code not_there;  // which the reader tells
+  std::error_code not_there;  // reported by the reader
   if (std::filesystem::is_regular_file(file, not_there) && std::filesystem::is_empty(file))
     throw InputError(file, "is empty; expected a triangle mesh");
   if (extension == ".ply") return read_ply(file);
@@ -44,7 +44,7 @@ RawMesh read_raw(const std::filesystem::path& file) {
 }
 
 std::optional<LengthUnit> unit_between(double extent, double min_m, double max_m) {
-  for (const LengthUnit unit : units) {
+  for (const LengthUnit unit : kUnits) {
     const double size_m = extent * metres_per(unit);
     if (size_m >= min_m && size_m <= max_m) return unit;
   }
@@ -129,21 +129,11 @@ double metres_per(LengthUnit unit) {
 }
 
 std::string name_of(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::millimetre:
-      return "mm";
-    case LengthUnit::centimetre:
-      return "cm";
-    case LengthUnit::metre:
-      break;
-  }
-  return "m";
+  return std::string(word_of(unit));
 }
 
 std::optional<LengthUnit> length_unit(const std::string& name) {
-  for (const LengthUnit unit : units)
-    if (name == name_of(unit)) return unit;
-  return std::nullopt;
+  return value_of<LengthUnit>(name);
 }
 
 Scan read_scan(const std::filesystem::path& file, std::optional<LengthUnit> stated) {

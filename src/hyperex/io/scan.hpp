@@ -6,11 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/describe.hpp"
 #include "hyperex/geometry/types.hpp"
 
 namespace hyperex::io {
 
 enum class LengthUnit { millimetre, centimetre, metre };
+constexpr auto words_of(LengthUnit) {
+  return std::array{Word{"mm", LengthUnit::millimetre}, Word{"cm", LengthUnit::centimetre},
+                    Word{"m", LengthUnit::metre}};
+}
 double metres_per(LengthUnit unit);
 std::string name_of(LengthUnit unit);                            ///< "mm", "cm" or "m"
 std::optional<LengthUnit> length_unit(const std::string& name);  ///< from "mm", "cm" or "m"
@@ -30,7 +35,7 @@ struct Scan {
   TriMesh mesh;  ///< metres
   LengthUnit unit = LengthUnit::millimetre;
   bool unit_guessed = false;
-  /// 3|F| x 2, one row a triangle corner (row 3 f + k), v up as in glTF (0 at the picture's top);
+  /// 3|F| x 2, one row per triangle corner (row 3 f + k), v up as in glTF (0 at the picture's top);
   /// empty (0 rows) where the scan has no texture coordinates.
   Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> corner_uv;
   /// Empty (0 rows) where the scan has no vertex colours.

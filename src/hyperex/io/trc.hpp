@@ -10,7 +10,7 @@
 namespace hyperex::io {
 
 /// A recording of markers as motion laboratories keep it (Motion Analysis' TRC, as documented by
-/// OpenSim): tab-separated text, five header lines, then a line a frame.
+/// OpenSim): tab-separated text, five header lines, then a line per frame.
 struct TrcFile {
   LengthUnit unit = LengthUnit::millimetre;  ///< of the file; positions are metres
   double data_rate_hz = 0;

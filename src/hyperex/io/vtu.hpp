@@ -19,7 +19,7 @@ struct VtuArray {
 
 /// An unstructured grid of linear tetrahedra for ParaView: VTK's XML format (version 1.0),
 /// little-endian, appended raw data in blocks compressed by zlib. Points are written in metres, as
-/// float32. `point_arrays` have a row a point, `cell_arrays` a row a tetrahedron
+/// float32. `point_arrays` have a row per point, `cell_arrays` a row per tetrahedron
 /// (std::invalid_argument otherwise). Throws InputError where the file cannot be written.
 void write_vtu(const std::filesystem::path& file, const Points& points,
                const Tetrahedra& tetrahedra, const std::vector<VtuArray>& point_arrays = {},

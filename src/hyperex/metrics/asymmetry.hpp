@@ -18,8 +18,8 @@ struct Counterparts {
 };
 
 /// `side`: per vertex 1 upper lip's, -1 lower lip's, 0 neither, so that a lip is not taken for the
-/// other one through a closed mouth; empty: not told apart. A foot farther than `reach_m` from the
-/// reflected vertex, or on the border of the surface and not upon it, is no counterpart.
+/// other one through a closed mouth; empty: not distinguished. A foot farther than `reach_m` from
+/// the reflected vertex, or on the border of the surface and not upon it, is no counterpart.
 Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
                           const std::vector<int>& side = {}, double reach_m = 0.010);
 
@@ -27,7 +27,7 @@ Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
 /// and M the reflection, the vector
 ///   a_i(t) = (x_i(t) - M x_c(i)(t)) - (x_i(0) - M x_c(i)(0)) = u_i(t) - R u_c(i)(t),
 /// R v = v - 2 (n . v) n: the face less its own reflection, less the same at rest. Its length, a
-/// value a vertex; NaN without counterpart. `displacement` (m) has as many rows as the
+/// value per vertex; NaN without counterpart. `displacement` (m) has as many rows as the
 /// counterparts.
 Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& pairs,
                              const PointsF& displacement);
@@ -36,7 +36,7 @@ Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& 
 Eigen::VectorXf asymmetry_mm(const MidsagittalPlane& plane, const Counterparts& pairs,
                              const PointsF& displacement, const PointsF& other);
 
-/// Of one frame.
+/// The asymmetry in one frame.
 struct AsymmetrySummary {
   double face_rms_mm = 0, face_p95_mm = 0;    ///< over the region "face" (regions.hpp)
   double mouth_rms_mm = 0, mouth_p95_mm = 0;  ///< over the region "lips"

@@ -6,17 +6,17 @@
 
 namespace hyperex::metrics {
 
-/// xi_L - xi_R, a value a sample, with its sign (S is the logarithm of its size).
+/// xi_L - xi_R, a value per sample, with its sign (S is the logarithm of its size).
 std::vector<double> signed_difference(const SymmetryCurve& curve);
 
-/// What `curve` adds to the signed difference of `own`, a value a sample. Throws
+/// What `curve` adds to the signed difference of `own`, a value per sample. Throws
 /// std::invalid_argument where their numbers of samples differ.
 std::vector<double> added_difference(const SymmetryCurve& curve, const SymmetryCurve& own);
 
-/// How far curves S(t) of one motion part: the greatest S less the least, a value a sample; by what
-/// factor |xi_L - xi_R| differs, as a logarithm. Where one of the curves is not measured, or its
-/// |xi_L - xi_R| is under `clear` times its floor, NaN: near zero S is decided by rounding. Throws
-/// std::invalid_argument where there is no curve or their numbers of samples differ.
+/// How far curves S(t) of one motion part: the greatest S less the least, a value per sample; by
+/// what factor |xi_L - xi_R| differs, as a logarithm. Where one of the curves is not measured, or
+/// its |xi_L - xi_R| is under `clear` times its floor, NaN: near zero S is decided by rounding.
+/// Throws std::invalid_argument where there is no curve or their numbers of samples differ.
 std::vector<double> spread_of(const std::vector<SymmetryCurve>& curves, double clear = 10);
 
 /// The share of the integral of |value| over time that lies from `from_s` to `to_s`; values are

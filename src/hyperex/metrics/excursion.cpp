@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/metrics/nan.hpp"
 #include "hyperex/metrics/speed_floor.hpp"
 
 namespace hyperex::metrics {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::RowVector3d place(const motion::Motion& motion, size_t sample,
                          const std::vector<int>& columns) {
@@ -24,7 +22,7 @@ Eigen::RowVector3d place(const motion::Motion& motion, size_t sample,
 }
 
 double greatest(const std::vector<double>& values) {
-  double most = nan;
+  double most = kNan;
   for (const double value : values)
     if (!(value <= most)) most = std::isnan(value) ? most : value;
   return most;
@@ -56,7 +54,7 @@ SideExcursion side_of(const motion::Motion& motion, int column, double lowpass_h
 /// Root mean square of speeds over the quietest half second; NaN where none is measured.
 double quietest_rms(const std::vector<double>& time_s, const std::vector<double>& speed) {
   constexpr double window_s = 0.5;
-  double least = nan;
+  double least = kNan;
   for (size_t from = 0; from < speed.size(); ++from) {
     double squares = 0;
     size_t to = from;
@@ -70,7 +68,7 @@ double quietest_rms(const std::vector<double>& time_s, const std::vector<double>
 }
 
 /// The share of a speed's variance over time that jitter does not explain.
-double told_share(const std::vector<double>& speed, double jitter_variance) {
+double signal_share(const std::vector<double>& speed, double jitter_variance) {
   double n = 0, sum = 0, squares = 0;
   for (const double v : speed)
     if (!std::isnan(v)) ++n, sum += v, squares += v * v;
@@ -80,7 +78,7 @@ double told_share(const std::vector<double>& speed, double jitter_variance) {
 
 double ratio(double right, double left) {
   constexpr double least = 1e-3;
-  return left >= least ? right / left : nan;
+  return left >= least ? right / left : kNan;
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -101,7 +99,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     }
   // Below a micrometre a second a speed does not vary.
   constexpr double still = 1e-6;
-  return n > 2 && aa > still * n && bb > still * n ? ab / std::sqrt(aa * bb) : nan;
+  return n > 2 && aa > still * n && bb > still * n ? ab / std::sqrt(aa * bb) : kNan;
 }
 
 /// "48" and "p48" are ibug68_48 without its name.
@@ -147,11 +145,12 @@ void judge_speeds(const motion::Motion& motion, const SpeedFloor& floor, double 
       !(std::abs(l.peak_speed_mm_s - r.peak_speed_mm_s) >= pair.peak_speed_floor_mm_s);
   pair.path_undecided = !(std::abs(l.path_mm - r.path_mm) >= pair.path_floor_mm);
   const double jitter_variance = std::pow(wider * floor.rms_mm_s, 2) / 3;  // along the way
-  constexpr double told = 0.9;
+  constexpr double least_share = 0.9;
   pair.speed_correlation_undecided =
-      !(std::sqrt(told_share(left, jitter_variance) * told_share(right, jitter_variance)) >= told);
-  if (l.path_mm < pair.path_floor_mm) pair.path_ratio = nan;
-  if (l.peak_speed_mm_s < pair.peak_speed_floor_mm_s) pair.speed_ratio = nan;
+      !(std::sqrt(signal_share(left, jitter_variance) * signal_share(right, jitter_variance)) >=
+        least_share);
+  if (l.path_mm < pair.path_floor_mm) pair.path_ratio = kNan;
+  if (l.peak_speed_mm_s < pair.peak_speed_floor_mm_s) pair.speed_ratio = kNan;
 }
 
 PairExcursion pair_of(const motion::Motion& motion, int left, int right, double jitter_m,
@@ -172,7 +171,7 @@ PairExcursion pair_of(const motion::Motion& motion, int left, int right, double 
 }
 
 double change_of_distance_mm(const motion::Motion& motion, int a, int b) {
-  double most = nan;
+  double most = kNan;
   const auto length = [&](const Points& sample) {
     return 1e3 * (sample.row(a) - sample.row(b)).norm();
   };
@@ -192,7 +191,7 @@ Commissure commissure_of(const motion::Motion& motion, double lowpass_hz) {
   Commissure mouth;
   mouth.left = either("cheilion_L");
   mouth.right = either("cheilion_R");
-  mouth.left_from_midlip_mm = mouth.right_from_midlip_mm = nan;
+  mouth.left_from_midlip_mm = mouth.right_from_midlip_mm = kNan;
   if (mouth.left < 0 || mouth.right < 0) return mouth;
   mouth.left_mm = distance_from_rest_mm(motion, {mouth.left});
   mouth.right_mm = distance_from_rest_mm(motion, {mouth.right});

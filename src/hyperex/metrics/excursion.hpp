@@ -39,7 +39,7 @@ struct PairExcursion {
   SideExcursion left_side, right_side;
   double excursion_ratio = 0, path_ratio = 0, speed_ratio = 0;
   double speed_correlation = 0;  ///< Pearson's, of both speeds over time; NaN where one is constant
-  /// What jitter alone makes of a side that stands still (speed_floor.hpp), widened where the
+  /// What jitter alone makes of a side at rest (speed_floor.hpp), widened where the
   /// quieter side's quietest half second moves more: trackers' jitter is not white. 0: none known.
   double peak_speed_floor_mm_s = 0, path_floor_mm = 0;
   bool peak_speed_undecided = false, path_undecided = false;  ///< the sides differ by less
@@ -77,10 +77,11 @@ struct Excursions {
   double lowpass_hz = 0;  ///< that speeds and paths were smoothed with; 0: not
 };
 
-/// Of every pair of points that a motion (head pose taken out) names: NAME_L and NAME_R, and the
-/// mirrored iBUG-68 points as ibug68_K, K or pK; those not measured in the first sample are left
-/// out. L and R are the subject's own sides. Speeds and paths of a motion with jitter are smoothed
-/// with the cut-off `lowpass_hz` (>= 0; 0: not); an exact motion is left as it is.
+/// The excursions of every pair of points that a motion (head pose taken out) names: NAME_L and
+/// NAME_R, and the mirrored iBUG-68 points as ibug68_K, K or pK; those not measured in the first
+/// sample are left out. L and R are the subject's own sides. Speeds and paths of a motion with
+/// jitter are smoothed with the cut-off `lowpass_hz` (>= 0; 0: not); an exact motion is left as it
+/// is.
 Excursions excursions_of(const motion::Motion& motion, double jitter_m = 0,
                          double lowpass_hz = kUsualLowpass_hz);
 

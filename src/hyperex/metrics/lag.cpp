@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "hyperex/core/quantile.hpp"
+#include "hyperex/metrics/nan.hpp"
 #include "hyperex/motion/resample.hpp"
 
 namespace hyperex::metrics {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Cubic Hermite between samples, held outside.
 class Spline {
@@ -42,7 +40,7 @@ double pearson(const std::vector<double>& a, const std::vector<double>& b) {
   const Eigen::Map<const Eigen::ArrayXd> x(a.data(), count), y(b.data(), count);
   const Eigen::ArrayXd dx = x - x.mean(), dy = y - y.mean();
   const double scale = std::sqrt(dx.square().sum() * dy.square().sum());
-  return scale > 0 ? (dx * dy).sum() / scale : nan;
+  return scale > 0 ? (dx * dy).sum() / scale : kNan;
 }
 
 /// By more than rounding.
@@ -64,7 +62,7 @@ Lag lag_of(const std::vector<double>& time_s, const std::vector<double>& input,
       at.push_back(time_s[i]);
       in.push_back(input[i]);
     }
-  if (at.size() < 8 || !varies(in) || !varies(response)) return {nan, nan, false};
+  if (at.size() < 8 || !varies(in) || !varies(response)) return {kNan, kNan, false};
   const Spline spline(time_s, response);
   std::vector<double> out(at.size());
   const auto likeness = [&](double lag) {
@@ -73,7 +71,7 @@ Lag lag_of(const std::vector<double>& time_s, const std::vector<double>& input,
   };
   const int half = std::max(1, int(std::ceil(most_lag_s / (0.25 * median_step(time_s)))));
   const double grid = most_lag_s / half;
-  Lag best{nan, nan, false};
+  Lag best{kNan, kNan, false};
   for (int k = -half; k <= half; ++k)
     if (const double c = likeness(k * grid); !(c <= best.correlation) && !std::isnan(c)) {
       best.lag_s = k * grid;
@@ -94,11 +92,11 @@ Lag lag_of(const std::vector<double>& time_s, const std::vector<double>& input,
 double hysteresis_of(const std::vector<double>& input, const std::vector<double>& response) {
   if (input.size() != response.size())
     throw std::invalid_argument("hysteresis_of: as many responses as inputs are needed");
-  if (input.empty()) return nan;
+  if (input.empty()) return kNan;
   const auto [least_i, most_i] = std::minmax_element(input.begin(), input.end());
   const auto [least_r, most_r] = std::minmax_element(response.begin(), response.end());
   const double box = (*most_i - *least_i) * (*most_r - *least_r);
-  if (!(box > 0)) return nan;
+  if (!(box > 0)) return kNan;
   double twice = 0;
   for (size_t k = 0; k < input.size(); ++k) {
     const size_t next = (k + 1) % input.size();

@@ -4,18 +4,18 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "hyperex/metrics/nan.hpp"
 
 namespace hyperex::metrics {
 
 namespace {
 
 using Eigen::Index;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 SmoothTrack unsmoothed(const std::vector<double>& time_s, const Points& track) {
-  SmoothTrack out{track, Points::Constant(track.rows(), 3, nan)};
+  SmoothTrack out{track, Points::Constant(track.rows(), 3, kNan)};
   const Index count = track.rows();
   for (Index k = 0; k < count && count > 1; ++k) {
     if (!track.row(k).allFinite()) continue;
@@ -81,7 +81,7 @@ SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, do
     y.row(i) = track.row(k);
   }
   const SmoothTrack smooth = spline(t, y, std::pow(2 * std::numbers::pi * cutoff_hz, -4));
-  SmoothTrack out{Points::Constant(track.rows(), 3, nan), Points::Constant(track.rows(), 3, nan)};
+  SmoothTrack out{Points::Constant(track.rows(), 3, kNan), Points::Constant(track.rows(), 3, kNan)};
   for (Index i = 0; i < t.size(); ++i) {
     out.value.row(measured[std::size_t(i)]) = smooth.value.row(i);
     out.rate.row(measured[std::size_t(i)]) = smooth.rate.row(i);
@@ -95,7 +95,7 @@ double end_margin_s(double cutoff_hz) {
 
 double greatest_inside(const std::vector<double>& time_s, const std::vector<double>& values,
                        double cutoff_hz) {
-  double inside = nan, all = nan;
+  double inside = kNan, all = kNan;
   const double margin_s = end_margin_s(cutoff_hz);
   for (std::size_t k = 0; k < values.size(); ++k) {
     all = std::fmax(all, values[k]);

@@ -25,7 +25,7 @@ std::vector<Stretches> twin_remainders(const motion::Motion& run, const motion::
 
 /// Per sample, what |xi_L - xi_R| stays under in a symmetric motion:
 ///   1/2 sum_k (|q_k,L - q'_k,R| + |q_k,R - q'_k,L|) + what kResolution_m makes.
-/// Of a symmetric motion, whose twin is itself, the first term is sum_k |q_k,L - q_k,R|, which
+/// For a symmetric motion, whose twin is itself, the first term is sum_k |q_k,L - q_k,R|, which
 /// |xi_L - xi_R| cannot exceed; the distances are not summed with their signs, as the errors of
 /// two of them may cancel by chance.
 std::vector<double> xi_mesh_floor(const motion::Motion& run, const motion::Motion& twin,
@@ -40,7 +40,7 @@ double excursion_mesh_floor_mm(const motion::Motion& run, const motion::Motion& 
 void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::Motion& run,
                     const motion::Motion& twin);
 
-/// Of the pairs alone.
+/// The part of the pairs alone.
 void add_mesh_floor(Excursions& excursions, const motion::Motion& run, const motion::Motion& twin);
 
 /// The floor of what a variant adds to xi_L - xi_R: with p the remainders of the variant less those
@@ -50,14 +50,14 @@ double added_mesh_floor(const SymmetryCurve& variant, const SymmetryCurve& base)
 
 enum class Side { left, right };
 
-/// What a side's excursion changes by from one run to another that answers the same recording.
+/// The change of a side's excursion between two runs with the same recording.
 struct ExcursionChange {
   double from_mm = 0, to_mm = 0;
-  /// What the mesh makes of the change, as far as the mirrored twins tell (one sample), and the
-  /// recording's jitter (95 %): |(to - from) - (to' - from')| of the twins, and 1.96 sqrt(2) jitter
-  /// |to / from - 1|, as a changed face scales the jitter that both runs share; root of the sum of
-  /// squares, and kResolution_m. NaN without twins. Neither wrong tissue nor wrong muscles are in
-  /// it.
+  /// Uncertainty of the change: that of the mesh, from the mirrored twins (one sample), and that of
+  /// the recording's jitter (95 %): |(to - from) - (to' - from')| of the twins, and 1.96 sqrt(2)
+  /// jitter |to / from - 1|, as a changed face scales the jitter that both runs share; root of the
+  /// sum of squares, and kResolution_m. NaN without twins. Neither wrong tissue nor wrong muscles
+  /// are in it.
   double band_mm = 0;
   double change_mm() const { return to_mm - from_mm; }
   /// 1 where the change is larger than its band, else 0; NaN where no band is known.
@@ -65,7 +65,7 @@ struct ExcursionChange {
     return std::isnan(band_mm) ? band_mm : double(std::abs(change_mm()) > band_mm);
   }
 };
-/// Of the same pair of points in both runs, to which add_mesh_floor() has added its twin.
+/// The change for one pair of points in both runs, to which add_mesh_floor() has added its twin.
 ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Side side,
                           double jitter_m);
 

@@ -17,7 +17,8 @@ struct MidsagittalPlane {
   Vec3 reflect_vector(const Vec3& v) const { return v - 2 * normal.dot(v) * normal; }
 
   double landmark_rms_m = 0;  ///< of reflected landmarks to their counterparts, weighted
-  /// Of the reflected surface to the surface, along its normal, weighted; NaN where not refined.
+  /// Weighted distance of the reflected surface to the surface along its normal; NaN if not
+  /// refined.
   double surface_rms_m = 0;
   double turned_deg = 0, shifted_m = 0;  ///< by the refinement; shift in the middle of the face
   int rounds = 0;                        ///< of refinement; 0 where it was given up

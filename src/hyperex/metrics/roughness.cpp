@@ -13,7 +13,7 @@
 namespace hyperex::metrics {
 namespace {
 
-/// Fewer neighbours tell nothing of a dent.
+/// With fewer neighbours a dent cannot be measured.
 constexpr std::size_t kFewest = 8;
 
 /// Vertices within the reach of one, along edges; kept between calls to allocate nothing.

@@ -4,7 +4,7 @@
 
 namespace hyperex::metrics {
 
-/// What jitter alone makes of a point that stands still.
+/// Speeds and paths that jitter alone gives a point at rest.
 struct SpeedFloor {
   double peak_mm_s = 0;  ///< largest speed: 95 % of such tracks stay under it
   double path_mm = 0;    ///< length of the way, likewise

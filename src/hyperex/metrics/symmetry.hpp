@@ -21,20 +21,20 @@ struct SymmetryCurve {
   std::vector<double> time_s;
   std::vector<double> xi_left, xi_right;  ///< dimensionless (relative change of length, summed)
   std::vector<double> s;  ///< natural logarithm; first sample is the floor by definition
-  double floor = 1e-6;    ///< least |xi_L - xi_R| told apart (dimensionless)
+  double floor = 1e-6;    ///< least |xi_L - xi_R| that is resolved (dimensionless)
   /// Points that stood in for absent ones: "exocanthion_L: ibug68_45"; empty where none did.
   std::vector<std::string> stand_ins;
   double jitter_m = 0;  ///< of the points, standard deviation a coordinate; 0: exact
-  /// Of each sample what |xi_L - xi_R| of a symmetric motion stays under in 95 % of samples, by
-  /// jitter alone (symmetry_noise), dimensionless; empty where jitter_m is 0. S_floor is its
+  /// Per sample, the bound below which |xi_L - xi_R| of a symmetric motion stays in 95 % of cases,
+  /// by jitter alone (symmetry_noise), dimensionless; empty where jitter_m is 0. S_floor is its
   /// logarithm.
   std::vector<double> noise;
-  /// Of each sample what |xi_L - xi_R| of a symmetric motion stays under by the mesh's own
+  /// Per sample, the bound below which |xi_L - xi_R| of a symmetric motion stays, by the mesh's own
   /// unevenness and the resolution of a simulation (mesh_floor.hpp); empty where none is known.
   std::vector<double> mesh_noise;
   std::vector<Stretches> mesh_remainder;  ///< what mesh_noise is of (twin_remainders)
 
-  /// The larger of both floors, a value a sample; empty where neither is known.
+  /// The larger of both floors, a value per sample; empty where neither is known.
   std::vector<double> floors() const;
   /// |xi_L - xi_R| is under either floor of that sample: which side moves more is then undecided.
   /// Also true where not measured; never for an exact motion without a mesh.
@@ -53,7 +53,7 @@ SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor = 1e-6,
 /// The columns of the points that S(t) takes, in rising order; empty where one is not there.
 std::vector<int> symmetry_columns(const motion::Motion& landmarks);
 
-/// A value a sample; NaN where not measured. Points and errors as symmetry_of.
+/// A value per sample; NaN where not measured. Points and errors as symmetry_of.
 std::vector<Stretches> stretches_of(const motion::Motion& landmarks);
 
 /// Points known to `jitter_m` (standard deviation a coordinate, independent of each other and in

@@ -88,6 +88,56 @@ bool comes_back(const std::vector<double>& input) {
   return std::abs(input.back()) < 0.5 * most;
 }
 
+/// Where a vertex is farthest from base, and how far it has moved there at the peak.
+void measure_farthest(const simulate::Performance& own, const simulate::Performance& p,
+                      const io::Landmarks& landmarks, VariantComparison& c) {
+  const auto peak = std::size_t(own.peak_frame);
+  Eigen::Index there = 0;
+  c.greatest_distance_mm = 1e3 * c.difference.greatest_m.maxCoeff(&there);
+  c.displacement_there_mm = c.base_displacement_there_mm = std::nan("");
+  if (!(c.greatest_distance_mm > 0)) return;
+  c.displacement_there_mm = 1e3 * double(p.skin_displacement_m[peak].row(there).norm());
+  c.base_displacement_there_mm = 1e3 * double(own.skin_displacement_m[peak].row(there).norm());
+  double nearest_m = INFINITY;
+  for (const auto& [landmark, at] : landmarks)
+    if (const double d = (at.transpose() - own.skin_rest.points.row(there)).norm(); d < nearest_m) {
+      nearest_m = d;
+      c.farthest_near = landmark;
+    }
+}
+
+void measure_commissures(const ComparedRun& base, const ComparedRun& run, VariantComparison& c) {
+  c.commissure_left = c.commissure_right = {std::nan(""), std::nan(""), std::nan("")};
+  const Excursions& before = base.symmetry.excursions;
+  const Excursions& excursions = run.symmetry.excursions;
+  for (std::size_t i = 0; i < excursions.pairs.size(); ++i)
+    if (const int left = excursions.pairs[i].left;
+        left >= 0 && left == excursions.commissure.left) {
+      const auto change = [&](Side side) {
+        return change_of(before.pairs.at(i), excursions.pairs[i], side, before.jitter_m);
+      };
+      c.commissure_left = change(Side::left);
+      c.commissure_right = change(Side::right);
+      c.left_from_base =
+          distance_from_base(base.performance.landmarks, run.performance.landmarks, left);
+      c.right_from_base = distance_from_base(base.performance.landmarks, run.performance.landmarks,
+                                             excursions.pairs[i].right);
+    }
+}
+
+/// Lag and hysteresis of the response behind what drives it.
+void measure_lag(const simulate::Performance& own, const simulate::Performance& p,
+                 const motion::Motion& recorded, const ResponsePair& pair, VariantComparison& c) {
+  c.lag.lag_s = c.lag.correlation = c.hysteresis = std::nan("");
+  if (pair.driven.empty() || pair.response.empty()) return;
+  const auto input = along_farthest(driven_track(own, recorded, pair.driven));
+  const auto response = along_farthest(track_of(p.landmarks, pair.response));
+  if (comes_back(input)) {
+    c.lag = lag_of(p.frame_time_s, input, response);
+    c.hysteresis = hysteresis_of(input, response);
+  }
+}
+
 }  // namespace
 
 ResponsePair response_pair(const simulate::Performance& base, const motion::Motion& recorded,
@@ -138,34 +188,8 @@ VariantComparison compare_variant(const std::string& name, const ComparedRun& ba
   const Eigen::VectorXd area = vertex_areas(own.skin_rest);
   c.rms_distance_mm = 1e3 * std::sqrt(mean(c.difference.at_peak_m.cwiseAbs2(), area));
   c.mean_change_mm = 1e3 * mean(c.difference.change_at_peak_m, area);
-  Eigen::Index there = 0;
-  c.greatest_distance_mm = 1e3 * c.difference.greatest_m.maxCoeff(&there);
-  c.displacement_there_mm = c.base_displacement_there_mm = std::nan("");
-  if (c.greatest_distance_mm > 0) {
-    c.displacement_there_mm = 1e3 * double(p.skin_displacement_m[peak].row(there).norm());
-    c.base_displacement_there_mm = 1e3 * double(own.skin_displacement_m[peak].row(there).norm());
-    double nearest_m = INFINITY;
-    for (const auto& [landmark, at] : landmarks)
-      if (const double d = (at.transpose() - own.skin_rest.points.row(there)).norm();
-          d < nearest_m) {
-        nearest_m = d;
-        c.farthest_near = landmark;
-      }
-  }
-  c.commissure_left = c.commissure_right = {std::nan(""), std::nan(""), std::nan("")};
-  const Excursions& before = base.symmetry.excursions;
-  const Excursions& excursions = run.symmetry.excursions;
-  for (std::size_t i = 0; i < excursions.pairs.size(); ++i)
-    if (const int left = excursions.pairs[i].left;
-        left >= 0 && left == excursions.commissure.left) {
-      const auto change = [&](Side side) {
-        return change_of(before.pairs.at(i), excursions.pairs[i], side, before.jitter_m);
-      };
-      c.commissure_left = change(Side::left);
-      c.commissure_right = change(Side::right);
-      c.left_from_base = distance_from_base(own.landmarks, p.landmarks, left);
-      c.right_from_base = distance_from_base(own.landmarks, p.landmarks, excursions.pairs[i].right);
-    }
+  measure_farthest(own, p, landmarks, c);
+  measure_commissures(base, run, c);
   const Asymmetry& map = *run.symmetry.map;
   measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);
   c.asymmetry_mm = map.frames[peak].face_rms_mm;
@@ -174,15 +198,7 @@ VariantComparison compare_variant(const std::string& name, const ComparedRun& ba
   c.added_xi_floor = added_mesh_floor(s, base.symmetry.curve);
   c.share_near_mouth = share_within(c.difference.greatest_m, own.skin_rest.points,
                                     lip_outline(landmarks), kNearMouth_m, area);
-  c.lag.lag_s = c.lag.correlation = c.hysteresis = std::nan("");
-  if (!pair.driven.empty() && !pair.response.empty()) {
-    const auto input = along_farthest(driven_track(own, inputs.recorded, pair.driven));
-    const auto response = along_farthest(track_of(p.landmarks, pair.response));
-    if (comes_back(input)) {
-      c.lag = lag_of(p.frame_time_s, input, response);
-      c.hysteresis = hysteresis_of(input, response);
-    }
-  }
+  measure_lag(own, p, inputs.recorded, pair, c);
   c.symmetry_integral_s = integral(s.time_s, s.xi_left, s.xi_right);
   return c;
 }

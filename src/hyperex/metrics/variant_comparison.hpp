@@ -28,8 +28,9 @@ struct ComparedInputs {
   const motion::Motion& recorded;  ///< in the scan's frame; its first time is the run's time 0
 };
 
-/// What lag and hysteresis are told of: the driven point that moves farthest in base, and the
-/// landmark that moves farthest of those more than `clear_m` from every driven point at rest.
+/// The points for which lag and hysteresis are reported: the driven point that moves farthest in
+/// base, and the landmark that moves farthest of those more than `clear_m` from every driven point
+/// at rest.
 struct ResponsePair {
   std::string driven, response;  ///< empty where there is none
 };
@@ -73,8 +74,8 @@ struct VariantComparison {
   /// Share of the summed squared distances (greatest over time, weighted with area) within 25 mm of
   /// the outline of the lips; NaN where all are 0.
   double share_near_mouth = 0;
-  /// Of the response point behind the driven point; NaN where the motion does not come back: a
-  /// shape that is still on its way tells no lag from a bent path.
+  /// Lag of the response point behind the driven point; NaN where the motion does not come
+  /// back: on the way out alone, a lag looks like a bent path.
   Lag lag;
   double hysteresis = 0;           ///< of the same pair; NaN as the lag
   double symmetry_integral_s = 0;  ///< of |xi_L - xi_R| over time

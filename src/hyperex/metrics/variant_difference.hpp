@@ -7,7 +7,7 @@
 namespace hyperex::metrics {
 
 /// Per vertex, how far apart two performances of one skin are at the same times (m). `change`
-/// tells which moves more: |u_b| - |u_a| at the peak, below 0 where b moves less.
+/// says which moves more: |u_b| - |u_a| at the peak, below 0 where b moves less.
 struct VariantDifference {
   Eigen::VectorXd greatest_m;  ///< over all frames
   Eigen::VectorXd at_peak_m;   ///< at the given frame
@@ -22,12 +22,12 @@ struct VariantDifference {
 VariantDifference variant_difference(const std::vector<PointsF>& a, const std::vector<PointsF>& b,
                                      int peak_frame);
 
-/// Of any vertex in any frame, m; 0 where there is none.
+/// The greatest displacement of any vertex in any frame, m; 0 where there is none.
 double greatest_displacement_m(const std::vector<PointsF>& frames);
 
 /// Share of the summed squared distance that lies within `radius_m` (straight, at rest) of a closed
 /// line through `outline`, which one point alone may be:  sum_near w d^2 / sum w d^2. `weight`: a
-/// value a vertex, such as vertex_areas(), so that the share does not depend on where the mesh is
+/// value per vertex, such as vertex_areas(), so that the share does not depend on where the mesh is
 /// fine; empty: all vertices alike. NaN where all distances are 0. Throws std::invalid_argument
 /// where sizes differ or there is no line.
 double share_within(const Eigen::VectorXd& distance, const Points& rest, const Points& outline,

@@ -12,7 +12,7 @@
 namespace hyperex::metrics {
 namespace {
 
-std::string field(double value) {
+std::string cell(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
 }
 
@@ -57,7 +57,7 @@ void write_variants_csv(const std::filesystem::path& file, const VariantComparis
     out << ",farthest_near,driven_point,response_point\n";
     const auto row = [&](const VariantComparison& c) {
       out << io::in_quotes_where_needed(c.name);
-      for (const auto& figure : figures_of(c)) out << ',' << field(figure.second);
+      for (const auto& figure : figures_of(c)) out << ',' << cell(figure.second);
       fmt::print(out, ",{},{},{}\n", io::in_quotes_where_needed(c.farthest_near),
                  io::in_quotes_where_needed(pair.driven),
                  io::in_quotes_where_needed(pair.response));
@@ -78,8 +78,8 @@ void write_variant_excursions_csv(const std::filesystem::path& file, const Excur
           const auto change = change_of(base.pairs[i], pair, side, base.jitter_m);
           fmt::print(out, "{},{},{},{},{},{},{},{}\n", io::in_quotes_where_needed(variant.name),
                      io::in_quotes_where_needed(pair.name), side == Side::left ? 'L' : 'R',
-                     field(change.from_mm), field(change.to_mm), field(change.change_mm()),
-                     field(change.band_mm), field(change.decided()));
+                     cell(change.from_mm), cell(change.to_mm), cell(change.change_mm()),
+                     cell(change.band_mm), cell(change.decided()));
         }
   });
 }

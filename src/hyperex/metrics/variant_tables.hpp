@@ -10,7 +10,7 @@
 namespace hyperex::metrics {
 
 /// CSV, a row a run, base first: variant, the figures of VariantComparison (empty where they are
-/// not known), farthest_near, and the pair of points that lag and hysteresis are told of.
+/// not known), farthest_near, and the pair of points for which lag and hysteresis are reported.
 void write_variants_csv(const std::filesystem::path& file, const VariantComparison& base,
                         const std::vector<VariantComparison>& compared, const ResponsePair& pair);
 
@@ -20,8 +20,8 @@ struct NamedExcursions {
   const Excursions& excursions;  ///< of the pairs that base has
 };
 
-/// CSV, a row a variant, pair of landmarks and side: how far it travels in base and in the variant,
-/// the change with its band and whether it is larger (change_of).
+/// CSV, a row per variant, pair of landmarks and side: how far it travels in base and in the
+/// variant, the change with its band and whether it is larger (change_of).
 void write_variant_excursions_csv(const std::filesystem::path& file, const Excursions& base,
                                   const std::vector<NamedExcursions>& variants);
 

@@ -3,13 +3,21 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/describe.hpp"
 #include "hyperex/motion/motion.hpp"
 
 namespace hyperex::motion {
 
 struct PointGain {
   std::string point;  ///< a name of the motion
-  double gain = 1;    ///< of its displacement from the first sample, >= 0
+  double gain = 1;    ///< of its displacement from the first sample
+
+  static constexpr const char* about = "A gain on one point of a recording.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(point), "A point of the recording.", {.required = true, .least = 1});
+    v.option(HX_MEMBER(gain), "Multiplies its displacement.", {.bounds = {0, 5}, .required = true});
+  }
 };
 
 /// The motion with the displacements of the named points from their place in the first sample

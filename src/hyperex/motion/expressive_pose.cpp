@@ -58,7 +58,7 @@ class Witnesses {
     trust_ = trust_.cwiseInverse().eval();
   }
 
-  /// What the landmarks tell of the pose where expressions have these amplitudes.
+  /// The information of the landmarks about the pose, for given amplitudes of the expressions.
   struct Weighing {
     Eigen::LLT<Eigen::MatrixXd> factor;
     Eigen::MatrixXd whitened;  // L^-1 J
@@ -82,14 +82,14 @@ class Witnesses {
   /// Minus twice the restricted log likelihood of residuals, less a constant.
   static double misfit(const Weighing& w, const Eigen::VectorXd& residual, const Amplitudes& a) {
     const Eigen::VectorXd white = w.factor.matrixL().solve(residual);
-    const Vector6 told = w.whitened.transpose() * white;
-    double sum = w.log_determinant + white.squaredNorm() - told.dot(w.covariance * told);
+    const Vector6 explained = w.whitened.transpose() * white;
+    double sum = w.log_determinant + white.squaredNorm() - explained.dot(w.covariance * explained);
     for (const double amplitude : a)
       sum += 2 * kPriorWeight * std::pow(std::max(0.0, std::log(amplitude / kUsualAmplitude)), 2);
     return sum;
   }
 
-  /// Where the landmarks are, seen in the head, less where they were: 3 a landmark.
+  /// Where the landmarks are, seen in the head, less where they were: 3 per landmark.
   Eigen::VectorXd residual(const Points& now, const Eigen::Isometry3d& pose) const {
     const Eigen::Isometry3d back = pose.inverse();
     Points left =

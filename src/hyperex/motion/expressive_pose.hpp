@@ -12,7 +12,8 @@ namespace hyperex::motion {
 struct UncertainPose {
   /// Carries points of the head in sample 0 to where they are now.
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  /// Of the error as a turn (rad) about `centre` and a shift (m), in the axes of sample 0.
+  /// Covariance of the error: a rotation (rad) about `centre` and a shift (m), in the axes of
+  /// sample 0.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   Vec3 centre = Vec3::Zero();  ///< in sample 0
 };

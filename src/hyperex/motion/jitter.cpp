@@ -48,8 +48,8 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-/// The mean over columns and axes of the variance that their differences' medians tell; NaN where
-/// there are too few.
+/// The mean over columns and axes of the variance estimated from the medians of their differences;
+/// NaN where there are too few.
 double variance_of(const Motion& motion, const std::vector<int>& columns, std::size_t stride) {
   double sum = 0, count = 0;
   for (const int column : columns) {

@@ -27,7 +27,7 @@ const LandmarkMotion& landmark_motion();
 /// The covariances (3 m x 3 m, square metres) of the displacements of landmarks `rows` that
 /// expressions of the upper and of the lower part of the face make. Within a part, motion beyond
 /// the modes is correlated over a distance d as 0.9 exp(-d / 40 mm), so that neighbours that move
-/// together are one witness. `turn` carries the table's axes into those asked for; `scale` (> 0) is
+/// together are one witness. `turn` carries the table's axes into the wanted ones; `scale` (> 0) is
 /// the face's size over that of the table's face.
 struct ExpressionPrior {
   Eigen::MatrixXd upper, lower;

@@ -94,7 +94,7 @@ void add_coordinate(const io::CsvTable& table, Columns& columns, int column) {
   point->column[std::size_t(axis)] = column;
 }
 
-/// Other tables that people have, told by their columns, and where those go.
+/// Common tables of other kinds, recognised by their columns, and which command reads them.
 void refuse_other_tables(const io::CsvTable& table) {
   const auto has = [&](const char* wanted) {
     return std::any_of(table.names.begin(), table.names.end(),

@@ -19,7 +19,7 @@ enum class Interpolation {
 };
 
 /// First derivatives at rising times `t` of the C2 cubic splines through the columns of `y` (one
-/// row a time), zero at both ends.
+/// row per time), zero at both ends.
 Eigen::MatrixXd spline_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y);
 
 /// The positions of a motion as functions of time: built once, evaluated often. Before the first

@@ -17,7 +17,7 @@ namespace hyperex::motion {
 namespace {
 
 // Below this the turn about the line through the points is mostly noise.
-constexpr double kLeastSpread = 0.02;
+constexpr double kLeastSkullSpread = 0.02;
 // Residuals under this are what any sensor has, and no reason to doubt a point (m).
 constexpr double kResidualFloor = 1e-5;
 
@@ -94,7 +94,8 @@ Pairs pairs_at(const Motion& motion, const std::vector<int>& rigid, std::size_t 
     refuse(motion, fmt::format("at {:.4g} s only {} of the points that move with the skull are "
                                "measured: three are needed",
                                motion.time_s[k], pairs.rows.size()));
-  if (std::min(spread_off_line(pairs.reference), spread_off_line(pairs.current)) < kLeastSpread)
+  if (std::min(spread_off_line(pairs.reference), spread_off_line(pairs.current)) <
+      kLeastSkullSpread)
     refuse(motion, fmt::format("at {:.4g} s the points that move with the skull lie on one line: "
                                "head pose cannot be told from them",
                                motion.time_s[k]));

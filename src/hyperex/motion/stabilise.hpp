@@ -12,7 +12,7 @@ struct StabiliseOptions {
   /// much it moves in life (expressive_pose.hpp).
   std::vector<std::string> rigid_points;
   /// Rounds of reweighting of stated points: one whose residuals over the whole motion are larger
-  /// than usual counts less (Cauchy weights, one a point: the same at all times, so that the pose
+  /// than usual counts less (Cauchy weights, one per point: the same at all times, so that the pose
   /// stays as smooth as its input). 0: all count the same.
   int reweightings = 10;
 };

@@ -46,7 +46,7 @@ MuscleTable read_muscles(std::string_view toml, const std::string& source);
 
 /// The template that the program carries.
 const MuscleTable& muscle_template();
-/// By its name without side; null where there is none.
+/// The muscle of that name (without side), or null.
 const TemplateMuscle* find_muscle(const std::string& name,
                                   const MuscleTable& among = muscle_template());
 /// `own` muscles in the place of those of the same name, the others of `own` behind the rest, and

@@ -21,9 +21,8 @@ struct TextStyle {
 /// A scale of the map moss with ticks at round numbers, laid out vertically.
 struct ColourBar {
   Range range;
-  std::string label;  ///< above the bar, with the unit: "distance (mm)"
-  bool open_end =
-      false;  ///< values beyond the top exist and are drawn in its colour: told at the top
+  std::string label;      ///< above the bar, with the unit: "distance (mm)"
+  bool open_end = false;  ///< values beyond the top exist; they have its colour, and a mark says so
 };
 
 /// Round tick values (steps of 1, 2 or 5 times a power of ten) within `range`, about `wanted`.

@@ -11,9 +11,8 @@
 namespace hyperex::render {
 namespace {
 
-/// Corners lie on a grid of 2^-14 samples: what tells on which side of an edge a sample lies is
-/// then exact in double precision (pictures of up to 4096 samples), and the same number but for its
-/// sign from either side of an edge.
+/// Corners lie on a grid of 2^-14 samples. The test on which side of an edge a sample lies is then
+/// exact in double precision (pictures of up to 4096 samples), and antisymmetric in the edge.
 double on_grid(double samples) {
   constexpr double per_sample = 1 << 14;
   return std::nearbyint(samples * per_sample) / per_sample;
@@ -39,7 +38,7 @@ struct Cover {
 /// face fit in one, so that no branch depends on their size.
 constexpr int kBlock = 4;
 
-/// Triangles for whose corners the memory is asked ahead: no cache could foresee them.
+/// Triangles whose corners are prefetched: no cache could foresee them.
 constexpr int kAhead = 6;
 
 /// Into samples whose rows are `stride` apart: where the triangle is nearer than what was seen.

@@ -19,7 +19,7 @@ using VertexColours = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowM
 struct Surface {
   const TriMesh& mesh;
   Eigen::VectorXf scalar =
-      {};  ///< one a vertex, through the map moss over `range`; NaN: plain there
+      {};  ///< one per vertex, through the map moss over `range`; NaN: plain there
   Range range = {};
   VertexColours colours = {};
   Colour plain = palette::skin;

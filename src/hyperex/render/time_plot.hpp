@@ -28,16 +28,16 @@ Range span_of(const std::vector<PlotCurve>& curves);
 /// Paper, grid, ticks and label.
 void draw_axes(Canvas& canvas, const TimePlot& plot);
 
-/// One value a time in each curve; the first is drawn last, over the others. What leaves the plot's
-/// range is not drawn.
+/// One value per time in each curve; the first is drawn last, over the others. What leaves the
+/// plot's range is not drawn.
 void draw_curves(Canvas& canvas, const TimePlot& plot, const std::vector<double>& time,
                  const std::vector<PlotCurve>& curves);
 
-/// Shades what lies under `values`: there curves tell nothing.
+/// Shades what lies under `values`: curves there are below the noise.
 void shade_under(Canvas& canvas, const TimePlot& plot, const std::vector<double>& time,
                  const std::vector<double>& values);
 
-/// Colours for things of one kind that are told apart: for colour-blind readers too, after M. Okabe
+/// Colours that distinguish things of one kind, for colour-blind readers too, after M. Okabe
 /// and K. Ito; `dark`: lighter ones, for dark paper. Written into the pages (report/page_data.cpp).
 Colour category_colour(std::size_t index, bool dark = false);
 inline constexpr std::size_t category_count = 8;
@@ -52,7 +52,7 @@ inline Colour right_colour() {
   return category_colour(right_category);
 }
 
-/// Of base (0) and its variants: the categories that are not a side's come first.
+/// Category of base (0) or a variant: the categories that are not a side's come first.
 std::size_t face_category(std::size_t face);
 inline Colour face_colour(std::size_t face) {
   return category_colour(face_category(face));

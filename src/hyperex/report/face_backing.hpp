@@ -42,7 +42,7 @@ struct FaceBacking {
 /// whose middle lies between the outer corners of the eyes, but the longest, the skin's own end.
 /// Eyeballs: anatomy::eyeballs_behind().
 FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks);
-/// Of the skin at rest, by the landmarks of the first sample.
+/// The backing of the skin at rest, by the landmarks of the first sample.
 FaceBacking face_backing(const simulate::Performance& performance);
 
 /// How much of the light that falls on the lips reaches vertices of teeth and gum behind them, 0 to

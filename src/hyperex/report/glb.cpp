@@ -138,7 +138,7 @@ void animate_jaw(tinygltf::Model& model, GltfArrays& arrays, int node,
   for (int k = 0; k < 3; ++k) model.nodes[std::size_t(node)].translation.push_back(shifts(0, k));
 }
 
-void check(const simulate::Performance& performance, const GlbOptions& options) {
+void check_glb(const simulate::Performance& performance, const GlbOptions& options) {
   bool whole = performance.skin_displacement_m.size() == performance.frame_time_s.size();
   for (const PointsF& frame : performance.skin_displacement_m)
     whole = whole && frame.rows() == performance.skin_rest.points.rows();
@@ -147,16 +147,11 @@ void check(const simulate::Performance& performance, const GlbOptions& options) 
   if (!whole) throw std::invalid_argument("write_glb: frames that are not the performance's");
 }
 
-tinygltf::Model model_of(const simulate::Performance& performance, const io::Scan& scan,
-                         const GlbOptions& options, GlbReport& report) {
-  tinygltf::Model model;
-  model.asset.version = "2.0";
-  model.asset.generator = "hyperex";
-  GltfArrays arrays(model);
-  const SkinView view = skin_view(performance, scan);
+/// The skin at rest with its material, the first of the model.
+tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, const SkinView& view,
+                                   const simulate::Performance& performance, const io::Scan& scan) {
   const PointsF rest = performance.skin_rest.points.cast<float>();
   const PointsF rest_normals = vertex_normals(rest, performance.skin_rest.triangles);
-
   tinygltf::Primitive skin;
   skin.mode = TINYGLTF_MODE_TRIANGLES;
   skin.attributes["POSITION"] = arrays.vectors(spread(rest, view.skin_vertex), true);
@@ -174,7 +169,38 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   }
   skin.material = 0;
   model.materials.push_back(skin_material(texture >= 0 || colours >= 0, texture));
+  return skin;
+}
 
+/// Poses of the skin that fill what the others leave of the file, and how they follow each other.
+void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& mesh,
+                     const simulate::Performance& performance, const SkinView& view,
+                     const GlbOptions& options, int lower_teeth, GlbReport& report) {
+  const double copies =
+      double(view.skin_vertex.size()) / double(performance.skin_rest.points.rows());
+  const PoseTargets targets =
+      pose_targets(performance.skin_rest, performance.skin_displacement_m, performance.frame_time_s,
+                   options.tolerance_m, options.max_bytes - double(arrays.bytes()), copies);
+  report.keys = targets.names.size();
+  report.max_error_m = targets.keys.max_error_m;
+  add_morph_targets(mesh, arrays, targets, view.skin_vertex);
+  tinygltf::Animation animation;
+  animation.name = "performance";
+  const double start_s = performance.frame_time_s.front();
+  const int times = arrays.times(performance.frame_time_s, start_s);
+  animate(animation, 0, "weights", times, arrays.rows_as_scalars(targets.keys.weights));
+  if (lower_teeth >= 0) animate_jaw(model, arrays, lower_teeth, performance, animation);
+  model.animations.push_back(animation);
+}
+
+tinygltf::Model model_of(const simulate::Performance& performance, const io::Scan& scan,
+                         const GlbOptions& options, GlbReport& report) {
+  tinygltf::Model model;
+  model.asset.version = "2.0";
+  model.asset.generator = "hyperex";
+  GltfArrays arrays(model);
+  const SkinView view = skin_view(performance, scan);
+  const tinygltf::Primitive skin = skin_primitive(model, arrays, view, performance, scan);
   model.nodes.emplace_back();
   model.nodes[0].name = "face";
   model.nodes[0].mesh = 0;
@@ -196,22 +222,7 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   const bool moves =
       std::any_of(performance.skin_displacement_m.begin(), performance.skin_displacement_m.end(),
                   [](const PointsF& frame) { return !frame.isZero(0); });
-  if (moves) {
-    const double copies = double(view.skin_vertex.size()) / double(rest.rows());
-    const PoseTargets targets = pose_targets(performance.skin_rest, performance.skin_displacement_m,
-                                             performance.frame_time_s, options.tolerance_m,
-                                             options.max_bytes - double(arrays.bytes()), copies);
-    report.keys = targets.names.size();
-    report.max_error_m = targets.keys.max_error_m;
-    add_morph_targets(mesh, arrays, targets, view.skin_vertex);
-    tinygltf::Animation animation;
-    animation.name = "performance";
-    const double start_s = performance.frame_time_s.front();
-    const int times = arrays.times(performance.frame_time_s, start_s);
-    animate(animation, 0, "weights", times, arrays.rows_as_scalars(targets.keys.weights));
-    if (lower_teeth >= 0) animate_jaw(model, arrays, lower_teeth, performance, animation);
-    model.animations.push_back(animation);
-  }
+  if (moves) add_performance(model, arrays, mesh, performance, view, options, lower_teeth, report);
   model.meshes[0] = std::move(mesh);
   tinygltf::Scene scene;
   for (std::size_t n = 0; n < model.nodes.size(); ++n) scene.nodes.push_back(int(n));
@@ -224,7 +235,7 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
 
 GlbReport write_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options) {
-  check(performance, options);
+  check_glb(performance, options);
   GlbReport report;
   const tinygltf::Model model = model_of(performance, scan, options, report);
   write_file_atomically(file, [&](std::ostream& stream) {

@@ -25,7 +25,7 @@ struct GlbReport {
 /// the performance (pose_keys.hpp), named by their times ("pose_0.933s"), with weights from 0 to 1,
 /// animated linearly at the frame times counted from the first frame. As few poses as
 /// options.tolerance_m allows; where they would take more than options.max_bytes fewer, and the
-/// report tells the error that remains, but always one. Normals move too. With the scan's texture
+/// report says which error remains, but always one. Normals move too. With the scan's texture
 /// (vertices split at seams, the skin's order kept by extras.skin_vertices otherwise) or its vertex
 /// colours, else a plain skin tone. A performance without motion is written as a still mesh. Teeth
 /// are nodes of their own, upper_teeth and lower_teeth; the lower ones move by rotation and

@@ -45,9 +45,9 @@ struct PoseTargets {
   float least_move_m = 0;  ///< positions are added to by this or not at all
 };
 
-/// Of the surface at rest and its displacements over time. Keys after the first are left out
-/// where all would take more than `max_bytes`; `copies` of each vertex are written (1.2: a fifth of
-/// them twice).
+/// Morph targets of the surface at rest from its displacements over time. Keys after the first are
+/// left out where all would take more than `max_bytes`; `copies` of each vertex are written (1.2: a
+/// fifth of them twice).
 PoseTargets pose_targets(const TriMesh& rest, const std::vector<PointsF>& displacements,
                          const std::vector<double>& time_s, double tolerance_m, double max_bytes,
                          double copies = 1);

@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
-#include "hyperex/report/face_backing.hpp"
-#include "hyperex/report/jaw_turns.hpp"
+#include "hyperex/report/geometry_sections.hpp"
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
-#include "hyperex/report/skin_view.hpp"
 #include "hyperex/simulate/load/muscle_load.hpp"
 
 namespace hyperex::report {
@@ -21,57 +18,6 @@ namespace {
 using Eigen::Index;
 using nlohmann::json;
 
-json points_at(const PointsF& points, BinaryBlock& block) {
-  return block.add("float32", points.data(), points.size());
-}
-
-json skin_section(const ReportInput& input, BinaryBlock& block) {
-  const auto& performance = input.performance;
-  const SkinView view = skin_view(performance, input.scan);
-  json skin = {{"points", points_at(performance.skin_rest.points.cast<float>(), block)},
-               {"triangles", block.add("int32", performance.skin_rest.triangles.data(),
-                                       performance.skin_rest.triangles.size())}};
-  if (view.uv.rows() > 0) {
-    skin["texture"] = {
-        {"mime_type", input.scan.texture->mime_type},
-        {"image", block.add(input.scan.texture->bytes)},
-        {"uv", block.add("float32", view.uv.data(), view.uv.size())},
-        {"skin_vertex", block.add(view.skin_vertex)},
-        {"triangles", block.add("int32", view.triangles.data(), view.triangles.size())}};
-  } else if (const auto colour = skin_colour(performance, input.scan); colour.rows() > 0) {
-    skin["colour"] = block.add("uint8", colour.data(), colour.size());
-  }
-  return skin;
-}
-
-/// In steps of which the mode's largest component has as many as T can count.
-template <typename T>
-json quantised(const PointsF& mode, float largest, const char* type, BinaryBlock& block) {
-  const float step_m = largest > 0 ? largest / std::numeric_limits<T>::max() : 1;
-  std::vector<T> steps(static_cast<std::size_t>(mode.size()));
-  std::transform(mode.data(), mode.data() + mode.size(), steps.begin(),
-                 [&](float value) { return static_cast<T>(std::lround(value / step_m)); });
-  return {{"step_m", step_m}, {"values", block.add(type, steps.data(), steps.size())}};
-}
-
-/// {"modes": a mode its values and their step, "weights": frames x modes}. Small modes, of which a
-/// noisy recording has many, take a byte a component: their step stays under 2 micrometres.
-json modes_section(const DisplacementModes& motion, BinaryBlock& block) {
-  constexpr float kByteStep_m = 2e-6F;
-  json modes = json::array();
-  for (const auto& mode : motion.modes) {
-    const float largest = mode.cwiseAbs().maxCoeff();
-    modes.push_back(largest <= kByteStep_m * std::numeric_limits<std::int8_t>::max()
-                        ? quantised<std::int8_t>(mode, largest, "int8", block)
-                        : quantised<std::int16_t>(mode, largest, "int16", block));
-  }
-  using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const RowMajor weights = motion.weights;
-  return {{"modes", modes},
-          {"weights", block.add("float32", weights.data(), weights.size())},
-          {"max_error_mm", 1e3 * motion.max_error_m}};
-}
-
 json motion_section(const ReportInput& input, BinaryBlock& block) {
   json motion = modes_section(input.modes, block);
   motion["time_s"] = input.performance.frame_time_s;
@@ -79,13 +25,6 @@ json motion_section(const ReportInput& input, BinaryBlock& block) {
   motion["max_displacement_mm"] =
       1e3 * metrics::greatest_displacement_m(input.performance.skin_displacement_m);
   return motion;
-}
-
-json positions_of(const motion::Motion& landmarks, BinaryBlock& block) {
-  std::vector<float> values;  // N x P x 3
-  for (const auto& frame : landmarks.positions)
-    for (Index i = 0; i < frame.size(); ++i) values.push_back(static_cast<float>(frame.data()[i]));
-  return block.add(values);
 }
 
 json symmetry_section(const metrics::SymmetryCurve* curve) {
@@ -118,23 +57,6 @@ json tissue_section(const std::vector<TissueMap>& maps, BinaryBlock& block) {
                        {"values", block.add(bytes)}});
   }
   return section;
-}
-
-/// "vertices" (-1 where there is none) and "weights" (bytes) of each vertex's counterpart.
-json mirror_section(const metrics::RestAsymmetry& at_rest, BinaryBlock& block) {
-  const metrics::Counterparts& pairs = at_rest.pairs;
-  std::vector<int> vertices;
-  std::vector<std::uint8_t> weights;
-  for (std::size_t i = 0; i < pairs.found.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      vertices.push_back(pairs.found[i] ? pairs.vertices[i][k] : -1);
-      const double weight = std::clamp(pairs.weights[i][Index(k)], 0., 1.);
-      weights.push_back(static_cast<std::uint8_t>(std::lround(255 * weight)));
-    }
-  const Vec3& n = at_rest.plane.normal;
-  return {{"normal", {n.x(), n.y(), n.z()}},
-          {"vertices", block.add(vertices)},
-          {"weights", block.add(weights)}};
 }
 
 /// A row of `course` in four digits: a page of a long recording stays small.
@@ -215,12 +137,6 @@ json variants_section(const ReportInput& input, BinaryBlock& block) {
   return section;
 }
 
-json landmark_section(const motion::Motion& landmarks, BinaryBlock& block) {
-  return {{"names", landmarks.names},
-          {"time_s", landmarks.time_s},
-          {"positions", positions_of(landmarks, block)}};
-}
-
 json points_json(const Points& points) {
   json rows = json::array();
   for (Index i = 0; i < points.rows(); ++i)
@@ -228,86 +144,10 @@ json points_json(const Points& points) {
   return rows;
 }
 
-json triple(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-/// {"points": ..., "triangles": ...} of a mesh that does not change its shape: points in steps of a
-/// 32767th of its extent, from a middle.
-json rigid_mesh(const TriMesh& mesh, BinaryBlock& block) {
-  const Vec3 low = mesh.points.colwise().minCoeff(), high = mesh.points.colwise().maxCoeff();
-  const Vec3 middle = (low + high) / 2;
-  const PointsF about = (mesh.points.rowwise() - middle.transpose()).cast<float>();
-  const bool few = mesh.points.rows() <= std::numeric_limits<std::int16_t>::max();
-  json out = {
-      {"middle", triple(middle)},
-      {"points", quantised<std::int16_t>(about, about.cwiseAbs().maxCoeff(), "int16", block)}};
-  if (few) {
-    std::vector<std::int16_t> corners(mesh.triangles.data(),
-                                      mesh.triangles.data() + mesh.triangles.size());
-    out["triangles"] = block.add(corners);
-  } else {
-    out["triangles"] =
-        block.add("int32", mesh.triangles.data(), std::size_t(mesh.triangles.size()));
-  }
-  return out;
-}
-
-/// A list of {"jaw": "upper" or "lower", "part": "crowns" or "gum"} with their meshes and the
-/// light on each vertex, a byte.
-json teeth_section(const anatomy::Teeth& teeth, const Vec3& forward, BinaryBlock& block) {
-  json section = json::array();
-  const auto add = [&](const char* jaw, const char* part, const TriMesh& mesh,
-                       const TriMesh& crowns) {
-    if (mesh.triangles.rows() == 0) return;
-    json one = rigid_mesh(mesh, block);
-    const Eigen::VectorXd light = light_in_mouth(mesh, crowns, forward);
-    std::vector<std::uint8_t> bytes;
-    for (const double share : light)
-      bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * share)));
-    one["light"] = block.add(bytes);
-    one["jaw"] = jaw;
-    one["part"] = part;
-    section.push_back(std::move(one));
-  };
-  add("upper", "crowns", teeth.upper.crowns, teeth.upper.crowns);
-  add("upper", "gum", teeth.upper.gum, teeth.upper.crowns);
-  add("lower", "crowns", teeth.lower.crowns, teeth.lower.crowns);
-  add("lower", "gum", teeth.lower.gum, teeth.lower.crowns);
-  return section;
-}
-
-/// Frames x 7: a quaternion x y z w and a translation, now_from_rest.
-json jaw_section(const simulate::Performance& performance, BinaryBlock& block) {
-  std::vector<float> values;
-  Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
-  for (const Eigen::Isometry3d& jaw : performance.jaw_now_from_rest) {
-    const Eigen::Quaterniond turn = near_to(before, jaw.linear());
-    before = turn;
-    for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()})
-      values.push_back(static_cast<float>(value));
-    for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(jaw.translation()[k]));
-  }
-  return block.add(values);
-}
-
-/// "openings" and "eyeballs" of the skin at rest. Returns what is forward in it.
-Vec3 add_backing(const simulate::Performance& performance, BinaryBlock& block, json& manifest) {
-  const FaceBacking backing = face_backing(performance);
-  manifest["openings"] = json::array();
-  for (const Opening& opening : backing.openings)
-    manifest["openings"].push_back({{"loop", block.add(opening.loop)},
-                                    {"inward", triple(opening.inward)},
-                                    {"depth_m", opening.depth_m},
-                                    {"rings",
-                                     {{opening.rings[0].depth, opening.rings[0].width},
-                                      {opening.rings[1].depth, opening.rings[1].width}}}});
-  manifest["eyeballs"] = json::array();
-  for (const Eyeball& eyeball : backing.eyeballs)
-    manifest["eyeballs"].push_back({{"centre", triple(eyeball.centre)},
-                                    {"gaze", triple(eyeball.gaze)},
-                                    {"radius_m", eyeball.radius_m}});
-  return backing.forward;
+json landmark_section(const motion::Motion& landmarks, BinaryBlock& block) {
+  return {{"names", landmarks.names},
+          {"time_s", landmarks.time_s},
+          {"positions", positions_of(landmarks, block)}};
 }
 
 /// What people call each point that the page names: landmarks, and pairs of the excursions.
@@ -334,7 +174,7 @@ json muscle_section(const ReportInput& input) {
       {"lines", lines}};
 }
 
-json manifest_of(const ReportInput& input, BinaryBlock& block, bool face) {
+json report_manifest(const ReportInput& input, BinaryBlock& block, bool face) {
   const auto& performance = input.performance;
   json manifest = {{"version", 1},
                    {"title", input.title},
@@ -366,7 +206,7 @@ json manifest_of(const ReportInput& input, BinaryBlock& block, bool face) {
   return manifest;
 }
 
-void check(const ReportInput& input) {
+void check_input(const ReportInput& input) {
   const auto& performance = input.performance;
   const auto frames = performance.frame_time_s.size();
   const Index vertices = performance.skin_rest.points.rows();
@@ -395,16 +235,16 @@ void check(const ReportInput& input) {
 }  // namespace
 
 nlohmann::json replay_manifest(const ReportInput& input, BinaryBlock& block, bool face) {
-  check(input);
-  json manifest = manifest_of(input, block, face);
+  check_input(input);
+  json manifest = report_manifest(input, block, face);
   manifest["palette"] = palette();
   return manifest;
 }
 
 void write_html_report(const std::filesystem::path& file, const ReportInput& input) {
-  check(input);
+  check_input(input);
   BinaryBlock block;
-  const json manifest = manifest_of(input, block, true);
+  const json manifest = report_manifest(input, block, true);
   write_page(file, page_template(Page::replay), manifest, block);
 }
 

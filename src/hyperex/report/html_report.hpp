@@ -20,7 +20,8 @@ struct TissueMap {
   std::string key;        ///< as the scene writes it: "young_kpa"
   std::string name;       ///< "Young's modulus"
   std::string unit = {};  ///< "kPa"
-  /// Of all maps of this key in the page, so that one colour bar serves all; least <= greatest.
+  /// Range over all maps of this key in the page, so that one colour bar serves all; least <=
+  /// greatest.
   double least = 0, greatest = 0;
   Eigen::VectorXd values = {};  ///< a vertex of skin_rest, in `unit`
 };
@@ -47,8 +48,8 @@ struct ReportMuscle {
 struct ReportInput {
   const simulate::Performance& performance;
   const io::Scan& scan;
-  /// Of performance.skin_displacement_m; its error and half a step of each mode (1/65534 of its
-  /// largest component, or at most a micrometre) are the accuracy of the replay.
+  /// Modes of performance.skin_displacement_m; their error and half a step of each mode (1/65534 of
+  /// its largest component, or at most a micrometre) are the accuracy of the replay.
   const DisplacementModes& modes;
   const metrics::SymmetryCurve* symmetry = nullptr;  ///< its plots are left out where null
   nlohmann::json summary = {};                       ///< an object; shown as tables

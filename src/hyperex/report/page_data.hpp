@@ -11,8 +11,8 @@ namespace hyperex::report {
 /// One block of little-endian numbers that a page decodes once; the manifest says what lies where.
 class BinaryBlock {
  public:
-  /// Appends `count` numbers and tells where they lie: {"type", "offset" in bytes, "count"}. `type`
-  /// names T as JavaScript's typed arrays do: "float32", "int16" ...
+  /// Appends `count` numbers and returns where they are: {"type", "offset" in bytes, "count"}.
+  /// `type` names T as JavaScript's typed arrays do: "float32", "int16" ...
   template <typename T>
   nlohmann::json add(const char* type, const T* data, std::size_t count) {
     bytes_.resize((bytes_.size() + 7) / 8 * 8);  // typed arrays need aligned offsets

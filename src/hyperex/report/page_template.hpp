@@ -7,7 +7,7 @@ namespace hyperex::report {
 enum class Page {
   replay,    ///< web/report.html
   tracking,  ///< web/tracking.html
-  studio,    ///< web/studio.html, which has no place for data: it asks the studio's server for them
+  studio,  ///< web/studio.html, which has no place for data: it gets them from the studio's server
 };
 
 /// A page as Vite built it from web/, with scripts and styles inside and no data.

@@ -32,7 +32,7 @@ PointsF pose_of(const PointsF& displacement, float least_m);
 PoseKeys pose_keys(const std::vector<PointsF>& displacements, double tolerance_m,
                    const std::function<bool(int)>& take);
 
-/// "pose_0.933s", one a key; `time_s` of all frames, counted from the first. Frames so close that
+/// "pose_0.933s", one per key; `time_s` of all frames, counted from the first. Frames so close that
 /// their names would be one get more digits.
 std::vector<std::string> pose_names(const PoseKeys& keys, const std::vector<double>& time_s);
 

@@ -9,8 +9,8 @@
 namespace hyperex::report {
 namespace {
 
-/// Texture coordinates of a skin vertex in one scan triangle. Corners are told by their places: on
-/// a seam a scan may hold one vertex several times.
+/// Texture coordinates of a skin vertex in one scan triangle. Corners are identified by their
+/// places: on a seam a scan may hold one vertex several times.
 Eigen::RowVector2f uv_in_triangle(const simulate::Performance& performance, const io::Scan& scan,
                                   int triangle, int vertex) {
   const auto uv_at = [&](int scan_vertex) -> Eigen::RowVector2f {

@@ -20,7 +20,7 @@ using tracking::Tracking;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Collects channels; what `value` gives is asked of valid frames only.
+/// Collects channels; `value` is called for valid frames only.
 class Collector {
  public:
   Collector(const Tracking& tracking, TrackingCurves& curves)
@@ -129,7 +129,7 @@ void add_residuals(Collector& collect) {
   });
 }
 
-void check(const FaceModel& model, const Tracking& tracking) {
+void check_tracking(const FaceModel& model, const Tracking& tracking) {
   const auto wrong = [&](const TrackedFrame& frame) {
     return frame.valid && (frame.weights.size() != Eigen::Index(model.animation_units.size()) ||
                            frame.vertices_m.rows() != model.vertex_count());
@@ -149,7 +149,7 @@ HeadTurn head_turn(const Eigen::Matrix3d& r) {
 }
 
 TrackingCurves tracking_curves(const FaceModel& model, const Tracking& tracking) {
-  check(model, tracking);
+  check_tracking(model, tracking);
   TrackingCurves curves;
   choose_frames(tracking, curves);
   Collector collect(tracking, curves);

@@ -18,7 +18,7 @@ struct HeadTurn {
 /// R = R_y(yaw) R_x(-pitch) R_z(-roll).
 HeadTurn head_turn(const Eigen::Matrix3d& rotation);
 
-/// One number a frame; NaN where there is none.
+/// One number per frame; NaN where there is none.
 struct TrackingChannel {
   std::string group;  ///< "turn", "shift", "distance", "unit" or "residual"
   std::string name;   ///< "yaw", "mouth opening", "jawOpen" ...

@@ -58,7 +58,7 @@ std::string last_part(const std::string& recording) {
   return name.empty() || name == "." ? recording : name;
 }
 
-json manifest_of(const TrackingPageInput& input, BinaryBlock& block) {
+json tracking_manifest(const TrackingPageInput& input, BinaryBlock& block) {
   const tracking::Tracking& tracking = input.tracking;
   const TrackingCurves curves = tracking_curves(input.model, tracking);
   const double start_s = curves.time_s.empty() ? 0 : curves.time_s.front();
@@ -96,7 +96,7 @@ json manifest_of(const TrackingPageInput& input, BinaryBlock& block) {
 
 void write_tracking_page(const std::filesystem::path& file, const TrackingPageInput& input) {
   BinaryBlock block;
-  const json manifest = manifest_of(input, block);
+  const json manifest = tracking_manifest(input, block);
   write_page(file, page_template(Page::tracking), manifest, block);
 }
 

@@ -2,11 +2,10 @@
 #pragma once
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "hyperex/fem/form/system.hpp"
 #include "hyperex/io/vtu.hpp"
-#include "hyperex/run/finite_tissue.hpp"
+#include "hyperex/metrics/finite_tissue.hpp"
 #include "hyperex/run/outputs.hpp"
 
 namespace hyperex::run {
@@ -14,7 +13,7 @@ namespace hyperex::run {
 /// What ParaView shows of each tetrahedron of a performance. Of small strain:
 ///   "strain (1)"              xx, yy, zz, xy, yz, xz of the tensor; only `with_strain`
 ///   "von Mises stress (kPa)"
-/// Of finite strain, all of the elastic part (FiniteTissue):
+/// Of finite strain, all of the elastic part (metrics::FiniteTissue):
 ///   "Green-Lagrange strain (1)", "Cauchy stress (kPa)"  the tensors; only `with_strain`
 ///   "principal stretches (1)" rising; only `with_strain`
 ///   "volume ratio J (1)"
@@ -34,7 +33,7 @@ class FrameCells {
   bool with_strain_;
   fem::ElementStrain strain_;
   fem::Material material_;
-  std::unique_ptr<const FiniteTissue> finite_;  // null: small strain
+  std::unique_ptr<const metrics::FiniteTissue> finite_;  // null: small strain
 };
 
 /// Writes frames.pvd and frames/frame_NNNN.vtu: the tissue in every `every`-th frame (> 0), at
@@ -45,12 +44,5 @@ void write_frames(const simulate::Performance& performance, const std::filesyste
 /// As the scene's output.vtu_every and vtu_strain ask for, with the parameters of its tissue that
 /// differ from place to place.
 void write_frames(const Results& results, const std::filesystem::path& directory);
-
-/// The spread of von Mises stress (kPa) and of the greatest principal strain over the elements at
-/// the peak: median, p95, p99, max, and max_not_inverted, the greatest in elements that are not
-/// turned inside out. At finite strain of Cauchy's stress and Green-Lagrange's strain; also of the
-/// greatest principal stretch and the ratio of volumes, and the greatest stress over its 99th
-/// percentile: all without elements turned inside out. Null where no tissue was simulated.
-nlohmann::ordered_json stress_summary(const simulate::Performance& performance);
 
 }  // namespace hyperex::run

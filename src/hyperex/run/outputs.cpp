@@ -214,13 +214,15 @@ nlohmann::ordered_json glb_json(const report::GlbReport& glb) {
           {"size_mb", 1e-6 * glb.bytes}};
 }
 
-std::string glb_note(const scene::OutputOptions& output, const report::GlbReport& glb) {
+std::vector<Note> glb_notes(const scene::OutputOptions& output, const report::GlbReport& glb) {
   if (glb.max_error_m <= output.glb_tolerance_m) return {};
-  return fmt::format(
-      "performance.glb shows the motion to {:.2f} mm in place of {:g} mm "
-      "(output.glb_tolerance_mm): "
-      "its {} shape keys fill output.glb_max_mb = {:g}",
-      1e3 * glb.max_error_m, 1e3 * output.glb_tolerance_m, glb.keys, output.glb_max_mb);
+  return {make_warning(
+      "output.glb_coarse",
+      fmt::format("performance.glb shows the motion to {:.2f} mm in place of {:g} mm "
+                  "(output.glb_tolerance_mm): "
+                  "its {} shape keys fill output.glb_max_mb = {:g}",
+                  1e3 * glb.max_error_m, 1e3 * output.glb_tolerance_m, glb.keys, output.glb_max_mb),
+      "output.glb_max_mb")};
 }
 
 std::optional<report::GlbReport> write_outputs(const Results& r,

@@ -9,8 +9,8 @@
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
+#include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
-#include "hyperex/session/mirrored_twin.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
@@ -23,12 +23,14 @@ struct Results {
   const tissue::TissueMesh& mesh;
   const simulate::SimulationResult& simulation;
   metrics::SymmetryMeasures symmetry;
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   report::DisplacementModes modes;              ///< of the skin; empty where no page is wanted
   const tissue::TissueField* tissue = nullptr;  ///< where the tissue differs from place to place
-  std::vector<std::string> warnings = {};       ///< those of `notes` that nobody should overlook
   const anatomy::Teeth* teeth = nullptr;        ///< null: none
 };
+
+/// Of base. What it refers to belongs to the session, which must outlive it and stay as it is.
+Results results_of(const session::FaceSession& session);
 
 /// Writes all files but summary.json and report.html into `directory`, and tells of
 /// performance.glb; nothing where that is not wanted. Of a variant of `base`, muscles.png is
@@ -40,8 +42,9 @@ std::optional<report::GlbReport> write_outputs(const Results& results,
 /// "glb" of summary.json: keys, largest_error_mm, size_mb.
 nlohmann::ordered_json glb_json(const report::GlbReport& glb);
 
-/// A warning where output.glb_max_mb left less than output.glb_tolerance_mm asks for; else empty.
-std::string glb_note(const scene::OutputOptions& output, const report::GlbReport& glb);
+/// A warning where output.glb_max_mb left less than output.glb_tolerance_mm asks for
+/// (`output.glb_coarse`); else none.
+std::vector<Note> glb_notes(const scene::OutputOptions& output, const report::GlbReport& glb);
 
 /// Where the simulation ends, from the start of the motion.
 double run_end_s(const scene::Scene& scene, const session::Inputs& inputs);

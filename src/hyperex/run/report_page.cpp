@@ -113,7 +113,7 @@ ReplayPage::ReplayPage(const Results& r, const std::vector<VariantRun>& variants
              .modes = r.modes,
              .symmetry = &r.symmetry.curve,
              .summary = std::move(summary),
-             .notes = r.notes,
+             .notes = texts_of(r.notes),
              .title = title_of(r),
              .tissue = {},
              .variants = {},

@@ -14,7 +14,6 @@
 #include "hyperex/metrics/variant_tables.hpp"
 #include "hyperex/run/variants_picture.hpp"
 #include "hyperex/scene/file_names.hpp"
-#include "hyperex/session/simulation_options.hpp"
 
 namespace hyperex::run {
 namespace {
@@ -93,7 +92,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
            const VariantRun& run = runs[i];
            const Results results{run.scene,    run.inputs, mesh, run.simulation,
                                  run.symmetry, {},         {},   run.field ? &*run.field : nullptr,
-                                 {},           base.teeth};
+                                 base.teeth};
            const fs::path folder = directory / "variants" / run.folder;
            fs::create_directories(folder);
            glb[i] = write_outputs(results, folder, &base);

@@ -46,6 +46,47 @@ std::size_t frame_that_differs_most(const std::vector<metrics::VariantComparison
   return std::size_t(std::max_element(sum.begin(), sum.end()) - sum.begin());
 }
 
+/// The end of the colour bar, mm, and whether larger distances take its last colour.
+struct ColourTop {
+  double mm = 0;
+  bool capped = false;
+};
+
+/// One variant that moves much more than the others must not make them all look alike.
+ColourTop colour_top(const std::vector<metrics::VariantComparison>& compared) {
+  std::vector<double> each;
+  for (const auto& one : compared) each.push_back(one.greatest_distance_mm);
+  std::sort(each.begin(), each.end());
+  ColourTop top{std::max(0.0, each.back())};
+  const double middle = each[each.size() / 2 - (each.size() % 2 == 0 ? 1 : 0)];
+  top.capped = top.mm > 4 * middle && middle > 0.1;
+  if (top.capped) top.mm = 2 * middle;
+  top.mm = std::max(top.mm, 0.1);  // equal faces are of one colour, not of their noise
+  return top;
+}
+
+/// From the front, and obliquely from the side on which most of the difference lies.
+std::array<render::Camera, 2> cameras_on(const Results& base, const face::FaceFrame& frame,
+                                         const Points& own,
+                                         const std::vector<metrics::VariantComparison>& compared,
+                                         double aspect) {
+  Points framed(Eigen::Index(base.inputs.landmarks.size()), 3);
+  Eigen::Index row = 0;
+  for (const auto& [name, at] : base.inputs.landmarks)
+    framed.row(row++) = frame.local(at).transpose();
+  Vec3 oblique = render::three_quarter_view();  // sees the left side
+  double lean = 0;
+  for (const auto& one : compared)
+    lean += one.difference.greatest_m.cwiseAbs2().cast<double>().dot(own.col(0));
+  if (lean < 0) oblique.x() *= -1;  // most of the difference is on the right
+  std::array<render::Camera, 2> cameras;
+  for (std::size_t v = 0; v < cameras.size(); ++v) {
+    cameras[v] = render::framing(framed, v == 0 ? render::front_view() : oblique, aspect);
+    cameras[v].height_m *= 1.15;
+  }
+  return cameras;
+}
+
 }  // namespace
 
 void draw_variants(const Results& base, const std::vector<metrics::VariantComparison>& compared,
@@ -58,23 +99,10 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
     return TriMesh{frame.local_points(p.skin_rest.points + d.cast<double>()),
                    p.skin_rest.triangles};
   };
-  double top = 0;
-  for (const auto& one : compared) top = std::max(top, one.greatest_distance_mm);
-  // One variant that moves much more than the others must not make them all look alike.
-  std::vector<double> each;
-  for (const auto& one : compared) each.push_back(one.greatest_distance_mm);
-  std::sort(each.begin(), each.end());
-  const double middle = each[each.size() / 2 - (each.size() % 2 == 0 ? 1 : 0)];
-  const bool capped = top > 4 * middle && middle > 0.1;
-  if (capped) top = 2 * middle;
-  top = std::max(top, 0.1);  // equal faces are of one colour, not of their noise
+  const ColourTop top = colour_top(compared);
   const render::RenderOptions size{.width_px = 300, .height_px = 380};
   const double aspect = double(size.width_px) / size.height_px;
   const TriMesh own = skin_then(p);
-  Points framed(Eigen::Index(base.inputs.landmarks.size()), 3);
-  Eigen::Index row = 0;
-  for (const auto& [name, at] : base.inputs.landmarks)
-    framed.row(row++) = frame.local(at).transpose();
   render::ContactSheet sheet;
   sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
   sheet.note = fmt::format(
@@ -82,12 +110,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
       "time from base",
       p.frame_time_s[shown]);
   sheet.columns = int(runs.size()) + 1;
-  sheet.bar = render::ColourBar{{0, top}, "distance (mm)", capped};
-  Vec3 oblique = render::three_quarter_view();  // sees the left side
-  double lean = 0;
-  for (const auto& one : compared)
-    lean += one.difference.greatest_m.cwiseAbs2().cast<double>().dot(own.points.col(0));
-  if (lean < 0) oblique.x() *= -1;  // most of the difference is on the right
+  sheet.bar = render::ColourBar{{0, top.mm}, "distance (mm)", top.capped};
   const report::FaceBacking backing = backing_in_frame(p.skin_rest, base.inputs.landmarks, frame);
   const auto drawn = [&](const render::Surface& skin, const simulate::Performance& own_run,
                          const render::Camera& camera) {
@@ -95,11 +118,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
                                  own_run.jaw_now_from_rest[shown]);
     return render::render(behind.with(skin), camera, size);
   };
-  std::array<render::Camera, 2> cameras;
-  for (std::size_t v = 0; v < cameras.size(); ++v) {
-    cameras[v] = render::framing(framed, v == 0 ? render::front_view() : oblique, aspect);
-    cameras[v].height_m *= 1.15;
-  }
+  const auto cameras = cameras_on(base, frame, own.points, compared, aspect);
   const std::size_t columns = runs.size() + 1;
   sheet.pictures.resize(cameras.size() * columns);
   tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t at) {
@@ -112,7 +131,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
     const TriMesh skin = skin_then(runs[i].simulation.performance);
     const render::Surface surface{.mesh = skin,
                                   .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
-                                  .range = {0, top}};
+                                  .range = {0, top.mm}};
     sheet.pictures[at] = {drawn(surface, runs[i].simulation.performance, camera), compared[i].name};
   });
   render::write_png(file, render::contact_sheet(sheet));

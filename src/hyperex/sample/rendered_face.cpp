@@ -9,7 +9,7 @@
 namespace hyperex::sample {
 namespace {
 
-void add_noise(capture::Frame& frame, const ClipOptions& options) {
+void add_sensor_noise(capture::Frame& frame, const ClipOptions& options) {
   cv::RNG random(frame.index + 1);
   cv::Mat colour(frame.colour.size(), CV_16SC3), depth(frame.depth_m.size(), CV_32F);
   random.fill(colour, cv::RNG::NORMAL, 0, options.colour_noise);
@@ -44,7 +44,7 @@ std::optional<capture::Frame> RenderedFace::next() {
   frame.time_s = double(frame.index) / options_.rate_hz;
   frame.colour =
       colour_of(seen, options_.camera, moments_.front().camera_from_head.translation().z());
-  add_noise(frame, options_);
+  add_sensor_noise(frame, options_);
   return frame;
 }
 

@@ -34,7 +34,7 @@ class RenderedFace : public capture::FrameSource {
   std::optional<std::size_t> frame_count() const override { return moments_.size(); }
   std::optional<capture::Frame> next() override;
 
-  /// Of all frames; jaw_open is the jaw's angle as a share of its peak.
+  /// The truth of all frames; jaw_open is the jaw's angle as a share of its peak.
   tracking::Truth truth() const;
 
  private:

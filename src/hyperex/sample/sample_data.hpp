@@ -8,7 +8,7 @@
 
 namespace hyperex::sample {
 
-/// The second face smiling on its right side, then opening the mouth: 2 s at 30 frames a second,
+/// The second face smiling on its right side, then opening the mouth: 2 s at 30 frames per second,
 /// 320 x 320 pixels, noise of 1 mm in the depth and of 2 of 255 levels in the colours.
 RenderedFace sample_clip();
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The one table of keys: parsing, --set, error messages, docs/scene.md and the echo of the options
-// all walk through it, so that a key exists in one place (keys.cpp).
+// The table of keys, made from what the structs of options describe (core/describe.hpp): parsing,
+// --set, error messages, docs/scene.md and the echo of the options all walk through it.
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "hyperex/core/describe.hpp"
 #include "hyperex/scene/scene.hpp"
 
 namespace hyperex::scene {
@@ -26,15 +27,6 @@ enum class Kind {
   rows
 };
 
-/// Allowed numbers, in the unit of the key.
-struct Range {
-  double low, high;
-  bool above_low = false;  ///< `low` itself is refused
-  bool or_zero = false;    ///< 0 is allowed besides
-  bool holds(double value) const;
-  std::string text() const;  ///< "above 0 to 1e6", "1 to 30", "0, or 1 to 40"
-};
-
 /// What is wrong with a value.
 struct Complaint {
   std::string below;     ///< part of the value: "", "[2]" or "[0].landmark" (0 is the first)
@@ -46,15 +38,17 @@ struct Complaint {
 struct KeyInfo {
   std::string name = {};  ///< "time.step_s"; of a column only "landmark"
   Kind kind = Kind::text;
-  std::string unit = {};                  ///< "mm"; empty where it has none
-  Range range = {0, 0};                   ///< numbers: of the value, or of each element
+  Unit unit = {};
+  Bounds range = {0, 0};  ///< numbers: of the value, or of each element; in the unit of the key
   std::vector<std::string> choices = {};  ///< allowed words, besides what the kind allows
   std::size_t least = 0, most = 1000;     ///< lists: how many elements
-  bool required = false;
-  bool optional = false;              ///< of a column: may be left out
-  std::string description = {};       ///< a sentence or two
-  std::vector<KeyInfo> columns = {};  ///< rows: the keys of each table
-  std::string expected() const;       ///< "a number from 1 to 30 (mm)"
+  bool required = false;                  ///< columns that are not may be left out
+  bool folder_too = false;                ///< of a path
+  std::string description = {};           ///< a sentence or two
+  std::string only_where = {};            ///< a condition without which it has no effect
+  std::string member = {};                ///< of the struct: "support.skull_layer.along_pa_per_m"
+  std::vector<KeyInfo> columns = {};      ///< rows: the keys of each table
+  std::string expected() const;           ///< "a number from 1 to 30 (mm)"
 };
 
 /// A key and its field. `set` leaves the field as it was where it complains.
@@ -76,9 +70,18 @@ const std::vector<Section>& sections();        ///< in the order of the page; ""
 const std::vector<Key>& keys();                ///< in the order of the sections
 const Key* find_key(const std::string& name);  ///< null where there is none
 
+/// What to give in the place of a key of earlier versions or a constant of a law, in words; empty
+/// for every other name.
+std::string in_place_of(const std::string& name);
+
 /// Whether a key has a meaning for a drive by displacement alone: those of [region], and of
 /// [support] but jaw_points (which muscles, that fit the jaw to all points, can do without).
 bool speaks_of_displacement(const std::string& key);
+
+/// What is expected in the place of an unknown name.
+std::string one_of_names(const std::string& name, const std::vector<std::string>& names);
+/// "a", "b" or "c".
+std::string in_words(const std::vector<std::string>& choices);
 
 /// On one line, cut to a readable length; "nan" and "inf" as such.
 std::string show(const nlohmann::json& value);

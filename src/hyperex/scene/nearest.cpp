@@ -13,7 +13,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-std::string last_part(const std::string& key) {
+std::string last_of_key(const std::string& key) {
   return key.substr(key.rfind('.') + 1);
 }
 
@@ -43,11 +43,11 @@ std::string section_of(const std::string& key) {
 }
 
 std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string given = lower(name).substr(0, 100), given_last = last_part(given);
+  const std::string given = lower(name).substr(0, 100), given_last = last_of_key(given);
   std::string best;
   std::size_t best_slips = std::max<std::size_t>(1, given_last.size() / 3) + 1;
   for (const auto& candidate : candidates) {
-    const std::string last = last_part(candidate);
+    const std::string last = last_of_key(candidate);
     // The same last part in another section, or without its unit, is as near as one slip.
     std::size_t far = std::min(slips(given, lower(candidate)), slips(given_last, lower(last)) + 1);
     if (!given_last.empty() && last.rfind(given_last + "_", 0) == 0)

@@ -44,6 +44,16 @@ std::string recording_key(const std::filesystem::path& recording) {
   return "motion.file";
 }
 
+std::string other_kind(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* scan : {".ply", ".obj", ".stl", ".gltf", ".glb"})
+    if (extension == scan) return "scan";
+  for (const char* recording : {".csv", ".trc", ".mp4", ".mov", ".avi", ".oni"})
+    if (extension == recording) return "recording";
+  return "";
+}
+
 std::string new_scene_text(const NewScene& of) {
   const std::string file = quoted(in_one_line(of.name) + ".toml");
   std::string out = fmt::format(

@@ -12,6 +12,9 @@ namespace hyperex::scene {
 /// Throws InputError for a CSV that cannot be read.
 std::string recording_key(const std::filesystem::path& recording);
 
+/// What a file is by the ending of its name: "scan", "recording", or empty for all else.
+std::string other_kind(const std::filesystem::path& file);
+
 struct NewScene {
   /// Paths as the scene shall name them; "embedded": the program's own.
   std::string scan, motion;

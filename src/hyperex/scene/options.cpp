@@ -1,32 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is said of a scene's values: in messages and in the echo of the options.
-#include <cmath>
-
+// The options of a scene as its messages and the echo have them.
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::scene {
 using nlohmann::json;
-
-std::string show(const json& value) {
-  std::string text;
-  if (value.is_number_float() && !std::isfinite(value.get<double>())) {
-    const double number = value.get<double>();
-    text = std::isnan(number) ? "nan" : number > 0 ? "inf" : "-inf";
-  } else if (value.is_array()) {
-    for (const json& item : value) {
-      text += (text.empty() ? "" : ", ") + show(item);
-      if (text.size() > 80) break;
-    }
-    text = "[" + text + "]";
-  } else {
-    text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  }
-  constexpr std::size_t longest = 80;
-  if (text.size() <= longest) return text;
-  std::size_t cut = longest;  // not within a UTF-8 character
-  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;
-  return text.substr(0, cut) + "...";
-}
 
 namespace {
 /// `value` of "drive.points", at `below` = "[2]" or "[0].landmark"; null where there is no such.

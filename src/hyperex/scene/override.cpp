@@ -3,46 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::scene {
 using nlohmann::json;
 
-namespace {
-/// Keys of earlier scene files, and what they are named now.
-const std::map<std::string, std::string> renamed_keys = {
-    {"support.muscle_kpa_per_mm", "support.field_kpa_per_mm"}};
-/// Constants of a law in kPa, which follow from keys that are there: what to give in their place.
-const std::map<std::string, std::string> derived_keys = {
-    {"yeoh_c10", "tissue.young_kpa = 4 (1 + tissue.poisson) C10"},
-    {"yeoh_c20", "tissue.yeoh_c20 = C20 / C10, with tissue.young_kpa = 4 (1 + tissue.poisson) C10"},
-    {"yeoh_c30", "tissue.yeoh_c30 = C30 / C10, with tissue.young_kpa = 4 (1 + tissue.poisson) C10"},
-    {"mooney_c10", "tissue.young_kpa = 4 (1 + tissue.poisson) (C10 + C01)"},
-    {"mooney_c01",
-     "tissue.mooney_c01 = C01 / C10, with tissue.young_kpa = 4 (1 + tissue.poisson) "
-     "(C10 + C01)"},
-    {"shear", "tissue.young_kpa = 2 (1 + tissue.poisson) mu"},
-    {"mu", "tissue.young_kpa = 2 (1 + tissue.poisson) mu"},
-    {"bulk", "tissue.poisson = (3 K - E) / (6 K), with E the tissue.young_kpa"}};
-
-/// "tissue.yeoh_c10_kpa" is "yeoh_c10", "tissue.c10" too.
-std::string derived_key(const std::string& name) {
-  if (section_of(name) != "tissue") return {};
-  std::string stem = name.substr(7);
-  for (const char* ending : {"_modulus", "_kpa", "_pa", "_modulus"})
-    if (stem.ends_with(ending)) stem.erase(stem.size() - std::string(ending).size());
-  if (stem == "c10" || stem == "c20" || stem == "c30") stem = "yeoh_" + stem;
-  if (stem == "c01") stem = "mooney_c01";
-  const auto derived = derived_keys.find(stem);
-  return derived == derived_keys.end() ? std::string() : derived->second;
-}
-}  // namespace
-
 std::string unknown_key(const std::string& name) {
-  if (const auto renamed = renamed_keys.find(name); renamed != renamed_keys.end())
-    return renamed->second + ", as this key is named now";
-  if (const std::string derived = derived_key(name); !derived.empty())
-    return "what it follows from: " + derived;
+  if (const std::string other = in_place_of(name); !other.empty()) return other;
   std::vector<std::string> all;
   std::string siblings;
   for (const Key& key : keys()) {
@@ -55,6 +24,25 @@ std::string unknown_key(const std::string& name) {
   if (!siblings.empty())
     return fmt::format("a known key ([{}] has {})", section_of(name), siblings);
   return "a known key (docs/scene.md lists them)";
+}
+
+std::string unknown_section(const std::string& name) {
+  std::vector<std::string> all;
+  std::string list;
+  for (const Section& section : sections()) {
+    if (section.name.empty()) continue;
+    all.push_back(section.name);
+    list += (list.empty() ? "" : ", ") + section.name;
+  }
+  const std::string near = nearest(name, all);
+  return near.empty() ? "a known section (" + list + ")"
+                      : "a known section (did you mean [" + near + "]?)";
+}
+
+bool is_section(const std::string& name) {
+  const auto& all = sections();
+  return !name.empty() &&
+         std::any_of(all.begin(), all.end(), [&](const Section& s) { return s.name == name; });
 }
 
 std::map<std::string, json> changes_of(const json& block) {

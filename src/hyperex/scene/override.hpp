@@ -26,8 +26,11 @@ Scene read_scene_with(const std::filesystem::path& file, const std::vector<Overr
 /// and what lies deeper as it is. "name" is the table's own and left out.
 std::map<std::string, nlohmann::json> changes_of(const nlohmann::json& block);
 
-/// What is expected where `name` is no key: "a known key (did you mean time.step_s?)", or the new
-/// name of a key that was renamed.
+/// What is expected where `name` is no key: "a known key (did you mean time.step_s?)", the new
+/// name of a key that was renamed, or why a key was removed.
 std::string unknown_key(const std::string& name);
+/// The same of a section, "time"; and whether there is one of that name.
+std::string unknown_section(const std::string& name);
+bool is_section(const std::string& name);
 
 }  // namespace hyperex::scene

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/muscles/muscle_names.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
-#include "hyperex/scene/fields.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/override.hpp"
@@ -21,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Given {
+struct GivenValue {
   json value;
   Origin origin;
   bool is_override = false;
@@ -61,7 +59,7 @@ class Reader {
   void settle_variant(const json& block, const std::string& at);
   /// The variant's keys, over those of the preset that it names; nothing where there is no such.
   std::map<std::string, json> changes_with_preset(const json& block, const std::string& at);
-  void take(const std::string& key, const Given& given);
+  void take(const std::string& key, const GivenValue& given);
   void complain(const Origin& origin, const std::string& key, const json& value,
                 const std::string& expected);
   void complain_given(const std::string& key, const std::string& expected);
@@ -76,7 +74,7 @@ class Reader {
   Origin in_file(const std::string& name) const;
 
   std::map<std::string, int> lines_;
-  std::map<std::string, Given> given_;
+  std::map<std::string, GivenValue> given_;
   json variants_;  // [[variant]] as the file has it
 };
 
@@ -91,26 +89,7 @@ Origin Reader::in_file(const std::string& name) const {
   return {scene.file, line == lines_.end() ? 0 : line->second};
 }
 
-std::string unknown_section(const std::string& name) {
-  std::vector<std::string> all;
-  std::string list;
-  for (const Section& section : sections()) {
-    if (section.name.empty()) continue;
-    all.push_back(section.name);
-    list += (list.empty() ? "" : ", ") + section.name;
-  }
-  const std::string near = nearest(name, all);
-  return near.empty() ? "a known section (" + list + ")"
-                      : "a known section (did you mean [" + near + "]?)";
-}
-
-bool is_section(const std::string& name) {
-  const auto& all = sections();
-  return !name.empty() &&
-         std::any_of(all.begin(), all.end(), [&](const Section& s) { return s.name == name; });
-}
-
-void Reader::take(const std::string& key, const Given& given) {
+void Reader::take(const std::string& key, const GivenValue& given) {
   if (find_key(key) == nullptr)
     complain(given.origin, key, given.value, unknown_key(key));
   else
@@ -126,17 +105,6 @@ void Reader::take_section(const std::string& name, const json& value) {
     const std::string full = name + "." + key;
     take(full, {item, in_file(full), false, scene.file.parent_path()});
   }
-}
-
-/// What a file is by its name, where that is no scene; empty otherwise.
-std::string other_kind(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  for (const char* scan : {".ply", ".obj", ".stl", ".gltf", ".glb"})
-    if (extension == scan) return "scan";
-  for (const char* recording : {".csv", ".trc", ".mp4", ".mov", ".avi", ".oni"})
-    if (extension == recording) return "recording";
-  return "";
 }
 
 bool Reader::take_file() {
@@ -283,7 +251,7 @@ void Reader::fill() {
 
 void Reader::complain_part(const std::string& key, const std::string& below, const json& value,
                            const std::string& expected) {
-  const Given& given = given_.at(key);
+  const GivenValue& given = given_.at(key);
   const std::string part = key + below;
   Origin at = given.origin;
   if (!given.is_override && lines_.count(part)) at.line = lines_.at(part);
@@ -344,7 +312,7 @@ void Reader::check_strain() {
     complain_given("tissue.viscous_form", "\"isotropic\", as tissue.strain is \"finite\"");
   if (scene.drive.by == simulate::DriveBy::reactions)
     complain_given("drive.by", "\"displacement\" or \"muscles\", as tissue.strain is \"finite\"");
-  if (const double least = 0 - std::sqrt(3 * model.law.c30); model.law.c20 < least)
+  if (const double least = fem::least_c20(model.law); model.law.c20 < least)
     complain_given("tissue.yeoh_c20",
                    fmt::format("at least {:g}, -sqrt(3 tissue.yeoh_c30): below, stress falls "
                                "where stretch grows",
@@ -381,20 +349,6 @@ void Reader::check_together() {
                                               simulate::kMostSteps, scene.time.end_s));
   if (scene.time.end_s != 0 && scene.time.end_s < scene.time.step_s)
     complain_given("time.end_s", "0, or at least one time.step_s");
-}
-
-bool may_vary(const std::string& key) {
-  const auto& sections = variant_sections();
-  // Variants answer the forces that the scene's muscles were found to make.
-  if (key == "muscles.file" || key == "muscles.without") return false;
-  return key == "motion.gain" ||
-         std::find(sections.begin(), sections.end(), section_of(key)) != sections.end();
-}
-
-std::string what_may_vary() {
-  std::string list;
-  for (const auto& section : variant_sections()) list += "[" + section + "], ";
-  return list + "or motion.gain";
 }
 
 std::map<std::string, json> Reader::changes_with_preset(const json& block, const std::string& at) {
@@ -509,12 +463,6 @@ std::vector<Override> from_command_line(const std::vector<std::string>& texts) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& variant_sections() {
-  static const std::vector<std::string> sections = {"tissue", "support", "drive", "muscles",
-                                                    "region"};
-  return sections;
-}
 
 Scene read_scene_with(const fs::path& file, const std::vector<Override>& overrides) {
   Reader reader = read(file, overrides);

@@ -10,7 +10,8 @@ namespace {
 
 const char* const introduction = R"(# The scene file
 
-<!-- Made by `hyperex scene-reference > docs/scene.md`; edit src/hyperex/scene/keys.cpp instead. -->
+<!-- Made by `hyperex scene-reference > docs/scene.md`; the text stands beside the options,
+     in src/hyperex/scene/scene.hpp, simulate/options.hpp and where these refer to. -->
 
 A scene says what one run needs, in [TOML](https://toml.io). Only the keys marked *required* must be
 there; the smallest scene is
@@ -84,7 +85,7 @@ std::string allowed(const KeyInfo& key) {
 }
 
 std::string row(const std::string& name, const KeyInfo& key, const std::string& standard) {
-  return fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(name), type_of(key), key.unit,
+  return fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(name), type_of(key), key.unit.name,
                      standard, allowed(key), key.description);
 }
 

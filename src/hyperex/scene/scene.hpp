@@ -4,15 +4,19 @@
 // in the names of the file's keys (docs/scene.md) are converted when the file is read.
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hyperex/core/describe.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/kept_results.hpp"
+#include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/exaggerate.hpp"
+#include "hyperex/motion/motion.hpp"
 #include "hyperex/simulate/drive/alignment.hpp"
 #include "hyperex/simulate/options.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
@@ -31,6 +35,24 @@ struct ScanOptions {
   std::optional<io::LengthUnit> unit;  ///< none: guessed from the size ("guess")
   std::filesystem::path landmarks;     ///< empty: found on the scan, or the embedded face's own
   std::optional<io::LengthUnit> landmarks_unit;  ///< none: as the file says ("file")
+
+  static constexpr const char* about = "The face at rest.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(source),
+             "The scan: PLY, OBJ, STL, glTF or GLB; or the face that comes with the program.",
+             {.key = "file", .required = true});
+    v.option(HX_MEMBER(unit),
+             "The scan's unit of length. A guess takes the one that makes the face 10 to 30 cm "
+             "wide, and says so.",
+             {.none = "guess"});
+    v.option(HX_MEMBER(landmarks),
+             "Named points on the scan: JSON as in docs/landmarks.md, or 3D Slicer's .mrk.json. "
+             "Where none is given they are found by the landmark network.");
+    v.option(HX_MEMBER(landmarks_unit),
+             "The landmarks' unit of length, where it is not the one that their file states.",
+             {.none = "file"});
+  }
 };
 
 struct MotionOptions {
@@ -43,36 +65,181 @@ struct MotionOptions {
   bool mirrored = false;               ///< the recording's pictures are a mirror's
   std::vector<std::string> rigid_points;  ///< carry the head's pose; empty: chosen automatically
   /// Seconds from the start at which the face is at rest: none (the first sample), one time, or
-  /// from and to; each 0 to 3600.
+  /// from and to.
   std::vector<double> rest_s;
-  double max_gap_s = 0.2;                      ///< longest gap that is interpolated, 0 to 10
-  std::vector<motion::PointGain> point_gains;  ///< besides, on single points, each 0 to 5
-  double time_scale = 1;                       ///< 2: twice as slow; 0.05 to 20
+  double max_gap_s = 0.2;                      ///< longest gap that is interpolated
+  std::vector<motion::PointGain> point_gains;  ///< besides, on single points
+  double time_scale = 1;                       ///< 2: twice as slow
+
+  static constexpr const char* about = "The recorded expression.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    describe_sources(v);
+    v.option(HX_MEMBER(unit),
+             "The recording's unit of length, where it is not the one that the file states.",
+             {.none = "file"});
+    v.option(HX_MEMBER(rigid_points),
+             "Points that move with the skull: the head pose is estimated from them and removed. "
+             "Empty: all landmarks of the face, each with a weight that falls with how much it "
+             "moves in life; at least three of eye corners, bridge of the nose and temples are "
+             "needed.",
+             {.least = 3});
+    v.option(HX_MEMBER(rest_s),
+             "When the face is at rest, from the recording's start: a time, or [from, to], over "
+             "which the mean is taken. All displacements are from there. Where the recording "
+             "starts in an expression the run begins half a second earlier, at rest, and is led "
+             "into it. Empty: the recording's first sample is at rest.",
+             {.unit = kSeconds, .bounds = {0, 3600}, .most = 2});
+    v.option(HX_MEMBER(max_gap_s),
+             "The longest gap in a point's track that is interpolated; a longer one is refused.",
+             {.unit = kSeconds, .bounds = {0, 10}});
+    v.option(HX_MEMBER(point_gains),
+             "A gain on one point, in addition to motion.gain. Other points keep their motion; the "
+             "skin between them and the jaw follow the changed point as they follow every driven "
+             "point.",
+             {.key = "point_gain"});
+    v.option(HX_MEMBER(time_scale),
+             "Stretches the recording in time: 2 plays it twice as slowly. Gaps and jitter are "
+             "judged as recorded; times of time and output are not stretched.",
+             {.bounds = {0.05, 20}});
+  }
+
+ private:
+  template <class Visitor>
+  static void describe_sources(Visitor& v) {
+    v.option(HX_MEMBER(source),
+             "The recording, as named points over time: CSV or TRC; or the mouth opening of 2.7 s "
+             "that comes with the program. One of motion.file, motion.recording, motion.openface "
+             "and motion.arkit is required; one given by --set replaces the one in the file.",
+             {.key = "file"});
+    v.option(HX_MEMBER(recording),
+             "The recording of a camera, colour and depth: a folder in TUM's layout, a video or "
+             ".oni file. The face in it is tracked, as by hyperex track.",
+             {.folder_too = true});
+    v.option(HX_MEMBER(mirrored),
+             "The pictures of motion.recording show the world as a mirror does (many selfie videos "
+             "do) and are turned back; a video does not tell, and left and right depend on it.");
+    v.option(HX_MEMBER(openface),
+             "Action-unit intensities over time: a CSV file of OpenFace 2. They move the face "
+             "model, whose points are then the recording.");
+    v.option(HX_MEMBER(arkit),
+             "ARKit blend-shape weights over time: a CSV file with a column time_s, or as Live "
+             "Link Face writes it. They move the face model in the same way.");
+    v.option(HX_MEMBER(candide),
+             "CANDIDE-3's .wfm file, to be the face model for motion.recording, motion.openface "
+             "and motion.arkit. Empty: the canonical face.");
+  }
 };
 
 struct AlignmentOptions {
   simulate::AlignmentMethod method = simulate::AlignmentMethod::nonrigid;
+
+  static constexpr const char* about = "How the recording is transferred to the scan.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(method),
+             "How the recording is aligned with the scan: by a similarity transform of the "
+             "landmarks and a smooth correction, by the similarity transform alone, or by the "
+             "widths and heights of parts of the face about the nose apex.");
+  }
 };
 
 enum class TeethShape { arch, none };
+constexpr auto words_of(TeethShape) {
+  return std::array{Word{"arch", TeethShape::arch}, Word{"none", TeethShape::none}};
+}
 
 struct TeethOptions {
   TeethShape shape = TeethShape::arch;  ///< of a jaw of which no file is given
   std::filesystem::path upper, lower;   ///< scans of teeth, in the frame of the scan
   std::optional<io::LengthUnit> unit;   ///< of both; none: the scan's ("scan")
+
+  static constexpr const char* about =
+      "The teeth behind the lips. They are drawn; with contact.teeth the tissue touches them.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(shape),
+             "The teeth of a jaw without a scan of its own: an average dental arch fitted behind "
+             "lips and cheeks (docs/teeth.md), or none.");
+    v.option(HX_MEMBER(upper),
+             "A scan of the upper teeth with their gums, in the coordinates of the face scan: PLY, "
+             "OBJ, STL, glTF or GLB. Holes are filled.");
+    v.option(HX_MEMBER(lower),
+             "The same for the lower teeth, in the position at rest. They move with the jaw.");
+    v.option(HX_MEMBER(unit),
+             "The unit of length of these scans, where it is not that of the face scan.",
+             {.none = "scan"});
+  }
 };
 
 struct OutputOptions {
   bool vtu = true, glb = true, report = true;
-  int vtu_every = 1;              ///< every so many frames; 1 to 10000
+  int vtu_every = 1;              ///< every so many frames
   bool vtu_strain = true;         ///< the strain tensor in them
   bool variants_vtu = false;      ///< frames of each variant too
-  double glb_tolerance_m = 1e-4;  ///< of any vertex in any frame; 0.01 to 10 mm
-  double glb_max_mb = 20;         ///< of performance.glb; 0.1 to 10000
+  double glb_tolerance_m = 1e-4;  ///< of any vertex in any frame
+  double glb_max_mb = 20;         ///< of performance.glb
   bool full_paths = false;        ///< of input files, in summary.json and report.html
-  double symmetry_floor = 1e-6;   ///< > 0, to 1
-  double lowpass_hz = 6;          ///< cut-off for speeds and paths, 0 (none) to 100
-  double jitter_m = -1e-3;  ///< of the recorded points; below 0: estimated from them; to 20 mm
+  double symmetry_floor = 1e-6;
+  double lowpass_hz = 6;    ///< cut-off for speeds and paths; 0: none
+  double jitter_m = -1e-3;  ///< of the recorded points; below 0: estimated from them
+
+  static constexpr const char* about = "What is written.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    describe_files(v);
+    v.option(HX_MEMBER(full_paths),
+             "Write full paths of the input files into summary.json and report.html. By default "
+             "only file names are written, since folder names may contain a patient's name.");
+    v.option(HX_MEMBER(symmetry_floor),
+             "The least difference of xi that S(t) resolves; at perfect symmetry it would be minus "
+             "infinity.",
+             {.bounds = {0, 1, true}});
+    v.option(HX_MEMBER(jitter_m),
+             "Jitter of the recorded points (standard deviation per coordinate), which sets the "
+             "noise floor of S(t) (docs/symmetry.md). Below 0: estimated from the fourth "
+             "differences of the points in time.",
+             {.unit = kMillimetres, .bounds = {-1e-3, 0.02}});
+    v.option(HX_MEMBER(lowpass_hz),
+             "Cut-off frequency of the zero-phase low-pass filter for speeds and paths of points "
+             "with jitter (docs/symmetry.md). 0: no filter.",
+             {.unit = kHertz, .bounds = {0, 100}});
+  }
+
+ private:
+  template <class Visitor>
+  static void describe_files(Visitor& v) {
+    v.option(HX_MEMBER(vtu),
+             "Write frames.pvd and frames/: the tissue over time, for ParaView. The points are at "
+             "rest in every frame; the filter Warp By Vector moves them.");
+    v.option(HX_MEMBER(vtu_every),
+             "Write only every n-th frame there: 3 takes a third of the space.",
+             {.bounds = {1, 10000}});
+    v.option(HX_MEMBER(vtu_strain),
+             "Write the strain tensors there; at finite strain also stress tensors and principal "
+             "stretches.");
+    v.option(HX_MEMBER(variants_vtu), "Write them for each variant too, into its folder.");
+    v.option(HX_MEMBER(glb),
+             "Write performance.glb, of each variant too: the moving skin for Blender and other "
+             "programs that read glTF.");
+    v.option(HX_MEMBER(glb_tolerance_m),
+             "The greatest allowed error of any vertex of performance.glb in any frame. A larger "
+             "tolerance needs fewer shape keys and makes a smaller file.",
+             {.unit = kMillimetres, .bounds = {1e-5, 0.01}});
+    v.option(HX_MEMBER(glb_max_mb),
+             "The largest size of performance.glb. Where output.glb_tolerance_mm needs more, shape "
+             "keys are left out and a warning states the remaining error.",
+             {.unit = kMegabytes, .bounds = {0.1, 10000}});
+    v.option(HX_MEMBER(report), "Write report.html.");
+  }
+};
+
+/// A face and its motion that a program hands over in memory, in place of scan.file and
+/// motion.file.
+struct GivenFace {
+  std::shared_ptr<const io::Scan> scan;          ///< null: the scene names files
+  io::Landmarks landmarks;                       ///< metres, the scan's frame; empty: found
+  std::shared_ptr<const motion::Motion> motion;  ///< as recorded: metres, the head's pose included
 };
 
 /// Where a value came from.
@@ -107,7 +274,37 @@ struct Scene {
 
   std::filesystem::path file;             ///< the scene file
   std::map<std::string, Origin> origins;  ///< of each key that was given, e.g. "time.step_s"
+  GivenFace given;
   KeptResults kept;  ///< where found landmarks and tracked recordings are kept; nowhere by default
+
+  static constexpr const char* about = "At the top of the file, before any section.";
+  /// Of structs the sections of the file: named as the members unless a key is given.
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(title), "Heads the report.");
+    v.option(HX_MEMBER(scan), "");
+    v.option(HX_MEMBER(motion), "");
+    v.option(HX_MEMBER(alignment), "");
+    v.option(HX_MEMBER(region), "");
+    v.option(HX_MEMBER(mesh), "");
+    v.option(HX_MEMBER(tissue), "");
+    v.option(HX_MEMBER(model), "", {.key = "tissue."});
+    v.option(HX_MEMBER(support), "");
+    v.option(HX_MEMBER(drive), "");
+    v.option(HX_MEMBER(muscles), "");
+    v.option(HX_MEMBER(muscles_file),
+             "Your own muscles, as tables [[muscle]] (docs/muscles.md): one with the name of a "
+             "muscle of the program replaces it, others are added. The same for all variants.",
+             {.key = "muscles.file"});
+    v.option(HX_MEMBER(muscles_without),
+             "Muscles to leave out, by their names without the side. The same for all variants.",
+             {.key = "muscles.without"});
+    v.option(HX_MEMBER(teeth), "");
+    v.option(HX_MEMBER(contact), "");
+    v.option(HX_MEMBER(solver), "");
+    v.option(HX_MEMBER(time), "");
+    v.option(HX_MEMBER(output), "");
+  }
 };
 
 /// The same face and motion with other tissue, support or drive: what a run compares with the

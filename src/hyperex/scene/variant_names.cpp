@@ -7,6 +7,8 @@
 #include <cctype>
 #include <string_view>
 
+#include "hyperex/scene/keys.hpp"
+
 namespace hyperex::scene {
 namespace {
 
@@ -17,6 +19,26 @@ bool is_alphanumeric(unsigned char c) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& variant_sections() {
+  static const std::vector<std::string> sections = {"tissue", "support", "drive", "muscles",
+                                                    "region"};
+  return sections;
+}
+
+bool may_vary(const std::string& key) {
+  const auto& sections = variant_sections();
+  // Variants answer the forces that the scene's muscles were found to make.
+  if (key == "muscles.file" || key == "muscles.without") return false;
+  return key == "motion.gain" ||
+         std::find(sections.begin(), sections.end(), section_of(key)) != sections.end();
+}
+
+std::string what_may_vary() {
+  std::string list;
+  for (const auto& section : variant_sections()) list += "[" + section + "], ";
+  return list + "or motion.gain";
+}
 
 bool is_variant_name(const std::string& name) {
   return name.size() <= 100 && std::any_of(name.begin(), name.end(), is_alphanumeric) &&

@@ -11,6 +11,10 @@ namespace hyperex::scene {
 /// digits of ASCII, at least one, spaces and any of -_.,;:+=%&'()[], at most 100 characters.
 bool is_variant_name(const std::string& name);
 
+/// Whether a variant may change this key; and in words which keys it may.
+bool may_vary(const std::string& key);
+std::string what_may_vary();
+
 /// The name of the folder of a variant's outputs: `name`, with '_' for what a path holds badly, and
 /// a number at its end where one of `others` has the same.
 std::string variant_folder(const std::string& name, const std::vector<Variant>& others);

@@ -20,6 +20,10 @@ std::string word_for(DriveBy by) {
 
 }  // namespace
 
+Note DriveChoice::note() const {
+  return make_note("drive.chosen", why);
+}
+
 DriveChoice drive_choice(const scene::Scene& scene, const Inputs& inputs) {
   const auto chosen = [](DriveBy by, const std::string& why) {
     return DriveChoice{by, fmt::format("driven by {}: {}", word_for(by), why)};
@@ -51,7 +55,7 @@ DriveChoice drive_choice(const scene::Scene& scene, const Inputs& inputs) {
 void choose_drive(scene::Scene& scene, Inputs& inputs) {
   const DriveChoice choice = drive_choice(scene, inputs);
   scene.drive.by = choice.by;
-  inputs.notes.push_back(choice.why);
+  inputs.notes.push_back(choice.note());
 }
 
 }  // namespace hyperex::session

@@ -9,6 +9,8 @@ namespace hyperex::session {
 struct DriveChoice {
   simulate::DriveBy by;
   std::string why;  ///< a sentence: "driven by muscles: the mouth opens by 9 mm, ..."
+
+  Note note() const;  ///< `drive.chosen`
 };
 
 /// What drives a scene: what it says (drive.by); else muscles where it has variants; else, without

@@ -20,15 +20,16 @@ std::vector<std::string> driven_points(const scene::Scene& scene, const motion::
 }
 
 void note_left_out_points(const scene::Scene& scene, const motion::Motion& motion,
-                          std::vector<std::string>& notes) {
+                          std::vector<Note>& notes) {
   const auto driven = driven_points(scene, motion);
   if (!keeps_to_its_model(scene) || driven.size() == scene.drive.points.size()) return;
   std::string missing;
   for (const auto& name : scene.drive.points)
     if (motion.index_of(name) < 0) missing += (missing.empty() ? "" : ", ") + name;
-  notes.push_back(
+  notes.push_back(make_note(
+      "drive.points_left_out",
       fmt::format("drive.points: {} has no {}; the other {} of the default points are driven",
-                  scene.motion.candide.string(), missing, driven.size()));
+                  scene.motion.candide.string(), missing, driven.size())));
 }
 
 }  // namespace hyperex::session

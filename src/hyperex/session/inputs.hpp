@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hyperex/anatomy/teeth/teeth.hpp"
+#include "hyperex/core/note.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/scene/scene.hpp"
@@ -22,28 +23,28 @@ struct Inputs {
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
   std::vector<std::string> driven;  ///< names of the driven points
-  std::vector<std::string> notes;   ///< what was guessed, placed, filled: a sentence each
-  /// What is probably wrong in the inputs, with what to do about it: a sentence each.
-  std::vector<std::string> warnings;
+  /// What was guessed, placed or filled, and what is probably wrong with what to do about it, in
+  /// the order in which it was found.
+  std::vector<Note> notes;
 };
 
 /// The landmarks of a scan that has none (tracking/scan), and a note that says so: `why`, and how
 /// well the pictures agree. Takes seconds, unless they were found before and `kept`. Throws
 /// InputError where no face is found.
-io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why,
-                             std::vector<std::string>& notes, const KeptResults& kept = {});
+io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why, std::vector<Note>& notes,
+                             const KeptResults& kept = {});
 
-/// How far what a scene names is looked at.
-enum class Look {
-  whole,
+/// How much of what a scene names is read.
+enum class Extent {
+  full,
   /// A camera's recording as far as its first frame with a face. Landmarks of a scan that has none
-  /// are not found, and what rests on them (the alignment, whether the elements are small enough)
-  /// is left out. Notes say so.
+  /// are not searched, and what rests on them (the alignment, whether the elements are small
+  /// enough) is left out. Notes say so.
   quick
 };
 
 /// Throws InputError, as far as possible with all problems at once.
-Inputs read_inputs(const scene::Scene& scene, Look look = Look::whole);
+Inputs read_inputs(const scene::Scene& scene, Extent extent = Extent::full);
 
 /// A scene's inputs with a variant's driven points.
 Inputs inputs_of_variant(const scene::Scene& variant, const Inputs& inputs);

@@ -67,7 +67,7 @@ bool add_recording(Sha256& hash, const fs::path& recording) {
 /// Empty where the recording is none that could be kept.
 std::string key_of_recording(const scene::Scene& scene) {
   const scene::MotionOptions& m = scene.motion;
-  Sha256 hash = hash_for("a tracked recording, 1");
+  Sha256 hash = hash_for("a tracked recording, 2");
   hash.add_text(m.recording.string());  // which notes may name
   const bool flags[2] = {m.mirrored, scene.region.measured != simulate::Measured::none};
   hash.add(flags, sizeof flags);
@@ -103,6 +103,21 @@ io::Landmarks landmarks_in(const json& points) {
   for (const auto& [name, at] : points.items())
     landmarks[name] = Vec3(at.at(0), at.at(1), at.at(2));
   return landmarks;
+}
+
+json json_of(const std::vector<Note>& notes) {
+  json all = json::array();
+  for (const Note& note : notes)
+    all.push_back({note.id, note.severity == Severity::warning, note.text, note.key});
+  return all;
+}
+
+std::vector<Note> notes_in(const json& all) {
+  std::vector<Note> notes;
+  for (const json& one : all)
+    notes.push_back({one.at(0), one.at(1).get<bool>() ? Severity::warning : Severity::note,
+                     one.at(2), one.at(3)});
+  return notes;
 }
 
 std::string packed(const json& value) {
@@ -171,7 +186,7 @@ std::string bytes_of(const RecordedFace& recorded) {
                  {"positions", positions},
                  {"triangles", binary(m.triangles.data(), sizeof(int) * m.triangles.size())},
                  {"poses", poses},
-                 {"notes", recorded.notes}});
+                 {"notes", json_of(recorded.notes)}});
 }
 
 std::optional<RecordedFace> recorded_from(const std::string& bytes) {
@@ -192,7 +207,7 @@ std::optional<RecordedFace> recorded_from(const std::string& bytes) {
         throw std::runtime_error("of another size");
       std::memcpy(of.matrix().data(), pose.get_binary().data(), sizeof(double) * 16);
     }
-    from.at("notes").get_to(recorded.notes);
+    recorded.notes = notes_in(from.at("notes"));
     if (m.positions.size() != m.time_s.size()) throw std::runtime_error("of another size");
     return recorded;
   });

@@ -7,6 +7,7 @@
 
 #include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/core/kept_results.hpp"
+#include "hyperex/core/note.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
@@ -16,8 +17,8 @@
 namespace hyperex::session {
 
 // What takes seconds and rests on the inputs alone is computed once and kept (KeptResults), under a
-// hash of the inputs' bytes, of the options that matter and of the program. A line of the log tells
-// where a kept result is taken.
+// hash of the inputs' bytes, of the options that matter and of the program. A line of the log says
+// where a kept result is used.
 
 struct FoundLandmarks {
   io::Landmarks landmarks;  ///< as tracking::ScanLandmarks has them, bit for bit
@@ -37,7 +38,7 @@ anatomy::CompletedLandmarks completed_landmarks(const io::Landmarks& given, cons
 /// A camera's recording, tracked, and what there is to say about it.
 struct RecordedFace {
   motion::Motion motion;  ///< `source` and `unit_note` empty
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
 };
 
 /// What `track` makes of the scene's motion.recording.

@@ -13,9 +13,9 @@ namespace hyperex::session {
 namespace {
 
 /// Of the pattern of the matrices, and of what mostly says which unknowns are prescribed: the order
-/// itself tells whether they are.
-std::string key_of(const scene::Scene& scene, const Inputs& inputs,
-                   const simulate::Simulator& simulator) {
+/// itself is checked against them.
+std::string order_key(const scene::Scene& scene, const Inputs& inputs,
+                      const simulate::Simulator& simulator) {
   Packer of;
   of(simulator.mesh().volume.tets, scene.model.element, scene.drive.by, scene.drive.patch_radius_m,
      scene.support.border_held, scene.support.skull, scene.support.mandible, inputs.driven);
@@ -47,7 +47,7 @@ std::shared_ptr<const simulate::EliminationOrder> order_from(const std::string& 
 void prepare_with_kept_order(const scene::Scene& scene, const Inputs& inputs,
                              simulate::Simulator& simulator) {
   if (!scene.kept.in_use()) return simulator.prepare();
-  const std::string key = key_of(scene, inputs, simulator);
+  const std::string key = order_key(scene, inputs, simulator);
   if (const auto bytes = scene.kept.find(key)) simulator.use_order(order_from(*bytes));
   const auto given = simulator.elimination_order();
   simulator.prepare();

@@ -29,7 +29,7 @@ std::optional<Similarity> canonical_face_on(const io::Landmarks& given) {
 }  // namespace
 
 LandmarkSearch::LandmarkSearch(const Inputs& inputs, const KeptResults& kept) {
-  doubts_ = std::async(std::launch::async, [&inputs, kept]() -> std::vector<std::string> {
+  doubts_ = std::async(std::launch::async, [&inputs, kept]() -> std::vector<Note> {
     io::Landmarks given = inputs.landmarks;
     for (const std::string& name : inputs.placed) given.erase(name);
     try {
@@ -41,12 +41,14 @@ LandmarkSearch::LandmarkSearch(const Inputs& inputs, const KeptResults& kept) {
   });
 }
 
-std::vector<std::string> LandmarkSearch::doubts(const std::vector<std::string>& said) {
-  std::vector<std::string> all = doubts_.get();
-  std::erase_if(all, [&](const std::string& doubt) {
-    const std::string start = doubt.substr(0, doubt.find(" is ") + 4);  // "landmark NAME is "
-    return std::any_of(said.begin(), said.end(),
-                       [&](const std::string& one) { return one.starts_with(start); });
+std::vector<Note> LandmarkSearch::doubts(const std::vector<Note>& said) {
+  std::vector<Note> all = doubts_.get();
+  std::erase_if(all, [&](const Note& doubt) {
+    // "landmark NAME is "
+    const std::string start = doubt.text.substr(0, doubt.text.find(" is ") + 4);
+    return std::any_of(said.begin(), said.end(), [&](const Note& one) {
+      return one.id == doubt.id && one.text.starts_with(start);
+    });
   });
   return all;
 }

@@ -16,12 +16,12 @@ class LandmarkSearch {
   /// taken from `kept`.
   LandmarkSearch(const Inputs& inputs, const KeptResults& kept);
 
-  /// Waits. A sentence for each doubtful landmark that `said` does not name yet; nothing where no
-  /// face is found in pictures of the scan.
-  std::vector<std::string> doubts(const std::vector<std::string>& said);
+  /// Waits. `landmarks.doubtful` for each doubtful landmark that no note of that id in `said` names
+  /// yet; nothing where no face is found in pictures of the scan.
+  std::vector<Note> doubts(const std::vector<Note>& said);
 
  private:
-  std::future<std::vector<std::string>> doubts_;
+  std::future<std::vector<Note>> doubts_;
 };
 
 }  // namespace hyperex::session

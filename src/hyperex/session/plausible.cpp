@@ -10,6 +10,7 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/rest.hpp"
+#include "hyperex/scene/keys.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -64,73 +65,78 @@ void check_sides(const motion::Motion& stabilised, const FaceAtRest& face) {
   recorded.col(0) *= -1;
   const double mirrored = misfit_m(recorded, scanned);
   if (as_is <= kMirroredRms_m || mirrored >= kMirroredShare * as_is) return;
-  motion::refuse(
-      stabilised,
-      fmt::format("left and right are exchanged: the points are {:.1f} mm rms from those of "
-                  "the same names on {}, and {:.1f} mm with one axis negated; L and R are the "
-                  "subject's own sides, and the axes right-handed",
-                  1e3 * as_is, face.whose, 1e3 * mirrored));
+  motion::refuse(stabilised,
+                 fmt::format("left and right are exchanged: the points are {:.1f} mm rms from "
+                             "those of the same names on {}, and {:.1f} mm with one axis negated; "
+                             "L and R are the subject's own sides, and the axes right-handed",
+                             1e3 * as_is, face.whose, 1e3 * mirrored));
 }
 
-std::string misfit_warning(const simulate::AlignedMotion& aligned) {
+std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned) {
   const double scale = aligned.scan_from_motion.scale;
-  if (aligned.rms_mm <= kMisfit_mm && scale >= kLeastScale && scale <= kMostScale) return "";
-  return fmt::format(
-      "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's landmarks "
-      "of "
-      "the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} to {:g}); check that "
-      "names, axes and unit are right and that both are of one person",
-      aligned.rms_mm, scale, kMisfit_mm, kLeastScale, kMostScale);
+  if (aligned.rms_mm <= kMisfit_mm && scale >= kLeastScale && scale <= kMostScale)
+    return std::nullopt;
+  return make_warning(
+      "recording.fits_badly",
+      fmt::format(
+          "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's "
+          "landmarks of the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} to "
+          "{:g}); check that names, axes and unit are right and that both are of one person",
+          aligned.rms_mm, scale, kMisfit_mm, kLeastScale, kMostScale));
 }
 
-std::string start_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
+std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
   const auto started =
       motion::started_in_expression(stabilised, face.landmarks, face.least_moved_m);
-  if (!started) return "";
-  return fmt::format(
-      "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is nearer "
-      "to {}, which is at rest, than at the start ({} differs by {:.1f} mm); displacements "
-      "are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
-      started->stretch.from_s, started->stretch.to_s, face.whose, started->point,
-      1e3 * started->distance_m, started->stretch.from_s, started->stretch.to_s);
+  if (!started) return std::nullopt;
+  return make_warning(
+      "recording.starts_in_expression",
+      fmt::format(
+          "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is "
+          "nearer to {}, which is at rest, than at the start ({} differs by {:.1f} mm); "
+          "displacements are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
+          started->stretch.from_s, started->stretch.to_s, face.whose, started->point,
+          1e3 * started->distance_m, started->stretch.from_s, started->stretch.to_s));
 }
 
-std::string timing_note(const motion::Motion& m) {
+std::string timing_sentence(const motion::Motion& m) {
   if (m.time_s.size() < 2) return "the recording has one sample";
   return fmt::format("the recording lasts {:.4g} s: {} samples, {:.4g} ms apart (median)",
                      m.time_s.back() - m.time_s.front(), m.time_s.size(),
                      1e3 * median_step(m.time_s));
 }
 
-std::string timing_warning(const motion::Motion& m) {
+std::optional<Note> timing_warning(const motion::Motion& m) {
   constexpr double longest_step_s = 0.5, longest_s = 600;
-  if (m.time_s.size() < 2) return "";
+  if (m.time_s.size() < 2) return std::nullopt;
   const double lasts_s = m.time_s.back() - m.time_s.front(), step_s = median_step(m.time_s);
-  if (step_s <= longest_step_s && lasts_s <= longest_s) return "";
-  return fmt::format(
-      "the recording's time rises to {:.4g} s in steps of {:.3g} s (median; expected: at most {:g} "
-      "s in all, steps of at most {:g} s): milliseconds? Time is in seconds",
-      m.time_s.back(), step_s, longest_s, longest_step_s);
+  if (step_s <= longest_step_s && lasts_s <= longest_s) return std::nullopt;
+  return make_warning(
+      "recording.time_unit_doubtful",
+      fmt::format(
+          "the recording's time rises to {:.4g} s in steps of {:.3g} s (median; expected: at most "
+          "{:g} s in all, steps of at most {:g} s): milliseconds? Time is in seconds",
+          m.time_s.back(), step_s, longest_s, longest_step_s));
 }
 
-std::string idle_law_warning(const scene::Scene& scene) {
+std::optional<Note> idle_law_warning(const scene::Scene& scene) {
   const auto finite = [](const scene::Scene& s) {
     return s.model.strain == simulate::Strain::finite;
   };
-  if (finite(scene)) return "";
+  if (finite(scene)) return std::nullopt;
   for (const scene::Variant& variant : scene.variants)
-    if (finite(variant.scene)) return "";
+    if (finite(variant.scene)) return std::nullopt;
   std::vector<std::string> idle;
-  for (const char* key :
-       {"tissue.law", "tissue.yeoh_c20", "tissue.yeoh_c30", "tissue.mooney_c01", "tissue.maxwell",
-        "solver.finite_step_s", "solver.finite_tolerance", "solver.full_newton"})
-    if (scene.origins.contains(key)) idle.push_back(key);
-  if (idle.empty()) return "";
-  return fmt::format("without effect, as tissue.strain is not \"finite\": {}",
-                     fmt::join(idle, ", "));
+  for (const scene::Key& key : scene::keys())
+    if (key.only_where == fem::Hyperelastic::only_where && scene.origins.contains(key.name))
+      idle.push_back(key.name);
+  if (idle.empty()) return std::nullopt;
+  return make_warning(
+      "law.idle",
+      fmt::format("without effect, as tissue.strain is not \"finite\": {}", fmt::join(idle, ", ")));
 }
 
-std::string stillness_warning(const motion::Motion& stabilised) {
+std::optional<Note> stillness_warning(const motion::Motion& stabilised) {
   constexpr double least_m = 0.05e-3;
   double most_m = 0;
   for (const Points& sample : stabilised.positions)
@@ -138,16 +144,18 @@ std::string stillness_warning(const motion::Motion& stabilised) {
       if (const double moved = (sample.row(i) - stabilised.positions.front().row(i)).norm();
           moved > most_m)
         most_m = moved;
-  if (stabilised.positions.size() < 2 || most_m >= least_m) return "";
-  return fmt::format(
-      "nothing moves in the recording: no point goes farther than {:.3f} mm from its first place "
-      "(expected: {:g} mm or more); check its unit, and that it is the right one",
-      1e3 * most_m, 1e3 * least_m);
+  if (stabilised.positions.size() < 2 || most_m >= least_m) return std::nullopt;
+  return make_warning(
+      "recording.nothing_moves",
+      fmt::format(
+          "nothing moves in the recording: no point goes farther than {:.3f} mm from its first "
+          "place (expected: {:g} mm or more); check its unit, and that it is the right one",
+          1e3 * most_m, 1e3 * least_m));
 }
 
-std::string exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
+std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
   const auto [recorded, scanned] = common_points(stabilised, face.landmarks);
-  if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return "";
+  if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return std::nullopt;
   const Similarity recording_from_face = fit_similarity(scanned, recorded);
   const auto of_recording = [&](const std::string& name) -> Vec3 {
     return stabilised.positions.front().row(stabilised.index_of(name)).transpose();
@@ -166,26 +174,26 @@ std::string exchanged_warning(const motion::Motion& stabilised, const FaceAtRest
     else
       ++right;
   }
-  if (wrong.empty() || wrong.size() >= right) return "";
-  return fmt::format(
-      "left and right seem to be exchanged in {}: they lie the other way round than on {}, while "
-      "the other points do not; L and R are the subject's own sides",
-      fmt::join(wrong, "; "), face.whose);
+  if (wrong.empty() || wrong.size() >= right) return std::nullopt;
+  return make_warning(
+      "sides.exchanged_pair",
+      fmt::format("left and right seem to be exchanged in {}: they lie the other way round than on "
+                  "{}, while the other points do not; L and R are the subject's own sides",
+                  fmt::join(wrong, "; "), face.whose));
 }
 
 void check_length(const scene::Scene& scene, const motion::Motion& m) {
   if (m.time_s.size() < 2)
-    motion::refuse(m,
-                   "has one sample, which is the face at rest: nothing moves; expected two or "
-                   "more");
+    motion::refuse(
+        m, "has one sample, which is the face at rest: nothing moves; expected two or more");
   const double frame_s = 1 / scene.time.frame_rate_hz;
   const double slack = 1e-9;
   if (scene.time.end_s > 0 && scene.time.end_s < frame_s - slack)
-    throw InputError(scene::problem_at(
-        scene, "time.end_s",
-        fmt::format("at least {:.4g} s, a frame at time.frame_rate_hz = {:g}: a shorter run shows "
-                    "the face at rest alone",
-                    frame_s, scene.time.frame_rate_hz)));
+    throw InputError(
+        scene::problem_at(scene, "time.end_s",
+                          fmt::format("at least {:.4g} s, a frame at time.frame_rate_hz = {:g}: a "
+                                      "shorter run shows the face at rest alone",
+                                      frame_s, scene.time.frame_rate_hz)));
   const double lasts_s = m.time_s.back() - m.time_s.front();
   if (scene.time.end_s == 0 && lasts_s < frame_s - slack)
     motion::refuse(m, fmt::format("lasts {:.4g} s, less than a frame at time.frame_rate_hz = {:g}: "
@@ -209,12 +217,14 @@ SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landm
   return worst;
 }
 
-std::string skin_warning(const SkinOff& off) {
-  if (off.distance_mm <= kSkinOff_mm) return "";
-  return fmt::format(
-      "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: there the motion is "
-      "not the scan's own; a smaller mesh.element_size_mm or a cleaner scan helps",
-      off.distance_mm, off.beside_mm, off.landmark);
+std::optional<Note> skin_warning(const SkinOff& off) {
+  if (off.distance_mm <= kSkinOff_mm) return std::nullopt;
+  return make_warning(
+      "skin.far_from_scan",
+      fmt::format(
+          "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: there the motion "
+          "is not the scan's own; a smaller mesh.element_size_mm or a cleaner scan helps",
+          off.distance_mm, off.beside_mm, off.landmark));
 }
 
 }  // namespace hyperex::session

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,33 +26,33 @@ FaceAtRest average_face();
 /// half of that with its points mirrored.
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
-/// A sentence where the recording fits the scan badly: of another face, in another unit, or with
-/// points that only share their names; empty where it fits.
-std::string misfit_warning(const simulate::AlignedMotion& aligned);
+/// `recording.fits_badly`: the recording fits the scan badly, as one of another face, in another
+/// unit, or with points that only share their names.
+std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned);
 
-/// A sentence where the recording seems to begin in the middle of an expression
-/// (motion::started_in_expression); empty where it does not.
-std::string start_warning(const motion::Motion& stabilised, const FaceAtRest& face);
+/// `recording.starts_in_expression`: the recording seems to begin in the middle of an expression
+/// (motion::started_in_expression).
+std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// "the recording lasts 2.7 s: 81 samples, 33.3 ms apart (median)".
-std::string timing_note(const motion::Motion& m);
+std::string timing_sentence(const motion::Motion& m);
 
-/// A sentence where times look like another unit: a median step above 0.5 s, or more than ten
-/// minutes in all; empty where they do not.
-std::string timing_warning(const motion::Motion& m);
+/// `recording.time_unit_doubtful`: times look like another unit, with a median step above 0.5 s or
+/// more than ten minutes in all.
+std::optional<Note> timing_warning(const motion::Motion& m);
 
-/// A sentence where no point moves 0.05 mm from its first place, head pose out; else empty.
-std::string stillness_warning(const motion::Motion& stabilised);
+/// `recording.nothing_moves`: no point moves 0.05 mm from its first place, head pose out.
+std::optional<Note> stillness_warning(const motion::Motion& stabilised);
 
-/// A sentence that names the pairs of points (face::mirrored_landmark) which lie the wrong way
-/// round in the first sample: the vector from one to the other points against that of the face,
-/// turned as the recording's common points have it. Empty where there is none, or as many as are
-/// right (check_sides tells of those).
-std::string exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
+/// `sides.exchanged_pair`: names the pairs of points (face::mirrored_landmark) which lie the wrong
+/// way round in the first sample: the vector from one to the other points against that of the face,
+/// turned as the recording's common points have it. Nothing where there is none, or as many as are
+/// right (check_sides reports those).
+std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
-/// A sentence that names the keys given which only finite strain heeds, where neither the scene nor
-/// one of its variants has it; else empty.
-std::string idle_law_warning(const scene::Scene& scene);
+/// `law.idle`: names the keys given which only finite strain uses, where neither the scene nor one
+/// of its variants has it.
+std::optional<Note> idle_law_warning(const scene::Scene& scene);
 
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before
 /// its second frame.
@@ -66,7 +67,7 @@ struct SkinOff {
 };
 SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
-/// A sentence where that is more than 5 mm; empty where it is not.
-std::string skin_warning(const SkinOff& off);
+/// `skin.far_from_scan`: that is more than 5 mm.
+std::optional<Note> skin_warning(const SkinOff& off);
 
 }  // namespace hyperex::session

@@ -49,6 +49,11 @@ void parts(Archive& archive, T& of) {
   auto& [skin, scan_vertices, appended, source_triangle, kept, kept_triangle, places] = of;
   archive(skin, scan_vertices, appended, source_triangle, kept, kept_triangle, places);
 }
+template <class Archive, SameButConst<Note> T>
+void parts(Archive& archive, T& of) {
+  auto& [id, severity, text, key, variant] = of;
+  archive(id, severity, text, key, variant);
+}
 template <class Archive, SameButConst<tissue::VolumeMesh> T>
 void parts(Archive& archive, T& of) {
   auto& [nodes, tets, outer, layers, thickness_m, notes] = of;
@@ -97,7 +102,8 @@ metrics::RestAsymmetry rest_asymmetry(const tissue::TissueMesh& mesh, const Inpu
 
 namespace {
 
-std::string key_of(const scene::Scene& scene, const Inputs& inputs, const std::vector<char>& held) {
+std::string mesh_key(const scene::Scene& scene, const Inputs& inputs,
+                     const std::vector<char>& held) {
   const tissue::TissueMeshOptions& o = scene.mesh;
   Packer of;
   of(inputs.scan.mesh.points, inputs.scan.mesh.triangles, inputs.scan.file.string(), held);
@@ -156,7 +162,7 @@ PreparedFace prepare_face(const scene::Scene& scene, Inputs& inputs,
                           const std::function<void()>& skin_known) {
   const std::vector<char> held = on_seams(inputs.scan);
   if (!scene.kept.in_use()) return made(scene, inputs, held, skin_known);
-  const std::string key = key_of(scene, inputs, held);
+  const std::string key = mesh_key(scene, inputs, held);
   if (const auto bytes = scene.kept.find(key))
     if (auto face = prepared_face_from(*bytes)) {
       spdlog::info("the mesh that an earlier run made of this scan (--no-cache: anew)");

@@ -28,11 +28,10 @@ std::vector<int> judged_columns(const motion::Motion& m) {
 RecordedJitter jitter_of_short(const motion::Motion& m) {
   const double jitter_m = metrics::jitter_at_rest(m);
   if (!std::isfinite(jitter_m)) return {0, false, "the recording is too short to tell its jitter"};
-  return {
-      jitter_m, true,
-      fmt::format("jitter of the tracked points in their quietest half second, as the recording "
-                  "is short: {:.2f} mm",
-                  1e3 * jitter_m)};
+  return {jitter_m, true,
+          fmt::format("jitter of the tracked points in their quietest half second, as the "
+                      "recording is short: {:.2f} mm",
+                      1e3 * jitter_m)};
 }
 
 }  // namespace
@@ -48,24 +47,27 @@ RecordedJitter recorded_jitter(const motion::Motion& m) {
                       1e3 * jitter_m)};
 }
 
-void settle_jitter(const scene::Scene& scene, Look look, const motion::Motion& m, Inputs& in) {
+void settle_jitter(const scene::Scene& scene, Extent extent, const motion::Motion& m, Inputs& in) {
   if (scene.output.jitter_m >= 0) {
     in.jitter_m = scene.output.jitter_m;
     if (in.jitter_m > 0)
-      in.notes.push_back(
+      in.notes.push_back(make_note(
+          "recording.jitter_stated",
           fmt::format("jitter of the recorded points, as output.jitter_mm states it: {:.2f} mm",
-                      1e3 * in.jitter_m));
+                      1e3 * in.jitter_m)));
     return;
   }
   const bool tracked = !scene.motion.recording.empty();
-  if (scene.motion.source.embedded || (tracked && look != Look::whole)) return;
+  if (scene.motion.source.embedded || (tracked && extent != Extent::full)) return;
   RecordedJitter found = recorded_jitter(m);
   if (!found.known && tracked) found = jitter_of_short(m);
   in.jitter_m = found.jitter_m;
-  in.notes.push_back(found.how + (in.jitter_m > 0
-                                      ? " (output.jitter_mm states another)"
-                                      : "; figures of symmetry are judged by the mesh alone "
-                                        "(output.jitter_mm states a jitter)"));
+  in.notes.push_back(
+      in.jitter_m > 0
+          ? make_note("recording.jitter", found.how + " (output.jitter_mm states another)")
+          : make_note("recording.no_jitter",
+                      found.how + "; figures of symmetry are judged by the mesh alone "
+                                  "(output.jitter_mm states a jitter)"));
 }
 
 }  // namespace hyperex::session

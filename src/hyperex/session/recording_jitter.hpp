@@ -19,8 +19,8 @@ struct RecordedJitter {
 RecordedJitter recorded_jitter(const motion::Motion& m);
 
 /// Sets Inputs::jitter_m, with a note that says where it comes from: what the scene states
-/// (output.jitter_mm), else recorded_jitter; of a camera's recording, looked at whole, that is too
+/// (output.jitter_mm), else recorded_jitter; of a camera's recording, read in full, that is too
 /// short for it, the jitter in its quietest half second (metrics::jitter_at_rest).
-void settle_jitter(const scene::Scene& scene, Look look, const motion::Motion& m, Inputs& in);
+void settle_jitter(const scene::Scene& scene, Extent extent, const motion::Motion& m, Inputs& in);
 
 }  // namespace hyperex::session

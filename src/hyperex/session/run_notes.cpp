@@ -14,8 +14,10 @@ constexpr double kFewInverted = 1e-3;
 /// Lips that pass through each other by less are no warning.
 constexpr double kLipsPass_mm = 0.5;
 
-void warn(const char* id, const char* key, std::string text, std::vector<Note>& notes) {
-  notes.push_back({id, Severity::warning, std::move(text), key});
+void warn(const char* id, std::string text, std::vector<Note>& notes,
+          const std::string& variant = "") {
+  notes.push_back(make_warning(id, std::move(text)));
+  notes.back().variant = variant;
 }
 
 bool few_are_inverted(int inverted, Eigen::Index tets) {
@@ -43,33 +45,56 @@ std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport
   std::vector<Note> notes;
   const Eigen::Index tets = p.tets.rows();
   if (report.inverted_tets > 0 && few_are_inverted(report.inverted_tets, tets))
-    notes.push_back({"tissue.few_inverted", Severity::note,
-                     fmt::format("{} of {} tetrahedra turned inside out in some frame, too few to "
-                                 "matter",
-                                 report.inverted_tets, tets),
-                     ""});
+    notes.push_back(make_note(
+        "tissue.few_inverted",
+        fmt::format("{} of {} tetrahedra turned inside out in some frame, too few to matter",
+                    report.inverted_tets, tets)));
   if (contact.any() && report.contact.frames == 0)
-    notes.push_back({"contact.none", Severity::note, "contact: nothing touches in any frame", ""});
+    notes.push_back(make_note("contact.none", "contact: nothing touches in any frame"));
   return notes;
 }
 
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,
                                const simulate::Performance& p) {
-  std::vector<Note> notes;
-  for (const std::string& note : report.notes) warn("simulation.remark", "", note, notes);
+  std::vector<Note> notes = report.notes;
   if (report.lip_overlap_mm > kLipsPass_mm)
-    warn("lips.pass_through", "contact.lips",
+    warn("lips.pass_through",
          fmt::format("the lips pass through each other by up to {:.1f} mm", report.lip_overlap_mm),
          notes);
   if (report.inverted_tets > 0 && !few_are_inverted(report.inverted_tets, p.tets.rows()))
-    warn("tissue.inverted", "tissue.strain",
+    warn("tissue.inverted",
          fmt::format(
-             "{} of {} tetrahedra are turned inside out in some frame: the motion is too "
-             "large for {} there",
+             "{} of {} tetrahedra are turned inside out in some frame: the motion is too large for "
+             "{} there",
              report.inverted_tets, p.tets.rows(),
              p.model.strain == simulate::Strain::finite ? "these elements" : "linear strain"),
          notes);
   return notes;
+}
+
+std::vector<Note> symmetry_notes(const metrics::SymmetryMeasures& symmetry,
+                                 const std::string& why_no_twin) {
+  std::vector<Note> notes;
+  if (symmetry.map && !symmetry.map->plane.note.empty())
+    notes.push_back(make_warning("symmetry.plane_of_landmarks", symmetry.map->plane.note));
+  if (!why_no_twin.empty())
+    notes.push_back(make_note("symmetry.no_mesh_floor",
+                              "the mesh's own floor of symmetry is not known: " + why_no_twin));
+  return notes;
+}
+
+std::vector<Note> volume_warnings(const metrics::PeakTissue& tissue) {
+  constexpr double kMuch = 3;
+  if (!tissue.volume_ratio) return {};
+  const metrics::TetSpread& volume = *tissue.volume_ratio;
+  if (volume.min * kMuch >= 1 && volume.max <= kMuch) return {};
+  return {make_warning(
+      "tissue.volume_changed",
+      fmt::format("at the peak the volume of single elements is {:.2f} to {:.2f} times that at "
+                  "rest (99 % below {:.2f}): their stress says little; use percentiles, or a "
+                  "finer mesh there",
+                  volume.min, volume.max, volume.p99),
+      "mesh.element_size_mm")};
 }
 
 std::vector<Note> idle_variants(const simulate::Performance& base,
@@ -78,10 +103,10 @@ std::vector<Note> idle_variants(const simulate::Performance& base,
   std::vector<Note> notes;
   for (const VariantRun& run : runs)
     if (greatest_distance_m(base, run.simulation.performance) < kSame_m)
-      warn("variant.no_effect", "",
+      warn("variant.no_effect",
            fmt::format("variant {} moves as base does: what it changes has no effect",
                        run.scene.title),
-           notes);
+           notes, run.scene.title);
   return notes;
 }
 
@@ -92,11 +117,11 @@ std::vector<Note> lips_that_pass(const std::vector<VariantRun>& runs, double bas
     if (const double mm = run.simulation.report.lip_overlap_mm;
         mm > kLipsPass_mm && (base_mm <= kLipsPass_mm || mm > base_mm + kAsBase_mm))
       warn(
-          "variant.lips_pass_through", "contact.lips",
+          "variant.lips_pass_through",
           fmt::format(
               "variant {}: the lips pass through each other by up to {:.1f} mm ({:.1f} mm in base)",
               run.scene.title, mm, base_mm),
-          notes);
+          notes, run.scene.title);
   return notes;
 }
 
@@ -116,15 +141,14 @@ std::vector<Note> gains_hardly_known(const simulate::MuscleCourse& base,
       if (most < 0 || greatest > std::abs(base.activation(most, when))) most = m, when = at;
     }
     if (most >= 0 && !known)
-      warn("variant.muscle_hardly_used", "muscles.gain",
+      warn("variant.muscle_hardly_used",
            fmt::format("variant {}: in this recording {} is active by at most {:.2f} +- {:.2f} (1 "
-                       "sigma), less than "
-                       "its uncertainty, so that what its strength changes is hardly known; a "
-                       "recording that uses it "
-                       "more, such as a broad smile, or the whole branch of the nerve tells more",
+                       "sigma), less than its uncertainty, so that what its strength changes is "
+                       "hardly known; a recording that uses it more, such as a broad smile, or the "
+                       "whole branch of the nerve tells more",
                        run.scene.title, base.names[std::size_t(most)], base.activation(most, when),
                        base.sigma(most, when)),
-           notes);
+           notes, run.scene.title);
   }
   return notes;
 }
@@ -132,9 +156,8 @@ std::vector<Note> gains_hardly_known(const simulate::MuscleCourse& base,
 std::vector<Note> variant_warnings(const simulate::SimulationResult& base,
                                    const std::vector<VariantRun>& runs) {
   std::vector<Note> all = idle_variants(base.performance, runs);
-  for (auto& more : {lips_that_pass(runs, base.report.lip_overlap_mm),
-                     gains_hardly_known(base.performance.muscles, runs)})
-    all.insert(all.end(), more.begin(), more.end());
+  append(all, lips_that_pass(runs, base.report.lip_overlap_mm));
+  append(all, gains_hardly_known(base.performance.muscles, runs));
   return all;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What a finished run must say: found here once, shown by the program, the studio and Python.
+#include <optional>
 #include <vector>
 
 #include "hyperex/core/note.hpp"
+#include "hyperex/metrics/peak_tissue.hpp"
 #include "hyperex/session/variants.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 
@@ -15,11 +17,20 @@ std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport
                                                 const simulate::Performance& performance,
                                                 const simulate::ContactOptions& contact);
 
-/// What a user should not overlook: `simulation.remark` (the report's own notes),
+/// What a user should not overlook: the report's own notes (SimulationReport::notes),
 /// `lips.pass_through` (by more than 0.5 mm), `tissue.inverted` (more than 0.1 % of the
 /// tetrahedra).
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,
                                const simulate::Performance& performance);
+
+/// `symmetry.plane_of_landmarks` (a warning: the plane between left and right),
+/// `symmetry.no_mesh_floor` (a note: `why_no_twin`, a sentence, where it is not empty).
+std::vector<Note> symmetry_notes(const metrics::SymmetryMeasures& symmetry,
+                                 const std::string& why_no_twin);
+
+/// `tissue.volume_changed` (a warning): at finite strain, single elements whose volume changes by
+/// more than 3 times. Patches of them keep theirs, so that the skin's motion is hardly affected.
+std::vector<Note> volume_warnings(const metrics::PeakTissue& tissue);
 
 /// `variant.no_effect`: a variant that moves as base does, to 0.001 mm. It is probably a mistake.
 std::vector<Note> idle_variants(const simulate::Performance& base,

@@ -18,7 +18,7 @@ constexpr double kLargest_m = 0.15, kSmallest_m = 0.01, kFarthest_m = 0.08;
 
 TriMesh read_jaw(const scene::Scene& scene, const std::string& key,
                  const std::filesystem::path& file, io::LengthUnit unit,
-                 const io::Landmarks& landmarks, std::vector<std::string>& notes) {
+                 const io::Landmarks& landmarks, std::vector<Note>& notes) {
   TriMesh mesh = io::read_mesh(file, unit);
   const auto refuse = [&](const std::string& expected) {
     throw InputError(scene::problem_at(scene, key, expected));
@@ -35,24 +35,27 @@ TriMesh read_jaw(const scene::Scene& scene, const std::string& key,
     const double off = ((low + high) / 2 - (upper->second + lower->second) / 2).norm();
     if (off > kFarthest_m)
       refuse(
-          fmt::format("teeth that lie in the frame of the scan, behind the lips (this lies "
-                      "{:.0f} mm from them)",
+          fmt::format("teeth that lie in the frame of the scan, behind the lips (this lies {:.0f} "
+                      "mm from them)",
                       1e3 * off));
   }
   const Closing closing = close_mesh(mesh);
   if (!closing.why_not.empty())
     refuse("a closed surface, or one that can be closed: " + closing.why_not);
   if (closing.borders > 0)
-    notes.push_back(fmt::format("{} ({}): {} border{} filled, the longest of {:.0f} mm", key,
-                                file.string(), closing.borders,
-                                closing.borders > 1 ? "s were" : " was", 1e3 * closing.longest_m));
+    notes.push_back(
+        make_note("teeth.closed",
+                  fmt::format("{} ({}): {} border{} filled, the longest of {:.0f} mm", key,
+                              file.string(), closing.borders,
+                              closing.borders > 1 ? "s were" : " was", 1e3 * closing.longest_m),
+                  key));
   return mesh;
 }
 
 }  // namespace
 
 anatomy::Teeth read_teeth(const scene::Scene& scene, io::LengthUnit scan_unit,
-                          const io::Landmarks& landmarks, std::vector<std::string>& notes) {
+                          const io::Landmarks& landmarks, std::vector<Note>& notes) {
   const scene::TeethOptions& options = scene.teeth;
   const io::LengthUnit unit = options.unit.value_or(scan_unit);
   anatomy::Teeth out;
@@ -65,22 +68,25 @@ anatomy::Teeth read_teeth(const scene::Scene& scene, io::LengthUnit scan_unit,
 
 std::shared_ptr<const anatomy::Teeth> teeth_of(const scene::Scene& scene, const Inputs& inputs,
                                                const tissue::TissueMesh& mesh,
-                                               std::vector<std::string>& notes) {
+                                               std::vector<Note>& notes) {
   auto teeth = std::make_shared<anatomy::Teeth>(inputs.teeth);
   const bool wanted = scene.teeth.shape == scene::TeethShape::arch;
   if (wanted && (teeth->upper.empty() || teeth->lower.empty())) {
     anatomy::TeethFit fit =
         anatomy::fit_teeth(mesh.volume.outer, tissue::boundary_of(mesh.volume), inputs.landmarks);
     if (!fit.why_none.empty()) {
-      notes.push_back("no teeth are laid behind the lips: " + fit.why_none);
+      notes.push_back(
+          make_note("teeth.none", "no teeth are laid behind the lips: " + fit.why_none));
     } else {
-      notes.push_back(fmt::format(
-          "average teeth (times {:.2f}{}) stand behind the lips, their edges {:.1f} mm behind the "
-          "lips' inner middles; scans of teeth are read by teeth.upper and teeth.lower",
-          fit.size.scale,
-          fit.size.breadth < 1 ? fmt::format(", arches {:g} of their breadth", fit.size.breadth)
-                               : "",
-          1e3 * fit.behind_lips_m));
+      notes.push_back(make_note(
+          "teeth.average",
+          fmt::format(
+              "average teeth (times {:.2f}{}) stand behind the lips, their edges {:.1f} mm behind "
+              "the lips' inner middles; scans of teeth are read by teeth.upper and teeth.lower",
+              fit.size.scale,
+              fit.size.breadth < 1 ? fmt::format(", arches {:g} of their breadth", fit.size.breadth)
+                                   : "",
+              1e3 * fit.behind_lips_m)));
       if (teeth->upper.empty()) teeth->upper = std::move(fit.teeth.upper);
       if (teeth->lower.empty()) teeth->lower = std::move(fit.teeth.lower);
     }

@@ -92,16 +92,18 @@ std::string nearest_landmark(const std::string& name) {
   return given.side.empty() && known.contains(near + "_L") ? near + "_L or " + near + "_R" : "";
 }
 
-std::vector<std::string> misspelt_landmarks(std::vector<std::string>& unknown) {
+std::vector<Note> misspelt_landmarks(std::vector<std::string>& unknown) {
   constexpr std::size_t most = 5;
-  std::vector<std::string> warnings, others;
+  std::vector<Note> warnings;
+  std::vector<std::string> others;
   for (const std::string& name : unknown) {
     const std::string near = warnings.size() < most ? nearest_landmark(name) : "";
     if (near.empty())
       others.push_back(name);
     else
-      warnings.push_back(
-          fmt::format("landmark {} is not known and left aside; did you mean {}?", name, near));
+      warnings.push_back(make_warning(
+          "landmarks.misspelt",
+          fmt::format("landmark {} is not known and left aside; did you mean {}?", name, near)));
   }
   unknown = std::move(others);
   return warnings;

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/note.hpp"
+
 namespace hyperex::session {
 
 /// What a name that does not exist was probably meant to be, in the spelling that exists. A side is
@@ -16,8 +18,8 @@ std::string nearest_region(std::string name);
 /// Of the landmarks that the canonical face knows; "ibug_48" and "48" are ibug68_48.
 std::string nearest_landmark(const std::string& name);
 
-/// Warnings on landmarks of unknown names that look misspelt, "... did you mean cheilion_L?", one
-/// each, at most five; those names are taken out of `unknown`.
-std::vector<std::string> misspelt_landmarks(std::vector<std::string>& unknown);
+/// `landmarks.misspelt` for landmarks of unknown names that look misspelt, "... did you mean
+/// cheilion_L?", one each, at most five; those names are taken out of `unknown`.
+std::vector<Note> misspelt_landmarks(std::vector<std::string>& unknown);
 
 }  // namespace hyperex::session

@@ -20,6 +20,7 @@ struct VariantRun {
   scene::Scene scene;                        ///< the variant's; output.* says what its folder holds
   Inputs inputs;                             ///< the scene's, with the variant's driven points
   std::optional<tissue::TissueField> field;  ///< where the tissue differs from place to place
+  simulate::SimulationOptions options;
   simulate::SimulationResult simulation;
   metrics::SymmetryMeasures symmetry;
 };
@@ -28,10 +29,5 @@ struct VariantRun {
 /// scene's own. Throws InputError naming the variant's key for tissue that cannot be.
 std::vector<VariantRun> prepare_variants(const scene::Scene& scene, const Inputs& inputs,
                                          TissueFields& fields);
-
-/// Simulates all at once. Each begins with the stages that the simulators of base and of its twin
-/// have. Throws NumericalError naming the variant that cannot be solved.
-void simulate_variants(std::vector<VariantRun>& runs, const simulate::Simulator& base,
-                       const MirroredTwin& base_twin, const metrics::RestAsymmetry& at_rest);
 
 }  // namespace hyperex::session

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Everything that a simulation can be told: each option, its default and its range stand here and
-// nowhere else. Scene files and bindings fill these structs.
+// All options of a simulation. Each is described here and nowhere else (core/describe.hpp): its
+// default, bounds, words and meaning. Scene files, Python and tests walk these descriptions.
 #include <array>
 #include <string>
 #include <vector>
 
-#include "hyperex/core/bounds.hpp"
+#include "hyperex/core/describe.hpp"
 #include "hyperex/fem/element/element_kind.hpp"
 #include "hyperex/fem/material/hyperelastic.hpp"
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
-#include "hyperex/fem/solve/linear_solver.hpp"
 #include "hyperex/motion/motion.hpp"
 #include "hyperex/muscles/force_shape.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
@@ -19,6 +18,10 @@
 namespace hyperex::simulate {
 
 enum class Measured { none, all, points };
+constexpr auto words_of(Measured) {
+  return std::array{Word{"none", Measured::none}, Word{"all", Measured::all},
+                    Word{"points", Measured::points}};
+}
 
 /// Which part of the skin follows the recording directly; the rest is physical.
 struct RegionOptions {
@@ -26,18 +29,55 @@ struct RegionOptions {
   std::vector<std::string> measured_points;  ///< at least one where measured is `points`
   double measured_radius_m = 0.015;          ///< of the skin around them
   double blend_m = 0.005;                    ///< over which measured passes into physical
-  static constexpr Bounds measured_radius_m_in{0.001, 0.2}, blend_m_in{0, 0.1};
   bool operator==(const RegionOptions&) const = default;
+
+  static constexpr const char* about = "What follows the recording directly and what is simulated.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(measured),
+             "Which part of the face follows the recording directly, while the rest is simulated: "
+             "none, all of it, or the surroundings of region.measured_points.");
+    v.option(HX_MEMBER(measured_points),
+             "Points whose surroundings are measured. At least one where region.measured is "
+             "\"points\".");
+    v.option(HX_MEMBER(measured_radius_m), "How far the surroundings of a measured point reach.",
+             {.unit = kMillimetres, .bounds = {0.001, 0.2}});
+    v.option(HX_MEMBER(blend_m), "Width of the transition from measured to simulated.",
+             {.unit = kMillimetres, .bounds = {0, 0.1}});
+  }
 };
 
 enum class Hold { held, sliding, free };
+constexpr auto words_of(Hold) {
+  return std::array{Word{"sliding", Hold::sliding}, Word{"held", Hold::held},
+                    Word{"free", Hold::free}};
+}
 enum class Mandible { follow, held, free };
+constexpr auto words_of(Mandible) {
+  return std::array{Word{"follow", Mandible::follow}, Word{"held", Mandible::held},
+                    Word{"free", Mandible::free}};
+}
+
+/// Of elastic foundations: stiffness per area.
+inline constexpr OptionDetails kFoundation{.unit = kKilopascalsPerMillimetre, .bounds = {0, 1e12}};
 
 /// The tissue slides on the bone on a layer of loose tissue: springs per area between the inner
 /// surface and the bone, stiff across the layer, soft along it.
 struct BoneLayer {
   double across_pa_per_m = 0, along_pa_per_m = 0;
   bool operator==(const BoneLayer&) const = default;
+
+  static constexpr const char* about = "Springs between tissue and bone, per area.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(across_pa_per_m),
+             "Stiffness normal to the bone: the pressure for a displacement of one millimetre.",
+             kFoundation);
+    v.option(HX_MEMBER(along_pa_per_m),
+             "Stiffness tangential to the bone: the shear stress for a displacement of one "
+             "millimetre.",
+             kFoundation);
+  }
 };
 
 struct SupportOptions {
@@ -58,8 +98,32 @@ struct SupportOptions {
   /// exp(-(d / throat_reach_m)^2) at the distance d to it. 0: none.
   double throat_pa_per_m = 0, throat_reach_m = 0.09;
   std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
-  static constexpr Bounds stiffness_pa_per_m_in{0, 1e12};  ///< of each of the five
   bool operator==(const SupportOptions&) const = default;
+
+  static constexpr const char* about =
+      "What holds the tissue on its inner surface and at its border.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(border_held),
+             "The tissue's outer border, from the skin to the inner surface.",
+             {.key = "border", .words = {"held", "free"}});
+    v.option(HX_MEMBER(skull),
+             "The inner surface over the skull: slides on a loose layer (an elastic foundation), "
+             "is fixed, or is free.");
+    v.option(HX_MEMBER(skull_layer), "The loose layer over the skull.", {.key = "skull_"});
+    v.option(HX_MEMBER(mandible),
+             "The inner surface over the mandible: follows the jaw as a rigid bone, is fixed, or "
+             "is free.");
+    v.option(HX_MEMBER(mandible_layer), "The loose layer over a mandible that moves.",
+             {.key = "mandible_"});
+    v.option(HX_MEMBER(field_pa_per_m),
+             "Stiffness of an elastic foundation under the tissue, except over the mandible. Its "
+             "base follows the motion interpolated between the driven points. 0: none.",
+             kFoundation);
+    v.option(HX_MEMBER(jaw_points),
+             "Points whose motion rotates the jaw. Empty: those of the chin that the recording "
+             "has.");
+  }
 };
 
 enum class DriveBy {
@@ -67,6 +131,10 @@ enum class DriveBy {
   muscles,       ///< forces: muscles, the jaw, and what they leave over at the points
   reactions      ///< forces: those that hold the patches of a run by displacement
 };
+constexpr auto words_of(DriveBy) {
+  return std::array{Word{"displacement", DriveBy::displacement}, Word{"muscles", DriveBy::muscles},
+                    Word{"reactions", DriveBy::reactions}};
+}
 
 struct DriveOptions {
   DriveBy by = DriveBy::displacement;
@@ -76,13 +144,37 @@ struct DriveOptions {
   std::vector<std::string> still_points;  ///< landmarks of the skin that are kept where they are
   double patch_radius_m = 0.008;          ///< of the skin that a point moves; 0: the nearest node
   double gain = 1;                        ///< on all displacements
-  static constexpr Bounds patch_radius_m_in{0, 0.03};
 
   /// Names of the points of `motion` that drive, as given; not checked to be in it.
   const std::vector<std::string>& names_in(const motion::Motion& motion) const {
     return all_points ? motion.names : points;
   }
   bool operator==(const DriveOptions&) const = default;
+
+  static constexpr const char* about = "What moves it.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.one_or_all(HX_MEMBER(points), HX_MEMBER(all_points),
+                 "Points of the recording that drive the skin. With motion.candide and no points "
+                 "named: those of the default that the model has.");
+    v.option(HX_MEMBER(by),
+             "What the points are: places that the skin is carried to, whatever the tissue; or "
+             "what muscles, the jaw and forces at the points are found from (docs/muscles.md), or "
+             "forces alone. Forces are found once, in the scene's tissue, and variants answer the "
+             "same forces. Where it is not given: \"displacement\" where the scene or a variant "
+             "sets a key of [support] (but jaw_points) or [region]; else \"muscles\" where there "
+             "are variants; else \"displacement\" where the mouth opens by more than 0.2 of the "
+             "distance between the outer corners of the eyes while its own corners part by less "
+             "than 0.004 of it, as by the jaw alone, and \"muscles\" for every other motion. The "
+             "run says which and why.");
+    v.option(HX_MEMBER(patch_radius_m),
+             "Radius of the patch of skin that a driven point moves where the lips part; half as "
+             "much again where they stay closed. 0 takes the nearest node alone.",
+             {.unit = kMillimetres, .bounds = {0, 0.03}});
+    v.option(HX_MEMBER(still_points), "Points of the skin that are fixed.");
+    v.option(HX_MEMBER(gain), "Multiplies all displacements; 1 as recorded.",
+             {.bounds = {0, 5}, .key = "motion.gain"});
+  }
 };
 
 /// A factor on muscles' activations: of one ("zyg_major_R"), of a branch of the facial nerve on one
@@ -91,6 +183,13 @@ struct MuscleGain {
   std::string muscle;
   double gain = 1;
   bool operator==(const MuscleGain&) const = default;
+
+  static constexpr const char* about = "A factor on activations.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(muscle), "A muscle with its side, a branch with its side, or a side.");
+    v.option(HX_MEMBER(gain), "Multiplies the activations.", {.bounds = {0, 5}});
+  }
 };
 
 /// Muscles and what they pull against, where DriveOptions::by is `muscles`. The constants were
@@ -102,7 +201,6 @@ struct MuscleOptions {
   }
   std::vector<MuscleGain> gains;
   bool mirrored = false;  ///< each muscle takes the activation of its counterpart
-  static constexpr Bounds gain_in{0, 5};
 
   /// In the place of SimulationOptions::support's layers.
   BoneLayer skull_layer{2.5e6, 4.8e6}, mandible_layer{3.3e7, 1e7}, teeth_layer{3.1e5, 1.04e6};
@@ -133,12 +231,28 @@ struct MuscleOptions {
   /// jaw.
   double few_cheek_share = 0.65, few_lip_share = 0.3, many_muscle_share = 0.4, jaw_share = 0.6;
   bool operator==(const MuscleOptions&) const = default;
+
+  /// The constants above are no options: only what a scene may change is described.
+  static constexpr const char* about = "Muscles, where they are what moves it (`drive.by`).";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.factors(HX_MEMBER(gains), [] { return muscles::gain_names(); },
+              "Factors on activations as they were found: of one muscle, of those that a branch "
+              "of the facial nerve moves on one side, or of a side; 0 is a palsy. Several "
+              "multiply.",
+              {.key = "gain"});
+    v.option(HX_MEMBER(mirrored),
+             "Each muscle takes the activation of its counterpart on the other side.");
+  }
 };
 
 enum class Strain {
   linear,  ///< small strain and rotation: one factorisation serves all steps
   finite   ///< any strain and rotation: a factorisation or more in each step
 };
+constexpr auto words_of(Strain) {
+  return std::array{Word{"linear", Strain::linear}, Word{"finite", Strain::finite}};
+}
 
 /// The same without gains and mirroring: forces as they were found.
 MuscleOptions as_recorded(MuscleOptions options);
@@ -150,6 +264,22 @@ struct ModelOptions {
   Strain strain = Strain::linear;
   fem::Hyperelastic law;  ///< of finite strain; E, nu and eta are TissueValues'
   bool operator==(const ModelOptions&) const = default;
+
+  static constexpr const char* about = "What the tissue is made of, and its elements.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(viscous_form),
+             "The viscous tensor: Stokes' law, or the tensor printed in the thesis "
+             "(docs/theory.md), which is not isotropic.");
+    v.option(HX_MEMBER(element),
+             "The finite element: linear tetrahedra, plain, or with the change of volume averaged "
+             "over patches, which does not lock near poisson = 0.5 (docs/elements.md).");
+    v.option(HX_MEMBER(strain),
+             "Small strain and rotation, where one factorisation serves all steps; or finite "
+             "strain and rotation with a hyperelastic law, about ten times as slow "
+             "(docs/mechanics.md).");
+    v.option(HX_MEMBER(law), "", {.key = ""});
+  }
 };
 
 /// One value everywhere, or where `element` is not empty (tissue/field) one a tetrahedron.
@@ -166,10 +296,12 @@ enum class SolverMethod {
   reduced,  ///< projected onto the motions that the input makes, to a checked tolerance
   direct    ///< all unknowns at every step
 };
+constexpr auto words_of(SolverMethod) {
+  return std::array{Word{"reduced", SolverMethod::reduced}, Word{"direct", SolverMethod::direct}};
+}
 
 struct SolverOptions {
   SolverMethod method = SolverMethod::reduced;
-  fem::LinearSolver linear = fem::LinearSolver::automatic;
   double tolerance = 1e-3;     ///< of the reduced model, over the greatest displacement
   double newmark_beta = 0.25;  ///< 2 beta >= gamma
   double newmark_gamma = 0.5;
@@ -179,10 +311,38 @@ struct SolverOptions {
   /// matrix is factored anew in each of them.
   double finite_step_s = 0, finite_tolerance = 1e-3;
   bool full_newton = false;
-  static constexpr Bounds finite_step_s_in{0, 0.5}, finite_tolerance_in{1e-9, 0.1};
-  static constexpr Bounds tolerance_in{1e-9, 0.1}, newmark_beta_in{0.25, 1},
-      newmark_gamma_in{0.5, 1};
   bool operator==(const SolverOptions&) const = default;
+
+  static constexpr const char* about = "How the equations of motion are solved.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    constexpr const char* finite = fem::Hyperelastic::only_where;
+    v.option(HX_MEMBER(method),
+             "A reduced model: the equations projected onto the modes that the input excites, to "
+             "solver.tolerance; or all degrees of freedom at every step.");
+    v.option(HX_MEMBER(tolerance),
+             "Allowed error of the reduced model by its own estimate, relative to the largest "
+             "displacement.",
+             {.bounds = {1e-9, 0.1}});
+    v.option(HX_MEMBER(newmark_beta), "beta of Newmark's method.", {.bounds = {0.25, 1}});
+    v.option(HX_MEMBER(newmark_gamma),
+             "gamma (delta) of Newmark's method; above 0.5 it damps. At most twice "
+             "solver.newmark_beta.",
+             {.bounds = {0.5, 1}});
+    v.option(HX_MEMBER(verify),
+             "Run the full model too and report the true error of the reduced one.");
+    // Shorter steps would take longer than anyone waits.
+    v.option(HX_MEMBER(finite_step_s),
+             "The time step where tissue.strain = \"finite\"; it is halved where it does not "
+             "converge. 0: the time between frames.",
+             {.unit = kSeconds, .bounds = {1e-4, 0.5, false, true}, .only_where = finite});
+    v.option(HX_MEMBER(finite_tolerance),
+             "Error of a step's iterations at finite strain, relative to the largest displacement.",
+             {.bounds = {1e-9, 0.1}, .only_where = finite});
+    v.option(HX_MEMBER(full_newton),
+             "At finite strain, factorise the matrix in each iteration and not once per step.",
+             {.only_where = finite});
+  }
 };
 
 /// What tissue may not pass through (mouth_contact.hpp). Streams know no contact.
@@ -199,8 +359,29 @@ struct ContactOptions {
   /// them, but for this share of the tissue's own compliance: what touches in a recording touched
   /// already when it was recorded.
   double point_give = 0.5;
-  static constexpr Bounds patch_pa_per_m_in{1e5, 1e12}, point_give_in{1e-6, 1e6};
   bool operator==(const ContactOptions&) const = default;
+
+  static constexpr const char* about = "Which surfaces may not pass through each other.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(lips),
+             "The lips may touch but not pass through each other, without friction. Each frame is "
+             "corrected separately, in static equilibrium. Recorded points then end where they are "
+             "recorded only as far as no lip is in their way.");
+    v.option(HX_MEMBER(teeth),
+             "The inner side of lips and cheeks may touch the teeth of both jaws but not pass "
+             "through them, in the same way. The lower teeth move with the jaw.");
+    v.option(HX_MEMBER(eyes),
+             "The lids may touch eyeballs, which are fitted behind them, but not pass through "
+             "them, in the same way.");
+    v.option(HX_MEMBER(patch_pa_per_m),
+             "Stiffness of the springs that hold driven patches where something touches.",
+             {.unit = kKilopascalsPerMillimetre, .bounds = {1e5, 1e12}, .in_scene = false});
+    v.option(HX_MEMBER(point_give),
+             "Where forces drive: how far driven points yield, relative to the tissue's own "
+             "compliance.",
+             {.bounds = {1e-6, 1e6}, .in_scene = false});
+  }
 };
 
 struct TimeOptions {
@@ -209,9 +390,28 @@ struct TimeOptions {
   double frame_rate_hz = 30;
   double peak_time_s = -1;            ///< below 0: where the driven points moved most in the mean
   std::vector<double> still_times_s;  ///< extra shapes wanted, for pictures
-  static constexpr Bounds step_s_in{1e-6, 0.1}, end_s_in{0, 600}, frame_rate_hz_in{1, 1000},
-      peak_time_s_in{-1, 600}, still_times_s_in{0, 600};
   bool operator==(const TimeOptions&) const = default;
+
+  static constexpr const char* about = "Steps and frames.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(step_s), "The time step.", {.unit = kSeconds, .bounds = {1e-6, 0.1}});
+    v.option(HX_MEMBER(end_s),
+             "When the simulation ends; after the recording its last sample is kept. 0: at the end "
+             "of the recording.",
+             {.unit = kSeconds, .bounds = {0, 600}});
+    v.option(HX_MEMBER(frame_rate_hz),
+             "Frames written per second. They need not coincide with time steps.",
+             {.unit = kHertz, .bounds = {1, 1000}});
+    v.option(HX_MEMBER(peak_time_s),
+             "Time of skin_peak.ply. Below 0: when the mean displacement of the driven points is "
+             "greatest.",
+             {.unit = kSeconds, .bounds = {-1, 600}, .key = "output.peak_time_s"});
+    v.option(HX_MEMBER(still_times_s),
+             "Times of the pictures in contact_sheet.png. None: five times over the run, with the "
+             "peak among them.",
+             {.unit = kSeconds, .bounds = {0, 600}, .key = "output.picture_times_s", .most = 12});
+  }
 };
 
 /// The input at all steps is kept: more would fill the memory.
@@ -228,9 +428,23 @@ struct SimulationOptions {
   ContactOptions contact;
   TimeOptions time;
   bool operator==(const SimulationOptions&) const = default;
+
+  static constexpr const char* about = "All options of a Simulator.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(model), ModelOptions::about);
+    v.option(HX_MEMBER(tissue), "The material: a Tissue.");
+    v.option(HX_MEMBER(support), SupportOptions::about);
+    v.option(HX_MEMBER(drive), DriveOptions::about);
+    v.option(HX_MEMBER(muscles), MuscleOptions::about);
+    v.option(HX_MEMBER(region), RegionOptions::about);
+    v.option(HX_MEMBER(solver), SolverOptions::about);
+    v.option(HX_MEMBER(contact), ContactOptions::about);
+    v.option(HX_MEMBER(time), TimeOptions::about);
+  }
 };
 
-/// Throws InputError naming each option that is out of its range, with its value and the range.
+/// Throws InputError naming each option that is out of its bounds, and each conflict.
 void check(const SimulationOptions& options);
 
 }  // namespace hyperex::simulate

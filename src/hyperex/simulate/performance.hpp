@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/fem/material/linear_viscoelastic.hpp"
 #include "hyperex/geometry/insert_line.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/motion/motion.hpp"
@@ -11,40 +12,40 @@
 
 namespace hyperex::simulate {
 
-/// What muscles did over a motion.
+/// Activations of muscles over a motion.
 struct MuscleCourse {
   std::vector<std::string> names;   ///< "zyg_major_L", ...
   std::vector<double> time_s;       ///< samples
-  Eigen::MatrixXd activation;       ///< |names| x samples; 1 moves the skin by 10 mm where most
-  Eigen::MatrixXd sigma;            ///< of it, 1 sigma, from the points' errors and the prior
-  Eigen::VectorXd jaw_opening_deg;  ///< a sample each
-  /// Sums over muscles that points on the skin can hardly tell apart, a side each: "lip corner
-  /// elevators_L". Of what was found: none where gains or mirroring change it.
+  Eigen::MatrixXd activation;       ///< |names| x samples; 1 moves some skin by 10 mm
+  Eigen::MatrixXd sigma;            ///< 1 sigma of it, from the points' errors and the prior
+  Eigen::VectorXd jaw_opening_deg;  ///< per sample
+  /// Sums over the muscles of one side that points on the skin can hardly distinguish, "lip corner
+  /// elevators_L". None where gains or mirroring change the activations.
   std::vector<std::string> groups;
   Eigen::MatrixXd group_activation, group_sigma;  ///< |groups| x samples
 };
 
-/// A face in motion: the contract between the simulation and every output. Scan frame, metres.
+/// A face in motion: what a simulation gives to every output. Scan frame, metres.
 struct Performance {
-  /// The scan at rest: its own vertices in their order, then those of a cut along the lips; its own
-  /// triangles in their order, of those that the cut crosses one piece, then the other pieces.
+  /// The scan at rest. Its own vertices come first, in their order, then those of a cut along the
+  /// lips. Its own triangles come first, in their order; where the cut crosses one, one piece
+  /// stands in its place and the others follow at the end.
   TriMesh skin_rest;
-  Eigen::Index scan_vertices = 0;    ///< the first so many of skin_rest.points are the scan's own
-  std::vector<EdgePoint> appended;   ///< where on the scan each further vertex lies
-  std::vector<int> source_triangle;  ///< of each skin triangle, the scan's that it is (a piece of)
+  Eigen::Index scan_vertices = 0;    ///< number of the scan's own vertices in skin_rest
+  std::vector<EdgePoint> appended;   ///< places of the other vertices on the scan
+  std::vector<int> source_triangle;  ///< per skin triangle: the scan's triangle that it is part of
   std::vector<double> frame_time_s;
   std::vector<PointsF> skin_displacement_m;  ///< per frame, |skin_rest| x 3
-  int peak_frame = 0;                        ///< where the driven points moved most in the mean
-  /// The jaw's place in each frame: a point of it that is at x at rest is at
-  /// jaw_now_from_rest[f] * x.
+  int peak_frame = 0;  ///< frame with the greatest mean displacement of the driven points
+  /// The jaw's pose in each frame: its point x at rest is at jaw_now_from_rest[f] * x.
   std::vector<Eigen::Isometry3d> jaw_now_from_rest;
 
   /// The simulated tissue; empty where everything was measured.
   Points nodes;
   Tetrahedra tets;
-  std::vector<PointsF> node_displacement_m;                          ///< per frame
-  std::vector<float> tet_young_pa, tet_poisson, tet_viscosity_pa_s;  ///< per tetrahedron
-  ModelOptions model;  ///< by which strain and stress follow from the displacement
+  std::vector<PointsF> node_displacement_m;  ///< per frame, |nodes| x 3
+  fem::Material material;                    ///< one value per tetrahedron
+  ModelOptions model;                        ///< gives strain and stress from the displacement
 
   /// Landmarks of the scan as the moved skin carries them, at the frame times.
   motion::Motion landmarks;

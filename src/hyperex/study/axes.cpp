@@ -22,7 +22,7 @@ std::string short_key(const std::string& key) {
   return key.substr(key.find('.') + 1);
 }
 
-/// What tells the step of number `index` from the others in a case's name.
+/// What distinguishes step number `index` from the others in a case's name.
 std::string label_of(const std::string& key, const json& value, std::size_t index) {
   const scene::Key* known = scene::find_key(key);
   std::string word = value.is_structured() ? "" : cell_of(value);

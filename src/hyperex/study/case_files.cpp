@@ -22,7 +22,7 @@ bool is_plain(char c) {
 }
 
 /// A process holds the log, which is locked as long as its run lives. Asked with a shared lock, so
-/// that two who ask do not take each other for a run.
+/// that two queries do not take each other for a run.
 bool is_locked(const fs::path& log) {
   const int file = ::open(log.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;

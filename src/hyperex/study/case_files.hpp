@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Where a case lies in the study's folder, and how far it has come, read off what lies there: any
-// number of processes, on one machine or many, tell and ask by that alone.
+// number of processes, on one machine or many, exchange information by that alone.
 #include <filesystem>
 #include <string>
 

@@ -46,9 +46,9 @@ std::vector<fs::path> companions_of(const fs::path& scan) {
   try {
     io::read_scan(scan);
   } catch (const InputError&) {
-    // Checking the case tells what is wrong with it.
+    // The check of the case reports what is wrong with it.
   }
-  std::vector<fs::path> files = named.asked();
+  std::vector<fs::path> files = named.requested();
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;

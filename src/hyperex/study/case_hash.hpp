@@ -17,7 +17,7 @@ class ContentHashes {
   /// SHA-256 of a file's bytes, or of the names and bytes of all files in a folder and below; what
   /// is neither ("embedded") as it is.
   std::string of(const std::filesystem::path& path);
-  /// Of the files that a scan names in turn: materials, textures, buffers.
+  /// Hash of the files that a scan names in turn: materials, textures, buffers.
   std::string of_companions(const std::filesystem::path& scan);
 
  private:

@@ -23,7 +23,7 @@ namespace hyperex::study {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whoever asks for the state of a case holds the lock for an instant.
+/// Querying the state of a case holds the lock for an instant.
 bool lock(int file) {
   for (int tries = 0; tries < 10; ++tries) {
     if (::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;

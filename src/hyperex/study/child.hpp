@@ -36,9 +36,9 @@ class Child {
   Child& operator=(Child&& other) noexcept;
   ~Child();  ///< ends it and waits for its end
 
-  /// Its status as the shell tells it, 128 + signal where one ended it; nothing while it runs.
+  /// Its exit status as in the shell: 128 + signal where a signal ended it. Nothing while it runs.
   std::optional<int> ended();
-  void end();  ///< asks it to end (SIGTERM)
+  void end();  ///< sends SIGTERM
   /// One more line in the log, the last one.
   void say(const std::string& line) const;
 

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "hyperex/run/pipeline.hpp"
+#include "hyperex/session/face_session.hpp"
 #include "hyperex/study/case_hash.hpp"
 
 namespace hyperex::study {
@@ -33,8 +33,8 @@ class Sentences {
   std::string text_;
 };
 
-/// What check_scene() looks at: not how stiff tissue and support are, how it is solved or what is
-/// written.
+/// What session::check() looks at: not how stiff tissue and support are, how it is solved or what
+/// is written.
 std::string looked_at(const scene::Scene& scene) {
   json options = scene::options_json(scene);
   for (const char* section : {"solver", "time", "output", "title"}) options.erase(section);
@@ -87,7 +87,7 @@ void check_inputs(const Study& study, const std::vector<std::size_t>& cases, con
     const scene::Scene scene = scene::read_scene_with(study.scene, study.cases[i].overrides);
     if (seen.insert(looked_at(scene)).second) {
       try {
-        run::check_scene(scene);
+        session::check(scene);
       } catch (const InputError& error) {
         wrong.add(error.what());
       }

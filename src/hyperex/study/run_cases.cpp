@@ -52,7 +52,7 @@ class Pool {
       if (child)
         slots_[slot].emplace(Running{index, std::move(*child)});
       else
-        tell(index, {State::running});
+        report(index, {State::running});
       return true;
     }
     return false;
@@ -66,7 +66,7 @@ class Pool {
       const Outcome outcome = outcome_of(*slot, *status);
       const std::size_t index = slot->index;
       slot.reset();  // the lock of its log
-      tell(index, outcome);
+      report(index, outcome);
     }
   }
 
@@ -98,7 +98,7 @@ class Pool {
     return {State::failed, seconds, failure_of(files.log)};
   }
 
-  void tell(std::size_t index, const Outcome& outcome) {
+  void report(std::size_t index, const Outcome& outcome) {
     ++done_;
     if (options_.ended) options_.ended(index, outcome);
   }

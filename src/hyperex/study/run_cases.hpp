@@ -24,7 +24,7 @@ struct RunOptions {
   std::function<bool()> stop;                              ///< whether to end all now
 };
 
-/// As many as there are processors for this process, each of which wants 1 GiB of free memory.
+/// The processors available to this process, at most one per GiB of free memory.
 /// A run on one processor takes little longer than on several.
 int default_jobs();
 

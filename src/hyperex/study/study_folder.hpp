@@ -9,7 +9,7 @@ namespace hyperex::study {
 std::filesystem::path table_of(const std::filesystem::path& out);  ///< OUT/study.csv
 
 /// Throws InputError where the folder of a study is neither new, empty nor of an earlier sweep,
-/// which its table, or cases/ and logs/ alone, tell; or is a file. Changes nothing.
+/// which is recognised by its table, or by cases/ and logs/ alone; or is a file. Changes nothing.
 void check_study_folder(const std::filesystem::path& out);
 
 /// The same, then makes the folder, cases/ and logs/. Throws InputError where they or the table

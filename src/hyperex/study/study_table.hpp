@@ -14,11 +14,11 @@ constexpr const char* kTableBegins = "case,state,";
 
 /// The measures in a run's summary, named by where they stand with '.' between, the unit with it:
 /// {"symmetry.commissure.excursion_mm.L", "3.8"}; true and false as 1 and 0, what is unknown empty.
-/// First what most ask for, then the rest in the summary's order. Of pairs of points those of
+/// First the most wanted columns, then the rest in the summary's order. Of pairs of points those of
 /// excursions, of variants their table.
 std::vector<std::pair<std::string, std::string>> measures_in(const nlohmann::ordered_json& summary);
 
-/// Writes OUT/study.csv: a row a case with its name and state, what it changes, its measures as far
+/// Writes OUT/study.csv: one row per case with its name and state, changed keys and measures as far
 /// as it is finished, why it failed, its hash and its folder. Waits for another process that writes
 /// it. Returns the states.
 std::vector<State> write_table(const Study& study, const std::vector<PlannedCase>& planned);

@@ -5,13 +5,31 @@
 
 namespace hyperex::tissue {
 
-const ParameterInfo& parameter_info(int parameter) {
-  static const ParameterInfo table[parameter_count] = {
-      {"young_kpa", "Young's modulus (kPa)", 1000, 1, 1e9, "from 0.001 to 1e+06 kPa"},
-      {"viscosity_pa_s", "Viscosity (Pa s)", 1, 0, 1e7, "from 0 to 1e+07 Pa s"},
-      {"poisson", "Poisson's ratio", 1, -0.99, 0.4999, "from -0.99 to 0.4999"},
-      {"density_kg_m3", "Density (kg/m^3)", 1, 0.001, 20000, "from 0.001 to 20000 kg/m^3"}};
+OptionDetails parameter_details(int parameter) {
+  static constexpr OptionDetails table[parameter_count] = {
+      {.unit = kKilopascals, .bounds = {1, 1e9}, .name = "young_pa"},
+      {.unit = kPascalSeconds, .bounds = {0, 1e7}, .name = "viscosity_pa_s"},
+      {.bounds = {-0.99, 0.4999}, .name = "poisson"},
+      {.unit = kKilogramsPerCubicMetre, .bounds = {0.001, 20000}, .name = "density_kg_m3"}};
   return table[parameter];
+}
+
+const ParameterInfo& parameter_info(int parameter) {
+  static const std::vector<ParameterInfo> table = [] {
+    std::vector<ParameterInfo> all;
+    for (const char* title :
+         {"Young's modulus (kPa)", "Viscosity (Pa s)", "Poisson's ratio", "Density (kg/m^3)"}) {
+      const OptionDetails details = parameter_details(int(all.size()));
+      const Unit& unit = details.unit;
+      const Bounds& bounds = details.bounds;
+      std::string allowed = "from " + unit.from_si(bounds).text();
+      if (*unit.name) allowed += std::string(" ") + unit.name;
+      all.push_back(
+          {key_of("", details), title, unit.to_si(1), bounds.least, bounds.most, allowed});
+    }
+    return all;
+  }();
+  return table[std::size_t(parameter)];
 }
 
 bool is_allowed(int parameter, double value) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/core/bounds.hpp"
+#include "hyperex/core/describe.hpp"
 
 namespace hyperex::tissue {
 
@@ -25,13 +25,15 @@ using GivenParameters = std::array<std::optional<double>, parameter_count>;
 inline constexpr TissueParameters default_parameters = {192.4e3, 476.8, 0.495, 1100};
 
 struct ParameterInfo {
-  const char* key;      ///< of scene files and tables: "young_kpa"
+  std::string key;      ///< of scene files and tables: "young_kpa"
   const char* title;    ///< "Young's modulus (kPa)"
   double si;            ///< SI = value in the key's unit * si
   double least, most;   ///< allowed, SI
-  const char* allowed;  ///< in words, in the key's unit
+  std::string allowed;  ///< in words, in the key's unit
 };
-/// What a material may have: outside, K is not positive definite, or C or M not semi-definite.
+/// Name ("young_pa"), unit and bounds of a parameter. Outside of its bounds K is not positive
+/// definite, or C or M not semi-definite.
+OptionDetails parameter_details(int parameter);
 const ParameterInfo& parameter_info(int parameter);
 bool is_allowed(int parameter, double value);
 
@@ -39,12 +41,30 @@ enum class Interpolation {
   harmonic,  ///< on the skin (harmonic.hpp)
   linear     ///< over triangles of points, seen from in front (frontal.hpp)
 };
+constexpr auto words_of(Interpolation) {
+  return std::array{Word{"harmonic", Interpolation::harmonic},
+                    Word{"linear", Interpolation::linear}};
+}
 
 struct TissuePoint {
   std::string landmark;
   std::string side;  ///< "L", "R" or "": as the name says, and of a name without side both
   GivenParameters value{};
   bool operator==(const TissuePoint&) const = default;
+
+  static constexpr const char* about = "The tissue at a landmark.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(landmark),
+             "A landmark of the scan, with its side (cheek_R) or without (cheek: both).",
+             {.required = true, .least = 1});
+    v.option(HX_MEMBER(side), "The subject's own side, where the landmark's name has none.",
+             {.words = {"L", "R", ""}});
+    v.option(HX_MEMBER(value[young]), "Young's modulus there.", parameter_details(young));
+    v.option(HX_MEMBER(value[viscosity]), "Viscosity there.", parameter_details(viscosity));
+    v.option(HX_MEMBER(value[poisson]), "Poisson's ratio there.", parameter_details(poisson));
+    v.option(HX_MEMBER(value[density]), "Density there.", parameter_details(density));
+  }
 };
 
 /// A change within a part of the skin: by name, a band about a line, or painted.
@@ -57,6 +77,40 @@ struct TissueRegion {
   double blend_m = 0.004;  ///< from nothing to the whole change, half of it on either side
   GivenParameters value{}, factor{};
   bool operator==(const TissueRegion&) const = default;
+
+  static constexpr const char* about = "A change within a part of the skin.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    constexpr Bounds factor_in{0, 1000, true};
+    v.option(HX_MEMBER(name),
+             "A part of the face, as cheek_R or lips (hyperex presets lists them).", {.least = 1});
+    v.option(HX_MEMBER(scar),
+             "Instead of name: landmarks along a scar, whose straight segments are projected onto "
+             "the skin.",
+             {.least = 2});
+    v.option(HX_MEMBER(scar_points_m), "Instead: points along a scar, in the scan's coordinates.",
+             {.unit = kMillimetres});
+    v.option(HX_MEMBER(painted),
+             "Instead: the scan painted red where the change applies (PLY, OBJ, GLB with vertex "
+             "colours), or a CSV or PLY file with one weight from 0 to 1 per vertex.");
+    v.option(HX_MEMBER(width_m), "Width of a scar; 4 where not given.",
+             {.unit = kMillimetres, .bounds = {0.0005, 0.1}});
+    v.option(HX_MEMBER(blend_m),
+             "Width of the transition at the rim, half of it outside; 4 where not given.",
+             {.unit = kMillimetres, .bounds = {0, 0.1}});
+    v.option(HX_MEMBER(value[young]), "Young's modulus there.", parameter_details(young));
+    v.option(HX_MEMBER(value[viscosity]), "Viscosity there.", parameter_details(viscosity));
+    v.option(HX_MEMBER(value[poisson]), "Poisson's ratio there.", parameter_details(poisson));
+    v.option(HX_MEMBER(value[density]), "Density there.", parameter_details(density));
+    v.option(HX_MEMBER(factor[young]), "Multiplies Young's modulus there.",
+             {.bounds = factor_in, .name = "young_factor"});
+    v.option(HX_MEMBER(factor[viscosity]), "Multiplies the viscosity there.",
+             {.bounds = {0, 1000}, .name = "viscosity_factor"});
+    v.option(HX_MEMBER(factor[poisson]), "Multiplies Poisson's ratio there.",
+             {.bounds = {-1000, 1000}, .name = "poisson_factor"});
+    v.option(HX_MEMBER(factor[density]), "Multiplies the density there.",
+             {.bounds = factor_in, .name = "density_factor"});
+  }
 };
 
 /// What makes the tissue differ from place to place. A plain value: a variant is a changed copy.
@@ -66,9 +120,47 @@ struct TissueFieldOptions {
   Interpolation interpolation = Interpolation::harmonic;
   bool mirror = false;                ///< what is given for one side holds for the other too
   std::vector<TissuePoint> points;    ///< in the place of the preset's at the same landmark
-  std::filesystem::path per_vertex;   ///< CSV or PLY, a row a vertex of the scan; empty: none
+  std::filesystem::path per_vertex;   ///< CSV or PLY, a row per vertex of the scan; empty: none
   std::vector<TissueRegion> regions;  ///< applied in turn
   bool operator==(const TissueFieldOptions&) const = default;
+
+  static constexpr const char* about = "The material.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(uniform[young]),
+             "Young's modulus E. The springs of [support] do not scale with it. Where drive.by = "
+             "\"muscles\", E rises towards the lips, up to 3.2 times this value (docs/muscles.md).",
+             parameter_details(young));
+    v.option(HX_MEMBER(uniform[poisson]),
+             "Poisson's ratio. With tissue.element = \"tet4\" the tissue moves too little near "
+             "0.5.",
+             parameter_details(poisson));
+    v.option(HX_MEMBER(uniform[viscosity]), "Viscosity eta, of changes of shape.",
+             parameter_details(viscosity));
+    v.option(HX_MEMBER(uniform[density]), "Density.", parameter_details(density));
+    v.option(HX_MEMBER(preset),
+             "Published parameters by name (hyperex presets lists them with their sources); keys "
+             "given here replace its values. Empty: none.");
+    v.option(HX_MEMBER(interpolation),
+             "How parameters at points are interpolated over the face: as a harmonic field on the "
+             "skin, or linearly over triangles of points in the frontal view (docs/tissue.md).");
+    v.option(HX_MEMBER(mirror),
+             "Entries of [[tissue.point]] and [[tissue.region]] for one side are mirrored to the "
+             "other.");
+    v.option(HX_MEMBER(per_vertex),
+             "Parameters for each vertex of the scan: a CSV file with columns young_kpa, "
+             "viscosity_pa_s, poisson or density_kg_m3 and one row per vertex, or a PLY file with "
+             "such vertex properties. An empty cell (in PLY: nan) keeps the value that the other "
+             "keys give.");
+    v.option(HX_MEMBER(points),
+             "Parameters at a landmark, interpolated over the face instead of the uniform ones. At "
+             "least one of them must be given.",
+             {.key = "point"});
+    v.option(HX_MEMBER(regions),
+             "A change within a part of the face, applied after the points and in the order of the "
+             "file: values or factors in a named region or along a scar.",
+             {.key = "region"});
+  }
 };
 
 /// Something wrong with one of the options: `key` is "preset", "point[1].side", "region[0].name".

@@ -36,32 +36,19 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(text.find(from), from.size(), to);
 }
 
-void expect_equal(const CandideFile& a, const CandideFile& b) {
-  EXPECT_EQ(a.mesh.points, b.mesh.points);
-  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
-  EXPECT_EQ(a.texture, b.texture);
-  EXPECT_EQ(a.animation_parameters, b.animation_parameters);
-  EXPECT_EQ(a.shape_parameters, b.shape_parameters);
-  for (auto units : {&CandideFile::animation_units, &CandideFile::shape_units}) {
-    ASSERT_EQ((a.*units).size(), (b.*units).size());
-    for (std::size_t k = 0; k < (a.*units).size(); ++k) {
-      EXPECT_EQ((a.*units)[k].name, (b.*units)[k].name);
-      EXPECT_EQ((a.*units)[k].vertices, (b.*units)[k].vertices);
-      EXPECT_EQ((a.*units)[k].displacement, (b.*units)[k].displacement);
-    }
-  }
-}
-
-TEST(Candide, SmallFileIsReadAndComesBack) {
+TEST(Candide, SmallFileIsRead) {
   const CandideFile file = read_candide(written(kSmall));
   EXPECT_EQ(file.mesh.points(1, 2), 0.5);
   ASSERT_EQ(file.animation_units.size(), 1u);
   EXPECT_EQ(file.animation_units[0].name, "Jaw drop");
   EXPECT_EQ(file.animation_units[0].vertices, (std::vector<int>{2, 2}));
-  EXPECT_EQ(file.animation_parameters[0], 0.5);
-  const fs::path again = test_file("again.wfm");
-  write_candide(again, file);
-  expect_equal(file, read_candide(again));
+  EXPECT_EQ(file.animation_units[0].displacement.row(0), Vec3(0, -1, 0.125).transpose());
+  EXPECT_EQ(file.animation_units[0].displacement.row(1), Vec3(0.5, 0, 0).transpose());
+  EXPECT_EQ(file.animation_parameters, Eigen::VectorXd::Constant(1, 0.5));
+  ASSERT_EQ(file.shape_units.size(), 1u);
+  EXPECT_EQ(file.shape_units[0].name, "Head height");
+  EXPECT_EQ(file.shape_units[0].vertices, std::vector<int>{0});
+  EXPECT_EQ(file.shape_parameters, Eigen::VectorXd::Zero(1));
 }
 
 TEST(Candide, MalformedFilesAreRefusedByLine) {
@@ -84,7 +71,7 @@ TEST(Candide, MalformedFilesAreRefusedByLine) {
     EXPECT_THROW(read_candide(written(text.substr(0, end))), InputError) << end;
 }
 
-TEST(Candide, TheRealFileHasItsCountsAndComesBack) {
+TEST(Candide, TheRealFileHasItsCounts) {
   const fs::path file = fs::path(HYPEREX_SHARED_DIR) / "data/candide/candide3.wfm";
   if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";
   const CandideFile candide = read_candide(file);
@@ -92,10 +79,6 @@ TEST(Candide, TheRealFileHasItsCountsAndComesBack) {
   EXPECT_EQ(candide.mesh.triangles.rows(), 184);
   EXPECT_EQ(candide.animation_units.size(), 14u);
   EXPECT_EQ(candide.shape_units.size(), 38u);
-  const fs::path again = test_file("candide_again.wfm");
-  write_candide(again, candide);
-  expect_equal(candide, read_candide(again));
-
   const FaceModel model = candide_model(file.string());
   const double metres_per_unit = (model.mesh.points.row(20) - model.mesh.points.row(53)).norm() /
                                  (candide.mesh.points.row(20) - candide.mesh.points.row(53)).norm();

@@ -108,7 +108,7 @@ TEST(CondensedInverse, IsReadOffAFactorThatEliminatesItsNodesLast) {
   const auto unknowns = int(layer.stiffness.cols());
   auto order = std::make_shared<const NodeOrder>(
       order_with_last(*known.order(), layer.prescribed, prescribed, unknowns, nodes));
-  PartitionedFactor last(layer.stiffness, prescribed, "test", {}, LinearSolver::cholesky, order);
+  PartitionedFactor last(layer.stiffness, prescribed, "test", order);
   PartitionedFactor any(layer.stiffness, prescribed, "test");
   std::vector<int> columns;
   for (const int node : nodes)

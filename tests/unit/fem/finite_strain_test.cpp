@@ -14,10 +14,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::VectorXd;
 
-const Vec3 kSize{0.04, 0.03, 0.02};
+const Vec3 kBlockSize{0.04, 0.03, 0.02};
 
 test::BoxMesh box() {
-  return test::box_mesh({3, 2, 2}, kSize, 0.15);
+  return test::box_mesh({3, 2, 2}, kBlockSize, 0.15);
 }
 
 std::vector<DilatationGroups> all_groups(const test::BoxMesh& mesh) {
@@ -147,12 +147,12 @@ TEST(FiniteStrain, RigidMotionCostsNothingAndTurnsForces) {
     FiniteStrain form(assembler, material, law);
     const VectorXd rest = VectorXd::Zero(mesh.nodes.size());
     VectorXd gradient, other;
-    const double unit = 2e5 * kSize.prod();
+    const double unit = 2e5 * kBlockSize.prod();
     for (const RateRule& rule : {kEuler, bdf2()}) {
       form.rest_at(rest);
       form.begin_step(rule, turned(mesh, rest, rotation(0.5)), rest);
       EXPECT_LT(form.energy_and_gradient(turned(mesh, rest, rotation()), gradient), 1e-12 * unit);
-      EXPECT_LT(gradient.norm(), 1e-11 * unit / kSize.norm());
+      EXPECT_LT(gradient.norm(), 1e-11 * unit / kBlockSize.norm());
     }
     // A history turned as a whole, each instant by the same rotation, gives turned forces.
     const VectorXd a = motion(mesh, 1e-3, 1), b = a + motion(mesh, 1e-4, 2),
@@ -216,8 +216,8 @@ TEST(FiniteStrain, ViscousStressAtLargeStrainIsNewtonsLaw) {
     // Force on the side x = size: Piola's stress is Cauchy's times J / l = 1.
     double force = 0;
     for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n)
-      if (mesh.nodes(n, 0) > kSize.x() - 1e-9) force += gradient[3 * n];
-    const double exact = 2 * eta * 2 / 3 * rate * kSize.y() * kSize.z();
+      if (mesh.nodes(n, 0) > kBlockSize.x() - 1e-9) force += gradient[3 * n];
+    const double exact = 2 * eta * 2 / 3 * rate * kBlockSize.y() * kBlockSize.z();
     errors.push_back(std::abs(force / exact - 1));
   }
   EXPECT_LT(errors[0], 0.01);
@@ -338,7 +338,7 @@ TEST(FiniteStrain, OutputsOfAnAffineMotion) {
 }
 
 TEST(FiniteStrain, NumbersDoNotDependOnTheNumberOfThreads) {
-  const auto mesh = test::box_mesh({8, 7, 6}, kSize, 0.1);
+  const auto mesh = test::box_mesh({8, 7, 6}, kBlockSize, 0.1);
   Material material = test::varied_material(mesh.tets.rows());
   const Assembler assembler(mesh.nodes, mesh.tets, ElementKind::tet4_star);
   const auto run = [&](std::size_t threads) {

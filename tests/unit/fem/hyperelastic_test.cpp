@@ -17,7 +17,7 @@ Matrix3d random_gradient(unsigned seed, double size) {
   return Matrix3d::Identity() + size * test::random_vector(9, seed).reshaped(3, 3);
 }
 
-Matrix3d rotation(unsigned seed) {
+Matrix3d random_rotation(unsigned seed) {
   const Eigen::VectorXd w = test::random_vector(4, seed);
   return Eigen::Quaterniond(w[0], w[1], w[2], w[3]).normalized().toRotationMatrix();
 }
@@ -104,7 +104,7 @@ TEST(Hyperelastic, RestHasNoStressAndTheLinearStiffness) {
 TEST(Hyperelastic, DoesNotSeeRotations) {
   for (const Hyperelastic& law : test::finite_laws())
     for (unsigned seed = 1; seed < 6; ++seed) {
-      const Matrix3d f = random_gradient(seed, 0.3), q = rotation(seed);
+      const Matrix3d f = random_gradient(seed, 0.3), q = random_rotation(seed);
       double energy = 0, turned = 0;
       const Matrix3d p = first_piola_pa(law, 2e4, f, &energy);
       const Matrix3d p_turned = first_piola_pa(law, 2e4, q * f, &turned);

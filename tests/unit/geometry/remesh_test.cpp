@@ -14,10 +14,10 @@
 namespace hyperex {
 namespace {
 
-constexpr double width = 0.16, height = 0.12;
+constexpr double sheet_width = 0.16, sheet_height = 0.12;
 
 test::Sheet flat() {
-  return test::sheet_mesh({40, 30}, {width, height});
+  return test::sheet_mesh({40, 30}, {sheet_width, sheet_height});
 }
 
 GradedSize graded() {
@@ -69,11 +69,12 @@ TEST(RemeshGraded, KeepsBorderAreaAndOrientation) {
   ASSERT_EQ(loops.size(), 1u);
   for (int v : loops[0]) {
     const Vec3 p = mesh.points.row(v);
-    const double off = std::min(
-        {std::abs(p.x()), std::abs(p.x() - width), std::abs(p.y()), std::abs(p.y() - height)});
+    const double off = std::min({std::abs(p.x()), std::abs(p.x() - sheet_width), std::abs(p.y()),
+                                 std::abs(p.y() - sheet_height)});
     EXPECT_LT(off, 0.0005) << p.transpose();
   }
-  EXPECT_NEAR(triangle_areas(mesh).sum(), width * height, 0.02 * width * height);
+  EXPECT_NEAR(triangle_areas(mesh).sum(), sheet_width * sheet_height,
+              0.02 * sheet_width * sheet_height);
   EXPECT_GT(vertex_normals(mesh).col(2).minCoeff(), 0.8);
 }
 

@@ -8,7 +8,7 @@
 namespace hyperex {
 namespace {
 
-Points random_points(int count, unsigned seed) {
+Points random_cloud(int count, unsigned seed) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> normal(0, 0.05);
   Points points(count, 3);
@@ -25,7 +25,7 @@ Similarity some_similarity(double scale) {
 }
 
 TEST(Transform, FitsAreExactOnExactData) {
-  const Points a = random_points(7, 1);
+  const Points a = random_cloud(7, 1);
   for (const double scale : {1.0, 0.01, 3.0}) {
     const Similarity truth = some_similarity(scale), found = fit_similarity(a, truth.apply(a));
     EXPECT_NEAR(found.scale, scale, 1e-12 * scale);
@@ -37,17 +37,17 @@ TEST(Transform, FitsAreExactOnExactData) {
 }
 
 TEST(Transform, ThreePointsAndMirrorImagesGiveProperRotations) {
-  const Points a = random_points(3, 2);
+  const Points a = random_cloud(3, 2);
   EXPECT_NEAR(fit_rigid(a, some_similarity(1).apply(a)).linear().determinant(), 1, 1e-12);
-  Points mirror = random_points(20, 3);
+  Points mirror = random_cloud(20, 3);
   const Points b = mirror;
   mirror.col(0) *= -1;
   EXPECT_NEAR(fit_rigid(mirror, b).linear().determinant(), 1, 1e-12);
 }
 
 TEST(Transform, NoOtherTransformNearbyFitsBetter) {
-  const Points a = random_points(12, 4);
-  const Points b = some_similarity(1.2).apply(a) + 0.1 * random_points(12, 5);
+  const Points a = random_cloud(12, 4);
+  const Points b = some_similarity(1.2).apply(a) + 0.1 * random_cloud(12, 5);
   const Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(12, 0.1, 2);
   const Similarity found = fit_similarity(a, b, weights);
   const double least = rms_distance(found.apply(a), b, weights);
@@ -71,13 +71,13 @@ TEST(Transform, NoOtherTransformNearbyFitsBetter) {
 
 TEST(Transform, InverseUndoesAndApplyIsTheProduct) {
   const Similarity b_from_a = some_similarity(0.7);
-  const Points a = random_points(5, 6), b = b_from_a.apply(a);
+  const Points a = random_cloud(5, 6), b = b_from_a.apply(a);
   EXPECT_LT((b_from_a.inverse().apply(b) - a).norm(), 1e-12);
   EXPECT_LT((b_from_a * Vec3(a.row(2)) - Vec3(b.row(2))).norm(), 1e-15);
 }
 
 TEST(Transform, WeightsOfZeroLeavePointsOut) {
-  const Points a = random_points(6, 7);
+  const Points a = random_cloud(6, 7);
   Points b = some_similarity(1).apply(a);
   b.row(5) += Eigen::RowVector3d(1, 1, 1);
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(6);

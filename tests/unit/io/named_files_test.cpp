@@ -57,7 +57,7 @@ std::string obj(const std::string& library) {
          "\nusemtl a\nv 0 0 0\nv 150 0 0\nv 0 150 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
 }
 
-std::string gltf(const std::string& picture, const std::string& buffer) {
+std::string gltf_with_files(const std::string& picture, const std::string& buffer) {
   return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[)"
          R"({"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],"accessors":[)"
          R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
@@ -73,7 +73,7 @@ TEST_F(NamedFiles, AreRememberedForWhoAsks) {
   const hyperex::NamedFiles asked;
   named_file(path("scan"), "face.png");
   EXPECT_THROW(named_file(path("scan"), "gone.png"), InputError);
-  EXPECT_EQ(asked.asked(),
+  EXPECT_EQ(asked.requested(),
             (std::vector<fs::path>{path("scan") / "face.png", path("scan") / "gone.png"}));
 }
 
@@ -111,11 +111,11 @@ TEST_F(NamedFiles, BuffersAndPicturesOfAGltf) {
   const std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
   write("scan/good.bin", bytes);
   write("elsewhere/good.bin", bytes);
-  EXPECT_TRUE(has_texture("a.gltf", gltf("face.png", "good.bin")));
+  EXPECT_TRUE(has_texture("a.gltf", gltf_with_files("face.png", "good.bin")));
   for (const std::string& name : forbidden())
-    EXPECT_FALSE(has_texture("a.gltf", gltf(name, "good.bin"))) << name;
+    EXPECT_FALSE(has_texture("a.gltf", gltf_with_files(name, "good.bin"))) << name;
   for (const char* name : {"../elsewhere/good.bin", "pipe", "/dev/zero"}) {
-    const auto file = write("scan/b.gltf", gltf("face.png", name));
+    const auto file = write("scan/b.gltf", gltf_with_files("face.png", name));
     expect_refused(file, "no sound glTF", [&] { read_scan(file); });
   }
 }

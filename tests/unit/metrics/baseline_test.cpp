@@ -16,11 +16,12 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Baseline, PointListsAreThoseOfTheComparison) {
-  EXPECT_THAT(driven_ibug_points(), testing::ElementsAre(48, 54, 51, 57, 8, 58, 56));
+  EXPECT_THAT(driven_ibug_points(), ::testing::ElementsAre(48, 54, 51, 57, 8, 58, 56));
   EXPECT_EQ(still_ibug_points().size(), 4u + 4u + 31u);
-  for (const int k : {0, 3, 13, 16, 17, 47}) EXPECT_THAT(still_ibug_points(), testing::Contains(k));
+  for (const int k : {0, 3, 13, 16, 17, 47})
+    EXPECT_THAT(still_ibug_points(), ::testing::Contains(k));
   for (const int k : {4, 12, 48})
-    EXPECT_THAT(still_ibug_points(), testing::Not(testing::Contains(k)));
+    EXPECT_THAT(still_ibug_points(), ::testing::Not(::testing::Contains(k)));
 }
 
 struct Expected {
@@ -29,7 +30,7 @@ struct Expected {
   double still[2], seven[2], all[2];
 };
 
-class OnSubjectA : public testing::TestWithParam<Expected> {};
+class OnSubjectA : public ::testing::TestWithParam<Expected> {};
 
 TEST_P(OnSubjectA, ReproducesTheErrorsMeasuredBefore) {
   const fs::path data = fs::path(HYPEREX_SHARED_DIR) / "data/ict";
@@ -54,7 +55,7 @@ TEST_P(OnSubjectA, ReproducesTheErrorsMeasuredBefore) {
 
 INSTANTIATE_TEST_SUITE_P(
     Baseline, OnSubjectA,
-    testing::Values(
+    ::testing::Values(
         Expected{"subject_A_mouth_open_truth.ply", {4.26, 12.68}, {1.80, 5.08}, {1.68, 4.88}},
         Expected{"subject_A_talk_peak_truth.ply", {5.81, 16.90}, {2.89, 6.38}, {2.41, 6.03}}));
 
@@ -68,7 +69,7 @@ TEST(Baseline, NamesTheLandmarksThatAreMissing) {
     baselines(mesh, mesh.points, landmarks);
     FAIL() << "a missing landmark was accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("ibug68_56"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("ibug68_56"));
   }
 }
 

@@ -10,7 +10,7 @@
 namespace hyperex::metrics {
 namespace {
 
-std::vector<double> times(int count, double step) {
+std::vector<double> sample_times(int count, double step) {
   std::vector<double> t;
   for (int k = 0; k < count; ++k) t.push_back(k * step);
   return t;
@@ -34,7 +34,7 @@ double talk(double t) {
 
 TEST(Lag, OfASignalShiftedByAPartOfAStepIsFoundToAThousandthOfIt) {
   const double step = 1 / 30.0;
-  const std::vector<double> t = times(90, step);
+  const std::vector<double> t = sample_times(90, step);
   double worst = 0;
   for (double (*signal)(double) : {opening, talk})
     for (const double share : {0.37, -0.37, 0.0, 0.03, 1.5}) {
@@ -52,7 +52,7 @@ TEST(Lag, OfASignalShiftedByAPartOfAStepIsFoundToAThousandthOfIt) {
 // What viscosity does: first-order response, whose lag at low frequency is its time constant.
 TEST(Lag, OfAFirstOrderResponseIsItsTimeConstant) {
   const double step = 1 / 30.0, constant_s = 0.007, fine = 1e-5;
-  const std::vector<double> t = times(90, step);
+  const std::vector<double> t = sample_times(90, step);
   std::vector<double> response;
   double y = 0, at = 0;
   for (const double wanted : t) {
@@ -64,7 +64,7 @@ TEST(Lag, OfAFirstOrderResponseIsItsTimeConstant) {
 }
 
 TEST(Lag, BeyondWhatIsLookedAtIsToldAsSuch) {
-  const std::vector<double> t = times(90, 1 / 30.0);
+  const std::vector<double> t = sample_times(90, 1 / 30.0);
   const Lag lag =
       lag_of(t, sampled(t, opening), sampled(t, [](double at) { return opening(at - 0.3); }));
   EXPECT_TRUE(lag.at_limit);
@@ -72,17 +72,17 @@ TEST(Lag, BeyondWhatIsLookedAtIsToldAsSuch) {
 }
 
 TEST(Lag, OfWhatDoesNotMoveIsNoNumber) {
-  const std::vector<double> t = times(90, 1 / 30.0), still(90, 2.0);
+  const std::vector<double> t = sample_times(90, 1 / 30.0), still(90, 2.0);
   EXPECT_TRUE(std::isnan(lag_of(t, still, sampled(t, opening)).lag_s));
   EXPECT_TRUE(std::isnan(lag_of(t, sampled(t, opening), still).lag_s));
-  const std::vector<double> brief = times(10, 1 / 30.0);
+  const std::vector<double> brief = sample_times(10, 1 / 30.0);
   EXPECT_TRUE(std::isnan(lag_of(brief, brief, brief).lag_s));
   EXPECT_THROW(lag_of(t, still, brief), std::invalid_argument);
   EXPECT_THROW(lag_of(t, still, still, 0), std::invalid_argument);
 }
 
 TEST(Hysteresis, OfAnEllipseIsTheSineOfItsPhase) {
-  const std::vector<double> t = times(2000, 2 * M_PI / 2000);
+  const std::vector<double> t = sample_times(2000, 2 * M_PI / 2000);
   for (const double phase : {0.0, 0.1, 0.7, M_PI / 2, -0.3}) {
     const double h =
         hysteresis_of(sampled(t, [](double at) { return 5 + 2 * std::sin(at); }),
@@ -92,7 +92,7 @@ TEST(Hysteresis, OfAnEllipseIsTheSineOfItsPhase) {
 }
 
 TEST(Hysteresis, OfAFunctionOfTheInputIsZero) {
-  const std::vector<double> t = times(101, 0.0626);
+  const std::vector<double> t = sample_times(101, 0.0626);
   const std::vector<double> in = sampled(t, [](double at) { return std::sin(at / 2); });
   std::vector<double> out;
   for (const double value : in) out.push_back(2 * value + 1);

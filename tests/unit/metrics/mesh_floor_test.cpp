@@ -35,7 +35,7 @@ motion::Motion ten_points(const std::function<Vec3(const std::string&)>& moved) 
   return motion;
 }
 
-Vec3 smile(const std::string& name) {
+Vec3 smile_of(const std::string& name) {
   const double side = name.ends_with("_L") ? 1 : -1;
   return name.starts_with("cheilion") ? Vec3(side * 0.006, 0.008, 0) : Vec3::Zero();
 }
@@ -45,7 +45,7 @@ double most(const std::vector<double>& values) {
 }
 
 TEST(MeshFloor, OfAnEvenMeshIsTheResolutionAlone) {
-  const auto motion = ten_points(smile);
+  const auto motion = ten_points(smile_of);
   for (const Stretches& sample : twin_remainders(motion, motion))
     for (const double value : sample) EXPECT_NEAR(value, 0, 1e-12);
   EXPECT_NEAR(excursion_mesh_floor_mm(motion, motion, 0, 1), 0.1, 1e-9);
@@ -56,9 +56,9 @@ TEST(MeshFloor, OfAnEvenMeshIsTheResolutionAlone) {
 
 TEST(MeshFloor, AOneSidedMotionOnAnEvenMeshIsDecided) {
   const auto left =
-      ten_points([](auto& n) { return n.ends_with("_L") ? smile(n) : Vec3(0, 0, 0); });
+      ten_points([](auto& n) { return n.ends_with("_L") ? smile_of(n) : Vec3(0, 0, 0); });
   const auto right =
-      ten_points([](auto& n) { return n.ends_with("_R") ? smile(n) : Vec3(0, 0, 0); });
+      ten_points([](auto& n) { return n.ends_with("_R") ? smile_of(n) : Vec3(0, 0, 0); });
   SymmetryCurve curve = symmetry_of(left);
   Excursions pairs = excursions_of(left);
   add_mesh_floor(curve, pairs, left, right);
@@ -71,7 +71,7 @@ TEST(MeshFloor, AOneSidedMotionOnAnEvenMeshIsDecided) {
 TEST(MeshFloor, ASymmetricMotionThatTheMeshBendsIsUndecided) {
   // The mesh lets the left corner move 7 % farther, whatever drives it.
   const auto bent =
-      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.07 : 1.0) * smile(n)); });
+      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.07 : 1.0) * smile_of(n)); });
   SymmetryCurve curve = symmetry_of(bent);
   Excursions pairs = excursions_of(bent);
   EXPECT_FALSE(curve.undecided(2)) << "to an exact motion without a twin";
@@ -97,11 +97,11 @@ TEST(MeshFloor, ErrorsThatCancelInXiStillCount) {
 }
 
 TEST(MeshFloor, OfWhatAVariantAddsIsThatOfTheDifference) {
-  const auto own = ten_points(smile);
+  const auto own = ten_points(smile_of);
   const auto bent =
-      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.07 : 1.0) * smile(n)); });
+      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.07 : 1.0) * smile_of(n)); });
   const auto bent_more =
-      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.08 : 1.0) * smile(n)); });
+      ten_points([](auto& n) { return Vec3((n.ends_with("_L") ? 1.08 : 1.0) * smile_of(n)); });
   const auto curve = [](const motion::Motion& motion) {
     SymmetryCurve made = symmetry_of(motion);
     made.mesh_remainder = twin_remainders(motion, motion);
@@ -143,9 +143,9 @@ TEST(ExcursionChange, BandIsWhatTheTwinsDifferByAndTheJitterThatTheChangeScales)
 }
 
 TEST(MeshFloor, KeepsTheTwinsExcursionsForTheSideThatTheyAreTheMirrorImageOf) {
-  const auto run = ten_points([](auto& n) { return Vec3(smile(n)); });
+  const auto run = ten_points([](auto& n) { return Vec3(smile_of(n)); });
   const auto twin =
-      ten_points([](auto& n) { return Vec3((n.ends_with("_R") ? 1.5 : 1.0) * smile(n)); });
+      ten_points([](auto& n) { return Vec3((n.ends_with("_R") ? 1.5 : 1.0) * smile_of(n)); });
   SymmetryCurve curve = symmetry_of(run);
   Excursions excursions = excursions_of(run);
   add_mesh_floor(curve, excursions, run, twin);

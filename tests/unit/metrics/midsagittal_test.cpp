@@ -77,6 +77,20 @@ TEST(Midsagittal, ABadLandmarkCountsLittle) {
   EXPECT_LT(degrees_between(landmark_plane(face.landmarks).normal, Vec3::UnitX()), 0.3);
 }
 
+TEST(Midsagittal, ASurfaceOfOneSideLeavesItToTheLandmarks) {
+  const Face face = testing::mirrored_face();
+  TriMesh right{face.mesh.points, Triangles(0, 3)};
+  for (const auto& triangle : face.mesh.triangles.rowwise())
+    if (face.mesh.points(triangle[0], 0) < -0.01) {
+      right.triangles.conservativeResize(right.triangles.rows() + 1, 3);
+      right.triangles.bottomRows(1) = triangle;
+    }
+  ASSERT_GT(right.triangles.rows(), 0);
+  const MidsagittalPlane plane = midsagittal_plane(right, face.landmarks);
+  EXPECT_FALSE(plane.note.empty());
+  EXPECT_LT(degrees_between(plane.normal, Vec3::UnitX()), 1e-6);
+}
+
 TEST(Midsagittal, RefusesTooFewPairs) {
   Face face = testing::mirrored_face();
   io::Landmarks few = {{"cheilion_L", face.landmarks.at("cheilion_L")},

@@ -12,8 +12,8 @@ namespace hyperex::metrics {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Contains;
-using testing::HasSubstr;
+using ::testing::Contains;
+using ::testing::HasSubstr;
 
 bool holds(const Regions& regions, const std::string& name, int vertex) {
   const Region* region = regions.find(name);
@@ -27,7 +27,7 @@ double nearest_mm(const Vec3& p, const io::Landmarks& landmarks, int first, int 
   return 1e3 * least;
 }
 
-class SubjectA : public testing::Test {
+class SubjectA : public ::testing::Test {
  protected:
   void SetUp() override {
     const fs::path data = fs::path(HYPEREX_SHARED_DIR) / "data/ict";

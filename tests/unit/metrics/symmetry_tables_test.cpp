@@ -13,7 +13,7 @@
 
 namespace hyperex::metrics {
 namespace {
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -40,13 +40,13 @@ SymmetryMeasures some() {
   return all;
 }
 
-class SymmetryTables : public testing::Test {
+class SymmetryTables : public ::testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(file_); }
   std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) /
+      std::filesystem::path(::testing::TempDir()) /
       (std::string("hyperex_symmetry_tables_") +
-       testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv");
+       ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv");
 };
 
 TEST_F(SymmetryTables, CurvesOfAnExactMotionHaveNoNoiseFloor) {

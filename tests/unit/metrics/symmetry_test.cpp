@@ -13,7 +13,7 @@
 namespace hyperex::metrics {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::vector<std::string> anatomical = {"cheilion", "exocanthion", "palpebrale_inferius",
                                              "alare", "crista_philtri_inferior"};
@@ -88,9 +88,9 @@ TEST(Symmetry, IbugPointsStandIn) {
   }
   const SymmetryCurve curve = symmetry_of(motion);
   EXPECT_EQ(curve.stand_ins.size(), 10u);
-  EXPECT_THAT(curve.stand_ins, testing::Contains("exocanthion_L: ibug68_45"));
+  EXPECT_THAT(curve.stand_ins, ::testing::Contains("exocanthion_L: ibug68_45"));
   EXPECT_THAT(curve.stand_ins,
-              testing::Contains("palpebrale_inferius_R: mean of ibug68_40 and ibug68_41"));
+              ::testing::Contains("palpebrale_inferius_R: mean of ibug68_40 and ibug68_41"));
   motion::Motion named = mirrored();
   named.positions[1](0, 1) += 0.01;
   EXPECT_NEAR(curve.xi_left[1], symmetry_of(named).xi_left[1], 1e-14);
@@ -104,7 +104,7 @@ TEST(Symmetry, NamesWhatIsMissing) {
     FAIL() << "a missing point was accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("exocanthion_L (or ibug68_45)"));
-    EXPECT_THAT(error.what(), testing::Not(HasSubstr("exocanthion_R")));
+    EXPECT_THAT(error.what(), ::testing::Not(HasSubstr("exocanthion_R")));
   }
 }
 
@@ -112,11 +112,11 @@ TEST(Symmetry, RefusesABadFloorAndAnUnmeasuredStart) {
   motion::Motion motion = mirrored();
   EXPECT_THROW(symmetry_of(motion, 0), InputError);
   EXPECT_THROW(symmetry_of(motion, -1), InputError);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(symmetry_of(motion, nan), InputError);
-  motion.positions[1].row(0).setConstant(nan);
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(symmetry_of(motion, not_a_number), InputError);
+  motion.positions[1].row(0).setConstant(not_a_number);
   EXPECT_TRUE(std::isnan(symmetry_of(motion).s[1]));
-  motion.positions[0].row(0).setConstant(nan);
+  motion.positions[0].row(0).setConstant(not_a_number);
   EXPECT_THROW(symmetry_of(motion), InputError);
 }
 

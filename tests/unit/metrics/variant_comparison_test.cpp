@@ -25,7 +25,7 @@ double pulse(double t_s) {
 }
 
 /// A square of skin, 2 x 2 cm, on both sides of the plane x = 0: vertices 0, 2 on the left.
-TriMesh square() {
+TriMesh square_of_skin() {
   TriMesh mesh;
   mesh.points.resize(4, 3);
   mesh.points << 0.01, 0, 0, -0.01, 0, 0, 0.01, 0.02, 0, -0.01, 0.02, 0;
@@ -45,7 +45,7 @@ io::Landmarks landmarks() {
 /// Driven at "corner"; "near" lies 5 mm from there and moves most, "far" 20 mm.
 simulate::Performance performance(double right_mm, double trail_s) {
   simulate::Performance p;
-  p.skin_rest = square();
+  p.skin_rest = square_of_skin();
   p.peak_frame = kPeak;
   p.driven_names = {"still", "corner"};
   p.driven_points_rest = Points::Zero(2, 3);
@@ -181,7 +181,7 @@ TEST(CompareVariant, TellsNoLagOfAMotionThatDoesNotComeBack) {
 
 TEST(VariantTable, QuotesNamesAndLeavesUnknownFiguresEmpty) {
   const VariantComparison c = Compared().comparison();
-  const auto file = std::filesystem::path(testing::TempDir()) / "variant_comparison.csv";
+  const auto file = std::filesystem::path(::testing::TempDir()) / "variant_comparison.csv";
   write_variants_csv(file, c, {c}, {"corner", "far"});
   const std::string text = read_file(file);
   EXPECT_THAT(text, HasSubstr("\"stiff, right\",5,3,5,2,"));

@@ -14,8 +14,6 @@
 namespace hyperex::motion {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
 /// Displacement of the table's landmarks at full expression.
 using Expression = std::function<Vec3(std::size_t landmark, const Vec3& rest)>;
 
@@ -98,18 +96,11 @@ Errors errors_of(const StabilisedMotion& stable, const Motion& motion, bool head
         (rest * wrong.linear().transpose()).rowwise() + wrong.translation().transpose();
     const double shift = (moved - rest).norm() / std::sqrt(double(rest.rows()));
     errors.turn_deg =
-        std::max(errors.turn_deg, Eigen::AngleAxisd(wrong.linear()).angle() / kDegree);
+        std::max(errors.turn_deg, Eigen::AngleAxisd(wrong.linear()).angle() / testing::kDegree);
     errors.shift_mm = std::max(errors.shift_mm, 1e3 * shift);
     errors.beyond = std::max(errors.beyond, shift / stable.shift_uncertainty_m[k]);
   }
   return errors;
-}
-
-std::vector<std::string> default_points(const Motion& motion) {
-  std::vector<std::string> names;
-  for (const auto& name : default_rigid_points())
-    if (motion.index_of(name) >= 0) names.push_back(name);
-  return names;
 }
 
 TEST(ExpressivePose, TheTableIsSound) {
@@ -135,7 +126,7 @@ TEST(ExpressivePose, RaisedBrowsDoNotTurnTheHead) {
       const Motion motion = grimace(surprise, head_moves, 5e-5, stretch);
       const Errors now = errors_of(stabilise(motion), motion, head_moves);
       const Errors before =
-          errors_of(stabilise(motion, {default_points(motion), 10}), motion, head_moves);
+          errors_of(stabilise(motion, {testing::default_points(motion), 10}), motion, head_moves);
       std::printf(
           "surprise: %.2f degrees, %.2f mm (bridge and corners trusted: %.2f, %.2f); error "
           "over bound %.2f\n",
@@ -154,7 +145,8 @@ TEST(ExpressivePose, ABroadLiftThatLooksMuchLikeATurnStaysWithinTheBound) {
   };
   const Motion motion = grimace(lift, false);
   const Errors now = errors_of(stabilise(motion), motion, false);
-  const Errors before = errors_of(stabilise(motion, {default_points(motion), 10}), motion, false);
+  const Errors before =
+      errors_of(stabilise(motion, {testing::default_points(motion), 10}), motion, false);
   std::printf("broad lift: %.2f degrees, %.2f mm (%.2f, %.2f); error over bound %.2f\n",
               now.turn_deg, now.shift_mm, before.turn_deg, before.shift_mm, now.beyond);
   EXPECT_LT(now.turn_deg, 0.5 * before.turn_deg);
@@ -198,7 +190,7 @@ std::pair<double, double> taken_for_head(const Motion& motion, const StabilisedM
     shift = std::max(shift, std::sqrt(sum / count));
   }
   EXPECT_LE(beyond, 0.05 * double(motion.positions.size()));  // of bounds for 95 %
-  return {turn / kDegree, 1e3 * shift};
+  return {turn / testing::kDegree, 1e3 * shift};
 }
 
 TEST(ExpressivePose, ARealSmileWithTheHeadTakenOutLeavesItAlmostAtRest) {
@@ -226,9 +218,10 @@ TEST(ExpressivePose, MarkersOfARealFaceWithTheHeadTakenOutLeaveItAlmostAtRest) {
     if (const auto found = landmarks.find(name); found != landmarks.end()) name = found->second;
   const auto [turn, shift] = taken_for_head(motion, stabilise(motion));
   double turn_before = 0;
-  const StabilisedMotion before = stabilise(motion, {default_points(motion), 10});
+  const StabilisedMotion before = stabilise(motion, {testing::default_points(motion), 10});
   for (const auto& pose : before.motion.head_pose)
-    turn_before = std::max(turn_before, Eigen::AngleAxisd(pose.linear()).angle() / kDegree);
+    turn_before =
+        std::max(turn_before, Eigen::AngleAxisd(pose.linear()).angle() / testing::kDegree);
   std::printf("markers: %.2f degrees, %.2f mm (default rigid points: %.2f)\n", turn, shift,
               turn_before);
   EXPECT_LT(turn, turn_before);

@@ -9,13 +9,24 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/motion/stabilise.hpp"
 
 namespace hyperex::motion::testing {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDegree = M_PI / 180;
+
+/// The points that a head's pose is taken from by default, of those that the motion has.
+inline std::vector<std::string> default_points(const Motion& motion) {
+  std::vector<std::string> names;
+  for (const auto& name : default_rigid_points())
+    if (motion.index_of(name) >= 0) names.push_back(name);
+  return names;
+}
 
 /// `work` throws an InputError of one line that holds every one of `parts`.
 inline void expect_refused(const std::function<void()>& work,

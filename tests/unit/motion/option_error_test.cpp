@@ -60,7 +60,7 @@ TEST(OptionError, OfAHeadWithoutRigidPointsNamesTheOption) {
 }
 
 TEST(OptionError, OfATableOfExpressionsSaysWhichItIs) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "expressions.csv";
+  const auto file = std::filesystem::path(::testing::TempDir()) / "expressions.csv";
   std::ofstream(file) << "time_s,jawOpen,mouthSmileLeft\n0,0,0\n";
   EXPECT_EQ(thrown_by([&] { read_motion(file); }).option(), "arkit");
   std::ofstream(file) << "time_s,mouthSmileLeft,mouthSmileRight\n0,0,0\n";  // no jaw among them

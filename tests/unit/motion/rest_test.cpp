@@ -10,7 +10,7 @@ namespace {
 using testing::expect_refused;
 using testing::sampled;
 
-const std::vector<std::string> kNames = {"brow", "nose", "right", "left", "chin", "tip"};
+const std::vector<std::string> kFacePoints = {"brow", "nose", "right", "left", "chin", "tip"};
 const Points kFace = (Points(6, 3) << 0, 0.05, 0.01, 0, 0, 0.03, -0.025, -0.04, 0, 0.025, -0.04, 0,
                       0, -0.08, 0, 0.01, 0.02, 0.02)
                          .finished();
@@ -18,7 +18,7 @@ const Points kFace = (Points(6, 3) << 0, 0.05, 0.01, 0, 0, 0.03, -0.025, -0.04, 
 /// Both corners of the mouth go outwards and up by `amplitude_m` times `course(t)`.
 Motion smile(const std::function<double(double)>& course, double amplitude_m = 0.01,
              int samples = 61) {
-  return sampled(samples, 1.0 / 30, kNames, [&](double t, int p, int axis) {
+  return sampled(samples, 1.0 / 30, kFacePoints, [&](double t, int p, int axis) {
     const double moved = amplitude_m * course(t);
     if (p == 2 && axis == 0) return kFace(p, axis) - moved;
     if ((p == 3 && axis == 0) || ((p == 2 || p == 3) && axis == 1)) return kFace(p, axis) + moved;
@@ -35,12 +35,12 @@ double rises_and_falls(double t) {
 
 io::Landmarks at_rest(double off_m) {
   io::Landmarks landmarks;
-  for (std::size_t p = 0; p < kNames.size(); ++p) {
+  for (std::size_t p = 0; p < kFacePoints.size(); ++p) {
     // Another size and pose, and each landmark a little elsewhere than the recorded point.
     const Vec3 wrong(off_m * std::sin(3.0 * double(p)), off_m * std::cos(5.0 * double(p)), 0);
-    landmarks[kNames[p]] = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()) *
-                               (1.1 * (kFace.row(Eigen::Index(p)).transpose() + wrong)) +
-                           Vec3(1, 2, 3);
+    landmarks[kFacePoints[p]] = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()) *
+                                    (1.1 * (kFace.row(Eigen::Index(p)).transpose() + wrong)) +
+                                Vec3(1, 2, 3);
   }
   return landmarks;
 }

@@ -10,8 +10,6 @@
 namespace hyperex::motion {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
 /// Positions of a schematic face: eye corners, nose, chin; metres.
 const std::vector<std::pair<std::string, Vec3>>& schematic_face() {
   static const std::vector<std::pair<std::string, Vec3>> face = {
@@ -54,13 +52,6 @@ Motion posed_face(double noise_m, unsigned seed) {
 }
 
 /// The default rigid points that a motion has, to be stated.
-std::vector<std::string> default_points(const Motion& motion) {
-  std::vector<std::string> names;
-  for (const auto& name : default_rigid_points())
-    if (motion.index_of(name) >= 0) names.push_back(name);
-  return names;
-}
-
 double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
@@ -72,7 +63,7 @@ TEST(Stabilise, WithoutNoiseOnlyDeformationIsLeft) {
   for (std::size_t k = 0; k < 60; ++k) {
     const double t = double(k) / 30;
     const Eigen::Isometry3d truth = pose_at(t) * pose_at(0).inverse();
-    EXPECT_LT(angle_between(stable.motion.head_pose[k], truth), 0.1 * kDegree);
+    EXPECT_LT(angle_between(stable.motion.head_pose[k], truth), 0.1 * testing::kDegree);
     EXPECT_LT(angle_between(stable.motion.head_pose[k], truth),
               stable.turn_uncertainty_rad[k] + 1e-9);
     const Vec3 moved = pose_at(0).inverse() * Vec3(stable.motion.positions[k].row(chin));
@@ -101,8 +92,8 @@ TEST(Stabilise, NoiseTurnsThePoseByAboutItsShare) {
   for (std::size_t k = 0; k < 60; ++k)
     worst = std::max(worst, angle_between(stable.motion.head_pose[k],
                                           pose_at(double(k) / 30) * pose_at(0).inverse()));
-  EXPECT_LT(worst, 3 * kDegree);  // 0.7 mm between two samples over arms of about 30 mm
-  EXPECT_GT(worst, 0.1 * kDegree);
+  EXPECT_LT(worst, 3 * testing::kDegree);  // 0.7 mm between two samples over arms of about 30 mm
+  EXPECT_GT(worst, 0.1 * testing::kDegree);
 }
 
 TEST(Stabilise, APointThatMovesWithinTheFaceCountsLess) {
@@ -112,15 +103,16 @@ TEST(Stabilise, APointThatMovesWithinTheFaceCountsLess) {
     motion.positions[k].row(bridge) +=
         0.01 * std::sin(double(k) / 10) * Eigen::RowVector3d(1, 1, 0);
   const auto worst = [&](int reweightings) {
-    const StabilisedMotion stable = stabilise(motion, {default_points(motion), reweightings});
+    const StabilisedMotion stable =
+        stabilise(motion, {testing::default_points(motion), reweightings});
     double angle = 0;
     for (std::size_t k = 0; k < 60; ++k)
       angle = std::max(angle, angle_between(stable.motion.head_pose[k],
                                             pose_at(double(k) / 30) * pose_at(0).inverse()));
     return angle;
   };
-  EXPECT_GT(worst(0), 1 * kDegree);
-  EXPECT_LT(worst(10), 0.5 * kDegree);
+  EXPECT_GT(worst(0), 1 * testing::kDegree);
+  EXPECT_LT(worst(10), 0.5 * testing::kDegree);
 }
 
 TEST(Stabilise, TooFewOrCollinearPointsAreRefused) {
@@ -171,9 +163,9 @@ TEST(Stabilise, RecoversThePoseOfTheRecordings) {
           << name << ", sample " << k;
     }
     std::printf("%s: rotation %.3f degrees, nasion %.3f mm at most\n", name.c_str(),
-                angle / kDegree, shift * 1e3);
+                angle / testing::kDegree, shift * 1e3);
     // Noise-free landmarks. From the default rigid points alone: 0.23 and 0.59 degrees.
-    EXPECT_LT(angle, (name == "subject_A_talk" ? 0.4 : 0.15) * kDegree);
+    EXPECT_LT(angle, (name == "subject_A_talk" ? 0.4 : 0.15) * testing::kDegree);
     EXPECT_LT(shift, 0.001);
   }
 }

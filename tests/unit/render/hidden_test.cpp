@@ -7,7 +7,7 @@ namespace hyperex::render {
 namespace {
 
 /// A square of 0.2 m at a distance of 1 m, turned about y so that its right side is nearer.
-TriMesh square() {
+TriMesh turned_square() {
   TriMesh mesh;
   mesh.points.resize(4, 3);
   mesh.points << -0.1, -0.1, 1.05, 0.1, -0.1, 0.95, 0.1, 0.1, 0.95, -0.1, 0.1, 1.05;
@@ -24,12 +24,12 @@ TEST(HiddenFromOrigin, TellsBehindFromBeforeAlongRaysNotAlongZ) {
       0.15, 0, 2,        // far behind: its ray passes the square at x = 0.073
       0.15, 0, 1.01,     // passes the square, whose edge is at x = 0.1 at z = 0.95
       0.095, 0, 0.94;    // before the near side
-  EXPECT_EQ(hidden_from_origin(square(), points, 0.002),
+  EXPECT_EQ(hidden_from_origin(turned_square(), points, 0.002),
             (std::vector<bool>{true, false, false, true, false, false}));
 }
 
 TEST(HiddenFromOrigin, AMeshHidesNoneOfItsOwnVerticesThatItSees) {
-  const TriMesh mesh = square();
+  const TriMesh mesh = turned_square();
   EXPECT_EQ(hidden_from_origin(mesh, mesh.points), std::vector<bool>(4, false));
   EXPECT_EQ(hidden_from_origin(TriMesh{mesh.points, Triangles(0, 3)}, mesh.points),
             std::vector<bool>(4, false));

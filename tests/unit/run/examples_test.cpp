@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hyperex/core/files.hpp"
-#include "hyperex/run/pipeline.hpp"
+#include "hyperex/run/run_scene.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::run {
@@ -38,7 +38,7 @@ class SharedScene : public testing::TestWithParam<fs::path> {};
 
 TEST_P(SharedScene, IsSound) {
   if (data_is_missing(GetParam())) GTEST_SKIP() << "no ../shared/data";
-  EXPECT_NO_THROW(check_scene(read_scene(GetParam())));
+  EXPECT_NO_THROW(session::check(read_scene(GetParam())));
 }
 
 std::string name_of(const testing::TestParamInfo<fs::path>& info) {

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "hyperex/metrics/peak_tissue.hpp"
 #include "support/box_mesh.hpp"
 
 namespace hyperex::run {
@@ -22,12 +23,16 @@ simulate::Performance strained_box(const Eigen::Matrix3d& gradient) {
   p.nodes = box.nodes;
   p.tets = box.tets;
   const auto count = static_cast<std::size_t>(p.tets.rows());
-  p.tet_young_pa.assign(count, kYoung_pa);
-  p.tet_poisson.assign(count, kPoisson);
-  p.tet_viscosity_pa_s.assign(count, 100);
+  p.material.young_pa.assign(count, kYoung_pa);
+  p.material.poisson.assign(count, kPoisson);
+  p.material.viscosity_pa_s.assign(count, 100);
   p.frame_time_s = {0};
   p.node_displacement_m = {(p.nodes * gradient.transpose()).cast<float>()};
   return p;
+}
+
+nlohmann::ordered_json stress_summary(const simulate::Performance& p) {
+  return metrics::json_of(metrics::peak_tissue(p));
 }
 
 const io::VtuArray& named(const std::vector<io::VtuArray>& arrays, const std::string& name) {
@@ -49,9 +54,9 @@ void add_inverted(simulate::Performance& p) {
   p.tets.bottomRows(1) << first, first + 1, first + 2, first + 3;
   p.node_displacement_m[0].conservativeResize(first + 4, 3);
   p.node_displacement_m[0].bottomRows(4) << 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.015F;
-  p.tet_young_pa.push_back(kYoung_pa);
-  p.tet_poisson.push_back(kPoisson);
-  p.tet_viscosity_pa_s.push_back(100);
+  p.material.young_pa.push_back(kYoung_pa);
+  p.material.poisson.push_back(kPoisson);
+  p.material.viscosity_pa_s.push_back(100);
 }
 
 TEST(Frames, StrainComponentsStandInParaViewsOrder) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "unit/scene/other_values.hpp"
@@ -40,6 +41,77 @@ TEST(Keys, AreNamedOnceInKnownSectionsInOrder) {
   }
   EXPECT_EQ(find_key("time.step_s")->name, "time.step_s");
   EXPECT_EQ(find_key("time.step"), nullptr);
+}
+
+/// "patch_radius_mm" and "patch_radius_m" without their units.
+std::string without_unit(std::string name) {
+  for (const char* ending : {"_kpa_per_mm", "_pa_per_m", "_pa_s", "_kg_m3", "_kpa", "_pa", "_mm",
+                             "_hz", "_mb", "_m", "_s"})
+    if (name.ends_with(ending)) return name.substr(0, name.size() - std::string(ending).size());
+  return name;
+}
+
+/// Keys that are not called as their member is. All others must be.
+const std::map<std::string, std::string> kOtherMembers = {
+    {"scan.file", "scan.source"},
+    {"motion.file", "motion.source"},
+    {"motion.point_gain", "motion.point_gains"},
+    {"motion.gain", "drive.gain"},
+    {"mesh.thickness_point", "mesh.depths"},
+    {"mesh.thickness_per_vertex", "mesh.depth_per_vertex"},
+    {"mesh.thickness_region", "mesh.depth_regions"},
+    {"tissue.young_kpa", "tissue.uniform[young]"},
+    {"tissue.viscosity_pa_s", "tissue.uniform[viscosity]"},
+    {"tissue.poisson", "tissue.uniform[poisson]"},
+    {"tissue.density_kg_m3", "tissue.uniform[density]"},
+    {"tissue.point", "tissue.points"},
+    {"tissue.region", "tissue.regions"},
+    {"tissue.yeoh_c20", "model.law.c20"},
+    {"tissue.yeoh_c30", "model.law.c30"},
+    {"tissue.mooney_c01", "model.law.c01"},
+    {"tissue.maxwell", "model.law.branches"},
+    {"support.border", "support.border_held"},
+    {"support.skull_across_kpa_per_mm", "support.skull_layer.across_pa_per_m"},
+    {"support.skull_along_kpa_per_mm", "support.skull_layer.along_pa_per_m"},
+    {"support.mandible_across_kpa_per_mm", "support.mandible_layer.across_pa_per_m"},
+    {"support.mandible_along_kpa_per_mm", "support.mandible_layer.along_pa_per_m"},
+    {"muscles.gain", "muscles.gains"},
+    {"muscles.file", "muscles_file"},
+    {"muscles.without", "muscles_without"},
+    {"output.peak_time_s", "time.peak_time_s"},
+    {"output.picture_times_s", "time.still_times_s"}};
+
+TEST(Keys, AreCalledAsTheMembersThatTheyReach) {
+  std::size_t others = 0;
+  for (const Key& key : keys()) {
+    SCOPED_TRACE(key.name + " reaches " + key.member);
+    if (const auto other = kOtherMembers.find(key.name); other != kOtherMembers.end()) {
+      EXPECT_EQ(key.member, other->second);
+      ++others;
+      continue;
+    }
+    const std::size_t key_dot = key.name.rfind('.'), member_dot = key.member.rfind('.');
+    EXPECT_EQ(without_unit(key.member.substr(member_dot + 1)),
+              without_unit(key.name.substr(key_dot + 1)));
+    if (section_of(key.name) != "tissue") {  // of which the model is a part
+      EXPECT_EQ(section_of(key.member), section_of(key.name));
+    }
+  }
+  EXPECT_EQ(others, kOtherMembers.size());
+}
+
+TEST(Keys, NumbersHaveBoundsAndTheUnitOfTheirName) {
+  const auto check = [](const KeyInfo& key) {
+    const bool number = key.kind == Kind::number || key.kind == Kind::integer ||
+                        key.kind == Kind::numbers || key.kind == Kind::factors;
+    EXPECT_EQ(number, key.range.least < key.range.most) << key.name;
+    EXPECT_TRUE(key.name.ends_with(key.unit.ending)) << key.name;
+    EXPECT_EQ(*key.unit.name == 0, without_unit(key.name) == key.name) << key.name;
+  };
+  for (const Key& key : keys()) {
+    check(key);
+    for (const KeyInfo& column : key.columns) check(column);
+  }
 }
 
 TEST(Keys, DefaultsAreAllowed) {
@@ -126,8 +198,8 @@ TEST(Keys, NumbersOutOfRangeAreRefusedOnEachSide) {
 TEST(Keys, LimitsThemselvesAreAllowed) {
   for (const Key& key : keys()) {
     if (key.kind != Kind::integer && key.kind != Kind::number) continue;
-    std::vector<double> limits = {key.range.high};
-    if (!key.range.above_low) limits.push_back(key.range.low);
+    std::vector<double> limits = {key.range.most};
+    if (!key.range.above_least) limits.push_back(key.range.least);
     if (key.range.or_zero) limits.push_back(0);
     for (const double limit : limits) {
       Scene scene;

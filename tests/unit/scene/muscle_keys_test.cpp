@@ -19,7 +19,8 @@ using testing::IsEmpty;
 const std::string by_muscles = std::string(smallest) + "[drive]\nby = \"muscles\"\n";
 
 /// The one problem of a scene text, without its folder.
-std::string only_problem(const std::string& text, const std::vector<std::string>& overrides = {}) {
+std::string only_muscle_problem(const std::string& text,
+                                const std::vector<std::string>& overrides = {}) {
   const SceneFolder folder;
   const auto problems = problems_of(folder.write("scene.toml", text), overrides);
   EXPECT_EQ(problems.size(), 1u) << sentences(problems);
@@ -37,7 +38,7 @@ TEST(MuscleKeys, SayWhatDrives) {
   EXPECT_EQ(scene_of(smallest).drive.by, DriveBy::displacement);
   EXPECT_EQ(scene_of(by_muscles).drive.by, DriveBy::muscles);
   EXPECT_EQ(scene_of(smallest, {"drive.by=reactions"}).drive.by, DriveBy::reactions);
-  EXPECT_THAT(only_problem(smallest, {"drive.by=muscle"}),
+  EXPECT_THAT(only_muscle_problem(smallest, {"drive.by=muscle"}),
               HasSubstr("--set: drive.by = \"muscle\": expected \"displacement\", \"muscles\""));
 }
 
@@ -89,14 +90,14 @@ TEST(MuscleKeys, GainsAreATableOfNamesAndNumbers) {
 }
 
 TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
-  EXPECT_EQ(only_problem(by_muscles + "[muscles]\ngain = { zyg_mayor_L = 0.3 }\n"),
+  EXPECT_EQ(only_muscle_problem(by_muscles + "[muscles]\ngain = { zyg_mayor_L = 0.3 }\n"),
             "scene.toml:8: muscles.gain.zyg_mayor_L = 0.3: expected another name; did you mean "
             "zyg_major_L?");
-  EXPECT_EQ(only_problem(by_muscles, {"muscles.gain={ side_l = 0.3 }"}),
+  EXPECT_EQ(only_muscle_problem(by_muscles, {"muscles.gain={ side_l = 0.3 }"}),
             "--set: muscles.gain.side_l = 0.3: expected another name; did you mean side_L?");
-  EXPECT_THAT(only_problem(by_muscles, {"muscles.gain={ zygomaticus_R = 0.3 }"}),
+  EXPECT_THAT(only_muscle_problem(by_muscles, {"muscles.gain={ zygomaticus_R = 0.3 }"}),
               HasSubstr("did you mean zyg_major_R or zyg_minor_R?"));
-  EXPECT_THAT(only_problem(by_muscles + "[muscles]\ngain = { weather = 1 }\n"),
+  EXPECT_THAT(only_muscle_problem(by_muscles + "[muscles]\ngain = { weather = 1 }\n"),
               HasSubstr("muscles.gain.weather = 1: expected one of buccal_L, buccal_R, "));
 }
 
@@ -141,7 +142,7 @@ TEST(MuscleKeys, MistakesInOwnMusclesAreTold) {
   EXPECT_THAT(problem("without = [\"risorius\"]\ngain = { risorius_R = 0.5 }\n"),
               HasSubstr("muscles.gain.risorius_R"))
       << "left out";
-  EXPECT_THAT(only_problem(std::string(smallest) + "[muscles]\nwithout = [\"risorius\"]\n"),
+  EXPECT_THAT(only_muscle_problem(std::string(smallest) + "[muscles]\nwithout = [\"risorius\"]\n"),
               HasSubstr("expected drive.by = \"muscles\" in the scene"));
   EXPECT_THAT(problem("[[variant]]\nname = \"other\"\nmuscles.without = [\"risorius\"]\n"),
               HasSubstr("variant[0].muscles.without"));
@@ -149,20 +150,21 @@ TEST(MuscleKeys, MistakesInOwnMusclesAreTold) {
 
 TEST(MuscleKeys, AFactorIsANumberFrom0To5) {
   for (const char* bad : {"-0.1", "5.1", "\"weak\"", "true", "nan"})
-    EXPECT_THAT(only_problem(by_muscles + "[muscles]\ngain = { side_R = " + bad + " }\n"),
+    EXPECT_THAT(only_muscle_problem(by_muscles + "[muscles]\ngain = { side_R = " + bad + " }\n"),
                 HasSubstr("expected a number from 0 to 5"))
         << bad;
   for (const char* bad : {"0.5", "[0.5]", "\"side_R\""})
-    EXPECT_THAT(only_problem(by_muscles + "[muscles]\ngain = " + bad + "\n"),
+    EXPECT_THAT(only_muscle_problem(by_muscles + "[muscles]\ngain = " + bad + "\n"),
                 HasSubstr("expected a table of names and numbers from 0 to 5"))
         << bad;
-  EXPECT_THAT(only_problem(by_muscles, {"muscles.mirrored=3"}), HasSubstr("muscles.mirrored = 3"));
+  EXPECT_THAT(only_muscle_problem(by_muscles, {"muscles.mirrored=3"}),
+              HasSubstr("muscles.mirrored = 3"));
 }
 
 TEST(MuscleKeys, NeedMusclesThatDrive) {
-  EXPECT_THAT(only_problem(smallest, {"muscles.gain={ side_R = 0.5 }"}),
+  EXPECT_THAT(only_muscle_problem(smallest, {"muscles.gain={ side_R = 0.5 }"}),
               HasSubstr("expected drive.by = \"muscles\" in the scene"));
-  EXPECT_THAT(only_problem(smallest, {"drive.by=reactions", "muscles.mirrored=true"}),
+  EXPECT_THAT(only_muscle_problem(smallest, {"drive.by=reactions", "muscles.mirrored=true"}),
               HasSubstr("muscles.mirrored = true: expected drive.by = \"muscles\""));
 }
 
@@ -173,10 +175,11 @@ TEST(MuscleKeys, VaryAndBelongToTheVariant) {
   ASSERT_EQ(scene.variants.size(), 1u);
   EXPECT_THAT(scene.variants[0].scene.muscles.gains, ElementsAre(MuscleGain{"zygomatic_R", 0.25}));
   EXPECT_THAT(scene.muscles.gains, ElementsAre(MuscleGain{"side_L", 0.9}));
-  EXPECT_THAT(only_problem(std::string(smallest) + variant + "gain = { zygomatic_R = 0.25 }\n",
-                           {"drive.by=displacement"}),
-              HasSubstr("expected drive.by = \"muscles\" in the scene"));
-  EXPECT_THAT(only_problem(by_muscles + variant + "gain = { zygomatik_R = 0.25 }\n"),
+  EXPECT_THAT(
+      only_muscle_problem(std::string(smallest) + variant + "gain = { zygomatic_R = 0.25 }\n",
+                          {"drive.by=displacement"}),
+      HasSubstr("expected drive.by = \"muscles\" in the scene"));
+  EXPECT_THAT(only_muscle_problem(by_muscles + variant + "gain = { zygomatik_R = 0.25 }\n"),
               HasSubstr("did you mean zygomatic_R"));
 }
 
@@ -195,10 +198,10 @@ TEST(MuscleKeys, AreEchoed) {
 TEST(MuscleKeys, ARegionThatIsMeasuredIsRefused) {
   for (const char* by : {"muscles", "reactions"}) {
     const std::string drive = std::string("drive.by=") + by;
-    EXPECT_THAT(only_problem(smallest, {drive, "region.measured=points",
-                                        "region.measured_points=[\"ibug68_8\"]"}),
+    EXPECT_THAT(only_muscle_problem(smallest, {drive, "region.measured=points",
+                                               "region.measured_points=[\"ibug68_8\"]"}),
                 HasSubstr("region.measured = \"points\": expected \"none\", as drive.by is not"));
-    EXPECT_THAT(only_problem(smallest, {drive, "region.measured=all"}),
+    EXPECT_THAT(only_muscle_problem(smallest, {drive, "region.measured=all"}),
                 HasSubstr("region.measured = \"all\": expected \"none\""));
   }
 }
@@ -247,13 +250,14 @@ TEST(VariantPresets, AreSoundAndSayWhereTheyComeFrom) {
 
 TEST(VariantPresets, UnknownOnesAndThoseThatMoveNothingAreRefused) {
   const std::string variant = "[[variant]]\nname = \"v\"\npreset = ";
-  EXPECT_THAT(only_problem(by_muscles + variant + "\"palsy_complet_R\"\n"),
+  EXPECT_THAT(only_muscle_problem(by_muscles + variant + "\"palsy_complet_R\"\n"),
               HasSubstr("scene.toml:9: variant[0].preset = \"palsy_complet_R\": expected "));
-  EXPECT_THAT(only_problem(by_muscles + variant + "\"palsy_complet_R\"\n"),
+  EXPECT_THAT(only_muscle_problem(by_muscles + variant + "\"palsy_complet_R\"\n"),
               HasSubstr("palsy_complete_R"));
-  EXPECT_THAT(only_problem(by_muscles + variant + "7\n"), HasSubstr("variant[0].preset = 7"));
+  EXPECT_THAT(only_muscle_problem(by_muscles + variant + "7\n"),
+              HasSubstr("variant[0].preset = 7"));
   EXPECT_THAT(
-      only_problem(smallest + variant + "\"palsy_complete_R\"\n", {"drive.by=displacement"}),
+      only_muscle_problem(smallest + variant + "\"palsy_complete_R\"\n", {"drive.by=displacement"}),
       HasSubstr("drive.by = \"muscles\" in the scene"));
 }
 

@@ -20,7 +20,7 @@ inline nlohmann::json other_value(const Key& key) {
     case Kind::integer:
       return standard.get<int>() + 1;
     case Kind::number: {
-      const double low = key.range.low, high = key.range.high;
+      const double low = key.range.least, high = key.range.most;
       // In digits as a user writes them: 15 come back from the field.
       const auto within = [&](double share) {
         return std::strtod(fmt::format("{:.12g}", low + (high - low) * share).c_str(), nullptr);
@@ -28,8 +28,8 @@ inline nlohmann::json other_value(const Key& key) {
       return standard == within(0.5) ? within(0.25) : within(0.5);
     }
     case Kind::numbers:
-      if (key.most == 2) return {key.range.low, key.range.high};
-      return {key.range.low, key.range.low + 0.125, key.range.high};
+      if (key.most == 2) return {key.range.least, key.range.most};
+      return {key.range.least, key.range.least + 0.125, key.range.most};
     case Kind::text:
       return "other \"text\" \u00e4";
     case Kind::choice:
@@ -44,7 +44,7 @@ inline nlohmann::json other_value(const Key& key) {
     case Kind::places:
       return {{1.5, 2, 3}};
     case Kind::factors:
-      return {{key.choices.front(), (key.range.low + key.range.high) / 2}};
+      return {{key.choices.front(), (key.range.least + key.range.most) / 2}};
     case Kind::rows:
       break;
   }
@@ -54,7 +54,7 @@ inline nlohmann::json other_value(const Key& key) {
   nlohmann::json row;
   for (const KeyInfo& column : key.columns)
     if (column.kind == Kind::number)
-      row[column.name] = (column.range.low + column.range.high) / 2;
+      row[column.name] = (column.range.least + column.range.most) / 2;
     else
       row[column.name] = column.kind == Kind::path ? "face.ply" : "chin";
   return nlohmann::json::array({row});

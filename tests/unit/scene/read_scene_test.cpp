@@ -126,8 +126,13 @@ TEST(ReadScene, UnknownKeysAndSections) {
                                   std::pair(base, "support.muscle_kpa_per_mm=2")})
     EXPECT_THAT(
         only_problem(text, *set ? std::vector<std::string>{set} : std::vector<std::string>{}),
-        HasSubstr("support.muscle_kpa_per_mm = 2: expected support.field_kpa_per_mm, as this "
-                  "key is named now"));
+        HasSubstr("support.muscle_kpa_per_mm = 2: expected its new name: "
+                  "support.muscle_kpa_per_mm is now support.field_kpa_per_mm"));
+  EXPECT_EQ(only_problem(base + "[output]\ncontact_times_s = [0, 1]\n"),
+            "scene.toml:6: output.contact_times_s = [0, 1]: expected its new name: "
+            "output.contact_times_s is now output.picture_times_s");
+  EXPECT_THAT(only_problem(base, {"solver.linear=\"iterative\""}),
+              HasSubstr("expected no such key: it was removed"));
   EXPECT_THAT(only_problem(base, {"tissue={young_kpa=3}"}), HasSubstr("tissue.KEY=VALUE"));
   EXPECT_THAT(only_problem(base + "\"a\\nb\" = 1\n"), HasSubstr("a\\nb"));
 }
@@ -157,9 +162,9 @@ TEST(ReadScene, Lists) {
   EXPECT_THAT(only_problem(base, {"drive.points=[]"}), HasSubstr("one or more names, or \"all\""));
   EXPECT_THAT(only_problem(base, {"drive.points=[\"\"]"}), HasSubstr("a name in quotes"));
   EXPECT_THAT(only_problem(base, {"motion.rigid_points=[\"a\", \"b\"]"}), HasSubstr("3 or more"));
-  EXPECT_THAT(only_problem(base, {"output.contact_times_s=[0, 2, 1]"}),
-              HasSubstr("output.contact_times_s[2] = 1: expected a number above the one before"));
-  EXPECT_THAT(only_problem(base, {"output.contact_times_s=[0, nan]"}), HasSubstr("[1] = nan"));
+  EXPECT_THAT(only_problem(base, {"output.picture_times_s=[0, 2, 1]"}),
+              HasSubstr("output.picture_times_s[2] = 1: expected a number above the one before"));
+  EXPECT_THAT(only_problem(base, {"output.picture_times_s=[0, nan]"}), HasSubstr("[1] = nan"));
 }
 
 TEST(ReadScene, VariantsAreTheSceneWithTheirChanges) {
@@ -258,7 +263,7 @@ TEST(ReadScene, EveryShorterFileIsReadOrRefusedCleanly) {
       "title = \"x\" # y\n[scan]\nfile = \"embedded\"\nunit = 'mm'\n[motion]\nfile = "
       "\"\"\"embedded\"\"\"\n"
       "[[mesh.thickness_point]]\nlandmark = \"a\"\nthickness_mm = 9.5e0\n[drive]\npoints = [\"a\", "
-      "\"b\"]\n[output]\ncontact_times_s = [0, 1979-05-27]\n";
+      "\"b\"]\n[output]\npicture_times_s = [0, 1979-05-27]\n";
   for (std::size_t length = 0; length < whole.size(); ++length) {
     for (const auto& problem : problems_of(folder.write("scene.toml", whole.substr(0, length)))) {
       EXPECT_EQ(problem.sentence().find('\n'), std::string::npos);
@@ -379,7 +384,8 @@ TEST(ReadScene, FiniteStrainRefusesWhatItHasNoMeaningForEachInOneLine) {
            {"maxwell = [{ ratio = inf, relaxation_s = 1 }]", "tissue.maxwell[0].ratio = inf"},
            {"maxwell = [{ ratio = 1, relaxation_s = 0 }]", "tissue.maxwell[0].relaxation_s = 0"},
            {"maxwell = [{ ratio = 1 }]", "tissue.maxwell[0].relaxation_s: expected a number"},
-           {"[solver]\nfinite_step_s = 3", "solver.finite_step_s = 3: expected a number from 0"},
+           {"[solver]\nfinite_step_s = 3",
+            "solver.finite_step_s = 3: expected a number 0, or 0.0001 to 0.5 (s)"},
            {"[solver]\nfinite_step_s = -0.1", "solver.finite_step_s = -0.1: expected a number"},
            {"[solver]\nfinite_tolerance = 0", "solver.finite_tolerance = 0: expected a number"},
            {"[[variant]]\nname = \"x\"\ntissue.viscous_form = \"printed\"",

@@ -59,8 +59,13 @@ young_kpa = 38.5
 poisson = 0.39
 viscosity_pa_s = 40
 density_kg_m3 = 941
-viscous_form = "printed"
 element = "tet4"
+strain = "finite"
+law = "yeoh"
+yeoh_c20 = 0.61
+yeoh_c30 = 0.62
+mooney_c01 = 0.63
+maxwell = [{ ratio = 0.64, relaxation_s = 0.65 }]
 preset = "granite"
 interpolation = "linear"
 mirror = true
@@ -105,10 +110,14 @@ jaw_points = ["j1"]
 points = ["d1", "d2"]
 patch_radius_mm = 4.2
 still_points = ["s1"]
+[contact]
+eyes = true
 [solver]
 method = "direct"
 tolerance = 0.004
-linear = "iterative"
+finite_step_s = 0.041
+finite_tolerance = 0.042
+full_newton = true
 newmark_beta = 0.36
 newmark_gamma = 0.7
 verify = true
@@ -124,7 +133,7 @@ report = false
 symmetry_floor = 4.7e-5
 lowpass_hz = 7.5
 jitter_mm = 0.3
-contact_times_s = [0.48, 0.49]
+picture_times_s = [0.48, 0.49]
 )"));
   EXPECT_EQ(s.title, "All of it");
   EXPECT_FALSE(s.scan.source.embedded);
@@ -173,7 +182,15 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.tissue.uniform[tissue::poisson], 0.39);
   EXPECT_EQ(s.tissue.uniform[tissue::viscosity], 40);
   EXPECT_EQ(s.tissue.uniform[tissue::density], 941);
-  EXPECT_EQ(s.model.viscous_form, fem::ViscousForm::printed);
+  EXPECT_EQ(read_scene(s.file, {"tissue.strain=linear", "tissue.viscous_form=printed"})
+                .model.viscous_form,
+            fem::ViscousForm::printed);
+  EXPECT_EQ(s.model.strain, simulate::Strain::finite);
+  EXPECT_EQ(s.model.law, (fem::Hyperelastic{.law = fem::HyperelasticLaw::yeoh,
+                                            .c20 = 0.61,
+                                            .c30 = 0.62,
+                                            .c01 = 0.63,
+                                            .branches = {{0.64, 0.65}}}));
   EXPECT_EQ(s.model.element, fem::ElementKind::tet4);
   EXPECT_EQ(s.tissue.preset, "granite");
   EXPECT_EQ(s.tissue.interpolation, tissue::Interpolation::linear);
@@ -191,10 +208,14 @@ contact_times_s = [0.48, 0.49]
   EXPECT_EQ(s.tissue.regions, regions);
   EXPECT_EQ(s.solver.method, simulate::SolverMethod::direct);
   EXPECT_EQ(s.solver.tolerance, 0.004);
-  EXPECT_EQ(s.solver.linear, fem::LinearSolver::iterative);
   EXPECT_EQ(s.solver.newmark_beta, 0.36);
   EXPECT_EQ(s.solver.newmark_gamma, 0.7);
   EXPECT_TRUE(s.solver.verify);
+  EXPECT_EQ(s.solver.finite_step_s, 0.041);
+  EXPECT_EQ(s.solver.finite_tolerance, 0.042);
+  EXPECT_TRUE(s.solver.full_newton);
+  EXPECT_TRUE(s.contact.eyes);
+  EXPECT_FALSE(s.contact.lips || s.contact.teeth);
   EXPECT_FALSE(s.support.border_held);
   EXPECT_EQ(s.support.skull, simulate::Hold::held);
   EXPECT_EQ(s.support.skull_layer.across_pa_per_m, 51e6);

@@ -54,7 +54,8 @@ TEST(DriveChoice, HoldsForTheSceneAndIsNoted) {
   EXPECT_EQ(scene.drive.by, DriveBy::displacement);
   choose_drive(scene, inputs);
   EXPECT_EQ(scene.drive.by, DriveBy::muscles);
-  EXPECT_EQ(inputs.notes.back(), drive_choice(example("one_sided_smile.toml"), inputs).why);
+  const std::string why = drive_choice(example("one_sided_smile.toml"), inputs).why;
+  EXPECT_EQ(inputs.notes.back(), make_note("drive.chosen", why, "drive.by"));
 }
 
 /// Of real and of rendered recordings: talking opens the mouth as wide as the jaw alone does.

@@ -28,7 +28,8 @@ RecordedFace some_recording() {
   m.positions[1].row(0).setConstant(std::nan(""));
   m.triangles.resize(1, 3);
   m.triangles << 0, 1, 0;
-  recorded.notes = {"motion: a face tracked in 2 of 3 frames", "\u00e4"};
+  recorded.notes = {make_note("recording.tracked", "motion: a face tracked in 2 of 3 frames"),
+                    make_note("recording.source", "\u00e4", "motion.recording")};
   return recorded;
 }
 

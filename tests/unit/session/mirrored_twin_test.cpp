@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "hyperex/core/progress.hpp"
-#include "hyperex/run/pipeline.hpp"
+#include "hyperex/run/run_scene.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::session {

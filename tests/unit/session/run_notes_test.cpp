@@ -4,21 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/note_matchers.hpp"
+
 namespace hyperex::session {
 namespace {
+using test::is_note;
+using test::says;
 using testing::AllOf;
 using testing::ElementsAre;
-using testing::Field;
-using testing::HasSubstr;
 
-auto is(const char* id, Severity severity, const char* key) {
-  return AllOf(Field(&Note::id, id), Field(&Note::severity, severity), Field(&Note::key, key));
-}
 auto is_warning(const char* id, const char* key) {
-  return is(id, Severity::warning, key);
-}
-auto says(const char* part) {
-  return Field(&Note::text, HasSubstr(part));
+  return AllOf(test::is_warning(id), test::is_about(key));
 }
 
 simulate::Performance moving(float first_m, float second_m) {
@@ -46,7 +42,7 @@ TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {
   report.inverted_tets = 3;
   EXPECT_THAT(run_warnings(report, p), ElementsAre());
   EXPECT_THAT(notes_on_contact_and_elements(report, p, {}),
-              ElementsAre(is("tissue.few_inverted", Severity::note, "")));
+              ElementsAre(is_note("tissue.few_inverted")));
   report.inverted_tets = 4;
   EXPECT_THAT(run_warnings(report, p), ElementsAre(is_warning("tissue.inverted", "tissue.strain")));
   EXPECT_THAT(run_warnings(report, p), ElementsAre(says("4 of 3000")));
@@ -56,12 +52,12 @@ TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {
   EXPECT_THAT(run_warnings(report, p), ElementsAre(says("these elements")));
 }
 
-TEST(RunWarnings, TheReportsOwnRemarksComeFirst) {
+TEST(RunWarnings, TheReportsOwnNotesComeFirst) {
   simulate::SimulationReport report;
-  report.notes = {"forces were found anew"};
+  report.notes = {{"forces.found_anew", Severity::warning, simulate::kForcesFoundAnew, ""}};
   report.lip_overlap_mm = 2;
   EXPECT_THAT(run_warnings(report, {}),
-              ElementsAre(is_warning("simulation.remark", ""),
+              ElementsAre(is_warning("forces.found_anew", ""),
                           is_warning("lips.pass_through", "contact.lips")));
 }
 
@@ -71,7 +67,7 @@ TEST(NotesOnContact, SayThatNothingTouchesOnlyWhereContactIsOn) {
   EXPECT_THAT(notes_on_contact_and_elements(report, {}, contact), ElementsAre());
   contact.eyes = true;
   EXPECT_THAT(notes_on_contact_and_elements(report, {}, contact),
-              ElementsAre(is("contact.none", Severity::note, "")));
+              ElementsAre(is_note("contact.none")));
   report.contact.frames = 1;
   EXPECT_THAT(notes_on_contact_and_elements(report, {}, contact), ElementsAre());
 }
@@ -101,6 +97,19 @@ TEST(GainsHardlyKnown, NamesAMuscleThatTheRecordingUsesLessThanItIsKnown) {
   EXPECT_THAT(gains_hardly_known({}, runs), ElementsAre());
 }
 
+TEST(VolumeWarning, IsGivenFromAThreefoldChangeOn) {
+  const auto warnings = [](double least, double greatest) {
+    metrics::PeakTissue tissue;
+    tissue.volume_ratio = metrics::TetSpread{.min = least, .p99 = 1.2, .max = greatest};
+    return volume_warnings(tissue);
+  };
+  EXPECT_THAT(warnings(0.34, 3), ElementsAre());
+  EXPECT_THAT(volume_warnings({}), ElementsAre()) << "small strain";
+  for (const auto& [least, greatest] : {std::pair{0.33, 1.0}, {0.5, 3.01}})
+    EXPECT_THAT(warnings(least, greatest),
+                ElementsAre(AllOf(test::is_warning("tissue.volume_changed"), says("1.20"))));
+}
+
 TEST(LipsThatPass, AreThoseOfVariantsThatPassFartherThanBase) {
   std::vector<VariantRun> runs(4);
   const double overlap_mm[] = {0.4, 0.6, 1.4, 2};
@@ -124,8 +133,9 @@ TEST(IdleVariants, MoveAsBaseDoesToAThousandthOfAMillimetre) {
   runs[3].simulation.performance = base;
   runs[3].simulation.performance.skin_displacement_m.pop_back();
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].scene.title = "v" + std::to_string(i);
-  EXPECT_THAT(idle_variants(base, runs),
-              ElementsAre(AllOf(is_warning("variant.no_effect", ""), says("v0 ")), says("v1 ")));
+  EXPECT_THAT(
+      idle_variants(base, runs),
+      ElementsAre(AllOf(is_warning("variant.no_effect", "variant"), says("v0 ")), says("v1 ")));
 }
 
 TEST(VariantWarnings, HoldEachKind) {
@@ -139,7 +149,7 @@ TEST(VariantWarnings, HoldEachKind) {
   runs[0].simulation.performance.muscles.activation *= 0.3;
   runs[0].simulation.report.lip_overlap_mm = 1;
   EXPECT_THAT(variant_warnings(base, runs),
-              ElementsAre(is_warning("variant.no_effect", ""),
+              ElementsAre(is_warning("variant.no_effect", "variant"),
                           is_warning("variant.lips_pass_through", "contact.lips"),
                           is_warning("variant.muscle_hardly_used", "muscles.gain")));
 }

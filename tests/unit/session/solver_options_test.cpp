@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hop from the scene to the options of mesh, tissue and simulation: each key changes exactly
-// the options that the table below names, to the value that was given. A key that the table does
-// not name must change none of them.
+// The hop from the scene to the options of the simulation, for every key that there is: it changes
+// exactly its own member, there and in the scene, to the value that was given.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -19,180 +19,95 @@ namespace hyperex::session {
 using namespace scene;
 namespace {
 using nlohmann::json;
-using Options = std::map<std::string, std::string>;
 
-std::string shown(double value) {
-  return fmt::format("{:.12g}", value);
-}
-std::string shown(bool value) {
-  return value ? "true" : "false";
-}
-std::string shown(const std::filesystem::path& value) {
-  return value.filename().string();
-}
-template <class Enum>
-requires std::is_enum_v<Enum> std::string shown(Enum value) {
-  return std::to_string(int(value));
-}
-std::string shown(const std::vector<std::string>& values) {
-  std::string text;
-  for (const auto& value : values) text += value + ";";
-  return text;
-}
-std::string shown(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += shown(value) + ";";
-  return text;
-}
+/// Every described option of a struct as text, by the name of its member.
+class Shown {
+ public:
+  template <class Struct>
+  Shown(const Struct& options, const std::string& prefix) {
+    add(options, prefix);
+  }
+  std::map<std::string, std::string> all;
 
-void add_simulation(const simulate::SimulationOptions& o, Options& all) {
-  const auto add = [&](const std::string& name, const auto& value) { all[name] = shown(value); };
-  add("model.element", o.model.element);
-  add("model.viscous_form", o.model.viscous_form);
-  add("solver.method", o.solver.method);
-  add("solver.linear", o.solver.linear);
-  add("solver.tolerance", o.solver.tolerance);
-  add("solver.newmark_beta", o.solver.newmark_beta);
-  add("solver.newmark_gamma", o.solver.newmark_gamma);
-  add("solver.verify", o.solver.verify);
-  add("tissue.young_pa", o.tissue.uniform[tissue::young]);
-  add("tissue.poisson", o.tissue.uniform[tissue::poisson]);
-  add("tissue.viscosity_pa_s", o.tissue.uniform[tissue::viscosity]);
-  add("tissue.density_kg_m3", o.tissue.uniform[tissue::density]);
-  add("support.border_held", o.support.border_held);
-  add("support.skull", o.support.skull);
-  add("support.mandible", o.support.mandible);
-  add("support.skull_layer.across", o.support.skull_layer.across_pa_per_m);
-  add("support.skull_layer.along", o.support.skull_layer.along_pa_per_m);
-  add("support.mandible_layer.across", o.support.mandible_layer.across_pa_per_m);
-  add("support.mandible_layer.along", o.support.mandible_layer.along_pa_per_m);
-  add("support.field", o.support.field_pa_per_m);
-  add("support.jaw_points", o.support.jaw_points);
-  add("drive.by", o.drive.by);
-  std::string gains;
-  for (const simulate::MuscleGain& g : o.muscles.gains) gains += g.muscle + shown(g.gain) + ";";
-  all["muscles.gains"] = gains;
-  add("muscles.mirrored", o.muscles.mirrored);
-  add("drive.points", o.drive.points);
-  add("drive.still_points", o.drive.still_points);
-  add("drive.patch_radius_m", o.drive.patch_radius_m);
-  add("drive.gain", o.drive.gain);
-  add("region.measured", o.region.measured);
-  add("region.measured_points", o.region.measured_points);
-  add("region.measured_radius_m", o.region.measured_radius_m);
-  add("region.blend_m", o.region.blend_m);
-  add("time.step_s", o.time.step_s);
-  add("time.end_s", o.time.end_s);
-  add("time.frame_rate_hz", o.time.frame_rate_hz);
-  add("time.still_times_s", o.time.still_times_s);
-  add("time.peak_time_s", o.time.peak_time_s);
-}
+ private:
+  template <class Struct>
+  struct Visitor {
+    Shown& shown;
+    const Struct& options;
+    std::string prefix;
+    template <class At>
+    void option(const char* name, At at, const char*, const OptionDetails& = {}) {
+      shown.show(prefix + name, at(options));
+    }
+    template <class At, class AllAt>
+    void one_or_all(const char* name, At at, const char* all_name, AllAt all_at, const char*) {
+      shown.show(prefix + name, at(options));
+      shown.show(prefix + all_name, all_at(options));
+    }
+    template <class At, class Words>
+    void factors(const char* name, At at, const Words&, const char*, const OptionDetails&) {
+      shown.show(prefix + name, at(options));
+    }
+  };
+  template <class Struct>
+  void add(const Struct& options, const std::string& prefix) {
+    Visitor<Struct> visitor{*this, options, prefix};
+    Struct::describe(visitor);
+  }
+  template <class Value>
+  void show(const std::string& name, const Value& value) {
+    if constexpr (Described<Value>) {
+      add(value, name + ".");
+    } else if constexpr (std::is_enum_v<Value>) {
+      all[name] = std::to_string(int(value));
+    } else if constexpr (std::is_same_v<Value, scene::Source>) {
+      all[name] = value.embedded ? "embedded" : value.file.string();
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      all[name] = fmt::format("{:.12g}", double(value));
+    } else if constexpr (requires { std::string(value); }) {
+      all[name] = std::string(value);
+    } else if constexpr (requires { value.has_value(); }) {
+      if (value) show(name, *value);
+    } else if constexpr (requires { value.begin(); }) {
+      std::size_t i = 0;
+      all[name] = std::to_string(value.size());
+      for (const auto& one : value) show(fmt::format("{}[{}]", name, i++), one);
+    }
+  }
+};
 
-void add_mesh(const tissue::TissueMeshOptions& o, Options& all) {
-  all["mesh.element_size_m"] = shown(o.element_size_m);
-  all["mesh.layers"] = shown(double(o.layers));
-  all["mesh.thickness_m"] = shown(o.thickness_m);
-  all["mesh.cut_lips"] = shown(o.cut_lips);
-  all["mesh.trim_border_m"] = shown(o.trim_border_m);
-  std::string depths;
-  for (const auto& d : o.depths) depths += d.landmark + "=" + shown(d.depth_m) + ";";
-  all["mesh.depths"] = depths;
-  all["mesh.depth_per_vertex"] = o.depth_per_vertex.string();
-  for (const auto& r : o.depth_regions)
-    all["mesh.depth_regions"] += r.painted.string() + "=" + shown(r.depth_m) + ";";
-}
+using Names = std::set<std::string>;
 
-std::string shown(const tissue::GivenParameters& given) {
-  std::string text;
-  for (const auto& value : given) text += (value ? shown(*value) : "-") + ",";
-  return text;
-}
-
-void add_field(const tissue::TissueFieldOptions& o, Options& all) {
-  all["field.uniform"] = shown(o.uniform);
-  all["field.preset"] = o.preset;
-  all["field.interpolation"] = shown(o.interpolation);
-  all["field.mirror"] = shown(o.mirror);
-  all["field.per_vertex"] = shown(o.per_vertex);
-  for (const auto& p : o.points) all["field.points"] += p.landmark + p.side + shown(p.value);
-  for (const auto& r : o.regions) all["field.regions"] += r.name + shown(r.value) + shown(r.factor);
-}
-
-Options options_of(const Scene& scene) {
-  Options all;
-  Inputs recorded;
-  recorded.motion.motion.names = {"every", "point"};
-  add_simulation(simulation_options(scene, inputs_of_variant(scene, recorded)), all);
-  add_mesh(scene.mesh, all);
-  add_field(scene.tissue, all);
-  return all;
-}
-
-std::set<std::string> changed(const Options& before, const Options& after) {
-  std::set<std::string> names;
-  for (const auto& [name, value] : after)
-    if (const auto old = before.find(name); old == before.end() || old->second != value)
-      names.insert(name);
-  for (const auto& [name, value] : before)
-    if (!after.contains(name)) names.insert(name);
+/// The members that differ: "mesh.depths" where any of its rows does.
+Names changed(const Shown& before, const Shown& after) {
+  Names names;
+  const auto compare = [&](const Shown& a, const Shown& b) {
+    for (const auto& [name, value] : a.all)
+      if (const auto other = b.all.find(name); other == b.all.end() || other->second != value) {
+        const auto list = std::find_if(a.all.begin(), a.all.end(), [&](const auto& one) {
+          return name.starts_with(one.first + "[") && name != one.first;
+        });
+        names.insert(list == a.all.end() ? name : list->first);
+      }
+  };
+  compare(before, after);
+  compare(after, before);
   return names;
 }
 
-using Targets = std::set<std::string>;
-const std::map<std::string, Targets>& targets() {
-  static const std::map<std::string, Targets> all = {
-      {"motion.gain", {"drive.gain"}},
-      {"region.measured", {"region.measured"}},
-      {"region.measured_points", {"region.measured_points"}},
-      {"region.measured_radius_mm", {"region.measured_radius_m"}},
-      {"region.blend_mm", {"region.blend_m"}},
-      {"mesh.element_size_mm", {"mesh.element_size_m"}},
-      {"mesh.layers", {"mesh.layers"}},
-      {"mesh.thickness_mm", {"mesh.thickness_m"}},
-      {"mesh.cut_lips", {"mesh.cut_lips"}},
-      {"mesh.trim_border_mm", {"mesh.trim_border_m"}},
-      {"mesh.thickness_point", {"mesh.depths"}},
-      {"mesh.thickness_per_vertex", {"mesh.depth_per_vertex"}},
-      {"mesh.thickness_region", {"mesh.depth_regions"}},
-      {"tissue.young_kpa", {"tissue.young_pa", "field.uniform"}},
-      {"tissue.poisson", {"tissue.poisson", "field.uniform"}},
-      {"tissue.viscosity_pa_s", {"tissue.viscosity_pa_s", "field.uniform"}},
-      {"tissue.density_kg_m3", {"tissue.density_kg_m3", "field.uniform"}},
-      {"tissue.viscous_form", {"model.viscous_form"}},
-      {"tissue.element", {"model.element"}},
-      {"tissue.interpolation", {"field.interpolation"}},
-      {"tissue.mirror", {"field.mirror"}},
-      {"tissue.per_vertex", {"field.per_vertex"}},
-      {"tissue.point", {"field.points"}},
-      {"tissue.region", {"field.regions"}},
-      {"support.border", {"support.border_held"}},
-      {"support.skull", {"support.skull"}},
-      {"support.skull_across_kpa_per_mm", {"support.skull_layer.across"}},
-      {"support.skull_along_kpa_per_mm", {"support.skull_layer.along"}},
-      {"support.mandible", {"support.mandible"}},
-      {"support.mandible_across_kpa_per_mm", {"support.mandible_layer.across"}},
-      {"support.mandible_along_kpa_per_mm", {"support.mandible_layer.along"}},
-      {"support.field_kpa_per_mm", {"support.field"}},
-      {"support.jaw_points", {"support.jaw_points"}},
-      {"drive.by", {"drive.by"}},
-      {"muscles.gain", {"muscles.gains"}},
-      {"muscles.mirrored", {"muscles.mirrored"}},
-      {"drive.points", {"drive.points"}},
-      {"drive.patch_radius_mm", {"drive.patch_radius_m"}},
-      {"drive.still_points", {"drive.still_points"}},
-      {"solver.method", {"solver.method"}},
-      {"solver.linear", {"solver.linear"}},
-      {"solver.tolerance", {"solver.tolerance"}},
-      {"solver.newmark_beta", {"solver.newmark_beta"}},
-      {"solver.newmark_gamma", {"solver.newmark_gamma"}},
-      {"solver.verify", {"solver.verify"}},
-      {"time.step_s", {"time.step_s"}},
-      {"time.end_s", {"time.end_s"}},
-      {"time.frame_rate_hz", {"time.frame_rate_hz"}},
-      {"output.peak_time_s", {"time.peak_time_s"}},
-      {"output.contact_times_s", {"time.still_times_s"}},
-  };
-  return all;
+simulate::SimulationOptions simulation_of(const Scene& scene) {
+  Inputs recorded;
+  recorded.motion.motion.names = {"every", "point"};
+  return simulation_options(scene, inputs_of_variant(scene, recorded));
+}
+
+/// What a key changes in the options of the simulation: its own member, as far as they have it.
+Names wanted_in_simulation(const Key& key) {
+  const std::string section = key.member.substr(0, key.member.find('.'));
+  for (const char* part :
+       {"model", "support", "drive", "muscles", "region", "contact", "solver", "time"})
+    if (section == part) return {key.member};
+  return {};
 }
 
 /// The scene with `key` at another value, and the same with that key back at its default.
@@ -206,61 +121,71 @@ Pair scenes_of(const SceneFolder& folder, const Key& key) {
   pair.value = other_value(key);
   if (key.name == "tissue.preset") pair.value = tissue::tissue_presets().front().name;
   const auto file = folder.write("scene.toml", scene_with(key.name, toml(pair.value)));
-  const bool needs_points = key.name == "region.measured";
-  pair.after =
-      read_scene(file, needs_points ? std::vector<std::string>{"region.measured_points=[\"a\"]"}
+  pair.after = read_scene(file, key.name == "region.measured"
+                                    ? std::vector<std::string>{"region.measured_points=[\"a\"]"}
                                     : std::vector<std::string>{});
-  pair.before = pair.after;
-  pair.before.origins.erase(key.name);
-  if (key.kind == Kind::path)  // an empty path is what no file says
-    (key.name == "tissue.per_vertex" ? pair.before.tissue.per_vertex
-                                     : pair.before.mesh.depth_per_vertex)
-        .clear();
-  else
-    EXPECT_TRUE(key.set(pair.before, key.get(Scene{}), {}).empty()) << key.name;
+  // The same file without the key; a source must be there.
+  std::string rest = scene_with(key.name, toml(pair.value));
+  rest.erase(0, rest.find('\n') + 1);
+  if (key.name == "scan.file") rest += "scan.file = \"embedded\"\n";
+  if (key.name.starts_with("motion.") && rest.find("motion.file") == std::string::npos)
+    rest += "motion.file = \"embedded\"\n";
+  if (key.name == "region.measured") rest += "region.measured_points = [\"a\"]\n";
+  pair.before = read_scene(folder.write("before.toml", rest));
   return pair;
 }
 
 TEST(SolverOptions, EachKeyChangesExactlyItsOwn) {
   const SceneFolder folder;
-  std::set<std::string> seen;
+  std::size_t simulated = 0;
   for (const Key& key : keys()) {
     SCOPED_TRACE(key.name);
-    if (key.kind == Kind::path && !targets().contains(key.name)) continue;  // files to read
-    if (key.name == "scan.file" || key.name == "motion.file") continue;
     const Pair pair = scenes_of(folder, key);
-    const auto target = targets().find(key.name);
-    Targets wanted = target == targets().end() ? Targets{} : target->second;
-    if (key.name == "tissue.preset") {
-      // The first preset's uniform values are the default ones.
-      wanted = {"field.preset"};
-    }
-    seen.insert(key.name);
-    EXPECT_EQ(changed(options_of(pair.before), options_of(pair.after)), wanted);
+    Names own = {key.member};
+    if (key.kind == Kind::path && key.name == "muscles.file") continue;  // an empty file is refused
+    // Another source of motion takes the place of the embedded one.
+    if (key.name.starts_with("motion.") && key.kind == Kind::path && key.name != "motion.candide")
+      own.insert("motion.source");
+    EXPECT_EQ(changed(Shown(pair.before, ""), Shown(pair.after, "")), own);
+    Names wanted = wanted_in_simulation(key);
+    // Without points named it drives those of the default that the model has.
+    if (key.name == "motion.candide") wanted = {"drive.points"};
+    simulated += wanted.size();
+    EXPECT_EQ(changed(Shown(simulation_of(pair.before), ""), Shown(simulation_of(pair.after), "")),
+              wanted);
   }
-  for (const auto& [name, options] : targets())
-    EXPECT_TRUE(seen.contains(name)) << name << " is no key any more";
+  EXPECT_GE(simulated, 45u);
 }
 
+TEST(SolverOptions, UniformParametersArriveInTheSimulation) {
+  const SceneFolder folder;
+  const auto file = folder.write("scene.toml", smallest);
+  for (int p = 0; p < tissue::parameter_count; ++p) {
+    const Key& key = *find_key("tissue." + tissue::parameter_info(p).key);
+    const json value = other_value(key);
+    tissue::TissueParameters wanted = simulation_of(read_scene(file)).tissue.uniform;
+    wanted[std::size_t(p)] = key.unit.to_si(value.get<double>());
+    EXPECT_EQ(simulation_of(read_scene(file, {key.name + "=" + toml(value)})).tissue.uniform,
+              wanted)
+        << key.name;
+  }
+}
+
+/// SI units by the ending of the member, independent of what the description says of its unit.
 TEST(SolverOptions, NumbersArriveInSiUnits) {
   const SceneFolder folder;
   int count = 0;
   for (const Key& key : keys()) {
-    const auto target = targets().find(key.name);
-    if (key.kind != Kind::number || target == targets().end()) continue;
+    if (key.kind != Kind::number || wanted_in_simulation(key).empty()) continue;
     const Pair pair = scenes_of(folder, key);
-    const double factor = key.unit == "mm"       ? 1e-3
-                          : key.unit == "kPa"    ? 1e3
-                          : key.unit == "kPa/mm" ? 1e6
-                                                 : 1;
-    for (const std::string& option : target->second)
-      if (option != "field.uniform") {
-        EXPECT_NEAR(
-            std::stod(options_of(pair.after).at(option)) / (factor * pair.value.get<double>()), 1,
-            1e-9)
-            << key.name << " as " << option;
-        ++count;
-      }
+    const double factor = key.name.ends_with("_mm") && !key.name.ends_with("_kpa_per_mm") ? 1e-3
+                          : key.name.ends_with("_kpa_per_mm")                             ? 1e6
+                          : key.name.ends_with("_kpa")                                    ? 1e3
+                                                                                          : 1;
+    const auto all = Shown(simulation_of(pair.after), "").all;
+    EXPECT_NEAR(std::stod(all.at(key.member)) / (factor * pair.value.get<double>()), 1, 1e-9)
+        << key.name << " as " << key.member;
+    ++count;
   }
   EXPECT_GE(count, 20);
 }
@@ -285,7 +210,7 @@ TEST(SolverOptions, AllPointsDriveWhereTheSceneSaysAll) {
   const SceneFolder folder;
   const Scene scene =
       read_scene(folder.write("scene.toml", smallest), {std::string("drive.points=all")});
-  EXPECT_EQ(options_of(scene).at("drive.points"), "every;point;");
+  EXPECT_THAT(simulation_of(scene).drive.points, testing::ElementsAre("every", "point"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
+#include "support/note_matchers.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::session {
@@ -41,7 +42,7 @@ class GivenTeeth : public testing::Test {
   }
   std::string problem(const std::string& keys, const io::Landmarks& landmarks = kLips) const {
     try {
-      std::vector<std::string> notes;
+      std::vector<Note> notes;
       read_teeth(scene(keys), io::LengthUnit::millimetre, landmarks, notes);
     } catch (const InputError& error) {
       return error.what();
@@ -54,7 +55,7 @@ class GivenTeeth : public testing::Test {
 TEST_F(GivenTeeth, AreReadInTheirUnitAndClosed) {
   store("upper.ply", box(false));
   store("lower.ply", box(true), io::LengthUnit::centimetre);
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   const anatomy::Teeth upper =
       read_teeth(scene("upper = \"upper.ply\""), io::LengthUnit::millimetre, kLips, notes);
   EXPECT_TRUE(notes.empty());
@@ -65,8 +66,8 @@ TEST_F(GivenTeeth, AreReadInTheirUnitAndClosed) {
   EXPECT_TRUE(boundary_loops(lower.lower.crowns.triangles).empty());
   EXPECT_NEAR(lower.lower.crowns.points.maxCoeff(), 0.04, 1e-6);
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_THAT(notes[0], AllOf(HasSubstr("teeth.lower"), HasSubstr("1 border was filled"),
-                              HasSubstr("160 mm")));
+  EXPECT_THAT(notes[0], AllOf(test::is_note("teeth.closed"), test::is_about("teeth.lower"),
+                              test::says("1 border"), test::says("160 mm")));
 }
 
 TEST_F(GivenTeeth, AreRefusedInOneLineWithFileAndKey) {
@@ -93,7 +94,7 @@ class TeethOfAFace : public testing::Test {
   }
   Inputs inputs_;
   tissue::TissueMesh mesh_;
-  std::vector<std::string> notes_;
+  std::vector<Note> notes_;
 };
 
 TEST_F(TeethOfAFace, AreAverageOnesNoneOrTheUsersOwn) {
@@ -103,7 +104,7 @@ TEST_F(TeethOfAFace, AreAverageOnesNoneOrTheUsersOwn) {
   EXPECT_FALSE(average->upper.empty());
   EXPECT_FALSE(average->lower.empty());
   ASSERT_EQ(notes_.size(), 1u);
-  EXPECT_THAT(notes_[0], HasSubstr("average teeth"));
+  EXPECT_THAT(notes_[0], AllOf(test::is_note("teeth.average"), test::is_about("teeth.shape")));
 
   inputs_.teeth.upper.crowns = box(false);
   const auto mixed = teeth_of(scene, inputs_, mesh_, notes_);
@@ -123,8 +124,8 @@ TEST_F(TeethOfAFace, AreAverageOnesNoneOrTheUsersOwn) {
 TEST_F(TeethOfAFace, AreMissedWithANoteWhereLipsAreJoined) {
   mesh_.volume.outer = anatomy::canonical_face().mesh;
   EXPECT_EQ(teeth_of(Scene{}, inputs_, mesh_, notes_), nullptr);
-  ASSERT_EQ(notes_.size(), 1u);
-  EXPECT_THAT(notes_[0], AllOf(HasSubstr("no teeth"), HasSubstr("lips are joined")));
+  EXPECT_THAT(notes_, testing::ElementsAre(
+                          AllOf(test::is_note("teeth.none"), test::says("lips are joined"))));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "support/note_matchers.hpp"
+
 namespace hyperex::session {
 namespace {
 
@@ -35,8 +37,9 @@ TEST(NearestRegion, KeepsTheSide) {
 TEST(MisspeltLandmarks, AreTakenOutOfTheUnknown) {
   std::vector<std::string> unknown = {"cheilon_L", "my_own_mark"};
   EXPECT_THAT(misspelt_landmarks(unknown),
-              testing::ElementsAre("landmark cheilon_L is not known and left aside; did you mean "
-                                   "cheilion_L?"));
+              testing::ElementsAre(testing::AllOf(
+                  test::is_warning("landmarks.misspelt"), test::is_about("scan.landmarks"),
+                  test::says("cheilon_L"), test::says("cheilion_L?"))));
   EXPECT_THAT(unknown, testing::ElementsAre("my_own_mark"));
 }
 

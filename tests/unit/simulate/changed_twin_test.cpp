@@ -12,7 +12,7 @@
 namespace hyperex::test {
 namespace {
 
-constexpr double kNoise_m = 0.0003;
+constexpr double kMarkerNoise_m = 0.0003;
 
 class ChangedTwin : public testing::Test {
  protected:
@@ -31,7 +31,7 @@ class ChangedTwin : public testing::Test {
         {"left half stiff", cheek}, {"all stiff", all}, {"weak", {}, {{"zyg_major_L", 0.3}}}};
   }
   TwinAnswer answer(const TwinTruth& truth, const std::vector<std::string>& points) const {
-    return twin_answer(face_, truth, left_smile(), changes_, points, kNoise_m, 5);
+    return twin_answer(face_, truth, left_smile(), changes_, points, kMarkerNoise_m, 5);
   }
   /// |found - true| / true of the left corner's way after a change.
   static double error(const TwinAnswer& a, std::size_t change) {

@@ -17,8 +17,7 @@ class CorrectedBlock : public testing::Test {
     fem::FiniteNewtonOptions how;
     how.tolerance = 1e-9;
     how.least_motion_m = 1e-9;
-    return {assembler_, material_, {}, std::move(springs), held_, how, fem::LinearSolver::cholesky,
-            nullptr};
+    return {assembler_, material_, {}, std::move(springs), held_, how, nullptr};
   }
   /// A push on the top, along x and down.
   Eigen::VectorXd push(double newton) const {

@@ -181,7 +181,9 @@ TEST_F(DrivenByForces, HeldForcesMoveStifferTissueLess) {
 TEST_F(DrivenByForces, ForcesFoundAnewInOtherTissueAreNoted) {
   const auto noted = [](const SimulationResult& result) {
     const auto& notes = result.report.notes;
-    const bool there = std::count(notes.begin(), notes.end(), kForcesFoundAnew) == 1;
+    const bool there = std::count_if(notes.begin(), notes.end(), [](const Note& note) {
+                         return note.id == "forces.found_anew";
+                       }) == 1;
     EXPECT_EQ(there, result.report.forces_found_anew);
     return there;
   };

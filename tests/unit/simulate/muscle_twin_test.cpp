@@ -19,7 +19,7 @@
 namespace hyperex::simulate {
 namespace {
 
-constexpr int kSamples = 25;
+constexpr int kTwinSamples = 25;
 constexpr double kNoise_m = 0.0003;
 
 class MuscleTwin : public testing::Test {
@@ -39,9 +39,9 @@ class MuscleTwin : public testing::Test {
 
   /// Activations as expressions have them: one sample in three of a muscle is active.
   Eigen::MatrixXd drawn(Eigen::Index muscles) {
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(muscles, kSamples);
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(muscles, kTwinSamples);
     std::uniform_real_distribution<double> share(0, 1);
-    for (int k = 1; k < kSamples; ++k)
+    for (int k = 1; k < kTwinSamples; ++k)
       for (Eigen::Index m = 0; m < muscles; ++m)
         if (share(random_) < 1.0 / 3) a(m, k) = 0.7 * share(random_);
     return a;
@@ -73,8 +73,8 @@ TEST_F(MuscleTwin, GroupsOfMusclesAreFoundFromLandmarks) {
   AlignedMotion motion;
   motion.motion.names = motion.common = face::all_ibug();
   motion.rest = rest;
-  Eigen::VectorXd opening(kSamples);
-  for (int k = 0; k < kSamples; ++k) {
+  Eigen::VectorXd opening(kTwinSamples);
+  for (int k = 0; k < kTwinSamples; ++k) {
     JawPose pose = JawPose::Zero();
     pose[0] = opening[k] = 0.1 * (1 - std::cos(0.5 * k));
     Eigen::VectorXd nodes = model.jaw_response() * jaw.motion(pose);
@@ -99,20 +99,20 @@ TEST_F(MuscleTwin, GroupsOfMusclesAreFoundFromLandmarks) {
     const std::string group =
         muscles::muscle_template()[std::size_t(line.row)].group + (line.left ? "_L" : "_R");
     auto& [true_sum, found_sum] = sums[group];
-    if (true_sum.size() == 0) true_sum = found_sum = Eigen::VectorXd::Zero(kSamples);
+    if (true_sum.size() == 0) true_sum = found_sum = Eigen::VectorXd::Zero(kTwinSamples);
     true_sum += truth.row(m).transpose();
     found_sum += load.muscles.activation.row(m).transpose();
   }
-  Eigen::VectorXd all_true(Eigen::Index(sums.size()) * kSamples), all_found = all_true;
+  Eigen::VectorXd all_true(Eigen::Index(sums.size()) * kTwinSamples), all_found = all_true;
   Eigen::Index at = 0;
   for (const auto& [group, both] : sums) {
     const auto& groups = load.muscles.groups;
     const auto row = std::find(groups.begin(), groups.end(), group) - groups.begin();
     ASSERT_LT(row, Eigen::Index(groups.size())) << group;
     EXPECT_LT((load.muscles.group_activation.row(row).transpose() - both[1]).norm(), 1e-12);
-    all_true.segment(at, kSamples) = both[0];
-    all_found.segment(at, kSamples) = both[1];
-    at += kSamples;
+    all_true.segment(at, kTwinSamples) = both[0];
+    all_found.segment(at, kTwinSamples) = both[1];
+    at += kTwinSamples;
   }
   const double whole = correlation(all_true, all_found);
   EXPECT_GT(whole, 0.95);

@@ -3,12 +3,15 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "hyperex/core/error.hpp"
 
 namespace hyperex::simulate {
 namespace {
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string said_of(const SimulationOptions& options) {
   try {
@@ -36,6 +39,85 @@ TEST(SimulationOptions, NamesEachValueOutOfRange) {
               AllOf(HasSubstr("drive.patch_radius_m = 0.05: expected a number from 0 to 0.03"),
                     HasSubstr("time.step_s = 0: expected"),
                     HasSubstr("tissue.poisson = 0.5: expected a number from -0.99 to 0.4999")));
+}
+
+/// Calls `visit(name, at, details)` for each number that is described, also in rows, of which one
+/// is added.
+template <class Outer, class Visit>
+struct Numbers {
+  Outer outer;
+  std::string prefix;
+  const Visit& visit;
+
+  template <class At>
+  void option(const char* name, At at, const char*, const OptionDetails& details = {}) {
+    const auto through = [ *this, at ](SimulationOptions & o) -> auto& {
+      return at(outer(o));
+    };
+    using Value = std::remove_cvref_t<decltype(through(std::declval<SimulationOptions&>()))>;
+    if constexpr (Described<Value>) {
+      Numbers<decltype(through), Visit> inner{through, prefix + name + ".", visit};
+      Value::describe(inner);
+    } else if constexpr (std::is_same_v<Value, double>) {
+      visit(prefix + name, through, details);
+    } else if constexpr (requires { typename Value::value_type; }) {
+      using Row = typename Value::value_type;
+      const auto first = [through](SimulationOptions & o) -> auto& {
+        if (through(o).empty()) through(o).push_back(Row{});
+        return through(o).front();
+      };
+      if constexpr (Described<Row>) {
+        Numbers<decltype(first), Visit> inner{first, prefix + name + "[0].", visit};
+        Row::describe(inner);
+      } else if constexpr (std::is_same_v<Row, double>) {
+        visit(prefix + name + "[0]", first, details);
+      }
+    }
+  }
+  template <class At, class AllAt>
+  void one_or_all(const char*, At, const char*, AllAt, const char*) {}
+  template <class At, class Words>
+  void factors(const char* name, At at, const Words&, const char*, const OptionDetails& details) {
+    option(name, at, "", details);
+  }
+};
+
+TEST(SimulationOptions, BoundsOfEveryNumberHold) {
+  int count = 0;
+  const auto visit = [&](const std::string& name, const auto& at, const OptionDetails& details) {
+    const auto said_with = [&](double value) {
+      SimulationOptions options;
+      options.solver.newmark_beta = 1;      // below it newmark_gamma has less room
+      options.drive.by = DriveBy::muscles;  // else without gains
+      at(options) = value;
+      return said_of(options);
+    };
+    SCOPED_TRACE(name);
+    const Bounds& bounds = details.bounds;
+    ASSERT_TRUE(bounds.limited());
+    for (const double wrong : {std::nextafter(bounds.least, -1e300),
+                               std::nextafter(bounds.most, 1e300), std::nan(""), HUGE_VAL})
+      EXPECT_THAT(said_with(wrong), HasSubstr(name + " = ")) << wrong;
+    for (const double right : {bounds.least, bounds.most})
+      EXPECT_THAT(said_with(right), Not(HasSubstr(name + " = "))) << right;
+    ++count;
+  };
+  const auto itself = [](SimulationOptions & options) -> auto& {
+    return options;
+  };
+  Numbers<decltype(itself), decltype(visit)> numbers{itself, "", visit};
+  SimulationOptions::describe(numbers);
+  EXPECT_GE(count, 25);
+}
+
+TEST(SimulationOptions, RatiosOfALawAreRefusedTogether) {
+  SimulationOptions options;
+  options.model.law.c20 = -1;
+  EXPECT_EQ(said_of(options), "") << "small strain has no law";
+  options.model.strain = Strain::finite;
+  EXPECT_THAT(said_of(options), HasSubstr("model.law.c20 = -1: expected at least 0"));
+  options.model.law.c30 = 1 / 3.0;
+  EXPECT_EQ(said_of(options), "");
 }
 
 TEST(SimulationOptions, NewmarksGammaIsAtMostTwiceBeta) {

@@ -100,7 +100,7 @@ TEST_F(Simulation, GainScalesALinearModel) {
   options_.support.mandible = Mandible::free;
   options_.drive.points = {"ibug68_48", "ibug68_54", "ibug68_8", "ibug68_57"};
   const SimulationResult once = run();
-  for (const double gain : {2.0, -0.5}) {
+  for (const double gain : {2.0, 0.5}) {
     options_.drive.gain = gain;
     const SimulationResult scaled = run();
     for (std::size_t f = 0; f < once.performance.frame_time_s.size(); ++f)
@@ -205,14 +205,14 @@ TEST_F(Simulation, OpensTheMouth) {
   EXPECT_EQ(p.driven_names, test::seven_points());
   EXPECT_EQ(p.driven_points_rest.rows(), 7);
   EXPECT_EQ(p.skin_rest.points, face_.mesh.skin.points);
-  EXPECT_EQ(p.tet_young_pa.size(), static_cast<std::size_t>(face_.mesh.volume.tets.rows()));
+  EXPECT_EQ(p.material.young_pa.size(), static_cast<std::size_t>(face_.mesh.volume.tets.rows()));
   options_.time.peak_time_s = 0.1;
   EXPECT_EQ(run().performance.peak_frame, 3);
 }
 
 TEST_F(Simulation, ReportsInvertedElements) {
-  options_.drive.gain = 12;
-  EXPECT_GT(run().report.inverted_tets, 0);
+  options_.drive.gain = 5;
+  EXPECT_GT(run(test::mouth_opening(face_.landmarks, 25, 13, 30)).report.inverted_tets, 0);
 }
 
 TEST_F(Simulation, WhatTheMandibleDoesMatters) {

@@ -26,7 +26,7 @@ class SimulatorOfAFace : public testing::Test {
       EXPECT_EQ(a.performance.node_displacement_m[f], b.performance.node_displacement_m[f]) << f;
     }
     EXPECT_EQ(a.performance.landmarks.positions.back(), b.performance.landmarks.positions.back());
-    EXPECT_EQ(a.performance.tet_young_pa, b.performance.tet_young_pa);
+    EXPECT_EQ(a.performance.material.young_pa, b.performance.material.young_pa);
     EXPECT_EQ(a.report.basis_size, b.report.basis_size);
     EXPECT_EQ(a.report.driven_nodes, b.report.driven_nodes);
     EXPECT_EQ(a.report.inverted_tets, b.report.inverted_tets);

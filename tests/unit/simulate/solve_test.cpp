@@ -16,9 +16,9 @@ Solution solve(const fem::System& system, const std::vector<int>& prescribed,
                const fem::Drive& drive, const std::vector<double>& times,
                const SolverOptions& options, double dt_s) {
   const fem::NewmarkOptions newmark{dt_s, options.newmark_beta, options.newmark_gamma};
-  fem::Newmark full(system, prescribed, newmark, options.linear);
+  fem::Newmark full(system, prescribed, newmark);
   if (options.method == SolverMethod::direct) return run_full(full, drive, times);
-  fem::ReducedModel model(system, prescribed, options.linear);
+  fem::ReducedModel model(system, prescribed);
   Solution out = run_reduced(model, model.run(drive, {newmark, options.tolerance}), times);
   if (options.verify)
     out.verified_error =
@@ -101,21 +101,6 @@ TEST_F(SolveFace, ReducedAgreesWithDirectToItsTolerance) {
     before = reduced.basis_size;
     options.verify = false;
     EXPECT_EQ(run(options).verified_error, -1);
-  }
-}
-
-TEST_F(SolveFace, LinearSolverReachesBothMethods) {
-  for (const SolverMethod method : {SolverMethod::reduced, SolverMethod::direct}) {
-    SolverOptions options;
-    options.method = method;
-    const Solution picked = run(options);
-    EXPECT_EQ(picked.linear_solver, fem::LinearSolver::cholesky) << "of a mesh this small";
-    options.linear = fem::LinearSolver::iterative;
-    const Solution other = run(options);
-    EXPECT_EQ(other.linear_solver, fem::LinearSolver::iterative);
-    const double apart = greatest(other.displacement - picked.displacement);
-    EXPECT_GT(apart, 0);
-    EXPECT_LT(apart, 1e-6 * greatest(picked.displacement));
   }
 }
 

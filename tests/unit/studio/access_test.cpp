@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "server.hpp"
 #include "token.hpp"
+#include "upload_name.hpp"
 
 namespace hyperex::studio {
 namespace {

@@ -40,7 +40,7 @@ class LiveFace : public testing::Test {
     live_.reset();
     LiveSetup setup;
     setup.source = std::make_unique<hyperex::test::RenderedClip>();
-    setup.mesh = face_.shared_mesh();
+    setup.mesh = face_.session().shared_mesh();
     setup.landmarks = face_.inputs().landmarks;
     setup.options = face_.options_live(0, live_points());
     const std::lock_guard lock(mutex_);  // before the first message
@@ -90,7 +90,7 @@ TEST_F(LiveFace, FollowsTheOneBeforeTheCameraAndKeepsATake) {
   ASSERT_FALSE(shapes_.empty());
   std::int64_t frame = 0;
   for (const Shape& shape : shapes_) {
-    EXPECT_EQ(shape.values.size(), 3 * std::size_t(face_.mesh().skin.points.rows()));
+    EXPECT_EQ(shape.values.size(), 3 * std::size_t(face_.session().mesh().skin.points.rows()));
     EXPECT_GT(shape.head["frame"].get<std::int64_t>(), frame);
     frame = shape.head["frame"];
     // The chin goes some 20 mm; of how many frames that is seen, a busy machine decides.

@@ -48,12 +48,12 @@ TEST(Protocol, RefusesEachWrongRequestInOneSentence) {
   EXPECT_EQ(with("live", 1), "set: live: expected true or false");
   EXPECT_EQ(with("time_s", "x"), "set: time_s: expected a number from 0 to 3600");
   EXPECT_EQ(with("time_s", nullptr), "set: time_s is missing");
-  EXPECT_EQ(with("more", 1), "set: a field that it does not have");
-  EXPECT_EQ(with("do", "format_disk"), "\"do\" names no request");
-  EXPECT_EQ(with("id", "x"), "no request: expected \"id\", a whole number");
-  EXPECT_EQ(wrong_with("{"), "no request: expected a JSON object");
-  EXPECT_EQ(wrong_with("[1]"), "no request: expected a JSON object");
-  EXPECT_EQ(wrong_with(std::string(5000, '[')), "a request nested too deeply");
+  EXPECT_EQ(with("more", 1), "set: unknown field");
+  EXPECT_EQ(with("do", "format_disk"), "unknown request: expected one of protocol.json as \"do\"");
+  EXPECT_EQ(with("id", "x"), "malformed request: expected \"id\", a whole number");
+  EXPECT_EQ(wrong_with("{"), "malformed request: expected a JSON object");
+  EXPECT_EQ(wrong_with("[1]"), "malformed request: expected a JSON object");
+  EXPECT_EQ(wrong_with(std::string(5000, '[')), "malformed request: nested too deeply");
   EXPECT_NE(wrong_with("\xff\xfe"), "");
   EXPECT_EQ(wrong_with(R"({"id": 1, "do": "save", "what": "disk", "name": "x"})").substr(0, 25),
             "save: what: expected one ");

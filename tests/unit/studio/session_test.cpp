@@ -1,102 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a user does, without a network: the messages that a page would get.
-#include "session.hpp"
-
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <cstring>
+// Changes of a scene and their history, live and committed.
+#include <algorithm>
 #include <fstream>
 
 #include "hyperex/core/files.hpp"
-#include "hyperex/run/pipeline.hpp"
-#include "support/zip_writer.hpp"
-#include "unit/studio/own_folder.hpp"
+#include "hyperex/run/run_scene.hpp"
+#include "hyperex/scene/scene_text.hpp"
+#include "unit/studio/session_fixture.hpp"
 
 namespace hyperex::studio {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
 using testing::HasSubstr;
-
-struct Message {
-  json head;
-  std::string block;
-};
-
-class StudioSession : public testing::Test {
- protected:
-  /// Error bands take time: a test of their own has them.
-  explicit StudioSession(bool bands = false) {
-    SessionOptions options;
-    options.save_into = folder_.path() / "mine";
-    options.folder = folder_.path() / "own";
-    options.program = "Hyperex test";
-    options.bands = bands;
-    fs::create_directory(options.save_into);
-    fs::create_directories(options.folder / "uploads");
-    session_ = std::make_unique<Session>(
-        options, [this](const std::string& message, bool binary, const std::string&) {
-          if (!binary) return messages_.push_back({json::parse(message), ""});
-          std::uint32_t length = 0;
-          std::memcpy(&length, message.data(), 4);
-          messages_.push_back(
-              {json::parse(message.substr(4, length)), message.substr((4 + length + 7) / 8 * 8)});
-        });
-  }
-  json ask(const std::string& name, json fields = json::object()) {
-    messages_.clear();
-    session_->answer({++id_, name, std::move(fields)});
-    for (const Message& message : messages_)
-      if (message.head.value("answer", 0) == id_) return message.head;
-    return nullptr;
-  }
-  void work() {
-    while (session_->has_work()) session_->work([] { return false; });
-  }
-  const Message* event(const std::string& name) const {
-    for (auto message = messages_.rbegin(); message != messages_.rend(); ++message)
-      if (message->head.value("event", "") == name) return &*message;
-    return nullptr;
-  }
-  json set(const json& changes, int face, bool live = false) {
-    return ask("set", {{"changes", changes}, {"face", face}, {"live", live}, {"time_s", peak_s_}});
-  }
-  void open() {
-    EXPECT_FALSE(ask("open", {{"what", "embedded"}}).contains("error"));
-    work();
-    ASSERT_NE(event("face"), nullptr);
-    const json& motion = event("face")->head["replay"]["motion"];
-    peak_s_ = motion["time_s"][motion["peak_frame"].get<std::size_t>()];
-  }
-  /// The right corner's way in a face, of the last motion, mm.
-  double right_mm(std::size_t face) const {
-    return event("motion")->head["table"][face]["commissure_R_mm"];
-  }
-  double greatest_mm(const Message& shape) const {
-    const json& at = shape.head["values"];
-    std::vector<std::int16_t> values(at["count"].get<std::size_t>());
-    std::memcpy(values.data(), shape.block.data() + at["offset"].get<std::size_t>(),
-                2 * values.size());
-    double most = 0;
-    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
-      most = std::max(most,
-                      std::hypot(double(values[i]), double(values[i + 1]), double(values[i + 2])));
-    return 1e3 * most * shape.head["step_m"].get<double>();
-  }
-
-  const test::OwnFolder folder_;
-  std::vector<Message> messages_;
-  std::unique_ptr<Session> session_;
-  std::int64_t id_ = 0;
-  double peak_s_ = 0;
-};
 
 class StudioSessionWithBands : public StudioSession {
  protected:
   StudioSessionWithBands() : StudioSession(true) {}
 };
+
+TEST(SessionHandlers, HandleEachRequestOfTheProtocol) {
+  std::vector<std::string> described, handled;
+  for (const auto& [name, request] : protocol().at("requests").items()) described.push_back(name);
+  for (const auto& [name, handler] : Session::handlers()) {
+    handled.emplace_back(name);
+    EXPECT_NE(handler, nullptr) << name;
+  }
+  EXPECT_THAT(handled, testing::UnorderedElementsAreArray(described));
+}
+
+TEST_F(StudioSession, ARequestWithoutAHandlerIsAnError) {
+  session_->answer({7, "dance", json::object()});
+  ASSERT_FALSE(messages_.empty());
+  EXPECT_EQ(messages_.back().head, json({{"answer", 7}, {"error", "dance: no such request"}}));
+}
 
 TEST_F(StudioSessionWithBands, FindsErrorBandsAsTheCommandDoesWhenNothingElseIsToDo) {
   open();
@@ -178,171 +114,6 @@ TEST_F(StudioSession, WeakensAMuscleLiveAndRunsItAgainFromTheSavedScene) {
     for (const std::size_t face : {0, 1})
       EXPECT_NEAR(summary["variants"]["table"][face][corner].get<double>(),
                   event("motion")->head["table"][face][corner].get<double>(), 1e-6);
-}
-
-TEST_F(StudioSession, PaintedPatchesAreRunAgainFromTheSavedScene) {
-  open();
-  ask("add_variant", {{"name", "painted"}, {"like", 0}});
-  // What is painted: the right cheek, and a spot of the left one.
-  const auto shares_of = [&](const json& region) {
-    const json answer = ask("region_shares", {{"region", region}, {"key", "k"}});
-    EXPECT_FALSE(answer.contains("error")) << answer;
-    const json& at = event("shares")->head["values"];
-    EXPECT_EQ(event("shares")->head["key"], "k");
-    std::vector<float> values(at["count"].get<std::size_t>());
-    std::memcpy(values.data(), event("shares")->block.data() + at["offset"].get<std::size_t>(),
-                4 * values.size());
-    return values;
-  };
-  const auto paint = [&](const std::vector<float>& shares) {
-    json vertices = json::array(), some = json::array();
-    for (std::size_t v = 0; v < shares.size(); ++v)
-      if (shares[v] > 0) {
-        vertices.push_back(v);
-        some.push_back(shares[v]);
-      }
-    return ask("paint", {{"vertices", vertices}, {"shares", some}});
-  };
-  const std::vector<float> cheek = shares_of({{"name", "cheek_R"}});
-  const std::string stiff = paint(cheek)["file"];
-  EXPECT_EQ(paint(cheek)["file"], stiff) << "the same paint is the same file";
-  const std::vector<float> back = shares_of({{"painted", stiff}});
-  ASSERT_EQ(back.size(), cheek.size());
-  for (std::size_t v = 0; v < back.size(); ++v) ASSERT_NEAR(back[v], cheek[v], 1e-5);
-  const std::string soft = paint(shares_of({{"name", "cheek_L"}}))["file"];
-  EXPECT_NE(soft, stiff);
-  const json rows = {{{"painted", stiff}, {"young_factor", 6}},
-                     {{"painted", soft}, {"young_factor", 0.5}, {"viscosity_factor", 2}}};
-  set({{"tissue.region", rows}}, 1, true);
-  EXPECT_NE(event("shape"), nullptr);
-  EXPECT_FALSE(set({{"tissue.region", rows}}, 1).contains("error"));
-  // Rows that are there already go back as the scene has them.
-  const json known = event("scene")->head["values"][1]["tissue.region"];
-  EXPECT_FALSE(shares_of(known[0]).empty());
-  EXPECT_FALSE(set({{"tissue.region", known}}, 1).contains("error"));
-  work();
-  EXPECT_LT(right_mm(1), right_mm(0) - 0.2) << "the stiff side";
-  const json table = event("motion")->head["table"];
-
-  const json saved = ask("save", {{"what", "scene"}, {"name", "painted"}});
-  const scene::Scene scene =
-      scene::read_scene(saved["path"].get<std::string>(), {"output.vtu=false", "output.glb=false"});
-  EXPECT_EQ(scene.variants[0].scene.tissue.regions[0].painted.parent_path(),
-            folder_.path() / "mine" / "painted_files");
-  const auto summary = run::run_scene(scene, folder_.path() / "run");
-  for (const char* corner : {"commissure_L_mm", "commissure_R_mm"})
-    EXPECT_NEAR(summary["variants"]["table"][1][corner].get<double>(),
-                table[1][corner].get<double>(), 1e-6);
-}
-
-TEST_F(StudioSession, PaintedThicknessMakesTheMeshAnewAndRunsAgainFromTheSavedScene) {
-  open();
-  const json& thickness = event("face")->head["thickness"];
-  std::vector<float> mm(thickness["count"].get<std::size_t>());
-  std::memcpy(mm.data(), event("face")->block.data() + thickness["offset"].get<std::size_t>(),
-              4 * mm.size());
-  EXPECT_GT(*std::ranges::min_element(mm), 2);
-  EXPECT_LT(*std::ranges::max_element(mm), 13);
-  ask("add_variant", {{"name", "weak"}, {"like", 0}});
-  set({{"muscles.gain", {{"side_R", 0.7}}}}, 1);
-  work();
-  ASSERT_NE(event("motion"), nullptr);
-  // At the peak, all of the skin, mm.
-  const auto shape = [&] {
-    set({{"tissue.young_kpa", 192.4}}, 0, true);
-    const Message& came = *event("shape");
-    const json& values = came.head["values"];
-    std::vector<std::int16_t> steps(values["count"].get<std::size_t>());
-    std::memcpy(steps.data(), came.block.data() + values["offset"].get<std::size_t>(),
-                2 * steps.size());
-    std::vector<double> out;
-    for (const std::int16_t step : steps)
-      out.push_back(1e3 * step * came.head["step_m"].get<double>());
-    return out;
-  };
-  const auto farthest_mm = [](const std::vector<double>& a, const std::vector<double>& b) {
-    double most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-    return most;
-  };
-  const std::vector<double> plain = shape();
-  const json answer = ask("region_shares", {{"region", {{"name", "cheek_R"}}}, {"key", "k"}});
-  const json& at = event("shares")->head["values"];
-  ASSERT_EQ(at["count"], mm.size());
-  std::vector<float> shares(mm.size());
-  std::memcpy(shares.data(), event("shares")->block.data() + at["offset"].get<std::size_t>(),
-              4 * shares.size());
-  json vertices = json::array(), some = json::array();
-  for (std::size_t v = 0; v < shares.size(); ++v)
-    if (shares[v] > 0) {
-      vertices.push_back(v);
-      some.push_back(shares[v]);
-    }
-  const std::string file = ask("paint", {{"vertices", vertices}, {"shares", some}})["file"];
-  const json rows = {{{"painted", file}, {"thickness_mm", 20}}};
-  // Not while one drags: another mesh takes a second.
-  EXPECT_FALSE(set({{"mesh.thickness_region", rows}}, 0, true).contains("error"));
-  EXPECT_EQ(event("shape"), nullptr);
-  EXPECT_EQ(event("progress"), nullptr);
-  EXPECT_FALSE(set({{"mesh.thickness_region", rows}}, 0).contains("error"));
-  EXPECT_NE(event("progress"), nullptr);
-  messages_.clear();
-  work();
-  EXPECT_EQ(event("face"), nullptr) << "the skin is the same";
-  ASSERT_NE(event("motion"), nullptr);
-  const json table = event("motion")->head["table"];
-  const std::vector<double> thick = shape();
-  ASSERT_EQ(thick.size(), plain.size());
-  EXPECT_GT(farthest_mm(thick, plain), 0.1);
-
-  const json saved = ask("save", {{"what", "scene"}, {"name", "thick"}});
-  const scene::Scene scene =
-      scene::read_scene(saved["path"].get<std::string>(), {"output.vtu=false", "output.glb=false"});
-  ASSERT_EQ(scene.mesh.depth_regions.size(), 1U);
-  EXPECT_EQ(scene.mesh.depth_regions[0].painted.parent_path(),
-            folder_.path() / "mine" / "thick_files");
-  const auto summary = run::run_scene(scene, folder_.path() / "run");
-  for (const std::size_t face : {0, 1})
-    for (const char* corner : {"commissure_L_mm", "commissure_R_mm"})
-      EXPECT_NEAR(summary["variants"]["table"][face][corner].get<double>(),
-                  table[face][corner].get<double>(), 1e-6)
-          << face;
-  // What is wrong is said in one sentence, and nothing is changed.
-  for (const json& wrong : {json{{{"painted", file}, {"thickness_mm", 0.5}}},
-                            json{{{"painted", file}}}, json{{{"painted", "/etc/passwd"}}}}) {
-    const std::string error = set({{"mesh.thickness_region", wrong}}, 0).value("error", "");
-    EXPECT_NE(error, "") << wrong;
-    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
-  }
-  EXPECT_TRUE(set({{"mesh.thickness_region", rows}}, 1).contains("error"))
-      << "all faces have one mesh";
-  ask("undo");
-  messages_.clear();
-  work();
-  EXPECT_EQ(event("face"), nullptr);
-  ASSERT_NE(event("motion"), nullptr);
-  EXPECT_EQ(farthest_mm(shape(), plain), 0);
-}
-
-TEST_F(StudioSession, PaintThatIsNoneIsRefused) {
-  EXPECT_TRUE(ask("paint", {{"vertices", {1}}, {"shares", {1}}}).contains("error"));
-  open();
-  const std::vector<std::pair<json, json>> wrong = {{json::array(), json::array()},
-                                                    {{1, 2}, {1}},
-                                                    {{-1}, {1}},
-                                                    {{1000000000}, {1}},
-                                                    {{1.5}, {1}},
-                                                    {{1}, {0}},
-                                                    {{1}, {1.5}},
-                                                    {{1}, {"x"}},
-                                                    {"x", "x"}};
-  for (const auto& [vertices, shares] : wrong)
-    EXPECT_TRUE(ask("paint", {{"vertices", vertices}, {"shares", shares}}).contains("error"))
-        << vertices;
-  for (const json& region :
-       {json{{"painted", "/etc/passwd"}}, json{{"name", "nose ring"}}, json("x"), json::object()})
-    EXPECT_TRUE(ask("region_shares", {{"region", region}, {"key", ""}}).contains("error"))
-        << region;
 }
 
 TEST_F(StudioSession, UndoesAndRedoesEachStep) {
@@ -456,32 +227,6 @@ TEST_F(StudioSession, WhatAFirstVariantNeedsIsMadeAheadAndChangesNoNumber) {
   EXPECT_EQ(first_shape(true), made_then);
 }
 
-TEST_F(StudioSession, OpensTheRecordingInAZipAndNothingElse) {
-  const fs::path uploads = folder_.path() / "own" / "uploads";
-  const auto opened = [&](const std::vector<hyperex::test::Zipped>& files) {
-    fs::remove_all(uploads);
-    fs::create_directory(uploads);
-    std::ofstream(uploads / "me.ply") << "ply\n";
-    std::ofstream(uploads / "rec.zip", std::ios::binary) << hyperex::test::zip_of(files);
-    return ask("open", {{"what", "me.ply"}, {"recording", "rec.zip"}}).value("error", "");
-  };
-  const auto names = [&] {
-    std::vector<std::string> out;
-    for (const auto& one : fs::directory_iterator(uploads))
-      out.push_back(one.path().filename().string());
-    return out;
-  };
-  EXPECT_THAT(opened({{"a.txt", "1"}}), HasSubstr("holds no recording"));
-  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec.zip"));
-  EXPECT_THAT(opened({{"../../scene.toml", "1"}, {"rgb.txt", ""}}), HasSubstr("leads elsewhere"));
-  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec.zip"));
-  EXPECT_FALSE(fs::exists(folder_.path() / "own" / "scene.toml"));
-  EXPECT_THAT(opened({{"talk/rgb.txt", ""}}), HasSubstr("me.ply")) << "the scan is no scan";
-  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "talk"));
-  EXPECT_THAT(opened({{"rgb.txt", ""}}), HasSubstr("me.ply"));
-  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec"));
-}
-
 TEST_F(StudioSession, AVariantThatCannotBeRunIsNotShownAsBase) {
   open();
   ask("add_variant", {{"name", "finite"}, {"like", 0}});
@@ -489,67 +234,10 @@ TEST_F(StudioSession, AVariantThatCannotBeRunIsNotShownAsBase) {
   for (int i = 0; i < 2; ++i) {
     messages_.clear();
     work();
-    ASSERT_NE(event("said"), nullptr);
+    ASSERT_NE(event("log"), nullptr);
     EXPECT_EQ(event("motion"), nullptr);
     ask("hello");
   }
-}
-
-TEST_F(StudioSession, ASavedSceneOpensAgainFromItsFiles) {
-  open();
-  ask("save", {{"what", "scene"}, {"name", "mine"}});
-  const fs::path mine = folder_.path() / "mine", uploads = folder_.path() / "own" / "uploads";
-  fs::copy(mine / "mine.toml", uploads / "mine.toml");
-  EXPECT_THAT(ask("open", {{"what", "mine.toml"}})["error"].get<std::string>(),
-              HasSubstr("open that file together with it"));
-  fs::copy(mine / "mine_files" / "smile_arkit.csv", uploads / "smile_arkit.csv");
-  EXPECT_FALSE(ask("open", {{"what", "mine.toml"}}).contains("error"));
-}
-
-TEST_F(StudioSession, WritesOverNothingThatItDidNotWrite) {
-  open();
-  std::ofstream(folder_.path() / "mine" / "theirs.toml") << "mine";
-  EXPECT_THAT(ask("save", {{"what", "scene"}, {"name", "theirs"}})["error"].get<std::string>(),
-              HasSubstr("is there already"));
-  EXPECT_EQ(read_file(folder_.path() / "mine" / "theirs.toml"), "mine");
-  fs::create_directory(folder_.path() / "mine" / "theirs-2");
-  EXPECT_EQ(ask("free_name", {{"name", "theirs"}})["name"], "theirs-3");
-  EXPECT_EQ(ask("free_name", {{"name", "nobody's"}}).contains("error"), true);
-  EXPECT_EQ(ask("free_name", {{"name", "ours"}})["name"], "ours");
-  for (const char* name : {"../x", "a/b", ".x", ""})
-    EXPECT_TRUE(ask("save", {{"what", "scene"}, {"name", name}}).contains("error")) << name;
-  for (int i = 0; i < 2; ++i)
-    EXPECT_FALSE(ask("save", {{"what", "scene"}, {"name", "ours"}}).contains("error"));
-  EXPECT_EQ(ask("free_name", {{"name", "ours"}})["name"], "ours") << "which may be written again";
-  EXPECT_FALSE(ask("save", {{"what", "landmarks"}, {"name", "marks"}}).contains("error"));
-  EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "marks.mrk.json"));
-}
-
-TEST(StudioSessionLeftovers, AreDeletedWhenAskedButNotWhileTheyAreOpen) {
-  const test::OwnFolder folder;
-  SessionOptions options;
-  options.save_into = options.folder = folder.path();
-  options.rescued = folder.path() / "left";
-  fs::create_directories(options.rescued);
-  fs::create_directories(options.folder / "uploads");
-  std::ofstream(options.rescued / "scene.toml")
-      << "scan.file = \"embedded\"\nmotion.file = \"embedded\"\n";
-  std::vector<json> answers;
-  Session session(options, [&](const std::string& message, bool binary, const std::string&) {
-    if (!binary && json::parse(message).contains("answer")) answers.push_back(json::parse(message));
-  });
-  session.answer({1, "open", {{"what", "autosave"}}});
-  session.answer({2, "discard_autosave", json::object()});
-  EXPECT_THAT(answers.back().value("error", ""), HasSubstr("is open"));
-  session.answer({3, "open", {{"what", "embedded"}}});
-  session.answer({4, "discard_autosave", json::object()});
-  EXPECT_FALSE(answers.back().contains("error")) << answers.back();
-  EXPECT_FALSE(fs::exists(options.rescued));
-  EXPECT_FALSE(session.keeps_rescued());
-  session.answer({5, "discard_autosave", json::object()});
-  EXPECT_TRUE(answers.back().contains("error"));
-  session.answer({6, "hello", {{"token", ""}, {"version", 1}}});
-  EXPECT_TRUE(answers.back()["places"]["autosave"].is_null());
 }
 
 TEST_F(StudioSession, MovesLandmarksOnTheSkinAndMakesTheFaceAnew) {
@@ -600,12 +288,6 @@ TEST_F(StudioSession, AMotionIsBrokenOffForARequestAndBegunAgain) {
   EXPECT_TRUE(session_->has_work());
   work();
   EXPECT_NE(event("motion"), nullptr);
-}
-
-TEST_F(StudioSession, WhatIsDoneLiesInItsFolderAtOnce) {
-  open();
-  set({{"tissue.young_kpa", 151}}, 0);
-  EXPECT_THAT(read_file(folder_.path() / "own" / "scene.toml"), HasSubstr("young_kpa = 151"));
 }
 
 }  // namespace

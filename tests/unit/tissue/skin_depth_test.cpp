@@ -48,7 +48,6 @@ class SkinDepth : public testing::Test {
     return build_tissue_mesh(face_.mesh, face_.landmarks, options_, "embedded");
   }
   std::string refusal() const {
-    std::vector<std::string> noted;
     try {
       notes_on_depth_files(options_, face_.mesh);
     } catch (const InputError& error) {

@@ -5,6 +5,7 @@
 #include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
+#include "support/note_matchers.hpp"
 #include "support/subdivided.hpp"
 
 namespace hyperex::tissue {
@@ -50,9 +51,7 @@ TEST(ThinnedSkin, OfALargeScanIsMeshedAndTheScansOwnVerticesHaveTheirPlaces) {
   EXPECT_LT(most, 1e-4);
   for (std::size_t v = 0; v < full.kept.size(); ++v)
     ASSERT_TRUE(mesh.skin.points.row(Eigen::Index(v)) == full.skin.points.row(full.kept[v]));
-  EXPECT_NE(mesh.notes.end(), std::find_if(mesh.notes.begin(), mesh.notes.end(), [](auto& note) {
-              return note.find("were thinned to") != std::string::npos;
-            }));
+  EXPECT_THAT(mesh.notes, testing::Contains(test::is_note("scan.thinned")));
 }
 
 TEST(ThinnedSkin, OfAScanOfUsualSizeIsTheScanItself) {

@@ -133,13 +133,15 @@ TEST_F(Field, RegionsAreWhereTheirNamesSay) {
   const auto depth_mm = [&](const std::string& region, const std::string& landmark) {
     return 1e3 * at(map.depth(region), landmarks_->at(landmark));
   };
-  for (const std::string& name : region_names()) {
-    const Eigen::VectorXd depth = map.depth(name);
-    EXPECT_GT((depth.array() > 0).count(), 5) << name;
-    if (!name.starts_with("face")) {
-      EXPECT_LT((depth.array() > 0).count(), 0.5 * double(depth.size())) << name;
+  for (const FacialRegion& region : facial_regions())
+    for (const char* side : {"", "_L", "_R"}) {
+      const std::string name = region.name + side;
+      const Eigen::VectorXd depth = map.depth(name);
+      EXPECT_GT((depth.array() > 0).count(), 5) << name;
+      if (!name.starts_with("face")) {
+        EXPECT_LT((depth.array() > 0).count(), 0.5 * double(depth.size())) << name;
+      }
     }
-  }
   EXPECT_GT(depth_mm("cheek_R", "cheek_R"), 3);
   EXPECT_LT(depth_mm("cheek_R", "cheek_L"), -3);
   EXPECT_GT(depth_mm("cheek", "cheek_L"), 3);

@@ -12,6 +12,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tissue/per_vertex/per_vertex.hpp"
+#include "support/note_matchers.hpp"
 
 namespace hyperex::tissue {
 using namespace anatomy;
@@ -128,12 +129,12 @@ TEST_F(VertexFiles, PaintInAnotherOrderGoesWhereItWasPainted) {
         std::uint8_t(scan.points(v, 0) > 0 ? 0 : 255), 255;
   const auto file = folder_ / "painted.ply";
   io::write_ply(file, reordered(scan, place), io::LengthUnit::millimetre, {}, colours);
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   const Eigen::VectorXd share = read_paint(file, scan, notes);
   for (Eigen::Index v = 0; v < scan.points.rows(); ++v)
     EXPECT_EQ(share[v], scan.points(v, 0) > 0 ? 1 : 0) << "vertex " << v;
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_THAT(notes[0], HasSubstr("matched by place"));
+  EXPECT_THAT(notes[0], test::is_note("tissue.matched_by_place"));
 }
 
 TEST_F(VertexFiles, ParametersInAnotherOrderToo) {
@@ -143,10 +144,10 @@ TEST_F(VertexFiles, ParametersInAnotherOrderToo) {
   const auto file = folder_ / "own.ply";
   io::write_ply(file, reordered(scan, place), io::LengthUnit::millimetre,
                 {{"young_kpa", moved(kpa, place).cast<float>()}});
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   const PerVertex columns = read_per_vertex(file, scan, notes);
   EXPECT_LT((columns[young] - 1e3 * kpa).cwiseAbs().maxCoeff(), 0.01);
-  EXPECT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes, testing::ElementsAre(test::is_note("tissue.matched_by_place")));
 }
 
 }  // namespace

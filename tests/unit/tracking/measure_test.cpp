@@ -15,9 +15,9 @@
 namespace hyperex::tracking {
 namespace {
 
-const capture::Intrinsics kCamera{525, 525, 319.5, 239.5, 640, 480};
+const capture::Intrinsics kSensor{525, 525, 319.5, 239.5, 640, 480};
 
-Eigen::Isometry3d pose(double turn_deg, const Vec3& at) {
+Eigen::Isometry3d head_pose(double turn_deg, const Vec3& at) {
   Eigen::Isometry3d made = Eigen::Isometry3d::Identity();
   made.linear() =
       (Eigen::AngleAxisd(turn_deg * std::numbers::pi / 180, Vec3(0.3, 1, -0.2).normalized()) *
@@ -47,11 +47,11 @@ struct Seen {
 };
 Seen seen_by(const expression::FaceModel& model, const FrameFit& fit) {
   Seen seen{fit.at_rest(), {}};
-  seen.truth.camera_from_head = pose(6, {0.01, 0, 0.6});
+  seen.truth.camera_from_head = head_pose(6, {0.01, 0, 0.6});
   seen.truth.weights[model.jaw_drop] = 0.3;
   const Points camera = in_camera(seen.truth.camera_from_head, fit.vertices(seen.truth));
-  seen.observation.network_px = network_of(camera, kCamera);
-  seen.observation.depth_m = depth_of({camera, model.mesh.triangles}, kCamera);
+  seen.observation.network_px = network_of(camera, kSensor);
+  seen.observation.depth_m = depth_of({camera, model.mesh.triangles}, kSensor);
   return seen;
 }
 
@@ -83,19 +83,19 @@ TEST(Measure, JacobianOfTheProjectionAgreesWithFiniteDifferences) {
 
 TEST(Measure, NetworkTermAgreesWithFiniteDifferencesAtFrozenWeights) {
   const expression::FaceModel& model = expression::canonical_model();
-  const FrameFit fit(model, kCamera, model.mesh.points, 1, {});
+  const FrameFit fit(model, kSensor, model.mesh.points, 1, {});
   Seen seen = seen_by(model, fit);
   seen.observation.depth_m.release();
   seen.observation.network_px.row(4).x() += 25;  // far off: hardly counts
   FaceState state = fit.at_rest();
-  state.camera_from_head = pose(4, {0.012, 0.004, 0.61});
+  state.camera_from_head = head_pose(4, {0.012, 0.004, 0.61});
   const VertexSystem system = fit.measure(seen.observation, state, nullptr);
   // What the normal matrix says that a vertex counts: its block is weight * J^T J.
   const Points points = fit.vertices(state);
   std::vector<double> weight;
   for (int v = 0; v < points.rows(); ++v) {
     const Vec3 p = state.camera_from_head * Vec3(points.row(v).transpose());
-    weight.push_back(system.diagonal(v).trace() / project_jacobian(kCamera, p).squaredNorm());
+    weight.push_back(system.diagonal(v).trace() / project_jacobian(kSensor, p).squaredNorm());
   }
   EXPECT_LT(weight[4], 0.2 * weight[5]);
   expect_gradient_of(fit, seen.observation, state, [&](const FaceState& at) {
@@ -103,7 +103,7 @@ TEST(Measure, NetworkTermAgreesWithFiniteDifferencesAtFrozenWeights) {
     double sum = 0;
     for (int v = 0; v < now.rows(); ++v)
       sum += 0.5 * weight[std::size_t(v)] *
-             (project(kCamera, at.camera_from_head * Vec3(now.row(v).transpose())) -
+             (project(kSensor, at.camera_from_head * Vec3(now.row(v).transpose())) -
               seen.observation.network_px.row(v).head<2>().transpose())
                  .squaredNorm();
     return sum;
@@ -112,11 +112,11 @@ TEST(Measure, NetworkTermAgreesWithFiniteDifferencesAtFrozenWeights) {
 
 TEST(Measure, DepthTermAgreesWithFiniteDifferencesAtFrozenPlanes) {
   expression::FaceModel model = expression::canonical_model();
-  const FrameFit whole(model, kCamera, model.mesh.points, 1, {});
+  const FrameFit whole(model, kSensor, model.mesh.points, 1, {});
   const Seen seen = seen_by(model, whole);
   model.pairs.clear();  // depth alone
   const FitOptions options;
-  const FrameFit fit(model, kCamera, model.mesh.points, 1, options);
+  const FrameFit fit(model, kSensor, model.mesh.points, 1, options);
   FaceState state = seen.truth;
   state.camera_from_head = state.camera_from_head * Eigen::Translation3d(0.001, -0.0005, 0.002) *
                            Eigen::AngleAxisd(0.01, Vec3::UnitY());
@@ -134,7 +134,7 @@ TEST(Measure, DepthTermAgreesWithFiniteDifferencesAtFrozenPlanes) {
     if (weight == 0) continue;
     const Vec3 p = state.camera_from_head * Vec3(points.row(v).transpose());
     const auto patch =
-        surface_patch(seen.observation.depth_m, kCamera, project(kCamera, p), p.z(), options.patch);
+        surface_patch(seen.observation.depth_m, kSensor, project(kSensor, p), p.z(), options.patch);
     ASSERT_TRUE(patch) << v;
     EXPECT_LE(weight, 1 / (options.depth_m * options.depth_m)) << v;
     planes.push_back({v, weight, *patch});
@@ -155,7 +155,7 @@ TEST(Measure, WithDepthAFaceIsPutWhereItIs) {
   const expression::FaceModel& model = expression::canonical_model();
   FitOptions options;
   options.iterations = 8;
-  FrameFit fit(model, kCamera, model.mesh.points, 1, options);
+  FrameFit fit(model, kSensor, model.mesh.points, 1, options);
   const Seen seen = seen_by(model, fit);
   FaceState start = fit.at_rest();
   start.camera_from_head = fit.first_pose(seen.observation);
@@ -183,11 +183,11 @@ TEST(EstimateNeutral, FindsAPersonsShapeAndSizeFromDepth) {
   const Points truth = person(model);
   std::vector<Observation> frames;
   for (const double turn : {-8.0, 0.0, 8.0}) {
-    const Points camera = in_camera(pose(turn, {0.001 * turn, 0, 0.6}), truth);
+    const Points camera = in_camera(head_pose(turn, {0.001 * turn, 0, 0.6}), truth);
     frames.push_back(
-        {network_of(camera, kCamera), depth_of({camera, model.mesh.triangles}, kCamera), {}});
+        {network_of(camera, kSensor), depth_of({camera, model.mesh.triangles}, kSensor), {}});
   }
-  const Neutral neutral = estimate_neutral(model, kCamera, frames);
+  const Neutral neutral = estimate_neutral(model, kSensor, frames);
   EXPECT_TRUE(neutral.metric);
   EXPECT_NEAR(neutral.scale, 1.22, 0.03);
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(truth.rows());
@@ -203,11 +203,11 @@ TEST(EstimateNeutral, FindsAPersonsShapeAndSizeFromDepth) {
 
 TEST(EstimateNeutral, WithoutDepthTakesTheStatedDistanceOfTheEyes) {
   const expression::FaceModel& model = expression::canonical_model();
-  const Points camera = in_camera(pose(5, {0, 0, 0.6}), person(model));
+  const Points camera = in_camera(head_pose(5, {0, 0, 0.6}), person(model));
   NeutralOptions options;
   options.eye_distance_m = 0.101;
   const Neutral neutral =
-      estimate_neutral(model, kCamera, {{network_of(camera, kCamera), {}, {}}}, options);
+      estimate_neutral(model, kSensor, {{network_of(camera, kSensor), {}, {}}}, options);
   EXPECT_FALSE(neutral.metric);
   const auto corner = [&](const char* name) {
     return expression::landmark_at(model.landmarks.at(name), neutral.points_m);

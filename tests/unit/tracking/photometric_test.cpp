@@ -12,7 +12,7 @@ namespace hyperex::tracking {
 namespace {
 
 constexpr double kDistance_m = 0.6;
-const capture::Intrinsics kCamera{500, 500, 160, 120, 320, 240};
+const capture::Intrinsics kSmallCamera{500, 500, 160, 120, 320, 240};
 const cv::Rect kAll(0, 0, 320, 240);
 
 /// A square of 12 cm that looks at the camera, which sees it from its front: head frame = camera
@@ -63,8 +63,8 @@ Eigen::Vector2d found_shift(const cv::Mat& before, const cv::Mat& now, Channel c
   const TriMesh mesh = sheet();
   const Eigen::Isometry3d start = in_front();
   const double sigma_px = 1;
-  const Template skin(fine_picture(before, kAll, channel, sigma_px), kCamera, start, mesh.points,
-                      mesh.triangles, {true, true}, all_of(channel));
+  const Template skin(fine_picture(before, kAll, channel, sigma_px), kSmallCamera, start,
+                      mesh.points, mesh.triangles, {true, true}, all_of(channel));
   EXPECT_GT(skin.size(), 5000u);
   const FinePicture picture = fine_picture(now, kAll, channel, sigma_px);
   VertexSystem::RowMatrix together = VertexSystem::RowMatrix::Zero(12, 2);
@@ -72,12 +72,12 @@ Eigen::Vector2d found_shift(const cv::Mat& before, const cv::Mat& now, Channel c
   Eigen::Isometry3d pose = start;
   for (int iteration = 0; iteration < 8; ++iteration) {
     VertexSystem system(mesh);
-    skin.add_to(system, picture, kCamera, pose, mesh.points, 1);
+    skin.add_to(system, picture, kSmallCamera, pose, mesh.points, 1);
     const Eigen::Matrix2d hessian = together.transpose() * system.times(together);
     const Eigen::Vector2d step = -hessian.ldlt().solve(together.transpose() * system.gradient());
     pose.translate(Vec3(step.x(), step.y(), 0));
   }
-  return project(kCamera, pose * Vec3::Zero()) - project(kCamera, start * Vec3::Zero());
+  return project(kSmallCamera, pose * Vec3::Zero()) - project(kSmallCamera, start * Vec3::Zero());
 }
 
 TEST(Photometric, AShiftOfAPartOfAPixelIsFound) {
@@ -100,11 +100,11 @@ TEST(Photometric, BrightnessAndContrastMakeNoShift) {
 TEST(Photometric, TheSamePictureAgreesAndAnotherDoesNot) {
   const TriMesh mesh = sheet();
   const auto picture = [](const cv::Mat& bgr) { return fine_picture(bgr, kAll, Channel::grey, 1); };
-  const Template skin(picture(waves({0, 0}, 1)), kCamera, in_front(), mesh.points, mesh.triangles,
-                      {true, true}, all_of(Channel::grey));
+  const Template skin(picture(waves({0, 0}, 1)), kSmallCamera, in_front(), mesh.points,
+                      mesh.triangles, {true, true}, all_of(Channel::grey));
   VertexSystem system(mesh);
   const auto share = [&](const cv::Mat& bgr) {
-    return skin.add_to(system, picture(bgr), kCamera, in_front(), mesh.points, 1);
+    return skin.add_to(system, picture(bgr), kSmallCamera, in_front(), mesh.points, 1);
   };
   EXPECT_GT(share(waves({0, 0}, 1)), 0.999);
   const double at_rest = system.gradient().norm();
@@ -117,7 +117,8 @@ TEST(Photometric, TrianglesLeftOutBackFacesAndFlatSkinGiveNothing) {
   TriMesh mesh = sheet();
   const FinePicture picture = fine_picture(waves({0, 0}, 1), kAll, Channel::grey, 1);
   const auto size = [&](const std::vector<bool>& compared, const PhotometricOptions& options) {
-    return Template(picture, kCamera, in_front(), mesh.points, mesh.triangles, compared, options)
+    return Template(picture, kSmallCamera, in_front(), mesh.points, mesh.triangles, compared,
+                    options)
         .size();
   };
   PhotometricOptions options = all_of(Channel::grey);
@@ -167,14 +168,14 @@ TEST(Photometric, GradientAgreesWithFiniteDifferencesOfTheCost) {
                     now = fine_picture(fading({1.5, -1}), kAll, Channel::chroma, 1.5);
   const double weight = 1.7;
   VertexSystem system(mesh);
-  Template(before, kCamera, in_front(), mesh.points, mesh.triangles, {true, true}, options)
-      .add_to(system, now, kCamera, in_front(), mesh.points, weight);
+  Template(before, kSmallCamera, in_front(), mesh.points, mesh.triangles, {true, true}, options)
+      .add_to(system, now, kSmallCamera, in_front(), mesh.points, weight);
   // Corners of the sheet in the picture, in the order of its vertices, as given.
   const auto cost = [&](const Points& points) {
     Eigen::Vector2d px[4], was[4];
     for (int v = 0; v < 4; ++v) {
-      px[v] = project(kCamera, in_front() * Vec3(points.row(v).transpose()));
-      was[v] = project(kCamera, in_front() * Vec3(mesh.points.row(v).transpose()));
+      px[v] = project(kSmallCamera, in_front() * Vec3(points.row(v).transpose()));
+      was[v] = project(kSmallCamera, in_front() * Vec3(mesh.points.row(v).transpose()));
     }
     double sum = 0;
     for (int y = 71; y < 170; ++y)

@@ -11,7 +11,7 @@ export interface Curve {
   dashed?: boolean;
   /** Place in the palette; past its end the colours come again, dotted. Else its place among the curves. */
   hue?: number;
-  /** Drawn in dashes, to be told from another without colours. */
+  /** Dashed, to differ from another without colours. */
   broken?: boolean;
   /** Drawn thicker than others. */
   strong?: boolean;

@@ -75,11 +75,11 @@ export class TimeChart {
     const { min, max } = plot.scales.x;
     this.now.hidden = min != null && max != null && (t < min || t > max);
     this.now.style.transform = `translateX(${plot.valToPos(t, 'x')}px)`;
-    this.tell(plot, false);
+    this.showFigures(plot, false);
   }
 
-  /** The figures in the legend, unless the pointer asks for others or they stand there already. */
-  private tell(plot: uPlot, anew: boolean): void {
+  /** The figures in the legend, unless the pointer shows others or they are up to date. */
+  private showFigures(plot: uPlot, anew: boolean): void {
     const idx = plot.valToIdx(this.timeS);
     if (!plot.over.matches(':hover') && (anew || plot.legend.idx !== idx)) plot.setLegend({ idx }, false);
   }
@@ -89,7 +89,7 @@ export class TimeChart {
     const { plot, timeS } = this;
     if (!plot || Number.isNaN(timeS)) return;
     this.mark(timeS);
-    this.tell(plot, true);
+    this.showFigures(plot, true);
   }
 
   /** Shows this stretch of time; null: all. */
@@ -120,7 +120,7 @@ export class TimeChart {
     return options;
   }
 
-  /** What takes curves away and brings them back can be reached and told without a mouse. */
+  /** What takes curves away and brings them back is accessible without a mouse. */
   private makeButtons(plot: uPlot): void {
     [...plot.root.querySelectorAll('.u-series')].slice(1).forEach((row, i) => {
       row.classList.toggle('hatched', this.chart.curves[i].under !== undefined);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements of a page: found, made, and told when nothing else can be shown.
+// Finding and making elements of a page.
 
 export const at = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 
@@ -17,7 +17,7 @@ export function button(text: string, className: string, press: () => void): HTML
   return made;
 }
 
-/** A box that puts `item` into `chosen` and takes it out; `changed` is told after each change. */
+/** A box that puts `item` into `chosen` and takes it out; `changed` is called after each change. */
 export function memberBox<T>(chosen: Set<T>, item: T, changed: () => void): HTMLInputElement {
   const box = document.createElement('input');
   box.type = 'checkbox';
@@ -30,7 +30,7 @@ export function memberBox<T>(chosen: Set<T>, item: T, changed: () => void): HTML
   return box;
 }
 
-/** The page's title tells why there is no page. */
+/** Shows an error in the place of the title if the page cannot start. */
 export function startPage(start: () => void): void {
   try {
     start();

@@ -34,7 +34,7 @@ export function usePointWords(given: Record<string, string>): void {
   pointWords = given;
 }
 
-/** "ibug68_54" is "corner of the mouth, left"; what the page was not told of keeps its name. */
+/** "ibug68_54" is "corner of the mouth, left"; unknown points keep their names. */
 export const landmarkName = (name: string): string => pointWords[name] ?? words(name.replace(/^ibug68_/, 'iBUG '));
 
 /** The words of a known point; any other text as it is. */

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whoever wants to be told of a change, until it does not any more.
+// Functions that are called after each change, until they unsubscribe.
 
-/** Undoes what it was given for: a subscription. */
+/** Ends a subscription, or undoes what else returned it. */
 export type Undo = () => void;
 
 export class Listeners<T = void> {
-  private readonly all = new Set<(told: T) => void>();
+  private readonly all = new Set<(value: T) => void>();
 
-  add(listener: (told: T) => void): Undo {
-    // A listener of its own for each call, so that none takes another's place.
-    const own = (told: T) => listener(told);
+  add(listener: (value: T) => void): Undo {
+    // A new function for each call: the same listener may be added twice.
+    const own = (value: T) => listener(value);
     this.all.add(own);
     return () => void this.all.delete(own);
   }
 
-  tell(what: T): void {
-    for (const listener of [...this.all]) if (this.all.has(listener)) listener(what);
+  notify(value: T): void {
+    for (const listener of [...this.all]) if (this.all.has(listener)) listener(value);
   }
 }
 
-/** What has to be undone in the end, the last first. */
+/** Collects what must be undone in the end, the last first. */
 export class Undoing {
   private readonly all: Undo[] = [];
   private readonly events = new AbortController();

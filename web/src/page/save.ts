@@ -21,7 +21,7 @@ export function save(content: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-/** `what` it saves is told to those who do not see what it stands beside. */
+/** `what` it saves, for screen readers. */
 export function saveButton(name: string, says: string, what: string, press: () => void): HTMLButtonElement {
   const made = button(name, 'quiet', press);
   made.title = says;

@@ -15,7 +15,7 @@ export interface Corners {
   /** The largest of each, mm. */
   leftMm: number;
   rightMm: number;
-  /** Differences of the sides below this are not told apart, mm; 0: no floor is known. */
+  /** Differences of the sides below this are undecided, mm; 0: no floor is known. */
   floorMm: number;
   undecided: boolean;
   /** Both are points that the recording drives: they go where it says in any tissue. */

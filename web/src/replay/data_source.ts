@@ -41,11 +41,11 @@ export class ChangingSource implements DataSource {
 
   setFace(replay: Replay): void {
     this.current = replay;
-    this.listeners.tell('face');
+    this.listeners.notify('face');
   }
 
   setMotion(moving: Moving): void {
     Object.assign(this.replay, moving);
-    this.listeners.tell('motion');
+    this.listeners.notify('motion');
   }
 }

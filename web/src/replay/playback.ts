@@ -31,7 +31,7 @@ export class Playback {
     [this.startS, this.endS] = [startS, endS];
     this.t = Math.min(Math.max(this.t, startS), endS);
     if (!(endS > startS)) this.running = false;
-    this.tell();
+    this.notify();
   }
 
   play(): void {
@@ -40,20 +40,20 @@ export class Playback {
     this.running = true;
     this.last = performance.now();
     requestAnimationFrame(this.tick);
-    this.tell();
+    this.notify();
   }
 
   pause(): void {
     if (!this.running) return;
     this.running = false;
-    this.tell();
+    this.notify();
   }
 
   /** Stops at t. */
   seek(t: number): void {
     this.running = false;
     this.t = Math.min(Math.max(t, this.startS), this.endS);
-    this.tell();
+    this.notify();
   }
 
   private readonly tick = (now: number): void => {
@@ -66,11 +66,11 @@ export class Playback {
       this.t = this.loop ? this.startS : this.endS;
       this.running = this.loop;
     }
-    this.tell();
+    this.notify();
     if (this.running) requestAnimationFrame(this.tick);
   };
 
-  private tell(): void {
-    this.listeners.tell();
+  private notify(): void {
+    this.listeners.notify();
   }
 }

@@ -41,7 +41,7 @@ export class Shown {
     return this.listeners.add(listener);
   }
 
-  /** Of so many faces now; those that are gone are left for the last, all are told. */
+  /** Sets the number of faces. Faces that are gone are replaced by the last; listeners are called in any case. */
   setCount(count: number): void {
     this.count = count;
     const inside = (face: number) => Math.min(face, count - 1);
@@ -50,7 +50,7 @@ export class Shown {
       // Ready beside base; where two are seen it may be base itself.
       second: inside(this.mode === 'single' ? this.second || 1 : this.second),
     };
-    this.listeners.tell();
+    this.listeners.notify();
   }
 
   /** Changes what is named; faces that do not exist are left out, and a single face has one mode. */
@@ -62,6 +62,6 @@ export class Shown {
     if (this.count < 2) next.mode = 'single';
     const same = next.first === this.first && next.second === this.second && next.mode === this.mode;
     this.choice = next;
-    if (!same) this.listeners.tell();
+    if (!same) this.listeners.notify();
   }
 }

@@ -72,7 +72,7 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
 ];
 
 /** Shown elsewhere on the page. */
-const elsewhere = new Set(['program', 'title', 'variants', 'notes', 'warnings', 'symmetry.excursions', 'symmetry.commissure', 'symmetry.jitter_mm', 'mesh_quality.skin_to_scan_max_mm']);
+const elsewhere = new Set(['program', 'title', 'variants', 'notes', 'warnings', 'remarks', 'symmetry.excursions', 'symmetry.commissure', 'symmetry.jitter_mm', 'mesh_quality.skin_to_scan_max_mm']);
 
 /** Numbers that stand for no number: what they mean. Keys of summary.json, or of the scene's options. */
 const meanings: Record<string, [stands: (value: number) => boolean, words: string]> = {

@@ -90,9 +90,9 @@ export class ActivationCurves {
       const y = this.height(0).toFixed(2);
       for (const [key, value] of [['x1', '0'], ['x2', String(wide)], ['y1', y], ['y2', y]]) one.zero.setAttribute(key, value);
       const most = (values: Float32Array) => Math.max(...values).toFixed(2);
-      const said = words.activation(one.called, own ? most(own) : '–', base ? most(base) : '');
-      one.picture.setAttribute('aria-label', said);
-      one.picture.parentElement!.title = said;
+      const spoken = words.activation(one.called, own ? most(own) : '–', base ? most(base) : '');
+      one.picture.setAttribute('aria-label', spoken);
+      one.picture.parentElement!.title = spoken;
     }
   }
 

@@ -19,7 +19,8 @@ export interface Painter {
   end(keep: boolean): void;
   /** Wider by so many steps. */
   widen(steps: number): void;
-  say(what: 'down' | 'up'): void;
+  /** To screen readers. */
+  announce(what: 'down' | 'up'): void;
 }
 
 export class BrushInHand {
@@ -61,7 +62,7 @@ export class BrushInHand {
         this.lift(false);
         return;
       }
-      const hit = event.button === 0 && this.painter.radiusM() !== null ? this.viewer.hitAt(event.clientX, event.clientY) : null;
+      const hit = event.button === 0 && this.painter.radiusM() !== null ? this.viewer.pick.hitAt(event.clientX, event.clientY) : null;
       if (!hit || this.held) return;
       event.stopImmediatePropagation();
       event.preventDefault();
@@ -119,7 +120,7 @@ export class BrushInHand {
 
   private walk(x: number, y: number): void {
     const from = this.start();
-    const hit = this.viewer.hitAt(from.x + stepPx * x, from.y + stepPx * y);
+    const hit = this.viewer.pick.hitAt(from.x + stepPx * x, from.y + stepPx * y);
     if (!hit) return;
     this.placed = hit;
     if (this.held) this.painter.dab(hit);
@@ -128,8 +129,8 @@ export class BrushInHand {
 
   /** Where keys take it up: where it was, else where the pointer last was, else the middle of the last face shown. */
   private start(): { x: number; y: number } {
-    if (this.placed) return this.viewer.seenAt(this.placed);
-    if (this.last && this.viewer.hitAt(this.last.x, this.last.y)) return this.last;
+    if (this.placed) return this.viewer.pick.seenAt(this.placed);
+    if (this.last && this.viewer.pick.hitAt(this.last.x, this.last.y)) return this.last;
     const box = at('canvas-host').getBoundingClientRect();
     const two = at('canvas-host').dataset.mode === 'side-by-side';
     return { x: box.left + (two ? 0.75 : 0.5) * box.width, y: box.top + 0.5 * box.height };
@@ -138,18 +139,18 @@ export class BrushInHand {
   private toggle(): void {
     if (this.held) {
       this.lift(true);
-      this.painter.say('up');
+      this.painter.announce('up');
       return;
     }
     const { x, y } = this.start();
-    const hit = this.viewer.hitAt(x, y);
+    const hit = this.viewer.pick.hitAt(x, y);
     if (!hit) return;
     this.placed = hit;
     this.held = true;
     this.painter.begin();
     this.painter.dab(hit);
     this.place(x, y);
-    this.painter.say('down');
+    this.painter.announce('down');
   }
 
   private lift(keep: boolean): void {
@@ -168,7 +169,7 @@ export class BrushInHand {
     const radiusPx = Math.max(this.ring.offsetWidth / 2, 4);
     const count = Math.min(Math.ceil(gap / (spacing * radiusPx)), 40);
     for (let i = 1; i <= count; ++i) {
-      const hit = this.viewer.hitAt(from.x + ((x - from.x) * i) / count, from.y + ((y - from.y) * i) / count);
+      const hit = this.viewer.pick.hitAt(from.x + ((x - from.x) * i) / count, from.y + ((y - from.y) * i) / count);
       if (hit) this.painter.dab(hit);
     }
     this.place(x, y);
@@ -177,7 +178,7 @@ export class BrushInHand {
   private place(x: number, y: number): void {
     this.last = { x, y };
     const radius = this.painter.radiusM();
-    const hit = radius === null ? null : this.viewer.hitAt(x, y);
+    const hit = radius === null ? null : this.viewer.pick.hitAt(x, y);
     this.ring.hidden = !hit;
     if (!hit || radius === null) return;
     const box = at('canvas-host').getBoundingClientRect();

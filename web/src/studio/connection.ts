@@ -8,9 +8,9 @@ type Name = keyof Requests;
 type EventName = keyof Events;
 type Fields<K extends Name> = Requests[K]['fields'];
 type Answer<K extends Name> = Requests[K]['answer'];
-export type Told<K extends EventName> = Events[K] & { block: Block };
+export type Received<K extends EventName> = Events[K] & { block: Block };
 
-/** The server said no, in a sentence for the user. */
+/** The server refused a request; the message is a sentence for the user. */
 export class Refused extends Error {}
 
 /** "open": hello was answered. "lost": tried again until it is back. "refused": not this page's server, or not its
@@ -51,7 +51,7 @@ export class Connection {
   private socket: WebSocket | null = null;
   private next = 1;
   private readonly waiting = new Map<number, Waiting>();
-  private readonly heard = new Map<string, Listeners<Told<EventName>>>();
+  private readonly heard = new Map<string, Listeners<Received<EventName>>>();
   private readonly changed = new Listeners<LineState>();
   private retry = 0;
   /** Since it was last connected hello was answered. */
@@ -69,10 +69,10 @@ export class Connection {
     return this.changed.add(listener);
   }
 
-  on<K extends EventName>(name: K, listener: (told: Told<K>) => void): Undo {
+  on<K extends EventName>(name: K, listener: (event: Received<K>) => void): Undo {
     let listeners = this.heard.get(name);
     if (!listeners) this.heard.set(name, (listeners = new Listeners()));
-    return listeners.add(listener as unknown as (told: Told<EventName>) => void);
+    return listeners.add(listener as unknown as (event: Received<EventName>) => void);
   }
 
   connect(): void {
@@ -93,8 +93,8 @@ export class Connection {
     this.connect();
   }
 
-  /** Rejects with Refused where the server says no, with another error where the line is down. */
-  ask<K extends Name>(name: K, fields: Fields<K>): Promise<Answer<K>> {
+  /** Rejects with Refused where the server refuses, with another error where the connection is down. */
+  request<K extends Name>(name: K, fields: Fields<K>): Promise<Answer<K>> {
     if (this.socket?.readyState !== WebSocket.OPEN) return Promise.reject(new Error('not connected'));
     const id = this.next++;
     this.socket.send(JSON.stringify({ id, do: name, ...fields }));
@@ -113,7 +113,7 @@ export class Connection {
 
   private async greet(): Promise<void> {
     try {
-      const answer = await this.ask('hello', { token: this.token, version: protocolVersion });
+      const answer = await this.request('hello', { token: this.token, version: protocolVersion });
       this.inside = true;
       this.be({ state: 'open' });
       this.greeted(answer);
@@ -124,7 +124,7 @@ export class Connection {
 
   private be(state: LineState): void {
     this.line = state;
-    this.changed.tell(state);
+    this.changed.notify(state);
   }
 
   private lost(code: number): void {
@@ -132,7 +132,7 @@ export class Connection {
     for (const { fail } of this.waiting.values()) fail(new Error('the connection was lost'));
     this.waiting.clear();
     if (this.line.state === 'refused') return;
-    // What was said first was not right, and will not be the next time.
+    // The token was wrong, and would be wrong again.
     const never = code === 1008 && !this.inside;
     if (never || code === 1001) {
       this.be({ state: never ? 'refused' : 'taken' });
@@ -147,7 +147,7 @@ export class Connection {
       ? { head: JSON.parse(data) as Record<string, unknown>, block: noBlock }
       : readBinary(data);
     if (typeof head.event === 'string') {
-      this.heard.get(head.event)?.tell({ ...head, block } as unknown as Told<EventName>);
+      this.heard.get(head.event)?.notify({ ...head, block } as unknown as Received<EventName>);
       return;
     }
     const id = Number(head.answer);

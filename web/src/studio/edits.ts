@@ -54,7 +54,7 @@ export class Edits {
   /** Of the whole scene, whichever face is edited: what no variant can have. */
   async ofBase(changes: Values): Promise<void> {
     this.problem('');
-    await this.send(0, changes, false).catch((error: unknown) => this.tell(error));
+    await this.send(0, changes, false).catch((error: unknown) => this.drop(error));
   }
 
   private async apply(changes: Values, frameFirst: boolean): Promise<void> {
@@ -64,10 +64,10 @@ export class Edits {
     this.problem('');
     try {
       const face = await this.face();
-      if (frameFirst) await this.send(face, changes, true).catch(() => {}); // what is wrong the change itself tells
+      if (frameFirst) await this.send(face, changes, true).catch(() => {}); // the change itself reports errors
       await this.send(face, changes, false);
     } catch (error) {
-      this.tell(error);
+      this.drop(error);
     } finally {
       this.target = null;
     }
@@ -88,14 +88,14 @@ export class Edits {
         if (changes && turn === this.turn) await this.send(face, changes, true);
       }
     } catch (error) {
-      this.tell(error);
+      this.drop(error);
     } finally {
       this.underWay = false;
     }
   }
 
   private send(face: number, changes: Values, live: boolean): Promise<unknown> {
-    return this.connection.ask('set', { changes, face, live, time_s: this.state.playback.timeS });
+    return this.connection.request('set', { changes, face, live, time_s: this.state.playback.timeS });
   }
 
   private face(): Promise<number> {
@@ -109,7 +109,7 @@ export class Edits {
   async addFace(wanted: string, like: number, preset?: string): Promise<number> {
     const { state } = this;
     const name = state.freeName(wanted);
-    const { face } = await this.connection.ask('add_variant', { name, like, ...(preset && { preset }) });
+    const { face } = await this.connection.request('add_variant', { name, like, ...(preset && { preset }) });
     if (state.source.replay.faces.length <= face) state.addLike(like, name);
     const first = state.shown.mode === 'single' ? 0 : state.shown.first;
     state.shown.set({ mode: state.shown.mode === 'wipe' ? 'wipe' : 'side-by-side', first, second: face });
@@ -127,11 +127,12 @@ export class Edits {
     this.state.playback.play();
   }
 
-  private tell(error: unknown): void {
+  /** Drops all changes under way and shows a refusal. */
+  private drop(error: unknown): void {
     this.waiting = null;
     this.drafts.clear();
     this.wasPlaying = false;
     if (error instanceof Refused) this.problem(error.message);
-    this.state.sceneChanged.tell(); // sliders go back to what holds
+    this.state.sceneChanged.notify(); // sliders go back to what holds
   }
 }

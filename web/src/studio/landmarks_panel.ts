@@ -79,12 +79,12 @@ export class LandmarksPanel {
       this.picker.value = '';
       if (file) void this.loadFrom(file);
     });
-    const told = element('div');
-    told.setAttribute('role', 'status');
-    told.append(this.doubts);
+    const status = element('div');
+    status.setAttribute('role', 'status');
+    status.append(this.doubts);
     this.problem.setAttribute('role', 'alert');
     this.problem.hidden = true;
-    this.tools.append(element('p', words.landmarksSay, 'why'), label, buttons, told);
+    this.tools.append(element('p', words.landmarksSay, 'why'), label, buttons, status);
     this.tools.hidden = true;
     this.select.addEventListener('change', () => this.choose(this.chosen));
     const start = element('div', '', 'landmark-buttons');
@@ -187,7 +187,7 @@ export class LandmarksPanel {
       event.preventDefault();
       event.stopPropagation(); // else they step through the frames
       const before: Vec3 = [...this.marks.points[this.chosen]];
-      const seen = viewer.inWindow(before);
+      const seen = viewer.pick.inWindow(before);
       const [x, y] = steps[event.key];
       if (this.put(viewer, this.chosen, seen.x + stepPx * x, seen.y + stepPx * y))
         void this.take([{ i: this.chosen, from: before, to: this.marks.points[this.chosen] }]);
@@ -271,15 +271,15 @@ export class LandmarksPanel {
     this.problem.hidden = true;
     try {
       const name = await this.connection.upload(file);
-      await this.connection.ask('set', { changes: { 'scan.landmarks': name, 'scan.landmarks_unit': null }, face: 0, live: false, time_s: 0 });
+      await this.connection.request('set', { changes: { 'scan.landmarks': name, 'scan.landmarks_unit': null }, face: 0, live: false, time_s: 0 });
     } catch (error) {
-      this.tell(error);
+      this.report(error);
     }
   }
 
   private nearest(viewer: FaceViewer, x: number, y: number): number {
     const far = this.marks!.points.map((point) => {
-      const there = viewer.inWindow(point);
+      const there = viewer.pick.inWindow(point);
       return Math.hypot(there.x - x, there.y - y);
     });
     const least = far.indexOf(Math.min(...far));
@@ -287,7 +287,7 @@ export class LandmarksPanel {
   }
 
   private put(viewer: FaceViewer, i: number, x: number, y: number): boolean {
-    const place = viewer.skinAt(x, y);
+    const place = viewer.pick.skinAt(x, y);
     if (!place || !this.marks) return false;
     this.marks.points[i] = [place.x, place.y, place.z];
     this.marks.place(i);
@@ -299,7 +299,7 @@ export class LandmarksPanel {
     this.problem.hidden = true;
     const found = samePlace(position, this.landmarks[i].position);
     try {
-      const answer = await this.connection.ask('move_landmark', { name: this.landmarks[i].name, ...(!found && { position }) });
+      const answer = await this.connection.request('move_landmark', { name: this.landmarks[i].name, ...(!found && { position }) });
       const { marks } = this;
       if (!marks) return;
       marks.points[i] = answer.position as Vec3;
@@ -308,16 +308,16 @@ export class LandmarksPanel {
       this.tellSteps();
       this.doubts.replaceChildren(...(answer.warnings as string[]).map((text) => element('li', upper(text))));
     } catch (error) {
-      this.tell(error);
+      this.report(error);
     }
   }
 
   private async finish(): Promise<void> {
     try {
-      await this.connection.ask('landmarks_done', {});
+      await this.connection.request('landmarks_done', {});
       this.end();
     } catch (error) {
-      this.tell(error);
+      this.report(error);
     }
   }
 
@@ -328,10 +328,10 @@ export class LandmarksPanel {
       return now && now.some((x, k) => x !== position[k]);
     });
     this.end();
-    for (const { name } of moved) await this.connection.ask('move_landmark', { name }).catch(() => {});
+    for (const { name } of moved) await this.connection.request('move_landmark', { name }).catch(() => {});
   }
 
-  private tell(error: unknown): void {
+  private report(error: unknown): void {
     if (!(error instanceof Refused)) return;
     this.problem.textContent = error.message;
     this.problem.hidden = false;

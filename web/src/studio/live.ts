@@ -19,10 +19,10 @@ export class LivePanel {
   private recorded = false;
   private measuredAt = 0;
   private readonly choices = element('div', '', 'choices');
-  private readonly told = element('p', '', 'why');
+  private readonly status = element('p', '', 'why');
   private readonly figures = element('dl', '', 'live-figures');
   private readonly tools = element('div', '', 'landmark-buttons');
-  private readonly neutral = button(words.liveNeutral, 'quiet', () => void this.ask('live_neutral', {}));
+  private readonly neutral = button(words.liveNeutral, 'quiet', () => void this.request('live_neutral', {}));
   private readonly record = button(words.liveRecord, 'quiet', () => void this.toggleTake());
   private readonly trim = element('div', '', 'trim');
   private readonly curve = new TrimCurve(words.takeCurve, [words.takeFrom, words.takeTo]);
@@ -34,19 +34,19 @@ export class LivePanel {
   ) {
     this.neutral.title = words.liveNeutralHint;
     this.record.title = words.liveRecordHint;
-    this.tools.append(this.neutral, this.record, button(words.liveEnd, 'quiet', () => void this.ask('live_stop', {})));
-    this.told.setAttribute('role', 'status');
+    this.tools.append(this.neutral, this.record, button(words.liveEnd, 'quiet', () => void this.request('live_stop', {})));
+    this.status.setAttribute('role', 'status');
     this.problem.setAttribute('role', 'alert');
     const use = button(words.takeUse, 'primary', () => void this.useTake());
     use.title = words.takeUseHint;
     this.trim.append(this.curve.element, use);
-    into.append(this.choices, this.told, this.figures, this.tools, this.trim, this.problem);
+    into.append(this.choices, this.status, this.figures, this.tools, this.trim, this.problem);
     this.problem.hidden = this.trim.hidden = this.tools.hidden = this.figures.hidden = true;
     state.sceneChanged.add(() => this.offer());
     state.source.onChange((change) => {
       if (change === 'face') this.trim.hidden = true;
     });
-    connection.on('live', (told) => this.tell(told));
+    connection.on('live', (status) => this.showStatus(status));
     connection.on('live_shape', ({ face, frame, step_m, values, block }) => {
       if (!state.source.open || values.count !== state.source.replay.points.length) return;
       const displacement = new Float32Array(block.int16(values));
@@ -84,11 +84,11 @@ export class LivePanel {
   private async start(what: LiveStartRequest['what']): Promise<void> {
     const { state } = this;
     this.trim.hidden = true;
-    this.told.textContent = words.liveStates.looking;
+    this.status.textContent = words.liveStates.looking;
     state.playback.pause();
     const face = state.edited;
     state.shown.set({ mode: 'single', first: face });
-    if (!(await this.ask('live_start', { what, face }))) this.told.textContent = '';
+    if (!(await this.request('live_start', { what, face }))) this.status.textContent = '';
   }
 
   private show(face: number, displacement: Float32Array, frame: number): void {
@@ -102,12 +102,12 @@ export class LivePanel {
       this.measuredAt = now;
       this.measure(face, displacement);
     }
-    // Drawn when the frames asked for before are; the next task comes after the drawing.
-    requestAnimationFrame(() => setTimeout(() => void this.ask('live_drawn', { frame })));
+    // requestAnimationFrame runs before the drawing, the task after it.
+    requestAnimationFrame(() => setTimeout(() => void this.request('live_drawn', { frame })));
   }
 
-  private tell(told: LiveEvent): void {
-    const { state, problem, drawn_a_second, delay_ms, delay_95_ms, dropped, not_drawn, frames, valid, recording, take_s } = told;
+  private showStatus(status: LiveEvent): void {
+    const { state, problem, drawn_a_second, delay_ms, delay_95_ms, dropped, not_drawn, frames, valid, recording, take_s } = status;
     const was = this.running;
     this.running = state !== 'ended';
     if (was !== this.running) {
@@ -118,13 +118,13 @@ export class LivePanel {
       }
     }
     this.into.dataset.live = state;
-    this.told.textContent = words.liveStates[state];
+    this.status.textContent = words.liveStates[state];
     this.tools.hidden = !this.running;
     this.neutral.disabled = state !== 'following';
     this.recorded = recording;
     this.record.textContent = recording ? words.liveRecorded(take_s.toFixed(1)) : words.liveRecord;
     this.record.setAttribute('aria-pressed', String(recording));
-    this.say(problem);
+    this.report(problem);
     const ms = (value: unknown) => (typeof value === 'number' ? `${value.toFixed(0)} ms` : '–');
     const rows: [string, string][] = [
       [words.liveRate, `${drawn_a_second}`], [words.liveDelay, ms(delay_ms)], [words.liveDelayMost, ms(delay_95_ms)],
@@ -137,26 +137,26 @@ export class LivePanel {
   private async toggleTake(): Promise<void> {
     const on = !this.recorded;
     if (on) this.trim.hidden = true;
-    await this.ask('live_record', { on });
+    await this.request('live_record', { on });
   }
 
   private async useTake(): Promise<void> {
     const [from_s, to_s] = this.curve.range;
-    await this.ask('live_take', { from_s, to_s });
+    await this.request('live_take', { from_s, to_s });
   }
 
-  /** False where the server says no; the problem is told then. */
-  private async ask<K extends keyof Requests>(name: K, fields: Requests[K]['fields']): Promise<boolean> {
+  /** False where the server refuses; the reason is then shown. */
+  private async request<K extends keyof Requests>(name: K, fields: Requests[K]['fields']): Promise<boolean> {
     try {
-      await this.connection.ask(name, fields);
+      await this.connection.request(name, fields);
       return true;
     } catch (error) {
-      if (error instanceof Refused) this.say(error.message);
+      if (error instanceof Refused) this.report(error.message);
       return false;
     }
   }
 
-  private say(problem: string): void {
+  private report(problem: string): void {
     this.problem.textContent = problem;
     this.problem.hidden = problem === '';
   }

@@ -23,6 +23,8 @@ import { OpenPanel } from './open_panel';
 import { PaintPanel } from './paint_panel';
 import { Panels } from './panels';
 import { Progress } from './progress';
+import { RemarkPlaces } from './remark_places';
+import { remarksOf } from './remarks';
 import { SaveMenu } from './save_menu';
 import { ScenePanel } from './scene_panel';
 import { nested, StudioState } from './studio_state';
@@ -46,7 +48,8 @@ class Studio {
   private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null, (face, shape) => this.figures.showLive(face, shape));
   private readonly messages = new MessagesPanel(at('messages-panel'));
   private readonly progress = new Progress(at('progress'));
-  private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.say('note', text));
+  private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.add('note', text));
+  private readonly remarks: RemarkPlaces;
   private stage: Stage | null = null;
   /** The scene that the motion shown is of. */
   private movedText: string | null = null;
@@ -60,6 +63,7 @@ class Studio {
       { key: 'paint', title: words.paint, element: this.paint.element, seen: (now) => this.paint.seen(now) },
       { key: 'scene', title: words.scene, element: this.scene.element },
     ]);
+    this.remarks = new RemarkPlaces([this.muscles, this.tissue, this.scene], () => (this.state.edited === 0 ? '' : this.state.nameOf(this.state.edited)));
     this.wireBar();
     this.wireServer();
     const { source, playback } = this.state;
@@ -69,6 +73,7 @@ class Studio {
     });
     playback.onChange(() => this.showTime());
     this.state.shown.onChange(() => {
+      this.remarks.update();
       if (source.open) this.showTransport();
     });
     new ViewVideo(this.state, at<HTMLButtonElement>('save-video'), () => this.stage?.face ?? null, () => this.live.live);
@@ -80,8 +85,8 @@ class Studio {
 
   private wireServer(): void {
     const { connection, state } = this;
-    connection.on('scene', (told) => {
-      state.setScene(told as unknown as SceneNow);
+    connection.on('scene', (scene) => {
+      state.setScene(scene as unknown as SceneNow);
       const { title, can_undo, can_redo, saved } = state.scene!;
       at('scene-title').textContent = title;
       // Pictures and files are of the scene, not of the program.
@@ -100,6 +105,7 @@ class Studio {
       state.muscles = isRecord(muscles) ? (muscles.muscles as MuscleInfo[]) : [];
       this.muscles.curves.take(activations as Activations | null, block);
       state.source.setFace(replayOf(manifest, block));
+      this.showRemarks(manifest.summary);
       this.landmarks.build(landmarks as LandmarkInfo[]);
       this.movedText = state.scene?.text ?? null;
       this.compareTexts();
@@ -110,6 +116,7 @@ class Studio {
       this.withOptions(manifest.summary);
       this.muscles.curves.take(activations as Activations | null, block);
       state.source.setMotion(movingOf(manifest, block));
+      this.showRemarks(manifest.summary);
       this.movedText = state.scene?.text ?? null;
       this.compareTexts();
       document.documentElement.dataset.bands = String(bands);
@@ -127,8 +134,14 @@ class Studio {
       document.documentElement.dataset.shapeS = seconds.toFixed(3);
       document.documentElement.dataset.shapes = String(Number(document.documentElement.dataset.shapes ?? 0) + 1);
     });
-    connection.on('progress', ({ stage, share }) => this.progress.tell(stage, share));
-    connection.on('said', ({ level, text }) => this.messages.say(level, text));
+    connection.on('progress', ({ stage, share }) => this.progress.show(stage, share));
+    connection.on('log', ({ level, text }) => this.messages.add(level, text));
+  }
+
+  private showRemarks(summary: Record<string, unknown>): void {
+    const remarks = remarksOf(summary);
+    this.messages.addRemarks(remarks);
+    this.remarks.set(remarks);
   }
 
   /** Whether what moves is the scene as it is; until then its figures are of before. */
@@ -223,7 +236,7 @@ class Studio {
 
   private wireBar(): void {
     const step = (which: 'undo' | 'redo') => {
-      this.connection.ask(which, {}).catch((error: unknown) => this.problem(String(error)));
+      this.connection.request(which, {}).catch((error: unknown) => this.problem(String(error)));
     };
     at('undo').addEventListener('click', () => step('undo'));
     at('redo').addEventListener('click', () => step('redo'));
@@ -245,7 +258,7 @@ class Studio {
     banner.hidden = state === 'open' || state === 'opening';
     document.documentElement.dataset.line = state;
     if (banner.hidden) return;
-    this.progress.tell('', 0);
+    this.progress.show('', 0);
     const text = { lost: words.lost, refused: words.refused, taken: words.taken, open: '', opening: '' }[state];
     banner.replaceChildren(element('p', text));
     if (state === 'taken') banner.append(button(words.takeOver, 'quiet', () => this.connection.takeOver()));

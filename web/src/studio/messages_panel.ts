@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the command would write to its log, youngest first.
+// What the command would write to its log, and remarks on the run, newest first.
 import { element } from '../page/dom';
+import { sentenceOf, type Remark } from './remarks';
 import { words } from './words';
 
 const most = 60;
@@ -17,11 +18,23 @@ export class MessagesPanel {
     this.clear();
   }
 
-  say(level: string, text: string): void {
+  add(level: string, text: string): HTMLElement {
     this.none.hidden = true;
     this.list.hidden = false;
-    this.list.prepend(element('li', text, level));
+    const item = element('li', text, level);
+    this.list.prepend(item);
     while (this.list.children.length > most) this.list.lastElementChild!.remove();
+    return item;
+  }
+
+  /** Once each: later motions have most remarks again. */
+  addRemarks(remarks: Remark[]): void {
+    for (const remark of remarks) {
+      const sentence = sentenceOf(remark, words.remarks);
+      const there = [...this.list.children].find(({ textContent }) => textContent === sentence || textContent === remark.text);
+      const item = (there as HTMLElement | undefined) ?? this.add(remark.severity, sentence);
+      item.dataset.noteId = remark.id;
+    }
   }
 
   clear(): void {

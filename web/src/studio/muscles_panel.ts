@@ -6,6 +6,8 @@ import { upper } from '../page/format';
 import { ActivationCurves } from './activation_curves';
 import type { Edits } from './edits';
 import { isRecord, type MuscleInfo } from './messages';
+import type { Control, RemarkPanel } from './remark_places';
+import { differingGains, type Remark } from './remarks';
 import { linear, Slider } from './slider';
 import type { StudioState } from './studio_state';
 import { words } from './words';
@@ -14,19 +16,23 @@ type Gains = Record<string, number>;
 type Side = 'R' | 'L';
 /** As one sees the face: its right side is on the left. */
 const sides: Side[] = ['R', 'L'];
-const key = 'muscles.gain';
+const gainKey = 'muscles.gain';
 const motionGain = 'motion.gain';
 
 const percent = linear(0, 200);
 
-/** One name that gains may have: "side_R", "zygomatic_L", "zyg_major_R". */
+/** The controls of one name that gains may have: "side_R", "zygomatic_L", "zyg_major_R". */
 interface Handle {
+  /** Holds both sides of the muscle. */
+  row: HTMLElement;
   slider: Slider;
   mute?: HTMLButtonElement;
   solo?: HTMLButtonElement;
 }
 
-export class MusclesPanel {
+export class MusclesPanel implements RemarkPanel {
+  readonly key = 'muscles';
+  readonly sections = ['muscles', 'motion'];
   readonly element = element('div', '', 'panel muscles-panel');
   readonly curves: ActivationCurves;
   private readonly handles = new Map<string, Handle>();
@@ -81,6 +87,18 @@ export class MusclesPanel {
     this.curves.draw();
   }
 
+  /** Of muscles.gain: the sliders of the strengths that the face changes. */
+  controlsOf({ key, variant }: Remark): Control[] {
+    if (key === motionGain && this.gain) return [this.gain.control];
+    if (key !== gainKey) return [];
+    const face = this.state.faceCalled(variant);
+    const changed = differingGains(this.state.gainsOf(face), face === 0 ? {} : this.state.gainsOf(0));
+    return changed.flatMap((name) => {
+      const handle = this.handles.get(name);
+      return handle ? [{ box: handle.row, inputs: [handle.slider.range] }] : [];
+    });
+  }
+
   private head(): HTMLElement {
     const head = element('div', '', 'strength-head');
     head.append(element('span', words.strengths));
@@ -107,25 +125,25 @@ export class MusclesPanel {
     const head = element('div', '', 'strength-title');
     head.append(label);
     row.append(head);
-    for (const side of sides) row.append(this.side(title, `${name}_${side}`, side, moves, head, { mute, palsy }));
+    for (const side of sides) row.append(this.side(title, `${name}_${side}`, side, moves, row, head, { mute, palsy }));
     return row;
   }
 
   /** Its slider; what switches it goes into `head`. */
   private side(
-    title: string, name: string, side: Side, moves: MuscleInfo[], head: HTMLElement, { mute = false, palsy = false },
+    title: string, name: string, side: Side, moves: MuscleInfo[], row: HTMLElement, head: HTMLElement, { mute = false, palsy = false },
   ): HTMLElement {
-    const said = words.ofSide(title, words.sideNames[side]);
+    const spoken = words.ofSide(title, words.sideNames[side]);
     const slider = new Slider({
-      name: said, unit: '%', hint: said, course: percent, round: Math.round, low: 0, high: 200, bare: true,
-      live: (value) => this.edits.live({ [key]: this.with(name, value / 100) }),
+      name: spoken, unit: '%', hint: spoken, course: percent, round: Math.round, low: 0, high: 200, bare: true,
+      live: (value) => this.edits.live({ [gainKey]: this.with(name, value / 100) }),
       done: (value) => this.set(this.with(name, value === null ? 1 : value / 100)),
     });
     slider.range.dataset.gain = name;
-    const handle: Handle = { slider };
+    const handle: Handle = { row, slider };
     const box = element('div', '', `strength-side side-${side}`);
     box.append(slider.element);
-    if (mute) box.append(this.curves.add(name, said));
+    if (mute) box.append(this.curves.add(name, spoken));
     const lines = new Set(moves.map((muscle) => `${muscle.name}_${side}`));
     const lit = () => this.light(lines);
     const dark = () => {
@@ -141,8 +159,8 @@ export class MusclesPanel {
       head.append(made);
       return made;
     };
-    if (mute || palsy) handle.mute = toggle(palsy ? words.palsyShort : words.mute, palsy ? `${words.palsy}: ${said}` : words.muteHint(said), () => this.mute(name));
-    if (mute) handle.solo = toggle(words.solo, words.soloHint(said), () => this.solo(name));
+    if (mute || palsy) handle.mute = toggle(palsy ? words.palsyShort : words.mute, palsy ? `${words.palsy}: ${spoken}` : words.muteHint(spoken), () => this.mute(name));
+    if (mute) handle.solo = toggle(words.solo, words.soloHint(spoken), () => this.solo(name));
     box.addEventListener('pointerenter', lit);
     box.addEventListener('pointerleave', dark);
     box.addEventListener('focusin', lit);
@@ -152,7 +170,7 @@ export class MusclesPanel {
   }
 
   private get gains(): Gains {
-    const value = this.edits.value(key);
+    const value = this.edits.value(gainKey);
     return isRecord(value) ? (value as Gains) : {};
   }
 
@@ -163,7 +181,7 @@ export class MusclesPanel {
   }
 
   private set(gains: Gains): void {
-    void this.edits.commit({ [key]: gains });
+    void this.edits.commit({ [gainKey]: gains });
   }
 
   private mute(name: string): void {
@@ -206,12 +224,8 @@ export class MusclesPanel {
   private update(): void {
     const { state } = this;
     if (!state.scene) return;
-    const gainsOf = (face: number): Gains => {
-      const value = state.valuesOf(face)[key];
-      return isRecord(value) ? (value as Gains) : {};
-    };
-    const gains = gainsOf(state.edited);
-    const base = state.edited === 0 ? {} : gainsOf(0);
+    const gains = state.gainsOf(state.edited);
+    const base = state.edited === 0 ? {} : state.gainsOf(0);
     const alone = this.aloneIn(gains);
     for (const [name, { slider, mute, solo }] of this.handles) {
       const value = gains[name] ?? 1;

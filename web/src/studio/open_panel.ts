@@ -38,16 +38,16 @@ export class OpenPanel {
 
   greet(places: Places): void {
     this.places = places;
-    const choices = [button(words.embedded, 'quiet', () => this.ask('embedded'))];
+    const choices = [button(words.embedded, 'quiet', () => this.choose('embedded'))];
     const { started } = places;
-    if (started) choices.unshift(button(words.startedWith(started), 'quiet', () => this.ask('started')));
+    if (started) choices.unshift(button(words.startedWith(started), 'quiet', () => this.choose('started')));
     choices.push(button(words.chooseFiles, 'quiet', () => this.picker.click()));
     this.choices.replaceChildren(...choices);
     this.rescue.hidden = !places.autosave;
     const leave = button(words.autosaveLeave, 'quiet', () => (this.rescue.hidden = true));
     const open = button(words.autosaveOpen, 'quiet', () => {
       this.rescue.hidden = true;
-      this.ask('autosave');
+      this.choose('autosave');
     });
     this.rescue.replaceChildren(element('p', places.autosave ? words.autosave(places.autosave.title, new Date(Date.now() - 1e3 * places.autosave.seconds_ago)) : ''), open, leave, button(words.autosaveDelete, 'quiet', () => void this.discard()));
     if (!places.open) void this.open(started ? 'started' : 'embedded');
@@ -57,10 +57,10 @@ export class OpenPanel {
   private async discard(): Promise<void> {
     if (!window.confirm(words.autosaveDeleteSure)) return;
     try {
-      await this.connection.ask('discard_autosave', {});
+      await this.connection.request('discard_autosave', {});
       this.rescue.hidden = true;
     } catch (error) {
-      if (error instanceof Refused) this.tell(error.message);
+      if (error instanceof Refused) this.report(error.message);
     }
   }
 
@@ -68,7 +68,7 @@ export class OpenPanel {
     return words.openNow(this.state.scene?.title || this.opened);
   }
 
-  private ask(what: string): void {
+  private choose(what: string): void {
     if (this.maySkip()) void this.open(what);
   }
 
@@ -77,15 +77,15 @@ export class OpenPanel {
   }
 
   private async open(what: string, recording?: string): Promise<void> {
-    this.tell('');
+    this.report('');
     const before = this.opened;
     try {
       this.opened = what === 'started' ? this.places?.started ?? '' : what;
-      await this.connection.ask('open', { what, ...(recording && { recording }) });
+      await this.connection.request('open', { what, ...(recording && { recording }) });
     } catch (error) {
       this.opened = before; // that is still open
       if (this.state.scene) this.now.textContent = this.called();
-      if (error instanceof Refused) this.tell(error.message);
+      if (error instanceof Refused) this.report(error.message);
     }
   }
 
@@ -95,14 +95,14 @@ export class OpenPanel {
     const scene = files.filter(({ name }) => scenes.test(name));
     const others = files.filter((file) => !scan.includes(file) && !scene.includes(file));
     if (scene.length + scan.length > 1 && scene.length !== 1) {
-      this.tell(words.tooManyScans);
+      this.report(words.tooManyScans);
       return;
     }
     if (scan.length === 0 && scene.length === 0) {
-      this.tell(words.recordingAlone);
+      this.report(words.recordingAlone);
       return;
     }
-    this.tell('');
+    this.report('');
     try {
       const names = new Map<File, string>();
       for (const file of files) {
@@ -115,13 +115,13 @@ export class OpenPanel {
       const recording = other && names.get(other);
       await this.open(names.get(main)!, recording);
     } catch (error) {
-      this.tell(error instanceof Error ? error.message : String(error));
+      this.report(error instanceof Error ? error.message : String(error));
     } finally {
       if (this.state.scene) this.now.textContent = this.called();
     }
   }
 
-  private tell(problem: string): void {
+  private report(problem: string): void {
     this.problem.textContent = problem;
     this.problem.hidden = problem === '';
     if (this.places && !this.state.scene) this.now.textContent = problem ? '' : words.opening;

@@ -9,11 +9,11 @@ export interface Panel {
   key: string;
   title: string;
   element: HTMLElement;
-  /** Told when it comes into view and when it goes. */
+  /** Called when it is shown or hidden. */
   seen?(now: boolean): void;
 }
 
-/** Of a variant's, that are told above the panels. */
+/** So many changes of a variant are listed above the panels. */
 const mostChanges = 2;
 
 export class Panels {
@@ -37,8 +37,8 @@ export class Panels {
     at('panel-tabs').append(...this.tabs);
     at('panels').append(...panels.map(({ element: panel }) => panel));
     this.choose(0);
-    state.sceneChanged.add(() => this.tellWhose());
-    state.shown.onChange(() => this.tellWhose());
+    state.sceneChanged.add(() => this.showWhose());
+    state.shown.onChange(() => this.showWhose());
   }
 
   private choose(chosen: number): void {
@@ -67,9 +67,9 @@ export class Panels {
     this.tabs[next].focus();
   }
 
-  /** What is said of base and of a variant stands in one place, of which one is seen: a press that makes a variant
-   *  must not move what is pressed. */
-  private tellWhose(): void {
+  /** The lines on base and on a variant share one place, one of which is hidden: a press that makes a
+   *  variant must not move what is pressed. */
+  private showWhose(): void {
     const { state } = this;
     const { edited } = state;
     const whose = at('whose');
@@ -85,7 +85,7 @@ export class Panels {
     Object.assign(box, { type: 'checkbox', checked: state.changeBase, id: 'change-base' });
     box.addEventListener('change', () => {
       state.changeBase = box.checked;
-      state.sceneChanged.tell();
+      state.sceneChanged.notify();
     });
     label.append(box, words.changeBase);
     ofBase.append(dot(0), state.changeBase ? words.whoseBaseItself : words.whoseBase, label);
@@ -94,9 +94,9 @@ export class Panels {
       const changes = state.changesOf(edited);
       const more = changes.length - mostChanges;
       const soFar = [...changes.slice(0, mostChanges), ...(more > 0 ? [words.whoseMore(more)] : [])].join(', ');
-      const said = soFar ? words.whoseSoFar(state.nameOf(edited), soFar) : words.whose(state.nameOf(edited));
-      ofVariant.append(dot(edited), said);
-      ofVariant.title = said;
+      const text = soFar ? words.whoseSoFar(state.nameOf(edited), soFar) : words.whose(state.nameOf(edited));
+      ofVariant.append(dot(edited), text);
+      ofVariant.title = text;
     }
     whose.replaceChildren(ofBase, ofVariant);
     if (focused) box.focus();

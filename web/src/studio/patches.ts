@@ -7,11 +7,13 @@ import { isRecord } from './messages';
 import type { StudioState } from './studio_state';
 
 export const regionKey = 'tissue.region';
-/** Of the whole scene: all faces have one mesh. */
+/** A key of the scene itself: all faces have one mesh. */
 export const thicknessKey = 'mesh.thickness_region';
+/** What patches are of: each face has its own tissue, all have one mesh. */
+export type Painted = 'tissue' | 'thickness';
 export type Row = Record<string, unknown>;
 export type Factor = 'young' | 'viscosity';
-/** Their keys of a scene, and of tissue maps. */
+/** Their keys in the section tissue, and in tissue maps. */
 export const parameterKeys: Record<Factor, string> = { young: 'young_kpa', viscosity: 'viscosity_pa_s' };
 
 export interface Patch {
@@ -26,25 +28,25 @@ export const patchesOf = (rows: Row[]): Patch[] => rows.filter(isPatch).map((row
 export const factorOf = (row: Row, factor: Factor): number => Number(row[`${factor}_factor`] ?? 1);
 export const depthOf = (row: Row): number => Number(row.thickness_mm ?? 0);
 
-/** Files of the studio's own are named after what they hold, wherever they lie. */
+/** The studio names its own files after their contents, so the folder does not matter. */
 const nameOf = (file: string): string => file.replace(/^.*\//, '');
 
-/** Shares of files and of named regions, from the server, which are kept: neither changes on one face. */
+/** Shares of files and of named regions, fetched from the server once per face. */
 export class Shares {
   private readonly known = new Map<string, Float32Array>();
-  private readonly asked = new Map<string, Promise<Float32Array | null>>();
+  private readonly requested = new Map<string, Promise<Float32Array | null>>();
 
   constructor(private readonly connection: Connection) {
     connection.on('shares', ({ key, values, block }) => void this.known.set(key, block.float32(values).slice()));
   }
 
-  /** Before another face. */
+  /** For another face. */
   clear(): void {
     this.known.clear();
-    this.asked.clear();
+    this.requested.clear();
   }
 
-  /** Null: not here yet. */
+  /** Null: not fetched yet. */
   ofFile(file: string): Float32Array | null {
     return this.known.get(nameOf(file)) ?? null;
   }
@@ -59,29 +61,29 @@ export class Shares {
   }
 
   private fetch(key: string, region: Row): Promise<Float32Array | null> {
-    let asked = this.asked.get(key);
-    if (!asked) {
-      asked = this.connection.ask('region_shares', { region, key }).then(() => this.known.get(key) ?? null);
-      this.asked.set(key, asked);
-      asked.catch(() => this.asked.delete(key));
+    let request = this.requested.get(key);
+    if (!request) {
+      request = this.connection.request('region_shares', { region, key }).then(() => this.known.get(key) ?? null);
+      this.requested.set(key, request);
+      request.catch(() => this.requested.delete(key));
     }
-    return asked;
+    return request;
   }
 }
 
 /** The values of a parameter over a face as it is being painted. */
 export class PaintedTissue {
-  /** Of each face, the patches that the server's own map holds. */
+  /** For each face, the patches contained in the server's map. */
   private held: Patch[][] = [];
 
   constructor(private readonly state: StudioState, private readonly shares: Shares) {}
 
-  /** After a motion came: its maps are those of the scene as it is. */
+  /** After a motion, whose maps are those of the present scene. */
   hold(): void {
     this.held = (this.state.scene?.values ?? []).map((values) => patchesOf(rowsOf(values[regionKey])));
   }
 
-  /** Of a face with these patches, in the units of scene files. `inHand`: shares that stand for a patch's own. */
+  /** Values of a face with these patches, in units of scene files. `inHand` replaces the shares of its patch. */
   values(face: number, patches: Patch[], factor: Factor, inHand: { patch: number; shares: Float32Array; row: Row } | null, out: Float32Array): void {
     const shown: Face | undefined = this.state.source.replay.faces[face] ?? this.state.source.replay.faces[0];
     const map = shown.tissue.find(({ key }) => key === parameterKeys[factor]);
@@ -89,7 +91,7 @@ export class PaintedTissue {
     else out.fill(Number(this.state.valuesOf(face)[`tissue.${parameterKeys[factor]}`]) || 0);
     const before = map ? this.held[face] ?? [] : [];
     const all = [...before, ...patches].map(({ file }) => this.shares.ofFile(file));
-    // Where not all is here yet, what the server has told must do.
+    // Until all shares are fetched, the server's map is shown.
     const whole = all.every((one, i) => one !== null || (inHand !== null && i - before.length === inHand.patch));
     if (!whole) return;
     const times = (shares: Float32Array, by: number, inverse: boolean) => {
@@ -110,7 +112,7 @@ export class PaintedTissue {
 
 /** The thickness of the tissue as it is being painted, mm. */
 export class PaintedThickness {
-  /** Of each vertex, without paint; empty: not known. */
+  /** For each vertex, without paint; empty: unknown. */
   unpainted: Float32Array = new Float32Array();
 
   constructor(private readonly shares: Shares) {}

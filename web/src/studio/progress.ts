@@ -16,7 +16,7 @@ export class Progress {
   }
 
   /** An empty stage: done. A share below 0: not known. */
-  tell(stage: string, share: number): void {
+  show(stage: string, share: number): void {
     if (stage === '') {
       clearTimeout(this.wait);
       this.wait = 0;

@@ -40,25 +40,25 @@ export class SaveMenu {
     if (proposed) void this.propose(field);
     const label = element('label', '', 'save-name');
     label.append(element('span', words.saveName), field);
-    const told = element('p', '', 'told');
-    told.setAttribute('role', 'status');
+    const status = element('p', '', 'status');
+    status.setAttribute('role', 'status');
     const problem = element('p', '', 'problem');
     problem.setAttribute('role', 'alert');
     problem.hidden = true;
     const buttons = kinds.map(({ what, name, hint }) => {
-      const made = button('', 'entry', () => void this.save(what, buttons, told, problem));
+      const made = button('', 'entry', () => void this.save(what, buttons, status, problem));
       made.append(element('b', name), element('small', hint));
       made.dataset.save = what;
       return made;
     });
-    sheet.append(label, element('p', words.saveInto(this.folder), 'why'), ...buttons, told, problem);
+    sheet.append(label, element('p', words.saveInto(this.folder), 'why'), ...buttons, status, problem);
   }
 
   /** A name that would be refused is none to begin with. */
   private async propose(field: HTMLInputElement): Promise<void> {
     const wanted = this.name;
     try {
-      const { name } = await this.connection.ask('free_name', { name: wanted });
+      const { name } = await this.connection.request('free_name', { name: wanted });
       if (this.name !== wanted) return; // another one was typed meanwhile
       this.name = field.value = name;
     } catch {
@@ -66,16 +66,16 @@ export class SaveMenu {
     }
   }
 
-  private async save(what: SaveRequest['what'], buttons: HTMLButtonElement[], told: HTMLElement, problem: HTMLElement): Promise<void> {
+  private async save(what: SaveRequest['what'], buttons: HTMLButtonElement[], status: HTMLElement, problem: HTMLElement): Promise<void> {
     for (const one of buttons) one.disabled = true;
     problem.hidden = true;
-    told.textContent = words.saving;
+    status.textContent = words.saving;
     try {
-      const { path } = await this.connection.ask('save', { what, name: this.name.trim() });
-      told.textContent = words.saved(path);
+      const { path } = await this.connection.request('save', { what, name: this.name.trim() });
+      status.textContent = words.saved(path);
       this.done(words.saved(path));
     } catch (error) {
-      told.textContent = '';
+      status.textContent = '';
       problem.hidden = false;
       problem.textContent = error instanceof Refused ? error.message : words.lost;
     } finally {

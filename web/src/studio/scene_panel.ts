@@ -2,14 +2,22 @@
 // The scene file as it would be saved, and what drives the face.
 import { button, element } from '../page/dom';
 import { upper } from '../page/format';
+import type { Control, RemarkPanel } from './remark_places';
+import type { Remark } from './remarks';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
-export class ScenePanel {
+export class ScenePanel implements RemarkPanel {
+  readonly key = 'scene';
+  /** Also of all sections that have no sliders: contact, support, solver. */
+  readonly sections = ['drive', ''];
   readonly element = element('div', '', 'panel scene-panel');
+  private readonly driveBox = element('div');
+  private readonly drive = element('p', '', 'drive');
 
   constructor(state: StudioState) {
-    const drive = element('p', '', 'drive');
+    const { drive, driveBox } = this;
+    driveBox.append(drive);
     const text = element('pre');
     text.tabIndex = 0;
     text.setAttribute('role', 'region');
@@ -22,7 +30,7 @@ export class ScenePanel {
     });
     const head = element('div', '', 'scene-head');
     head.append(element('h2', words.sceneText), copied, copy);
-    this.element.append(drive, head, text);
+    this.element.append(driveBox, head, text);
     state.sceneChanged.add(() => {
       const { scene } = state;
       if (!scene) return;
@@ -30,5 +38,9 @@ export class ScenePanel {
       text.textContent = scene.text;
       copied.textContent = '';
     });
+  }
+
+  controlsOf({ key }: Remark): Control[] {
+    return key === 'drive.by' ? [{ box: this.driveBox, inputs: [this.drive] }] : [];
   }
 }

@@ -165,7 +165,7 @@ export class SkinWalk {
     const cy = Math.sqrt(Math.max(ac * ac - cx * cx, 0));
     const px = (distance[a] ** 2 - distance[b] ** 2 + ab * ab) / (2 * ab);
     const below = distance[a] ** 2 - px * px;
-    if (below < 0) return Infinity; // the edges tell
+    if (below < 0) return Infinity; // the edges give the distance
     const py = -Math.sqrt(below);
     const through = px + ((cx - px) * -py) / (cy - py || 1e-30);
     return through >= 0 && through <= ab ? Math.hypot(cx - px, cy - py) : Infinity;

@@ -2,6 +2,7 @@
 // A value that is pulled: a slider, the number in digits where there is room, and a way back.
 import { element } from '../page/dom';
 import { number } from '../page/format';
+import type { Control } from './remark_places';
 import { words } from './words';
 
 /** From a place on the slider, 0 to 1, to the value and back. */
@@ -92,6 +93,11 @@ export class Slider {
     return this.value;
   }
 
+  /** Where remarks on its value stand. */
+  get control(): Control {
+    return { box: this.element, inputs: [this.range, this.digits] };
+  }
+
   /** `base`: what base has, where this is another face. */
   set(value: number, base: number | null, enabled = true): void {
     this.range.disabled = this.digits.disabled = !enabled;
@@ -106,11 +112,11 @@ export class Slider {
     this.value = value;
     const share = Math.min(Math.max(this.options.course.of(value), 0), 1);
     this.range.value = String(Math.round(share * steps));
-    this.tell();
+    this.showText();
     this.digits.value = String(Number(value.toPrecision(6)));
   }
 
-  private tell(): void {
+  private showText(): void {
     const { unit } = this.options;
     const text = `${number(this.value)} ${unit}`.trim();
     this.shownValue.textContent = text;
@@ -125,7 +131,7 @@ export class Slider {
       this.value = options.round(options.course.at(Number(range.value) / steps));
       this.moved = true;
       digits.value = String(Number(this.value.toPrecision(6)));
-      this.tell();
+      this.showText();
       if (!this.held) this.restKeys();
       options.live(this.value);
     });

@@ -16,7 +16,7 @@ export interface Brush {
   mirrored: boolean;
 }
 
-/** Shares are told to this many steps of 1: what the page shows is what the file holds. */
+/** Shares are rounded to this many steps of 1, so that the page shows what the file holds. */
 const steps = 1e4;
 export const rounded = (share: number): number => Math.round(share * steps) / steps;
 

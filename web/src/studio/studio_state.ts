@@ -6,7 +6,7 @@ import type { Face } from '../replay/data';
 import { Playback } from '../replay/playback';
 import { Shown } from '../replay/shown';
 import { changeWords } from '../replay/change_words';
-import type { MuscleInfo, Region, SceneKey, SceneNow, Values } from './messages';
+import { isRecord, type MuscleInfo, type Region, type SceneKey, type SceneNow, type Values } from './messages';
 
 /** {"tissue.young_kpa": 150} as a report's summary has it: {"tissue": {"young_kpa": 150}}. */
 export function nested(values: Values): Record<string, unknown> {
@@ -43,6 +43,18 @@ export class StudioState {
     return this.scene?.values[face] ?? this.scene?.values[0] ?? {};
   }
 
+  /** Strengths of muscles that a face changes: muscles.gain. */
+  gainsOf(face: number): Record<string, number> {
+    const gains = this.valuesOf(face)['muscles.gain'];
+    return isRecord(gains) ? (gains as Record<string, number>) : {};
+  }
+
+  /** The place of the variant with this name; 0, base, for the empty name. */
+  faceCalled(variant: string): number {
+    const faces = this.scene?.faces ?? [];
+    return variant === '' ? 0 : Math.max(faces.findIndex(({ name }, i) => i > 0 && name === variant), 0);
+  }
+
   nameOf(face: number): string {
     return this.scene?.faces[face]?.name ?? '';
   }
@@ -63,7 +75,7 @@ export class StudioState {
 
   setScene(scene: SceneNow): void {
     this.scene = scene;
-    this.sceneChanged.tell();
+    this.sceneChanged.notify();
   }
 
   /** A face that moves like another until the server has computed its own motion. */

@@ -89,7 +89,7 @@ export class Tabs {
       done = true;
       this.built = '';
       const next = field.value.trim();
-      if (take && next && next !== name) this.try(() => this.connection.ask('rename_variant', { face: i, name: next }));
+      if (take && next && next !== name) this.try(() => this.connection.request('rename_variant', { face: i, name: next }));
       this.build();
     };
     field.addEventListener('keydown', ({ key }) => {
@@ -102,7 +102,7 @@ export class Tabs {
   }
 
   private async remove(i: number): Promise<void> {
-    await this.connection.ask('remove_variant', { face: i });
+    await this.connection.request('remove_variant', { face: i });
     if (this.state.source.replay.faces.length > (this.state.scene?.faces.length ?? 0)) this.state.without(i);
   }
 
@@ -132,7 +132,7 @@ export class Tabs {
     at('tabs').querySelector<HTMLElement>(`.tab-name[data-face="${face}"]`)?.focus();
   }
 
-  /** Of base: beside other changes of the muscles, say, those of the preset would not hold. */
+  /** Of base: beside other changes, of the muscles for example, those of the preset would not hold. */
   private presetButton({ name }: Preset, close: () => void): HTMLButtonElement {
     const stem = stemOf(name);
     const side = name === stem ? null : words.sideNames[name.slice(-1) as 'L' | 'R'];
@@ -146,7 +146,7 @@ export class Tabs {
     return made;
   }
 
-  /** The question that is asked most: of a side, a branch of the facial nerve or a muscle, in the words and per cents
+  /** The most common question: of a side, a branch of the facial nerve or a muscle, in the words and per cents
    *  of the muscles' panel. */
   private weaker(close: () => void): HTMLElement {
     const form = element('form', '', 'weaker');
@@ -201,7 +201,7 @@ export class Tabs {
     return select;
   }
 
-  /** What the server refuses is told beside the tabs. */
+  /** Shows refusals of the server beside the tabs. */
   private try(act: () => Promise<unknown>): void {
     const problem = at('tabs-problem');
     problem.hidden = true;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sliders of the tissue, made of the keys that the server tells.
+// Sliders of the tissue, made from the keys that the server sends.
 import { element } from '../page/dom';
 import type { Edits } from './edits';
 import { isRecord, type SceneKey } from './messages';
+import type { Control, RemarkPanel } from './remark_places';
 import { regionChooser } from './region_chooser';
+import type { Remark } from './remarks';
 import { linear, logarithmic, Slider, type Course } from './slider';
 import type { StudioState } from './studio_state';
 import { words } from './words';
@@ -24,7 +26,9 @@ function courseOf({ low = 0, high = 1, default: given }: SceneKey): Course {
   return logarithmic(from, Math.min(middle * 20, high));
 }
 
-export class TissuePanel {
+export class TissuePanel implements RemarkPanel {
+  readonly key = 'tissue';
+  readonly sections = ['tissue', 'mesh'];
   readonly element = element('div', '', 'panel tissue-panel');
   private readonly sliders = new Map<string, Slider>();
   private readonly auto = element('input');
@@ -44,12 +48,17 @@ export class TissuePanel {
     for (const key of keys) {
       const known = this.state.keys.get(key);
       if (known) this.add(known, courseOf(known), {});
-      // What is asked for most goes first.
+      // What is used most goes first.
       if (key === keys[0] && this.state.regions.length > 0) this.addRegion();
     }
     const depth = this.state.keys.get(thickness);
     if (depth) this.addThickness(depth);
     this.update();
+  }
+
+  controlsOf({ key }: Remark): Control[] {
+    const slider = key === regions ? this.there : this.sliders.get(key);
+    return slider ? [slider.control] : [];
   }
 
   private add(key: SceneKey, course: Course, { still = false }): Slider {

@@ -48,7 +48,7 @@ export class TrimCurve {
     const points = timeS.map((t, i) => `${((width * t) / (this.lengthS || 1)).toFixed(1)},${(height - 2 - ((height - 4) * values[i]) / most).toFixed(1)}`);
     this.line.setAttribute('points', points.join(' '));
     this.sliders.forEach((slider, i) => (slider.value = String(1000 * i)));
-    this.tell();
+    this.update();
   }
 
   /** Neither end passes the other. */
@@ -58,10 +58,10 @@ export class TrimCurve {
     if (Number(to.value) - Number(from.value) < least)
       if (moved === 0) from.value = String(Math.max(0, Number(to.value) - least));
       else to.value = String(Math.min(1000, Number(from.value) + least));
-    this.tell();
+    this.update();
   }
 
-  private tell(): void {
+  private update(): void {
     const [from, to] = this.range;
     const share = (s: number) => (width * s) / (this.lengthS || 1);
     this.kept.setAttribute('x', share(from).toFixed(1));

@@ -57,9 +57,9 @@ export class ViewVideo {
       unplay();
       playback.loop = loop;
       recorder.stop();
-      this.tell(false);
+      this.showState(false);
     };
-    this.tell(true);
+    this.showState(true);
     viewer.redraw();
     recorder.start();
     if (this.live()) return;
@@ -102,7 +102,7 @@ export class ViewVideo {
     });
   }
 
-  private tell(on: boolean): void {
+  private showState(on: boolean): void {
     this.button.textContent = on ? words.endVideo : words.saveVideo;
     this.button.setAttribute('aria-pressed', String(on));
   }

@@ -286,6 +286,9 @@ const en = {
 
   // Messages.
   messages: 'Messages',
+  remarksHere: 'There are remarks on values here',
+  /** Sentences for remarks of the program, by id (remarks.ts). English shows the program's own. */
+  remarks: {} as Record<string, string>,
   noMessages: 'None.',
   lost: 'The studio’s server does not answer. Trying again … Nothing that it kept is lost: start hyperex studio again where it ended.',
   refused: 'The server does not let this page in: open the address that hyperex studio printed, with all that stands behind #.',
@@ -308,7 +311,7 @@ const languages: Record<string, Words> = { en };
 /** In the reader's language where there is one. */
 export const words: Words = languages[navigator.language.slice(0, 2)] ?? en;
 
-/** Fills what the page's elements say: data-word their text, data-name what is read aloud, data-hint the tooltip. */
+/** Fills elements: data-word is their text, data-name their accessible name, data-hint their tooltip. */
 export function fillWords(root: ParentNode): void {
   const texts = words as unknown as Record<string, string>;
   for (const element of root.querySelectorAll<HTMLElement>('[data-word], [data-name], [data-hint]')) {

@@ -15,12 +15,12 @@ const right = { hue: 1, broken: true };
 
 /** "Most: 28.3 mm at 1.33 s." or, of two sides, "Least: left ..., right ...". */
 function extremeText(tracking: Tracking, which: 'least' | 'most', channels: Channel[], labels: string[], unit: string): string {
-  const told = channels.map((c, i) => {
+  const extremes = channels.map((c, i) => {
     const frame = which === 'least' ? c.leastAt : c.mostAt;
     const label = labels.length > 1 ? `${labels[i]} ` : '';
     return `${label}${signed(c[which].toFixed(1))} ${unit} at ${tracking.timeS[frame].toFixed(2)} s`;
   });
-  return `${upper(which)}: ${told.join(', ')}.`;
+  return `${upper(which)}: ${extremes.join(', ')}.`;
 }
 
 function rangeOf(channels: Channel[], span: number, fromZero: boolean): [number, number] {
@@ -42,7 +42,7 @@ class Maker {
   /** Nothing where the tracking has none of the curves. `styles` and `labels` are those of `names`. */
   chart(group: Group, names: string[], made: {
     title: string; caption: string; yLabel: string; unit: string; digits: number;
-    styles: Partial<Curve>[]; labels: string[]; told?: ('least' | 'most')[];
+    styles: Partial<Curve>[]; labels: string[]; extremes?: ('least' | 'most')[];
     /** At least so much is shown, so that noise does not look like motion. */
     span: number; fromZero?: boolean; range?: [number, number];
   }): Chart[] {
@@ -56,12 +56,12 @@ class Maker {
     });
     if (curves.length === 0) return [];
     const labels = curves.map((c) => c.label);
-    const told = (made.told ?? []).map((which) => extremeText(this.tracking, which, used, labels, made.unit));
+    const extremes = (made.extremes ?? []).map((which) => extremeText(this.tracking, which, used, labels, made.unit));
     const { title, yLabel, digits } = made;
     const range = made.range ?? rangeOf(used, made.span, made.fromZero ?? false);
     return [{
       title, yLabel, digits, curves, range, unit: made.unit === '°' ? '°' : ` ${made.unit}`, timeS: this.tracking.timeS,
-      caption: [made.caption, ...told].join(' '),
+      caption: [made.caption, ...extremes].join(' '),
     }];
   }
 }
@@ -94,19 +94,19 @@ function distanceSection(make: Maker): Section {
     caption: 'In space, the head’s own movement taken out. Left and right are the person’s own.',
     charts: [
       ...make.chart('distance', ['mouth opening'], {
-        ...mm, ...one, title: 'Mouth opening', yLabel: 'opening (mm)', fromZero: true, labels: ['opening'], told: most,
+        ...mm, ...one, title: 'Mouth opening', yLabel: 'opening (mm)', fromZero: true, labels: ['opening'], extremes: most,
         caption: 'Between the middles of the lips’ inner borders (iBUG points 62 and 66).',
       }),
       ...make.chart('distance', ['mouth width'], {
         ...mm, ...one, title: 'Mouth width', yLabel: 'width (mm)', labels: ['width'],
-        told: ['least', 'most'], caption: 'Cheilion to cheilion.',
+        extremes: ['least', 'most'], caption: 'Cheilion to cheilion.',
       }),
       ...make.chart('distance', ['mouth corner\'s travel L', 'mouth corner\'s travel R'], {
-        ...mm, ...sides, title: 'Mouth corners’ travel', yLabel: 'travel (mm)', fromZero: true, told: most,
+        ...mm, ...sides, title: 'Mouth corners’ travel', yLabel: 'travel (mm)', fromZero: true, extremes: most,
         caption: 'How far each cheilion is from where it is in the face at rest.',
       }),
       ...make.chart('distance', ['eye opening L', 'eye opening R'], {
-        ...mm, ...sides, title: 'Eye opening', yLabel: 'opening (mm)', fromZero: true, told: ['least'],
+        ...mm, ...sides, title: 'Eye opening', yLabel: 'opening (mm)', fromZero: true, extremes: ['least'],
         caption: 'Between the lids, mean of two pairs of points (iBUG 37 to 41, 38 to 40; 43 to 47, 44 to 46).',
       }),
     ],

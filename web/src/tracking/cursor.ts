@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frame shown and the stretch of time around it: slider, keys, buttons; tells whoever listens.
+// The frame shown and the stretch of time around it: slider, keys, buttons; calls its listeners.
 export class Cursor {
   frame = 0;
   /** null: the whole recording. */
@@ -19,7 +19,7 @@ export class Cursor {
   goTo(frame: number): void {
     this.frame = Math.min(Math.max(Math.round(frame), 0), this.last);
     this.follow();
-    this.tell();
+    this.notify();
   }
 
   /** The frame nearest to a time. */
@@ -41,7 +41,7 @@ export class Cursor {
     const length = Math.max((to - from) * factor, (10 * (last - first)) / Math.max(this.last, 1));
     if (factor === 0 || length >= last - first) this.window = null;
     else this.window = this.around(this.timeS[this.frame], length);
-    this.tell();
+    this.notify();
   }
 
   private get whole(): [number, number] {
@@ -62,7 +62,7 @@ export class Cursor {
     if (t < from || t > to) this.window = this.around(t, to - from);
   }
 
-  private tell(): void {
+  private notify(): void {
     for (const listener of this.listeners) listener();
   }
 }

@@ -82,12 +82,12 @@ export function unitChart(pair: UnitPair, timeS: number[], range: [number, numbe
   };
 }
 
-/** Search field and check boxes; `changed` is told after each change of `chosen`. */
+/** Search field and check boxes; `changed` is called after each change of `chosen`. */
 export function unitChooser(pairs: UnitPair[], chosen: Set<UnitPair>, changed: () => void): HTMLElement {
   const details = element('details', '', 'chooser');
   const summary = element('summary');
   const units = pairs.reduce((sum, pair) => sum + pair.channels.length, 0);
-  const tell = () => {
+  const update = () => {
     const shown = pairs.filter((p) => chosen.has(p)).reduce((sum, pair) => sum + pair.channels.length, 0);
     summary.textContent = `Choose units (${shown} of ${units} shown)`;
   };
@@ -100,7 +100,7 @@ export function unitChooser(pairs: UnitPair[], chosen: Set<UnitPair>, changed: (
   const labels = pairs.map((pair) => {
     const label = document.createElement('label');
     const box = memberBox(chosen, pair, () => {
-      tell();
+      update();
       changed();
     });
     boxes.push(box);
@@ -121,13 +121,13 @@ export function unitChooser(pairs: UnitPair[], chosen: Set<UnitPair>, changed: (
         if (boxes[i].checked) chosen.add(pair);
         else chosen.delete(pair);
       });
-      tell();
+      update();
       changed();
     });
   const first = new Set(chosen);
   const tools = document.createElement('p');
   tools.append(search, all('Those that move', (p) => first.has(p)), all('All', () => true), all('None', () => false));
-  tell();
+  update();
   details.append(summary, tools, list);
   return details;
 }

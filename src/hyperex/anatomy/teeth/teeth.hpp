@@ -12,7 +12,7 @@ namespace hyperex::anatomy {
 struct JawTeeth {
   /// Closed surfaces that may pass through each other; either may have no triangles.
   TriMesh crowns, gum;
-  /// Of each triangle of `crowns` its tooth in FDI's numbers (11 to 47: quadrant and place from the
+  /// Per triangle of `crowns`: its tooth in FDI's numbers (11 to 47: quadrant and place from the
   /// mid-line); empty where a scan gave them.
   std::vector<int> tooth;
 

@@ -94,7 +94,8 @@ Points outer_places(const Teeth& teeth) {
 
 Placed place(const Points& places, const MouthFrame& frame, const MeshDistance& tissue) {
   Placed out;
-  // What a place was last found off the tissue, less what it was moved since: no less is left.
+  // Lower bounds of the distances to the tissue: the last measured one minus the displacement
+  // since.
   std::vector<double> left(std::size_t(places.rows()), -1);
   const double need = kTeethClearance_m;
   while (out.back_m < kFarthestBehind_m) {

@@ -2,6 +2,8 @@
 #pragma once
 #include <string_view>
 
+#include "hyperex/core/describe.hpp"
+
 namespace hyperex::fem {
 
 /// How the change of volume is measured on a mesh of linear tetrahedra; docs/elements.md compares.
@@ -11,9 +13,11 @@ enum class ElementKind { tet4, tet4_star };
 
 inline constexpr ElementKind kElementKinds[] = {ElementKind::tet4, ElementKind::tet4_star};
 
-/// As in scene files.
+constexpr auto words_of(ElementKind) {
+  return std::array{Word{"tet4", ElementKind::tet4}, Word{"tet4-star", ElementKind::tet4_star}};
+}
 constexpr std::string_view to_string(ElementKind kind) {
-  return kind == ElementKind::tet4 ? "tet4" : "tet4-star";
+  return word_of(kind);
 }
 
 }  // namespace hyperex::fem

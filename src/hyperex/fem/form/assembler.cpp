@@ -237,7 +237,6 @@ void Assembler::assemble(const Material& material, System& system) const {
     return m.cols() == 3 * node_count() && m.isCompressed() &&
            m.nonZeros() == 9 * static_cast<Eigen::Index>(neighbours.item.size());
   };
-  system.nodes = nodes_;
   if (!fits(system.stiffness, wide)) system.stiffness = pattern(wide);
   if (!fits(system.damping, narrow_)) system.damping = pattern(narrow_);
   if (!fits(system.mass, narrow_)) system.mass = pattern(narrow_);

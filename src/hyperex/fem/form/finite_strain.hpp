@@ -16,7 +16,7 @@ struct RateRule {
   double step_s = 0;
 };
 
-/// Energy, forces and stiffness of a mesh at displacements that are not small:
+/// Energy, forces and stiffness of a mesh at large displacements:
 ///   sum_e V_e (W(F_e) + barrier(J_e) + kappa'_e / 2 (J_e - 1)^2)
 ///     + sum_g V_g kappa_g / 2 (J_g - 1)^2,
 /// F = I + grad u, J = det F, J_g the mean ratio of volumes of a dilatation group, kappa' and
@@ -64,15 +64,15 @@ class FiniteStrain {
   double elastic_energy(const Eigen::VectorXd& d);
 
   /// `matrix` := second derivatives + mass_share M at d; its pattern is made where it is not that
-  /// of System::stiffness already. `projected`: each element's part brought to positive
-  /// semidefinite (Teran et al., Robust Quasistatic Finite Elements and Flesh Simulation, 2005),
-  /// four times as slow: where the exact one is not positive definite.
+  /// of System::stiffness already. `projected`: each element's part is made positive semidefinite
+  /// (Teran et al., Robust Quasistatic Finite Elements and Flesh Simulation, 2005), four times as
+  /// slow: for where the exact matrix is not positive definite.
   void tangent(const Eigen::VectorXd& d, double mass_share, bool projected, SparseMatrix& matrix);
 
   /// out := M u; M is the consistent mass.
   void mass_product(const Eigen::VectorXd& u, Eigen::VectorXd& out) const;
 
-  // At displacement d, one entry an element:
+  // At displacement d, one entry per element:
   std::vector<Eigen::Matrix3d> deformation_gradient(const Eigen::VectorXd& d) const;
   Eigen::VectorXd volume_ratio(const Eigen::VectorXd& d) const;  ///< J
   VoigtRows green_lagrange(const Eigen::VectorXd& d) const;      ///< engineering shear
@@ -101,6 +101,7 @@ class FiniteStrain {
   void find_kinematics(const Eigen::VectorXd& d);
   double evaluate(const Eigen::VectorXd& d, bool step, Eigen::VectorXd* gradient);
   void find_group_gradients();
+  Element element_at(Eigen::Index t) const;
   void find_blocks(bool projected);
 
   const Assembler& mesh_;

@@ -11,8 +11,8 @@ namespace hyperex::fem {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  // column-major, both triangles stored
 
-/// Eigen 3.4 copies sparse matrices where it is asked to move them: this moves. Leaves `from` empty
-/// and its memory with the result, or given back where that is not kept.
+/// Moves a sparse matrix, which Eigen 3.4 would copy. `from` is left empty; its memory goes to the
+/// result.
 inline SparseMatrix taken(SparseMatrix& from) {
   SparseMatrix out;
   out.swap(from);
@@ -25,7 +25,6 @@ inline SparseMatrix taken(SparseMatrix& from) {
 /// entries, zeros included.
 struct System {
   SparseMatrix stiffness, damping, mass;
-  Points nodes;  ///< |nodes| x 3, m: what an iterative solver knows of rigid motions
 
   System() = default;
   System(const System&) = default;
@@ -39,7 +38,6 @@ struct System {
     stiffness.swap(other.stiffness);
     damping.swap(other.damping);
     mass.swap(other.mass);
-    nodes.swap(other.nodes);
   }
 };
 

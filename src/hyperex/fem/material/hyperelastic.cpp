@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/core/check_options.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -23,12 +24,12 @@ OfRatio power(double j, double exponent) {
 
 }  // namespace
 
+double least_c20(const Hyperelastic& law) {
+  return 0 - std::sqrt(3 * law.c30);  // 0, not -0
+}
+
 bool is_admissible(const Hyperelastic& law) {
-  const bool branches =
-      std::all_of(law.branches.begin(), law.branches.end(), [](const MaxwellBranch& b) {
-        return b.ratio >= 0 && std::isfinite(b.ratio) && b.relaxation_s > 0;
-      });
-  return branches && law.c01 >= 0 && law.c30 >= 0 && law.c20 >= -std::sqrt(3 * law.c30);
+  return out_of_bounds(law).empty() && law.c20 >= least_c20(law);
 }
 
 LawResponse respond(const Hyperelastic& law, double shear_pa, double i1, double i2, double j) {

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hyperex/core/describe.hpp"
 #include "hyperex/geometry/types.hpp"
 
 namespace hyperex::fem {
@@ -26,29 +27,33 @@ inline constexpr HyperelasticLaw kHyperelasticLaws[] = {
     HyperelasticLaw::linear, HyperelasticLaw::neo_hookean, HyperelasticLaw::isochoric_neo_hookean,
     HyperelasticLaw::yeoh, HyperelasticLaw::mooney_rivlin};
 
-/// As in scene files.
+/// Those that can be chosen. `linear` serves comparisons and has no word.
+constexpr auto words_of(HyperelasticLaw) {
+  return std::array{Word{"neo-hookean", HyperelasticLaw::neo_hookean},
+                    Word{"isochoric-neo-hookean", HyperelasticLaw::isochoric_neo_hookean},
+                    Word{"yeoh", HyperelasticLaw::yeoh},
+                    Word{"mooney-rivlin", HyperelasticLaw::mooney_rivlin}};
+}
 constexpr std::string_view to_string(HyperelasticLaw law) {
-  switch (law) {
-    case HyperelasticLaw::linear:
-      return "linear";
-    case HyperelasticLaw::neo_hookean:
-      return "neo-hookean";
-    case HyperelasticLaw::isochoric_neo_hookean:
-      return "isochoric-neo-hookean";
-    case HyperelasticLaw::yeoh:
-      return "yeoh";
-    case HyperelasticLaw::mooney_rivlin:
-      break;
-  }
-  return "mooney-rivlin";
+  return law == HyperelasticLaw::linear ? "linear" : word_of(law);
 }
 
 /// A spring and a dashpot beside the law: at a held stretch its stress, `ratio` times the law's at
 /// once, fades as exp(-t / relaxation_s). E is the modulus that remains in the end.
 struct MaxwellBranch {
-  double ratio = 0;         ///< >= 0
-  double relaxation_s = 1;  ///< > 0
+  double ratio = 0;
+  double relaxation_s = 1;
   bool operator==(const MaxwellBranch&) const = default;
+
+  static constexpr const char* about = "A spring and a dashpot in series, parallel to the law.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(ratio), "Instantaneous stress of the branch, as a ratio to that of the law.",
+             {.bounds = {0, 100}, .required = true});
+    v.option(HX_MEMBER(relaxation_s),
+             "Relaxation time: the time in which that stress falls to 1/e at a constant stretch.",
+             {.unit = kSeconds, .bounds = {1e-6, 1e6}, .required = true});
+  }
 };
 
 /// A law with its ratios, all without dimension, so that E alone varies from place to place.
@@ -57,21 +62,50 @@ struct Hyperelastic {
   /// C20/C10 and C30/C10 of yeoh. Default: 1.175 / 2.5 kPa of facial tissue (Nazari, Perrier,
   /// Chabanas and Payan, Comput. Methods Biomech. Biomed. Engin. 13, 2010).
   double c20 = 0.47, c30 = 0;
-  double c01 = 0;  ///< C01/C10 of mooney_rivlin, >= 0; 0 is isochoric_neo_hookean
+  double c01 = 0;  ///< C01/C10 of mooney_rivlin; 0 is isochoric_neo_hookean
   /// Keeps every element from turning inside out: mu (-ln J + x - x^2/2), x = J - 1, where J < 1.
   /// Its first two derivatives vanish at J = 1; below kLeastRatio its Taylor polynomial of second
   /// order goes on, so that it is finite for any F. `linear` has none.
   bool barrier = true;
   std::vector<MaxwellBranch> branches;  ///< besides the Material's viscosity
   bool operator==(const Hyperelastic&) const = default;
+
+  static constexpr const char* about = "The hyperelastic law at finite strain.";
+  /// The condition without which no law acts.
+  static constexpr const char* only_where = "tissue.strain = \"finite\"";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(law),
+             "The hyperelastic law where tissue.strain = \"finite\". Its stiffness at small strain "
+             "is that of tissue.young_kpa and tissue.poisson.",
+             {.key = "law", .name = "name", .only_where = only_where});
+    v.option(HX_MEMBER(c20),
+             "C20 / C10 of tissue.law = \"yeoh\", a ratio. C10 is no key: it follows from "
+             "tissue.young_kpa = 4 (1 + poisson) C10. The default is of facial tissue "
+             "(C10 2.5 kPa, C20 1.175 kPa, so young_kpa = 15).",
+             {.bounds = {-10, 100}, .key = "yeoh_c20", .only_where = only_where});
+    v.option(HX_MEMBER(c30), "C30 / C10 of tissue.law = \"yeoh\", a ratio.",
+             {.bounds = {0, 100}, .key = "yeoh_c30", .only_where = only_where});
+    v.option(HX_MEMBER(c01),
+             "C01 / C10 of tissue.law = \"mooney-rivlin\", a ratio: tissue.young_kpa = "
+             "4 (1 + poisson) (C10 + C01).",
+             {.bounds = {0, 100}, .key = "mooney_c01", .only_where = only_where});
+    v.option(HX_MEMBER(branches),
+             "A Maxwell branch (a spring and a dashpot in series), parallel to the law and the "
+             "viscosity: tissue held at a stretch relaxes. tissue.young_kpa is the long-term "
+             "stiffness. Only where tissue.strain = \"finite\".",
+             {.name = "maxwell", .only_where = only_where});
+  }
 };
 
 /// Ratio of volumes below which what has no value at J = 0 goes on as a polynomial of second order:
 /// the barrier, and J^(-2/3), J^(-4/3) of the isochoric laws.
 inline constexpr double kLeastRatio = 0.05;
 
-/// Whether the ratios are in their ranges, and the law's derivative by I1bar stays positive:
-/// c30 >= 0 and c20 >= -sqrt(3 c30).
+/// The least c20 with which the derivative of yeoh's energy by I1bar stays positive: -sqrt(3 c30).
+double least_c20(const Hyperelastic& law);
+
+/// Whether the ratios are within their bounds, and c20 is at least least_c20().
 bool is_admissible(const Hyperelastic& law);
 
 /// W (J/m^3 = Pa) and its derivatives by I1, I2 and J.

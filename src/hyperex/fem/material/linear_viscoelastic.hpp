@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/core/describe.hpp"
 
 namespace hyperex::fem {
 
@@ -11,8 +12,12 @@ namespace hyperex::fem {
 ///  isotropic: Stokes' law s' = 2 eta dev(e'): eta/3 ([4 -2 -2; ...] (+) 3 I)
 ///  printed:   the source's [4.26], not isotropic: eta/3 ([2 -1 -1; ...] (+) 3 I)
 enum class ViscousForm { isotropic, printed };
+constexpr auto words_of(ViscousForm) {
+  return std::array{Word{"isotropic", ViscousForm::isotropic},
+                    Word{"printed", ViscousForm::printed}};
+}
 
-/// Linear viscoelastic material, one value an element.
+/// Linear viscoelastic material, one value per element.
 struct Material {
   std::vector<double> young_pa;        ///< > 0
   std::vector<double> poisson;         ///< in (-1, 0.5)

@@ -8,9 +8,9 @@
 
 namespace hyperex::fem {
 namespace {
-/// Directions taken even where they move a hundredth of what is asked (less may be rounding): where
-/// the basis converges slowly, a growth by one or two changes the motion by less than what is
-/// missing, and so tells nothing of it.
+/// A growth takes at least this many directions, even where they move only a hundredth of what is
+/// wanted (less may be rounding). Where the basis converges slowly, a growth by one or two changes
+/// the motion by less than what is missing, and would give a false estimate of the error.
 constexpr Eigen::Index kAtLeast = 6;
 }  // namespace
 

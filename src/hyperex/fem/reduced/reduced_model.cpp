@@ -33,7 +33,7 @@ Eigen::MatrixXd columns(const Eigen::MatrixXd& m, const std::vector<int>& at) {
 }
 
 /// Rows of the free unknowns.
-Eigen::MatrixXd free_rows(const Eigen::MatrixXd& all, const Partition& partition) {
+Eigen::MatrixXd rows_of_free_nodes(const Eigen::MatrixXd& all, const Partition& partition) {
   Eigen::MatrixXd part(partition.free.size(), all.cols());
   for (Eigen::Index c = 0; c < all.cols(); ++c)
     for (std::size_t i = 0; i < partition.free.size(); ++i) part(i, c) = all(partition.free[i], c);
@@ -128,7 +128,7 @@ class Growth {
 
  private:
   Eigen::MatrixXd solved(const Eigen::MatrixXd& force) {
-    Eigen::MatrixXd x = free_rows(force, factor_.partition());
+    Eigen::MatrixXd x = rows_of_free_nodes(force, factor_.partition());
     factor_.solve(x);
     return with_zeros(x, factor_.free(), force.rows());
   }
@@ -167,7 +167,7 @@ class Growth {
   double yet_to_come() const {
     const std::size_t n = changes_.size(), from = n > 4 ? n - 4 : 0;
     if (changes_.back() <= 0) return 0;
-    if (n < 2) return 10 * changes_.back();  // one growth tells no trend
+    if (n < 2) return 10 * changes_.back();  // one growth shows no trend
     const double mean =
         std::pow(changes_.back() / changes_[from], 1.0 / static_cast<double>(n - 1 - from));
     const double last = std::max(changes_.back(), mean * changes_[n - 2]);
@@ -179,9 +179,9 @@ class Growth {
   struct Compressed {
     Eigen::MatrixXd columns, mix;
   };
-  /// Instants of one motion leave much the same behind. Directions are told apart by their energy
-  /// were each unknown a spring of its own stiffness; what is left out is a part of the residual in
-  /// the next growth.
+  /// Instants of one motion leave much the same behind. Directions are distinguished by their
+  /// energy were each unknown a spring of its own stiffness; what is left out is a part of the
+  /// residual in the next growth.
   Compressed compressed(const Eigen::MatrixXd& r) const {
     const Eigen::MatrixXd scaled = flexibility_.asDiagonal() * r;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inner_products(r, scaled));
@@ -261,11 +261,10 @@ Response sum_of(const Response& a, const Response& b, double factor) {
   return out;
 }
 
-ReducedModel::ReducedModel(System system, std::vector<int> prescribed, LinearSolver wanted,
+ReducedModel::ReducedModel(System system, std::vector<int> prescribed,
                            std::shared_ptr<const NodeOrder> order)
     : system_(std::move(system)),
-      factor_(system_.stiffness, std::move(prescribed), "reduced model", system_.nodes, wanted,
-              std::move(order)) {}
+      factor_(system_.stiffness, std::move(prescribed), "reduced model", std::move(order)) {}
 
 void ReducedModel::refill(System system) {
   system_ = std::move(system);
@@ -278,14 +277,14 @@ Eigen::MatrixXd ReducedModel::at_rest(const Drive& drive,
   Eigen::MatrixXd d = with_zeros(drive.prescribed * s, factor_.prescribed(), system_.mass.rows());
   Eigen::MatrixXd force = -symmetric_product(system_.stiffness, d);
   if (drive.force.rows() > 0) force.noalias() += drive.force * s;
-  Eigen::MatrixXd x = free_rows(force, factor_.partition());
+  Eigen::MatrixXd x = rows_of_free_nodes(force, factor_.partition());
   factor_.solve(x);
   d += with_zeros(x, factor_.free(), d.rows());
   return d;
 }
 
 Eigen::MatrixXd ReducedModel::at_rest(const Eigen::MatrixXd& force) {
-  Eigen::MatrixXd x = free_rows(force, factor_.partition());
+  Eigen::MatrixXd x = rows_of_free_nodes(force, factor_.partition());
   factor_.solve(x);
   return with_zeros(x, factor_.free(), force.rows());
 }

@@ -57,7 +57,6 @@ class ReducedModel {
  public:
   /// Throws NumericalError where K_oo is not positive definite. `order`: PartitionedFactor.
   ReducedModel(System system, std::vector<int> prescribed,
-               LinearSolver wanted = LinearSolver::automatic,
                std::shared_ptr<const NodeOrder> order = nullptr);
   /// Other values on the same patterns: keeps the ordering.
   void refill(System system);
@@ -74,16 +73,11 @@ class ReducedModel {
   /// The same for forces (3 |nodes| x n, N) where nothing that is prescribed moves.
   Eigen::MatrixXd at_rest(const Eigen::MatrixXd& force);
 
-  /// That of the stiffness, for other static answers with the values given last.
-  PartitionedFactor& static_factor() { return factor_; }
-
   int free_count() const { return static_cast<int>(factor_.free().size()); }
   double analyse_seconds() const { return factor_.analyse_seconds(); }
   double factor_seconds() const { return factor_.factor_seconds(); }
   double factor_entries() const { return factor_.factor_entries(); }
-  LinearSolver solver() const { return factor_.solver(); }  ///< cholesky or iterative
   const std::shared_ptr<const NodeOrder>& order() const { return factor_.order(); }
-  int last_iterations() const { return factor_.last_iterations(); }  ///< of the last growth
 
  private:
   System system_;

@@ -28,7 +28,7 @@ ReducedMotion integrate_reduced(const Eigen::MatrixXd& stiffness, const Eigen::M
   const Eigen::MatrixXd inverse = effective.llt().solve(Eigen::MatrixXd::Identity(m, m));
 
   Eigen::MatrixXd d = Eigen::MatrixXd::Zero(m, steps + 1), v = d, a = d;
-  // Modes whose mass is rounding follow their forces at once: nothing tells their acceleration.
+  // Modes whose mass is rounding follow their forces at once: their acceleration is not determined.
   const double massless = 1e-13 * lambda.maxCoeff();
   for (Eigen::Index i = 0; i < m; ++i)
     if (lambda[i] > massless) a(i, 0) = f(i, 0) / lambda[i];

@@ -8,7 +8,7 @@
 
 namespace hyperex::fem {
 namespace {
-constexpr Eigen::Index kTogether = 96;  // columns solved at a time
+constexpr Eigen::Index kColumnsTogether = 96;  // columns solved at a time
 }
 
 Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<int>& nodes) {
@@ -25,24 +25,22 @@ Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<i
   const auto count = Eigen::Index(row.size());
   const auto all = 3 * Eigen::Index(nodes.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(all, all);
-  if (factor.solver() == LinearSolver::cholesky) {
-    std::vector<int> last(row.begin(), row.end());
-    std::sort(last.begin(), last.end());
-    if (const Eigen::MatrixXd inverse = factor.cholesky().inverse_of_last(last);
-        inverse.rows() == count) {
-      std::vector<Eigen::Index> among;  // of each in `row`, its place in `last`
-      for (const Eigen::Index r : row)
-        among.push_back(std::lower_bound(last.begin(), last.end(), r) - last.begin());
-      for (Eigen::Index c = 0; c < count; ++c)
-        for (Eigen::Index r = 0; r < count; ++r)
-          out(place[std::size_t(r)], place[std::size_t(c)]) =
-              inverse(among[std::size_t(r)], among[std::size_t(c)]);
-      return out;
-    }
+  std::vector<int> last(row.begin(), row.end());
+  std::sort(last.begin(), last.end());
+  if (const Eigen::MatrixXd inverse = factor.cholesky().inverse_of_last(last);
+      inverse.rows() == count) {
+    std::vector<Eigen::Index> among;  // of each in `row`, its place in `last`
+    for (const Eigen::Index r : row)
+      among.push_back(std::lower_bound(last.begin(), last.end(), r) - last.begin());
+    for (Eigen::Index c = 0; c < count; ++c)
+      for (Eigen::Index r = 0; r < count; ++r)
+        out(place[std::size_t(r)], place[std::size_t(c)]) =
+            inverse(among[std::size_t(r)], among[std::size_t(c)]);
+    return out;
   }
   Eigen::MatrixXd columns;
-  for (Eigen::Index from = 0; from < count; from += kTogether) {
-    const Eigen::Index width = std::min(kTogether, count - from);
+  for (Eigen::Index from = 0; from < count; from += kColumnsTogether) {
+    const Eigen::Index width = std::min(kColumnsTogether, count - from);
     columns.setZero(Eigen::Index(free.size()), width);
     for (Eigen::Index c = 0; c < width; ++c) columns(row[std::size_t(from + c)], c) = 1;
     factor.solve(columns);

@@ -116,12 +116,6 @@ void Multifrontal::lay_out_stacks(const Supernodes& f) {
   for (int i = 0; i < 6; ++i) stack_[i].resize(static_cast<std::size_t>(most[i]));
 }
 
-double Multifrontal::workspace_bytes() const {
-  double numbers = 0;
-  for (const auto& stack : stack_) numbers += static_cast<double>(stack.size());
-  return numbers * sizeof(double);
-}
-
 /// One supernode's share of a factorisation.
 struct Multifrontal::Run {
   Multifrontal& m;

@@ -27,9 +27,6 @@ class Multifrontal {
   /// definite. Allocates nothing.
   int factorize(const Supernodes& pattern, const SparseMatrix& lower, double* value);
 
-  /// Of the memory for what waits for its parent.
-  double workspace_bytes() const;
-
  private:
   struct Entries {  // of the matrix, by the supernode that they belong to
     std::vector<int> start;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "hyperex/fem/form/finite_strain.hpp"
-#include "hyperex/fem/solve/linear_solver.hpp"
 #include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/fem/time/newmark.hpp"
 
@@ -52,8 +51,7 @@ struct FiniteStepReport {
 /// step makes an incremental potential least, by Newton's method with a line search. Equations and
 /// sources: docs/mechanics.md.
 ///
-/// A step allocates nothing after the first, what the hooks, the iterative solver and TBB's own
-/// pools do excepted.
+/// A step allocates nothing after the first, except what the hooks and TBB's own pools do.
 class FiniteNewton {
  public:
   /// `form` must outlive this; one integrator uses it at a time. `prescribed`: sorted unique
@@ -63,7 +61,6 @@ class FiniteNewton {
   /// NumericalError where the matrix at rest is not positive definite. `order`: PartitionedFactor.
   FiniteNewton(FiniteStrain& form, std::vector<int> prescribed, const FiniteNewtonOptions& options,
                SparseMatrix springs = {}, std::vector<const NodalPotential*> potentials = {},
-               LinearSolver wanted = LinearSolver::automatic,
                std::shared_ptr<const NodeOrder> order = nullptr);
   ~FiniteNewton();
   FiniteNewton(FiniteNewton&&) noexcept;
@@ -103,7 +100,6 @@ class FiniteNewton {
 
   const std::vector<int>& prescribed() const;
   int free_count() const;
-  LinearSolver solver() const;  ///< cholesky or iterative
   const std::shared_ptr<const NodeOrder>& order() const;
 
   /// x := A^-1 x among the free unknowns (3 |nodes|; prescribed rows become zero) with the factor

@@ -43,12 +43,11 @@ struct Newmark::Impl {
   Eigen::VectorXd x_o;
   Kinematics own;  // of the prescribed unknowns, where only their displacement is given
 
-  Impl(System s, std::vector<int> prescribed, const NewmarkOptions& options, LinearSolver wanted,
+  Impl(System s, std::vector<int> prescribed, const NewmarkOptions& options,
        std::shared_ptr<const NodeOrder> order)
       : by(options),
         inertia(s),
-        factor(step_matrix(s, by), std::move(prescribed), "time integration", s.nodes, wanted,
-               std::move(order)),
+        factor(step_matrix(s, by), std::move(prescribed), "time integration", std::move(order)),
         stiffness_oc(coupling(s.stiffness, factor.partition())),
         stiffness(taken(s.stiffness)),
         mass(taken(s.mass)) {
@@ -109,10 +108,7 @@ struct Newmark::Impl {
     else
       for (std::size_t i = 0; i < free.size(); ++i) x_o[i] = q[free[i]];
     x_o.noalias() -= stiffness_oc * next.d;
-    if (factor.solver() == LinearSolver::iterative)
-      factor.solve(x_o, (d + by.h * v + 0.5 * by.h * by.h * a)(free));
-    else
-      factor.solve(x_o);
+    factor.solve(x_o);
     for (std::size_t i = 0; i < free.size(); ++i) {
       const int n = free[i];
       const double a_next = by.m_d * (x_o[i] - d[n]) - by.m_v * v[n] - by.m_a * a[n];
@@ -129,10 +125,10 @@ struct Newmark::Impl {
 };
 
 Newmark::Newmark(System system, std::vector<int> prescribed, const NewmarkOptions& options,
-                 LinearSolver wanted, std::shared_ptr<const NodeOrder> order) {
+                 std::shared_ptr<const NodeOrder> order) {
   HX_ASSERT(options.dt_s > 0 && options.gamma >= 0.5 && 2 * options.beta >= options.gamma);
-  impl_ = std::make_unique<Impl>(std::move(system), std::move(prescribed), options, wanted,
-                                 std::move(order));
+  impl_ =
+      std::make_unique<Impl>(std::move(system), std::move(prescribed), options, std::move(order));
 }
 Newmark::~Newmark() = default;
 Newmark::Newmark(Newmark&&) noexcept = default;
@@ -200,17 +196,11 @@ double Newmark::factor_seconds() const {
 double Newmark::factor_entries() const {
   return impl_->factor.factor_entries();
 }
-LinearSolver Newmark::solver() const {
-  return impl_->factor.solver();
-}
 const std::shared_ptr<const NodeOrder>& Newmark::order() const {
   return impl_->factor.order();
 }
 const std::vector<int>& Newmark::prescribed() const {
   return impl_->factor.prescribed();
-}
-int Newmark::last_iterations() const {
-  return impl_->factor.last_iterations();
 }
 
 }  // namespace hyperex::fem

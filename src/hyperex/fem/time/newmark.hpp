@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "hyperex/fem/form/system.hpp"
-#include "hyperex/fem/solve/linear_solver.hpp"
 #include "hyperex/fem/solve/node_order.hpp"
 
 namespace hyperex::fem {
@@ -26,13 +25,12 @@ struct Kinematics {
 /// and whose free unknowns o bear external forces f:
 ///   A_oo d_o(t+1) = f_o + q_oo(t) - (K_oc d_c + C_oc d'_c + M_oc d''_c)(t+1),
 ///   A = K + gamma/(beta h) C + 1/(beta h^2) M,  q_oo from the free columns alone [after 4.37].
-/// A_oo is factored once; step() allocates nothing, unless the solver picked is iterative.
+/// A_oo is factored once; step() allocates nothing.
 class Newmark {
  public:
   /// `prescribed`: sorted unique unknowns 3 n + axis. Throws NumericalError where A_oo is not
   /// positive definite. All start values are zero. `order`: PartitionedFactor.
   Newmark(System system, std::vector<int> prescribed, const NewmarkOptions& options,
-          LinearSolver wanted = LinearSolver::automatic,
           std::shared_ptr<const NodeOrder> order = nullptr);
   ~Newmark();
   Newmark(Newmark&&) noexcept;
@@ -63,10 +61,8 @@ class Newmark {
   double analyse_seconds() const;
   double factor_seconds() const;
   double factor_entries() const;  ///< stored numbers of the factor, 8 bytes each
-  LinearSolver solver() const;    ///< cholesky or iterative
   const std::shared_ptr<const NodeOrder>& order() const;
   const std::vector<int>& prescribed() const;
-  int last_iterations() const;  ///< of the last step; 0: direct
 
  private:
   struct Impl;

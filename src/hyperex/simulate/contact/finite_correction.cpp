@@ -24,11 +24,10 @@ fem::Material elastic(fem::Material material) {
 FiniteCorrection::FiniteCorrection(const fem::Assembler& assembler, const fem::Material& material,
                                    fem::Hyperelastic law, fem::SparseMatrix springs,
                                    std::vector<int> prescribed, fem::FiniteNewtonOptions how,
-                                   fem::LinearSolver linear,
                                    std::shared_ptr<const fem::NodeOrder> order)
     : form_(assembler, elastic(material), relaxed(std::move(law))), springs_(springs) {
   newton_.emplace(form_, std::move(prescribed), how, std::move(springs),
-                  std::vector<const fem::NodalPotential*>(), linear, std::move(order));
+                  std::vector<const fem::NodalPotential*>(), std::move(order));
 }
 
 void FiniteCorrection::begin(const Eigen::VectorXd& d0) {

@@ -9,26 +9,26 @@
 
 namespace hyperex::simulate {
 
-/// Tissue at finite strain that further forces act on, in a moment of its motion. All that acted
-/// until then, inertia and viscosity with it, is kept as it is: with f(d) the elastic forces and
-/// the springs at displacement d, the answer to `more` at the moment's displacement d0 is the d
-/// where f(d) = f(d0) + more on what is free. Branches count as relaxed. One moment at a time.
+/// The response of tissue at finite strain to further forces at one moment of its motion. All other
+/// forces, inertia and viscosity included, stay as they are at that moment. With f(d) the forces of
+/// elasticity and springs at displacement d, and d0 the displacement at the moment, the response to
+/// `more` is the d where f(d) = f(d0) + more on the free unknowns. Maxwell branches are taken as
+/// relaxed. One moment at a time.
 class FiniteCorrection {
  public:
-  /// `springs`: on the pattern of System::stiffness, no columns: none; `prescribed`: what stays
-  /// where d0 has it; `order`: FiniteNewton. `assembler` must outlive this.
+  /// `springs`: on the pattern of System::stiffness; no columns: none. `prescribed`: unknowns that
+  /// keep their value in d0. `order`: as for FiniteNewton. `assembler` must outlive this.
   FiniteCorrection(const fem::Assembler& assembler, const fem::Material& material,
                    fem::Hyperelastic law, fem::SparseMatrix springs, std::vector<int> prescribed,
-                   fem::FiniteNewtonOptions how, fem::LinearSolver linear,
-                   std::shared_ptr<const fem::NodeOrder> order);
+                   fem::FiniteNewtonOptions how, std::shared_ptr<const fem::NodeOrder> order);
 
   FiniteCorrection(const FiniteCorrection&) = delete;
 
-  /// The moment: 3 |nodes|, m.
+  /// Sets the displacement at the moment: 3 |nodes|, m.
   void begin(const Eigen::VectorXd& d0);
-  /// The displacement under `more` (3 |nodes|, N), the iterations beginning at `guess` (m), or
-  /// without it where the last answer was. Throws NumericalError where none is found; the next
-  /// answer then begins at d0 again.
+  /// The displacement under `more` (3 |nodes|, N). The iterations begin at `guess` (m) or, without
+  /// it, at the last answer. Throws NumericalError where no equilibrium is found; the next search
+  /// then begins at d0 again.
   const Eigen::VectorXd& under(const Eigen::VectorXd& more, const Eigen::VectorXd* guess = nullptr);
 
   int iterations() const { return iterations_; }  ///< of all answers

@@ -52,21 +52,40 @@ std::map<std::pair<int, int>, int> uses_of_edges(const Triangles& triangles) {
   return uses;
 }
 
-}  // namespace
-
-LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
-  const Points& skin = mesh.skin.points;
+/// One flag per vertex of the skin.
+std::vector<char> near_lips(const Points& skin, const io::Landmarks& landmarks, double reach_m) {
   std::vector<char> near(std::size_t(skin.rows()), 0);
   for (Index v = 0; v < skin.rows(); ++v)
     for (int k = 61; k <= 67 && !near[std::size_t(v)]; ++k)
       near[std::size_t(v)] =
-          k != 64 && (skin.row(v).transpose() - landmarks.at(face::ibug(k))).norm() < kReach_m;
+          k != 64 && (skin.row(v).transpose() - landmarks.at(face::ibug(k))).norm() < reach_m;
+  return near;
+}
+
+}  // namespace
+
+LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  const Points& skin = mesh.skin.points;
+  const std::vector<char> near = near_lips(skin, landmarks, kReach_m);
   for (Index v = 0; v < skin.rows(); ++v)
     if (near[std::size_t(v)] && mesh.skin_upper_margin[std::size_t(v)] < 0)
       lower_.push_back(int(v));
-  std::vector<int> place(std::size_t(skin.rows()), -1);  // among the upper ones
-  std::vector<std::array<int, 3>> faces;
-  std::map<std::pair<int, int>, int> of_skin;
+  Faces faces = upper_faces(mesh, near);
+  if (empty()) return;
+  forward_ = face::face_frame(landmarks).z;
+  extend_inwards(mesh, near, faces);
+  find_neighbours(faces);
+  lower_rest_ = skin(lower_, Eigen::all);
+  upper_rest_ = skin(upper_, Eigen::all);
+  allowed_m_.assign(lower_.size(), 0);
+  for (const LipPair& pair : raw_pairs(lower_rest_, upper_rest_, 0))
+    allowed_m_[std::size_t(pair.point)] = std::min(0.0, pair.gap_m);
+}
+
+LipSurfaces::Faces LipSurfaces::upper_faces(const tissue::TissueMesh& mesh,
+                                            const std::vector<char>& near) {
+  std::vector<int> place(near.size(), -1);  // in upper_
+  Faces faces;
   for (Index f = 0; f < mesh.skin.triangles.rows(); ++f) {
     const auto corners = mesh.skin.triangles.row(f);
     if (!std::all_of(corners.begin(), corners.end(), [&](int v) {
@@ -84,12 +103,14 @@ LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& la
     }
     faces.push_back(face);
   }
-  if (empty()) return;
+  return faces;
+}
+
+void LipSurfaces::extend_inwards(const tissue::TissueMesh& mesh, const std::vector<char>& near,
+                                 Faces& faces) {
   follows_.resize(upper_.size());
   for (std::size_t i = 0; i < follows_.size(); ++i) follows_[i] = int(i);
-  // The rim: edges that one triangle of the whole skin has, not of this part of it alone.
-  forward_ = face::face_frame(landmarks).z;
-  const Vec3 inward = -kInward_m * forward_;
+  // The rim: edges of one triangle of the whole skin, not of this part of it alone.
   std::vector<Index> about;  // all triangles that share an edge with this part
   for (Index f = 0; f < mesh.skin.triangles.rows(); ++f) {
     const auto corners = mesh.skin.triangles.row(f);
@@ -98,7 +119,7 @@ LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& la
       about.push_back(f);
   }
   const auto uses = uses_of_edges(mesh.skin.triangles(about, Eigen::all));
-  std::map<int, int> behind;  // of a vertex on the rim, the one that lies inwards of it
+  std::map<int, int> behind;  // per vertex on the rim: the vertex inwards of it
   const auto inner = [&](int v) {
     const auto [at, is_new] = behind.emplace(v, int(follows_.size()));
     if (is_new) follows_.push_back(v);
@@ -114,11 +135,14 @@ LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& la
       faces.push_back({b, a, a_in});
       faces.push_back({b, a_in, b_in});
     }
+  offset_.setZero(Index(follows_.size()), 3);
+  for (const auto& [v, in] : behind) offset_.row(in) = -kInward_m * forward_.transpose();
+}
+
+void LipSurfaces::find_neighbours(const Faces& faces) {
   triangles_.resize(Index(faces.size()), 3);
   for (std::size_t f = 0; f < faces.size(); ++f)
     triangles_.row(Index(f)) << faces[f][0], faces[f][1], faces[f][2];
-  offset_.setZero(Index(follows_.size()), 3);
-  for (const auto& [v, in] : behind) offset_.row(in) = inward.transpose();
   around_ = vertex_triangles(triangles_, Index(follows_.size()));
   end_.assign(follows_.size(), 0);
   across_.assign(faces.size(), {-1, -1, -1});
@@ -131,11 +155,6 @@ LipSurfaces::LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& la
           across_[f][k] = other;
       if (across_[f][k] < 0) end_[std::size_t(a)] = end_[std::size_t(b)] = 1;
     }
-  lower_rest_ = skin(lower_, Eigen::all);
-  upper_rest_ = skin(upper_, Eigen::all);
-  allowed_m_.assign(lower_.size(), 0);
-  for (const LipPair& pair : raw_pairs(lower_rest_, upper_rest_, 0))
-    allowed_m_[std::size_t(pair.point)] = std::min(0.0, pair.gap_m);
 }
 
 std::vector<LipPair> LipSurfaces::pairs(const Points& lower_displacement,

@@ -10,30 +10,30 @@
 
 namespace hyperex::simulate {
 
-/// A vertex of the lower lip and the place of the upper one that is nearest to it.
+/// A vertex of the lower lip and the nearest place of the upper lip.
 struct LipPair {
-  int point = -1;           ///< of LipSurfaces::lower()
-  std::array<int, 3> on{};  ///< of LipSurfaces::upper()
-  Vec3 weight;              ///< of them; sum 1
+  int point = -1;           ///< index into LipSurfaces::lower()
+  std::array<int, 3> on{};  ///< indices into LipSurfaces::upper()
+  Vec3 weight;              ///< of these three; sum 1
   Vec3 normal;              ///< unit length, away from the upper lip
-  /// How far apart (m), over what is allowed: below 0 they pass through each other deeper than at
-  /// rest. To first order it changes by normal . (what the point moves - what the place moves).
+  /// Distance (m) beyond the allowed one: below 0 the lips pass through each other deeper than at
+  /// rest. To first order it changes by normal . (motion of the point - motion of the place).
   double gap_m = 0;
 };
 
-/// Both lips' skin about the mouth, and where they meet.
+/// The skin of both lips about the mouth, and where the lips meet.
 ///
-/// The upper lip is a surface, the lower one its vertices. A scan's lip ends at the rim, and a
-/// vertex of the other lip that is nearest to the rim would be inside as well as outside. So the
-/// upper lip's surface goes on from its rim into the mouth by `kInward_m`, straight back, and moves
-/// with the rim. Distances are to the nearest point; its side is told by the surface's normal
-/// there and, deeper than a millimetre, by whether it lies behind the upper lip's skin. Lips that
-/// overlap at rest, by the scan's noise or since they are pressed together, may do so as deep as
-/// they did, each vertex by itself.
+/// The upper lip is a surface, the lower lip a set of vertices. The lip of a scan ends at its rim.
+/// A vertex that is nearest to the rim would be inside as well as outside. So the upper lip's
+/// surface is extended from its rim straight back into the mouth, by `kInward_m`, and the extension
+/// moves with the rim. Distances are to the nearest point. The surface's normal there gives the
+/// sign, and deeper than a millimetre whether the vertex lies behind the upper lip's skin. Lips
+/// that overlap at rest, because of noise or pressure, may overlap as deep as then, each vertex by
+/// itself.
 class LipSurfaces {
  public:
-  static constexpr double kReach_m = 0.010;  ///< skin as near to ibug68_61 to 67 (but 64) is a lip
-  static constexpr double kDeepest_m = 0.012;  ///< farther behind is another part of the face
+  static constexpr double kReach_m = 0.010;    ///< of a lip's skin about ibug68_61 to 67 (but 64)
+  static constexpr double kDeepest_m = 0.012;  ///< what lies deeper is another part of the face
   static constexpr double kInward_m = 0.008;
 
   LipSurfaces(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
@@ -45,14 +45,19 @@ class LipSurfaces {
   const Points& lower_rest() const { return lower_rest_; }
   const Points& upper_rest() const { return upper_rest_; }
 
-  /// Pairs nearer than `within_m` over what is allowed, where vertices are displaced (one row each
+  /// Pairs whose gap is less than `within_m`, for displacements of the vertices (one row per vertex
   /// of lower() and upper(), m). May be called from several threads.
   std::vector<LipPair> pairs(const Points& lower_displacement, const Points& upper_displacement,
                              double within_m) const;
-  /// Greatest depth (m) by which the lips pass through each other beyond what is allowed.
+  /// The greatest depth (m) of the lips in each other beyond the allowed one.
   double depth(const PointsF& skin_displacement) const;
 
  private:
+  using Faces = std::vector<std::array<int, 3>>;
+  /// Fills upper_, and returns the triangles of the skin that it has.
+  Faces upper_faces(const tissue::TissueMesh& mesh, const std::vector<char>& near);
+  void extend_inwards(const tissue::TissueMesh& mesh, const std::vector<char>& near, Faces& faces);
+  void find_neighbours(const Faces& faces);
   std::vector<LipPair> raw_pairs(const Points& lower, const Points& upper, double within_m) const;
   std::optional<Vec3> outward_at(const Points& points, std::size_t triangle,
                                  const Vec3& weights) const;

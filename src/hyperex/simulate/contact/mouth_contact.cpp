@@ -25,7 +25,7 @@ constexpr double kRidge = 1e-6;
 /// The derivative of a gap: what the motion of each node adds to it.
 using Row = std::vector<std::pair<int, Vec3>>;
 
-void add(const SkinCarrier& from, const Vec3& along, Row& to) {
+void add_row(const SkinCarrier& from, const Vec3& along, Row& to) {
   for (const auto& [node, weight] : from) to.emplace_back(node, weight * along);
 }
 
@@ -162,9 +162,9 @@ std::vector<MouthContact::Pair> MouthContact::pairs_at(const FreeFrame& frame, c
     for (const LipPair& pair : surfaces_->pairs(lower + followed(lower_, moved),
                                                 upper + followed(upper_, moved), kWithin_m)) {
       Row& row = out.emplace_back(Pair{pair.gap_m, {}}).row;
-      add(lower_[std::size_t(pair.point)], pair.normal, row);
+      add_row(lower_[std::size_t(pair.point)], pair.normal, row);
       for (std::size_t k = 0; k < 3; ++k)
-        add(upper_[std::size_t(pair.on[k])], -pair.weight[Index(k)] * pair.normal, row);
+        add_row(upper_[std::size_t(pair.on[k])], -pair.weight[Index(k)] * pair.normal, row);
     }
   const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
   int place = 0;
@@ -178,11 +178,21 @@ std::vector<MouthContact::Pair> MouthContact::pairs_at(const FreeFrame& frame, c
       const Vec3 at = frame.at_sides[s].row(i).transpose() + followed(carrier, moved);
       const double gap_m = places.gap_m(i, at, pose, outward);
       if (gap_m > kWithin_m) continue;
-      add(carrier, outward, out.emplace_back(Pair{gap_m, {}, place}).row);
+      add_row(carrier, outward, out.emplace_back(Pair{gap_m, {}, place}).row);
     }
   }
   for (Pair& pair : out) gather(pair.row);
   return out;
+}
+
+Eigen::VectorXd MouthContact::force_of(const std::vector<Pair>& pairs,
+                                       const Eigen::VectorXd& lambda) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(compliance_.rows());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (lambda[Index(i)] > 0)
+      for (const auto& [node, derivative] : pairs[i].row)
+        force.segment<3>(3 * node) += lambda[Index(i)] * derivative;
+  return force;
 }
 
 MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
@@ -232,14 +242,8 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
       out.after_m = depth;
       out.residual_m = solved.residual;
       out.moved = moved;
-      out.force.setZero(compliance_.rows());
-      out.pairs = 0;
-      for (Index i = 0; i < count; ++i) {
-        if (lambda[i] <= 0) continue;
-        ++out.pairs;
-        for (const auto& [node, derivative] : pairs[std::size_t(i)].row)
-          out.force.segment<3>(3 * node) += lambda[i] * derivative;
-      }
+      out.force = force_of(pairs, lambda);
+      out.pairs = static_cast<int>((lambda.array() > 0).count());
     }
     if (depth < kSettled_m) break;
     for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].gap_m = gap[Index(i)];

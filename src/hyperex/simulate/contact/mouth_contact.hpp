@@ -11,60 +11,60 @@
 
 namespace hyperex::simulate {
 
-/// Places that may touch one obstacle, with what carries each.
+/// The places that may touch one obstacle, with the nodes that carry each.
 struct ObstacleSide {
   std::shared_ptr<const ObstaclePlaces> places;
-  std::vector<SkinCarrier> carriers;  ///< one a place; empty: of those that never come near
+  std::vector<SkinCarrier> carriers;  ///< per place; empty: it never comes near
 };
 
-/// A face in one moment, as it is without contact.
+/// A face at one moment, without contact.
 struct FreeFrame {
   const PointsF& skin;                  ///< displacement of the whole skin, m
-  const std::vector<Points>& at_sides;  ///< of the places of each ObstacleSide
+  const std::vector<Points>& at_sides;  ///< displacement of the places of each ObstacleSide, m
   Eigen::Isometry3d jaw_now_from_rest;
 };
 
-/// Keeps the lips of a face that moves without contact from passing through each other, and its
-/// tissue out of rigid bodies: a correction of each frame by itself, in static equilibrium, so that
-/// nothing sticks, nothing is remembered and no energy comes in. Without friction.
+/// Keeps the lips of a moving face from passing through each other, and its tissue from entering
+/// rigid bodies. It corrects each frame by itself, in static equilibrium and without friction. So
+/// nothing sticks, no frame depends on another, and no energy is added.
 ///
-/// The forces are those that Signorini's conditions ask for: a pair of a vertex of the lower lip
-/// and a place on the upper one, or of a place and an obstacle, presses (lambda >= 0), does not
-/// pass through (gap >= 0), and presses only where it touches (lambda gap = 0). With the stiffness
-/// K condensed to the nodes that carry what may touch, C = (K^-1)_nn, and G the derivative of the
-/// gaps, that is the linear complementarity problem
+/// The contact forces obey Signorini's conditions. A pair is a vertex of the lower lip and a place
+/// on the upper one, or a place and an obstacle. It presses (lambda >= 0), does not pass through
+/// (gap >= 0), and presses only where it touches (lambda gap = 0). With the compliance C =
+/// (K^-1)_nn of the nodes that carry the pairs, and G the derivative of the gaps, that is the
+/// linear complementarity problem
 ///   gap + G C G' lambda >= 0, lambda >= 0 (Wriggers, Computational Contact Mechanics, 2006).
-/// Pairs are looked for anew where the skin has been moved to, some rounds, since gaps bend.
+/// Gaps are not linear, and so the pairs are found again at the corrected skin, for some rounds.
 class MouthContact {
  public:
-  static constexpr double kFelt_m = 5e-6;  ///< less depth is not worth a correction
-  /// Displacements of nodes under unit forces on them (condensed_inverse), of K with all that holds
-  /// the tissue.
+  static constexpr double kFelt_m = 5e-6;  ///< frames with less depth are not corrected
+  /// Displacements of nodes under unit forces on them (condensed_inverse), m/N. K contains
+  /// everything that holds the tissue.
   using Compliance = std::function<Eigen::MatrixXd(const std::vector<int>& nodes)>;
 
-  /// The carriers are those of surfaces->lower() and upper(), none where lips do not touch. `held`:
-  /// of recorded places, which stay where the motion without contact has them, nearly: what touches
-  /// in a recording touched already when it was recorded. They give way by `give` times the
-  /// tissue's own mean compliance there, since recorded lips may overlap too. `compliance` is
-  /// called once, for nodes().
+  /// `lower` and `upper`: carriers of surfaces->lower() and upper(); empty where the lips may pass
+  /// through each other. `held`: carriers of recorded places. These nearly stay where the motion
+  /// without contact has them, since what touches in a recording touched when it was recorded. They
+  /// give way by `give` times the tissue's mean compliance there, since recorded lips may overlap
+  /// too. `compliance` is called once, for nodes().
   MouthContact(std::shared_ptr<const LipSurfaces> surfaces, std::vector<SkinCarrier> lower,
                std::vector<SkinCarrier> upper, std::vector<ObstacleSide> sides,
                std::vector<SkinCarrier> held, double give, const Compliance& compliance);
 
   struct Correction {
-    Eigen::VectorXd
-        force;  ///< N, three a node of nodes(): contact's and what holds recorded places
-    Eigen::VectorXd moved;      ///< of nodes() by these forces, to first order, m
-    double before_m = 0;        ///< greatest depth of anything as it was given
-    double after_m = 0;         ///< and as corrected
+    /// Of contact and of what holds recorded places: N, three numbers per node of nodes().
+    Eigen::VectorXd force;
+    Eigen::VectorXd moved;      ///< displacement of nodes() by these forces, to first order, m
+    double before_m = 0;        ///< greatest depth before the correction
+    double after_m = 0;         ///< and after it
     double residual_m = 0;      ///< of the last complementarity problem
-    int rounds = 0, pairs = 0;  ///< pairs that press, of the last round
+    int rounds = 0, pairs = 0;  ///< pairs that press in the last round
   };
   /// May be called from several threads.
   Correction correct(const FreeFrame& frame) const;
 
-  /// Takes displacements of nodes() off a frame: of the skin's vertices that may touch and of the
-  /// places of each side.
+  /// Subtracts displacements of nodes() from a frame: from the skin's vertices that may touch and
+  /// from the places of each side.
   void take_off(const Eigen::VectorXd& moved, PointsF& skin, std::vector<Points>& at_sides) const;
 
   /// Nodes of the volume on which forces act.
@@ -72,6 +72,8 @@ class MouthContact {
 
  private:
   struct Pair;
+  /// Forces on nodes() of pairs that press by lambda (N).
+  Eigen::VectorXd force_of(const std::vector<Pair>& pairs, const Eigen::VectorXd& lambda) const;
   std::vector<Pair> pairs_at(const FreeFrame& frame, const Points& lower, const Points& upper,
                              const Eigen::VectorXd& moved) const;
 

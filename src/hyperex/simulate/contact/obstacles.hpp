@@ -15,26 +15,26 @@ namespace hyperex::simulate {
 /// A rigid body that tissue may touch and not enter.
 struct Obstacle {
   enum class Kind {
-    teeth,  ///< touched by the mouth's side of the tissue and by the rim of the lips
-    eye     ///< touched by the lids about their rims
+    teeth,  ///< the inner surface about the mouth and the rim of the lips may touch them
+    eye     ///< the lids may touch it about their rims
   } kind = Kind::teeth;
-  std::shared_ptr<const SignedDistance> shape;  ///< as it stands at rest: scan frame, m
-  bool with_jaw = false;                        ///< goes along with the mandible; else it stays
+  std::shared_ptr<const SignedDistance> shape;  ///< at rest: scan frame, m
+  bool with_jaw = false;                        ///< it moves with the mandible
 };
 
-/// The teeth of both jaws, those that there are.
+/// The teeth of both jaws, as far as they are given.
 std::vector<Obstacle> teeth_to_touch(const anatomy::Teeth& teeth);
-/// Both eyeballs as they are fitted behind the skin (anatomy/eyeballs.hpp); none where the
-/// landmarks do not tell them.
+/// Both eyeballs, fitted behind the skin (anatomy/eyeballs.hpp). None where the landmarks do not
+/// suffice.
 std::vector<Obstacle> eyes_to_touch(const Points& skin, const io::Landmarks& landmarks);
 
 /// The places of a face that may touch an obstacle: vertices of the skin, then nodes of the inner
-/// surface. Each may lie as deep in it as it does at rest and no deeper, so that nothing jumps
-/// where a scan, a thickness or a fit is not exact.
+/// surface. Each may lie as deep in it as at rest. So nothing jumps where a scan, a thickness or a
+/// fit is not exact.
 class ObstaclePlaces {
  public:
-  static constexpr double kMouth_m = 0.020;  ///< inner nodes as near to the lips' points
-  static constexpr double kLid_m = 0.004;    ///< skin as near to the border of an eye
+  static constexpr double kMouth_m = 0.020;  ///< distance of inner nodes to the lips' points
+  static constexpr double kLid_m = 0.004;    ///< distance of skin to the border of an eye
 
   ObstaclePlaces(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, Obstacle obstacle);
 
@@ -44,14 +44,13 @@ class ObstaclePlaces {
   const Points& rest() const { return rest_; }
   Eigen::Index count() const { return rest_.rows(); }
 
-  /// Displacements of the places (m), of those of the whole skin and of all nodes.
+  /// Displacements of the places (m), from those of the whole skin and of all nodes.
   Points moved(const PointsF& skin, const Eigen::Ref<const Points>& nodes) const;
-  /// How far place `i` is outside of the obstacle over what is allowed (m), where it is displaced
-  /// so and the obstacle's body stands at `now_from_rest`. To first order that grows by
-  /// outward . displacement.
+  /// Distance (m) of place `i` from the obstacle beyond the allowed one, for a displacement of the
+  /// place and a pose of the obstacle. To first order it grows by outward . displacement.
   double gap_m(Eigen::Index i, const Vec3& displacement, const Eigen::Isometry3d& now_from_rest,
                Vec3& outward) const;
-  /// Greatest depth (m) beyond what is allowed.
+  /// The greatest depth (m) beyond the allowed one.
   double depth(const Points& displacement, const Eigen::Isometry3d& now_from_rest) const;
 
  private:

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kWidth_m = 0.004;
 constexpr double kReach_m = 3 * kWidth_m;
-constexpr double kRidge = 1e-3;  // where places nearly coincide
-constexpr double kLeastWeight = 1e-9;
+constexpr double kPlaceRidge = 1e-3;  // where places nearly coincide
+constexpr double kLeastShare = 1e-9;
 
 /// Where each vertex of the skin stands in mesh.rim, or -1.
 std::vector<int> rows_of(const tissue::TissueMesh& mesh) {
@@ -21,7 +21,7 @@ std::vector<int> rows_of(const tissue::TissueMesh& mesh) {
   return row;
 }
 
-void add(const tissue::RimVertex& from, double share, Eigen::Ref<Eigen::RowVectorXd> to) {
+void add_share(const tissue::RimVertex& from, double share, Eigen::Ref<Eigen::RowVectorXd> to) {
   for (std::size_t k = 0; k < from.node.size(); ++k) to[from.node[k]] += share * from.weight[k];
 }
 
@@ -34,7 +34,7 @@ Eigen::RowVectorXd off(const tissue::TissueMesh& mesh, const std::vector<int>& r
     if (row[v] < 0) continue;
     for (int a = 0; a < 3; ++a)
       sum[mesh.anchors[v].node[std::size_t(a)]] += place.weight[k] * mesh.anchors[v].weight[a];
-    add(mesh.rim[std::size_t(row[v])], -place.weight[k], sum);
+    add_share(mesh.rim[std::size_t(row[v])], -place.weight[k], sum);
   }
   return sum;
 }
@@ -65,23 +65,23 @@ std::vector<tissue::RimVertex> rim_through(const tissue::TissueMesh& mesh,
           std::exp(-std::pow(walk[std::size_t(rim[r].vertex)] / kWidth_m, 2));
     passed.row(p) = off(mesh, row, place);
   }
-  Eigen::MatrixXd given = kRidge * Eigen::MatrixXd::Identity(count, count);
+  Eigen::MatrixXd given = kPlaceRidge * Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index p = 0; p < count; ++p)
     for (int k = 0; k < 3; ++k)
       if (const int r = row[std::size_t(on_rim[std::size_t(p)].point[k])]; r >= 0)
         given.row(p) += on_rim[std::size_t(p)].weight[k] * near.row(r);
   const Eigen::MatrixXd added = given.fullPivLu().solve(passed);
   for (std::size_t r = 0; r < rim.size(); ++r) {
-    if (near.row(Eigen::Index(r)).maxCoeff() < kLeastWeight) continue;
+    if (near.row(Eigen::Index(r)).maxCoeff() < kLeastShare) continue;
     Eigen::RowVectorXd all = Eigen::RowVectorXd::Zero(added.cols());
     for (Eigen::Index p = 0; p < count; ++p)
-      if (const double share = near(Eigen::Index(r), p); share > kLeastWeight)
+      if (const double share = near(Eigen::Index(r), p); share > kLeastShare)
         all += share * added.row(p);
-    add(rim[r], 1, all);
+    add_share(rim[r], 1, all);
     rim[r].node.clear();
     rim[r].weight.clear();
     for (Eigen::Index node = 0; node < all.size(); ++node)
-      if (std::abs(all[node]) > kLeastWeight) {
+      if (std::abs(all[node]) > kLeastShare) {
         rim[r].node.push_back(int(node));
         rim[r].weight.push_back(all[node]);
       }

@@ -7,10 +7,11 @@
 
 namespace hyperex::simulate {
 
-/// mesh.rim changed so that driven places (on mesh.skin) move as their anchors do, by which they
-/// are driven: the smooth field of the rim alone would pass them by up to 3 mm. What a place is off
-/// is added to the vertices around, with exp(-(walk along the skin / 4 mm)^2), coefficients solved
-/// for all places together. Linear in the nodes' displacements, like the field itself.
+/// mesh.rim corrected so that driven places (on mesh.skin) move exactly as the anchors by which
+/// they are driven. The smooth field of the rim alone would miss them by up to 3 mm. The error at a
+/// place is added to the vertices around it with the weight exp(-(path along the skin / 4 mm)^2),
+/// solved for all places together. The result is linear in the nodes' displacements, as the field
+/// is.
 std::vector<tissue::RimVertex> rim_through(const tissue::TissueMesh& mesh,
                                            const std::vector<Match>& places);
 

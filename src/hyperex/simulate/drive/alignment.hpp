@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/describe.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/io/landmarks.hpp"
@@ -13,22 +14,27 @@ namespace hyperex::simulate {
 enum class AlignmentMethod {
   nonrigid,    ///< similarity by landmarks, then a radial basis so that common landmarks coincide
   similarity,  ///< similarity by landmarks alone
-  normalised   ///< the source's [5.1-5.4]: similarity of axes, face-part dimensions about the nose
-               ///< apex
+  normalised   ///< [5.1-5.4]: the axes by a similarity, then the parts of the face are scaled about
+               ///< the nose apex
 };
+constexpr auto words_of(AlignmentMethod) {
+  return std::array{Word{"nonrigid", AlignmentMethod::nonrigid},
+                    Word{"similarity", AlignmentMethod::similarity},
+                    Word{"normalised", AlignmentMethod::normalised}};
+}
 
-/// A stabilised motion (metres, its own axes) carried into a scan's frame.
+/// A stabilised motion (m, its own axes) in the frame of a scan.
 struct AlignedMotion {
   motion::Motion motion;            ///< in the scan's frame: rest positions + displacements
   Similarity scan_from_motion;      ///< the similarity part
   Points rest;                      ///< positions of the points at the first sample, scan frame
   double rms_mm = 0;                ///< of the common landmarks after the similarity
-  std::vector<std::string> common;  ///< landmarks that both sides name
+  std::vector<std::string> common;  ///< landmarks that both the motion and the scan name
 };
 
-/// Displacements since the first sample are turned and scaled with the face (normalised: by w, h_u
-/// and h_d); rest positions are laid where the method puts them.
-/// Throws InputError where fewer than three names are common or those lie nearly on a line.
+/// Turns and scales the displacements since the first sample with the face (normalised: by w, h_u
+/// and h_d). The method also gives the positions at rest.
+/// Throws InputError where fewer than three landmarks are common or they lie nearly on a line.
 AlignedMotion align(const motion::Motion& stabilised, const io::Landmarks& landmarks,
                     AlignmentMethod method = AlignmentMethod::nonrigid);
 

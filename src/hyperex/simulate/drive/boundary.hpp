@@ -11,14 +11,14 @@
 
 namespace hyperex::simulate {
 
-/// The skin and the field that follow the motion's points: patches around the driven points,
-/// measured nodes, and the interpolated field at the inner surface. What the support does not
-/// change.
+/// How skin and inner surface follow the motion's points: patches around the driven points,
+/// measured nodes, and the interpolated field at the inner surface. It does not depend on the
+/// support.
 struct DrivenSkin {
-  std::vector<int> rows;          ///< of the motion's points that drive
+  std::vector<int> rows;          ///< points of the motion that drive
   std::vector<int> nodes;         ///< outer nodes whose displacement is prescribed, rising
   Eigen::MatrixXd weights;        ///< |nodes| x P: displacement = weights * that of the points
-  Eigen::MatrixXd field_weights;  ///< |inner nodes| x P, likewise
+  Eigen::MatrixXd field_weights;  ///< |inner nodes| x P: the same for the field
 };
 
 /// Throws InputError for points that do not exist or lie far off the skin.
@@ -26,55 +26,57 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
                        const AlignedMotion& motion, const MeasuredRegion& region,
                        const DriveOptions& drive);
 
-/// Rows of the motion's points that carry the jaw: those that the options name, else those over the
-/// chin (ibug68_6 to 10) among `driven`, else ibug68_8 or pogonion; none where there are none.
-/// Throws InputError for a name that the motion has not.
+/// Rows of the motion's points that carry the jaw: those that the options name, else those of
+/// `driven` over the chin (ibug68_6 to 10), else ibug68_8 or pogonion, else none. Throws InputError
+/// for a name that the motion lacks.
 std::vector<int> jaw_rows(const AlignedMotion& motion, const std::vector<int>& driven,
                           const SupportOptions& support);
 
-/// Everything that is prescribed to the tissue over time: patches of skin and measured nodes follow
-/// the tracked points, held nodes stay, nodes over the mandible follow the jaw, springs pull
-/// towards the bones.
+/// What is prescribed to the tissue over time. Patches of skin and measured nodes follow the
+/// tracked points, held nodes stay, and springs pull towards the bones. Springs over the mandible
+/// follow the jaw.
 class Boundary {
  public:
   Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
            const AlignedMotion& motion, const MeasuredRegion& region, const DriveOptions& drive,
            const SupportOptions& support);
-  /// With what was found before. `mesh` must outlive this.
+  /// The same with a driven skin that is known. `mesh` must outlive this.
   Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
            const AlignedMotion& motion, std::shared_ptr<const DrivenSkin> driven,
            const SupportOptions& support);
 
-  /// Nothing driven by points: what forces act against. Springs that would follow the points'
-  /// field hold the rest position, the jaw is given to forces_of_jaw().
+  /// The boundary of a face that forces drive: no points prescribe anything. Springs that would
+  /// follow the points' field hold the rest position. The jaw acts by forces_of_jaw().
   Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
            const SupportOptions& support);
 
-  /// The same springs and held nodes, with nothing prescribed that moves.
+  /// The same springs and held nodes without the driven ones.
   Boundary released() const;
 
-  /// Adds the springs' stiffness (their blocks lie within the pattern of K).
+  /// Adds the springs' stiffness. Their blocks lie within the pattern of K.
   void add_springs(fem::SparseMatrix& stiffness) const;
   /// Whether add_springs() adds the same to any matrix.
   bool same_springs(const Boundary& other) const;
-  /// Sorted unknowns 3 n + axis.
+  /// Unknowns 3 n + axis, rising.
   const std::vector<int>& prescribed() const { return prescribed_; }
-  /// The jaw's displacement x -> turn x + slide (turn is a rotation less the identity) that follows
-  /// displacements of all the motion's points (P x 3), from the last answer on.
+  /// A displacement x -> turn x + slide of the jaw. `turn` is a rotation less the identity.
   struct JawMotion {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
     Vec3 slide = Vec3::Zero();
   };
+  /// The jaw's displacement that follows those of all the motion's points (P x 3, m). It starts
+  /// from the last answer.
   JawMotion follow(const Points& point_displacement);
-  /// Forces (all unknowns, N) of the springs that follow the jaw: linear in its motion.
+  /// Forces (N, all unknowns) of the springs that follow the jaw. They are linear in its motion.
   Eigen::VectorXd forces_of_jaw(const JawMotion& jaw) const;
   double jaw_opening_deg() const { return jaw_.opening_deg(); }  ///< of the last answer
 
-  /// Sets values (one a prescribed unknown) and forces (all unknowns): linear in both arguments.
+  /// Sets the values of the prescribed unknowns (m) and the forces on all unknowns (N). Both are
+  /// linear in both arguments.
   void prescribe(const Points& point_displacement, const JawMotion& jaw,
                  Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<Eigen::VectorXd> force) const;
 
-  /// Per point of the motion: whether its displacement acts on the tissue other than by the jaw.
+  /// One flag per point of the motion: whether its displacement acts other than by the jaw.
   std::vector<char> acting_points() const;
   bool jaw_acts() const;
   const std::vector<int>& driven_nodes() const { return driven_->nodes; }
@@ -82,7 +84,7 @@ class Boundary {
   Eigen::Index node_count() const { return mesh_.volume.nodes.rows(); }
   int skull_count() const { return skull_count_; }
   int mandible_count() const { return mandible_count_; }
-  /// Rows of the motion's points that drive.
+  /// Points of the motion that drive.
   const std::vector<int>& driven_rows() const { return driven_->rows; }
 
  private:

@@ -15,11 +15,11 @@ struct DrivenPoint {
   Vec3 rest;  ///< scan frame, m
 };
 
-/// The displacement of the face between driven points: radial-basis interpolation (rbf.hpp) of
-/// their displacements and of `still` places, which do not move. It meets every driven point. So
-/// that the lips can part, it is interpolated on a face whose mouth is opened: what lies above the
-/// mouth by the walk on the skin is shifted up, what lies below down, each by up to
-/// `mouth_shift_m`. Linear in the points' displacements.
+/// The displacement of the face between driven points, by radial-basis interpolation (rbf.hpp) of
+/// their displacements and of `still` places, which do not move. It meets every driven point and is
+/// linear in their displacements. So that the lips can part, it is interpolated on a face whose
+/// mouth is opened: skin above the mouth is shifted up and skin below it down, each by up to
+/// `mouth_shift_m`.
 class DriveField {
  public:
   DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>& still,
@@ -29,7 +29,7 @@ class DriveField {
   const std::vector<DrivenPoint>& points() const { return points_; }
   /// The points on the face whose mouth is opened.
   Points opened_points() const { return centres_.topRows(Eigen::Index(points_.size())); }
-  /// How far the mouth was opened, over the most that it is: 0 to 1.
+  /// How far the mouth was opened, over the greatest shift that is used: 0 to 1.
   double openness() const;
 
   /// A place on the face whose mouth is opened.
@@ -41,27 +41,27 @@ class DriveField {
   Vec3 shift_;      // of what lies wholly above the mouth
 };
 
-/// How far the lips part in a motion (m): the greatest difference, upwards, between the mean
-/// displacements of its upper and its lower lip's points, halved for each side's shift and at most
-/// 10 mm; 0 where one lip has no points. Of the motion as recorded: a gain scales its effect.
+/// How far the lips part in a motion, m: the greatest upward difference between the mean
+/// displacements of the upper and of the lower lip's points, halved for each side's shift, and at
+/// most 10 mm. 0 where one lip has no points. The motion is taken without gain.
 double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_rows,
                    const Vec3& up);
 
-/// Where the face is taken to be still between the driven points: brows, eyes, nose and temples
-/// (ibug68_0 to 3, 13 to 16, 17 to 47), save those that are driven themselves.
+/// Places that do not move between the driven points: brows, eyes, nose and temples (ibug68_0 to 3,
+/// 13 to 16, 17 to 47), without those that are driven.
 std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
                                const io::Landmarks& landmarks);
 
-/// Skin nodes that take prescribed displacements: a patch around each driven point, reaching
-/// `patch_radius_m` where the lips part as far as counts and half as far again where they stay
-/// closed, never across the slit, and in any case the nodes that carry the point. In a patch the
-/// displacement is the field's, which is the better guess than the tissue's where nothing parts and
-/// the worse one where the lips do (docs/fidelity.md), corrected so that the driven points end
-/// where they are driven: the field meets them, the mesh, linear between its nodes, does not.
+/// Skin nodes that take prescribed displacements: a patch around each driven point. A patch reaches
+/// `patch_radius_m` where the lips part widely and 1.5 times as far where they stay closed, since
+/// the field is a better guess than the tissue in closed lips and a worse one in parting lips
+/// (docs/fidelity.md). It never reaches across the slit, and it always holds the nodes that carry
+/// the point. Its displacement is the field's, corrected so that the driven points end where they
+/// are driven: the mesh is linear between its nodes, and so it does not meet them by itself.
 struct DrivenPatches {
   std::vector<int> nodes;   ///< outer nodes, rising
   Eigen::MatrixXd weights;  ///< |nodes| x |points|
-  CarrierMatrix carriers;   ///< |points| x |outer nodes|: what the driven points' places follow
+  CarrierMatrix carriers;   ///< |points| x |outer nodes|: how the driven points follow the nodes
 };
 
 /// Throws InputError ("source: ...") where a point lies farther than 25 mm from the skin.

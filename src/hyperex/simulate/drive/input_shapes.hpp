@@ -12,27 +12,27 @@ struct InputShapes {
   double greatest_opening_deg = 0;  ///< of the jaw, over the steps
 };
 
-/// Steps beyond the end that a course is given for, so that the spline's condition there does not
-/// reach back: a disturbance falls to 2 - sqrt 3 at each knot.
+/// Steps beyond the end for which a course is given. The spline's condition at its own end then
+/// does not reach back: a disturbance falls by a factor of 2 - sqrt 3 at each knot.
 inline constexpr int kBeyond = 12;
 
-/// What one direction of the input prescribes (a value a prescribed unknown) and its forces (all
-/// unknowns).
+/// Fills in what one direction of the input prescribes (one value per prescribed unknown, m) and
+/// its forces (all unknowns, N).
 using FillShape =
     std::function<void(const Eigen::VectorXd& direction, Eigen::Ref<Eigen::VectorXd> prescribed,
                        Eigen::Ref<Eigen::VectorXd> force)>;
 
-/// An input of many numbers (a row each) over the steps and kBeyond more (a column each) as few
-/// shapes with their courses: its principal directions (eigenvectors of its own second moments), as
-/// many as leave no number wrong by more than `tolerance` times the greatest. The courses'
-/// derivatives are those of the C2 cubic spline through their values at all steps: at rest at the
-/// start, running on past the end.
+/// Compresses an input of many numbers (rows) over the steps and kBeyond more (columns) into few
+/// shapes with their courses. The shapes are its principal directions: eigenvectors of its second
+/// moments, as many as leave no number wrong by more than `tolerance` times the greatest. The
+/// courses' derivatives are those of the C2 cubic spline through their values at all steps, which
+/// is at rest at the start.
 fem::Drive compressed_drive(const Eigen::MatrixXd& input, double dt_s, int steps, double tolerance,
                             Eigen::Index prescribed, Eigen::Index unknowns, const FillShape& fill);
 
-/// Everything that a boundary prescribes over a run (compressed_drive): the input at each step is
-/// the acting points' displacements and the jaw's turn and slide, in which the boundary is linear.
-/// `points_at`: displacement of all the motion's points (P x 3) at a time from the start (s).
+/// What a boundary prescribes over a run, compressed. The input at each step are the acting points'
+/// displacements and the jaw's turn and slide. The boundary is linear in these.
+/// `points_at`: displacement of all the motion's points (P x 3, m) at a time from the start (s).
 InputShapes input_shapes(Boundary& boundary, const std::function<Points(double)>& points_at,
                          double dt_s, int steps, double tolerance);
 

@@ -8,18 +8,18 @@
 
 namespace hyperex::simulate {
 
-/// The axis through both condyles, and turns about it.
+/// The axis through both condyles, and rotations about it.
 struct JawHinge {
   face::FaceFrame frame;
   Vec3 centre;  ///< between the condyles
 
-  /// Between ibug68_1 and ibug68_15, `forward_m` in front of them.
+  /// The condyles lie between ibug68_1 and ibug68_15, `forward_m` in front of them.
   explicit JawHinge(const io::Landmarks& landmarks, double forward_m = 0);
-  /// Opening, turning to the side, tilting: rad.
+  /// The rotation by an opening, a turn to the side and a tilt, rad.
   Eigen::Matrix3d turned(double opening, double turn, double tilt = 0) const;
 };
 
-/// The derivative of `f` at `at`, a column each of its entries.
+/// The derivative of `f` at `at`, one column per entry of `at`.
 template <class Function, class Vector>
 Eigen::MatrixXd central_differences(const Function& f, const Vector& at) {
   constexpr double h = 1e-6;
@@ -35,18 +35,18 @@ Eigen::MatrixXd central_differences(const Function& f, const Vector& at) {
   return out;
 }
 
-/// The mandible as a rigid body: it turns about the transverse axis through both condyles
-/// (opening), about the vertical (to the side), and its condyles slide. Found from the skin points
-/// over the chin by regularised least squares: sliding and turning to the side cost, opening does
-/// not.
+/// The mandible as a rigid body. It turns about the transverse axis through both condyles (opening)
+/// and about the vertical (to the side), and its condyles slide. Its pose is found from the skin
+/// points over the chin by least squares, in which sliding and turning to the side are penalised
+/// and opening is not.
 class Jaw {
  public:
   /// The condyles are taken 15 % inwards of the ibug68_1 and ibug68_15 points, at their height and
   /// `condyle_forward_m` in front of them.
   explicit Jaw(const io::Landmarks& landmarks, double condyle_forward_m = 0);
 
-  /// Displacement that carries `rest` (n x 3) nearest to `rest + displacement`; starts from the
-  /// last answer, so that it follows a motion quickly.
+  /// The displacement that carries `rest` (n x 3, m) nearest to `rest + displacement`. The search
+  /// starts from the last answer.
   Eigen::Isometry3d follow(const Points& rest, const Points& displacement);
 
   /// The angle of opening of the last answer, degrees.

@@ -7,8 +7,8 @@
 
 namespace hyperex::simulate {
 
-/// Which points of the tracked mesh move a place, and by how much: the barycentric weights of the
-/// closest point of the closest triangle at rest [4.1-4.14].
+/// The points of the tracked mesh that move a place, with their weights: the barycentric
+/// coordinates of the closest point of the closest triangle at rest [4.1-4.14].
 struct Match {
   std::array<int, 3> point{};
   Vec3 weight = Vec3::Zero();  ///< each >= 0, sum 1
@@ -23,9 +23,9 @@ struct Match {
   }
 };
 
-/// One match a row of `places`. `side` (per place: -1 lower lip, 0 either, 1 upper lip) and
-/// `point_side` (per tracked point, the same) keep a lip from following the other one; leave both
-/// empty to match by distance alone.
+/// One match per row of `places`. `side` (per place: -1 lower lip, 0 either, 1 upper lip) and
+/// `point_side` (the same per tracked point) keep a lip from following the other one. Where both
+/// are empty, distance alone decides.
 std::vector<Match> match(const Points& places, const TriMesh& tracked,
                          const std::vector<int>& side = {},
                          const std::vector<int>& point_side = {});

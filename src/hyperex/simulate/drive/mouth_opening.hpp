@@ -8,26 +8,24 @@
 
 namespace hyperex::simulate {
 
-/// How far a motion opens the mouth of a face, by any set of points: what the driven points tell of
-/// four landmarks at the mouth (ibug68_48, 51, 54, 57), by radial-basis interpolation with the
-/// places that are taken to be still (still_places). At the sample at which the mouth is widest
-/// open.
+/// How far a motion opens the mouth, at the sample at which it is widest open. Four landmarks at
+/// the mouth (ibug68_48, 51, 54, 57) are interpolated from the driven points and the still places
+/// (still_places) by radial basis functions, so that any set of driven points will do.
 struct MouthOpening {
-  double opening_m = 0;  ///< what the distance of the lips' midpoints gains
-  double corners_m = 0;  ///< what the distance of the mouth's corners gains
-  double eyes_m = 0;     ///< between the outer corners of the eyes, the measure of both
+  double opening_m = 0;  ///< increase of the distance between the lips' midpoints
+  double corners_m = 0;  ///< increase of the distance between the mouth's corners
+  double eyes_m = 0;     ///< distance between the outer corners of the eyes, for scale
 };
 
-/// `driven`: names of points of `motion`; those that it lacks are left out. `gain`: on
+/// `driven`: names of points; those that `motion` lacks are left out. `gain`: factor on all
 /// displacements. Needs the 68 landmarks.
 MouthOpening mouth_opening(const AlignedMotion& motion, const std::vector<std::string>& driven,
                            const io::Landmarks& landmarks, double gain = 1);
 
-/// Whether the jaw drops wide and no muscle of the mouth takes part: the mouth opens by more than
+/// Whether the jaw drops wide without any muscle of the mouth: the mouth opens by more than
 /// kWideOpening and its corners part by less than kCornersPart, both over the distance of the eyes.
-/// A falling jaw draws them together; muscles that smile, speak or stretch draw them apart. Such a
-/// motion is as near to the truth by displacement as by muscles (docs/muscles.md), and by
-/// displacement it takes half of the time.
+/// A falling jaw draws the corners together, and muscles draw them apart. Such a motion is
+/// simulated as well by displacement as by muscles (docs/muscles.md), in half of the time.
 inline constexpr double kWideOpening = 0.2, kCornersPart = 0.004;
 bool jaw_drops_alone(const MouthOpening& mouth);
 

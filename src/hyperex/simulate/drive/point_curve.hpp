@@ -5,7 +5,7 @@
 
 namespace hyperex::simulate {
 
-/// Displacement of all the motion's points (P x 3, m) at any time, `gain` included.
+/// The displacement of all the motion's points (P x 3, m) at any time, times `gain`.
 class PointCurve {
  public:
   PointCurve(const AlignedMotion& motion, double gain)

@@ -8,11 +8,11 @@
 
 namespace hyperex::simulate {
 
-/// How a vertex of the skin follows the tissue: outer nodes with their weights.
+/// The outer nodes that a vertex of the skin follows, with their weights.
 using SkinCarrier = std::vector<std::pair<int, double>>;
 
-/// Of some vertices of the skin, in their order: what Readout::skin() makes of the nodes'
-/// displacements, as weights; where the skin is measured it follows no node. `rim`: rising.
+/// The carriers of some vertices of the skin, in their order: Readout::skin() as weights of the
+/// nodes. Skin that is measured follows no node. `rim`: rising by vertex.
 std::vector<SkinCarrier> skin_carriers(const tissue::TissueMesh& mesh,
                                        const std::vector<tissue::RimVertex>& rim,
                                        const MeasuredRegion& region,

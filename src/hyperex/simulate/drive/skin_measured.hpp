@@ -11,7 +11,7 @@
 
 namespace hyperex::simulate {
 
-/// The part of the skin that follows the tracked triangles [4.15], and by how much.
+/// The part of the skin that follows the tracked triangles [4.15], with a share per vertex.
 struct MeasuredRegion {
   std::vector<double> share;        ///< per skin vertex, 0 (physical) to 1 (measured)
   std::vector<Match> skin;          ///< per skin vertex; empty where nothing is measured
@@ -19,8 +19,8 @@ struct MeasuredRegion {
   std::vector<Match> outer;
 };
 
-/// Uses the motion's own triangles, else makes some. Throws InputError where a named point is not
-/// in the motion.
+/// Uses the motion's triangles where it has some, else triangulate_points(). Throws InputError
+/// where a named point is not in the motion.
 MeasuredRegion measured_region(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                                const AlignedMotion& motion, const RegionOptions& options);
 

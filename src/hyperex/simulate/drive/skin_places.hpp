@@ -9,14 +9,14 @@
 
 namespace hyperex::simulate {
 
-/// Where named places (n x 3, scan frame, m) lie on the skin: the closest point of the closest
-/// triangle of mesh.skin, a lip's point on that lip. A place that lies off the skin moves as that
-/// closest point does.
+/// The closest points of mesh.skin to named places (n x 3, scan frame, m). A point of a lip is
+/// matched to that lip. A place off the skin moves as its closest point does.
 std::vector<Match> skin_places(const tissue::TissueMesh& mesh,
                                const std::vector<std::string>& names, const Points& places);
 
-/// Carriers of skin places: displacement of the place = row * displacement of the outer nodes,
-/// through the anchors of its triangle's corners. |places| x |outer nodes|; each row sums to 1.
+/// The weights with which places on the skin follow the outer nodes, through the anchors of their
+/// triangles' corners: displacement of a place = its row * displacement of the outer nodes.
+/// |places| x |outer nodes|; each row sums to 1.
 using CarrierMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 CarrierMatrix carriers(const tissue::TissueMesh& mesh, const std::vector<Match>& places);
 

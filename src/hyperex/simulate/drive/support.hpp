@@ -6,15 +6,15 @@
 
 namespace hyperex::simulate {
 
-/// What lies under a node of the inner surface.
+/// The bone under a node of the inner surface.
 enum class Bone : char { none, skull, mandible };
 
-/// Which bone lies under each inner node, from landmarks alone:
+/// The bone under each inner node, estimated from landmarks:
 ///  * skull: above the line from the base of the nose (ibug68_33) back to below the ears (mean of
 ///    ibug68_2 and 14), save within 8 mm of the lips;
 ///  * mandible: within 15 mm of the line of the jaw over the chin (ibug68_5 to 11), from 10 mm
-///  below its
-///    edge up to 16 mm below the lower lip's edge (ibug68_57), save within 6 mm of the lips;
+///  below
+///    its edge up to 16 mm below the lower lip's edge (ibug68_57), save within 6 mm of the lips;
 ///  * none elsewhere: cheeks, the floor of the mouth and the neck.
 std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
@@ -22,15 +22,15 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
 std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,
                                       const io::Landmarks& landmarks);
 
-/// Outer nodes within 35 mm of the jaw's line (ibug68_4 to 12): where a scan ends just under the
-/// chin, its border moves with the jaw and cannot be held.
+/// One flag per outer node: within 35 mm of the jaw's line (ibug68_4 to 12). The border of a scan
+/// that ends just under the chin moves with the jaw and cannot be held.
 std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
-/// Where an inner node lies from the edge of the mandible (ibug68_5 to 11).
+/// The place of an inner node relative to the edge of the mandible (ibug68_5 to 11).
 struct EdgeOfJaw {
-  bool below = false;  ///< it, or it lies outside of the edge's two ends: the floor of the mouth
-  Vec3 nearest;        ///< the place on the edge
-  double distance_m;   ///< to it from the skin over the node
+  bool below = false;  ///< below the edge or beyond its two ends: the floor of the mouth
+  Vec3 nearest;        ///< the closest place on the edge
+  double distance_m;   ///< from the skin over the node to that place
 };
 std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 

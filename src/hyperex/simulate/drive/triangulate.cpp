@@ -15,10 +15,10 @@
 namespace hyperex::simulate {
 namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-struct Row {
+struct PointRow {
   int row = -1;  // of the points; below 0 where two contours cross
 };
-using Vertex = CGAL::Triangulation_vertex_base_with_info_2<Row, Kernel>;
+using Vertex = CGAL::Triangulation_vertex_base_with_info_2<PointRow, Kernel>;
 using Data =
     CGAL::Triangulation_data_structure_2<Vertex,
                                          CGAL::Constrained_triangulation_face_base_2<Kernel>>;

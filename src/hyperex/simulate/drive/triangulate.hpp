@@ -8,10 +8,10 @@
 
 namespace hyperex::simulate {
 
-/// Triangles over tracked points seen from the front (constrained Delaunay), counter-clockwise from
-/// outside. The contours of eyes, outer and inner lips by their iBUG-68 names are kept as edges and
-/// nothing is put inside an eye or between the lips; lips that touch are told apart by name, not by
-/// place.
+/// Constrained Delaunay triangles over tracked points seen from the front, counter-clockwise from
+/// outside. The contours of the eyes and of the outer and inner lips (by their iBUG-68 names) are
+/// edges. No triangle lies inside an eye or between the lips. Names distinguish the lips where they
+/// touch.
 Triangles triangulate_points(const std::vector<std::string>& names, const Points& rest,
                              const face::FaceFrame& frame);
 

@@ -11,26 +11,25 @@
 
 namespace hyperex::simulate {
 
-/// Forces that move a face as it was recorded, found once in its own tissue and then held: other
-/// tissue or weaker muscles answer the same forces otherwise.
+/// Forces that move a face as it was recorded. They are found once, in the face's own tissue, and
+/// can then be held to see how other tissue or weaker muscles respond to them.
 struct HeldLoad {
   std::vector<double> time_s;  ///< of the samples, from the start of the motion, rising
   Eigen::MatrixXd force;       ///< 3 |nodes| x k, N
   Eigen::MatrixXd course;      ///< k x samples: the force at sample i is force * course.col(i)
-  /// Of the first columns: of each muscle its narrow band, then, where there are `wide_bands`, of
-  /// each its wide one.
+  /// The first columns of `force` hold one narrow band per muscle, then (if `wide_bands`) one wide
+  /// band per muscle.
   bool wide_bands = false;
   MuscleCourse muscles;  ///< no names where there are none
   double greatest_opening_deg = 0;
-  /// The nodes of the patches around driven points. Where strain is finite, what holds them where
-  /// these forces put them at small strain is found by the run that first needs it, and is a part
-  /// of the load from then on.
+  /// The nodes of the patches around driven points. At finite strain, additional forces hold them
+  /// where the load puts them at small strain. The run that first needs these forces finds them.
   std::vector<int> patch_nodes;
   std::shared_ptr<const NodalCourse> patch_forces;
 };
 
-/// Per muscle: the product of the gains that name it, its branch on its side, or its side. Throws
-/// InputError for a name that is none of these, listing those that are.
+/// One factor per muscle: the product of the gains that name it, its branch on its side, or its
+/// side. Throws InputError for any other name, with a list of the names.
 Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
                              const std::vector<MuscleGain>& gains,
                              const muscles::MuscleTable& table = muscles::muscle_template());
@@ -38,44 +37,45 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
 /// The activations after mirroring and gains.
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);
 
-/// Sums of activations over groups as MuscleCourse::groups names them: |groups| x samples.
+/// Sums of activations over the groups that are named as in MuscleCourse::groups: |groups| x
+/// samples.
 Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,
                            const muscles::MuscleTable& table);
 
-/// Rows of the course at any times: between samples by the C2 cubic spline, before the first and
-/// after the last as there.
+/// Rows of the course at any times, by the C2 cubic spline through the samples. Before the first
+/// and after the last sample they are constant.
 Eigen::MatrixXd course_at(const HeldLoad& load, Eigen::Index first_row, Eigen::Index rows,
                           const std::vector<double>& times_s);
 
-/// Where in HeldLoad::course the jaw's motion stands: twelve rows, a Boundary::JawMotion's turn
-/// column by column, then its slide. Of a load of muscles.
+/// The first of the twelve rows of HeldLoad::course that hold the jaw's motion: the turn of a
+/// Boundary::JawMotion column by column, then its slide. For a load of muscles.
 Eigen::Index jaw_row(const HeldLoad& load);
 
-/// Of the load at an instant, with mirroring and gains: 3 |nodes|, N. Between samples by the C2
-/// cubic spline, before the first and after the last as there.
+/// The forces of the load at one instant (3 |nodes|, N), with mirroring and gains, in time as
+/// course_at().
 Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, double time_s);
 
-/// The load over a run as few shapes, in the form of compressed_drive(); between samples by the C2
-/// cubic spline, after the last it is held. Nothing prescribed moves.
+/// The load over a run as few shapes (compressed_drive), in time as course_at(). Nothing that is
+/// prescribed moves.
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
                     double tolerance, Eigen::Index prescribed);
 
-/// What gains of 1 + `change` (one a muscle) add to the load as it was recorded: no names, and the
-/// columns of the muscles whose gain changes, their course times the change.
+/// What gains of 1 + `change` (one number per muscle) add to the load as it was recorded: the
+/// columns of the muscles whose gain changes, with their course times the change. Without names.
 HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change);
 
-/// Of each column: whether its force turns with the tissue where strain is finite. Those of muscles
-/// of the cheek (TemplateMuscle::cheek) do, whose lines lie in the skin that they carry; those of
-/// the jaw's springs, of what is left over and of muscles of lips and chin keep their direction
-/// (docs/mechanics.md).
+/// One flag per column: whether its force turns with the tissue at finite strain. Forces of muscles
+/// of the cheek (TemplateMuscle::cheek) turn, since their lines lie in the skin that they carry.
+/// All others keep their direction: those of lips and chin, of the jaw's springs, and what is left
+/// over (docs/mechanics.md).
 std::vector<char> turning_columns(const HeldLoad& load, const muscles::MuscleTable& table);
 
-/// The load with nothing but some of its columns.
+/// The load with the course of all columns but the wanted ones set to zero.
 HeldLoad with_columns(const HeldLoad& load, const std::vector<char>& wanted);
 
-/// Moving what is prescribed by `drive` makes the same motion, at rest in each instant, as these
-/// forces on the same stiffness with nothing of it prescribed that moves: K u for the static answer
-/// u to each shape. `stiffness`: with springs; `prescribed`: what the drive prescribes.
+/// The forces that make the same motion as the prescribed displacements of `drive`, in static
+/// equilibrium at each instant: K u for the static solution u of each shape. `stiffness`: K with
+/// springs; `prescribed`: the unknowns that the drive prescribes.
 HeldLoad reactions_of(const fem::Drive& drive, const fem::SparseMatrix& stiffness,
                       const std::vector<int>& prescribed, double dt_s);
 

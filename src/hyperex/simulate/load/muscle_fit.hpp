@@ -9,11 +9,12 @@
 
 namespace hyperex::simulate {
 
-/// The mandible's pose: opening about the axis through the condyles, turning to the side, tilting
-/// (rad), sliding along the face's axes (m).
+/// The pose of the mandible: opening about the axis through the condyles, turn to the side, tilt
+/// (rad), then the slide along the face's axes (m).
 using JawPose = Eigen::Matrix<double, 6, 1>;
 
-/// The jaw's displacement as turn (9, column by column) and slide (3) of Boundary::JawMotion.
+/// The jaw's displacement for a pose: turn (9 numbers, column by column) and slide (3) of
+/// Boundary::JawMotion.
 class JawKinematics {
  public:
   explicit JawKinematics(const io::Landmarks& landmarks) : hinge_(landmarks) {}
@@ -24,39 +25,40 @@ class JawKinematics {
   JawHinge hinge_;
 };
 
-/// What is known of the numbers to fit before any point is seen: 1 sigma.
+/// Standard deviations (1 sigma) of the fitted numbers before any point is observed.
 struct FitPriors {
   double activation = 0.2;
-  double ring = 0.2;  ///< of muscles that act as rings
-  double tone = 0.1;  ///< of muscles that may relax below rest, on that side
+  double ring = 0.2;  ///< muscles that act as rings
+  double tone = 0.1;  ///< below rest, of muscles that may relax
   double opening_rad = 0.35, turn_rad = 0.03, tilt_rad = 0.02, slide_m = 0.002;
-  Eigen::VectorXd readiness = {};     ///< per muscle: a factor on the three of it; empty: all 1
-  std::vector<int> counterpart = {};  ///< of each muscle, on the other side; -1 or empty: none
-  double side_correlation = 0;        ///< of its activation with the counterpart's: 0 to below 1
+  Eigen::VectorXd readiness = {};     ///< per muscle: a factor on these three; empty: all 1
+  std::vector<int> counterpart = {};  ///< per muscle: that of the other side; -1 or empty: none
+  double side_correlation = 0;        ///< between the activations of both: 0 to below 1
 };
 
-/// Points as functions of activations and the jaw's motion: 3 P x M and 3 P x 12, m. With wide
-/// bands a muscle at a moves them by a ((1 - w) of_muscles + w of_wide), w = wide_share(a).
+/// How points move with activations and with the jaw: 3 P x M and 3 P x 12, m. With wide bands a
+/// muscle of activation a moves them by a ((1 - w) of_muscles + w of_wide), w = wide_share(a).
 struct PointResponse {
   Eigen::MatrixXd of_muscles, of_jaw, of_wide;
-  double half = 0.5;  ///< the activation at which half of the force is in the wide band
+  double half = 0.5;  ///< activation at which half of the force acts in the wide band
   double wide_share(double a) const { return a > 0 ? a / (a + half) : 0; }
 };
 
 struct FitResult {
   Eigen::VectorXd activation;
   JawPose jaw = JawPose::Zero();
-  Eigen::MatrixXd covariance;  ///< of the activations, no bound seen
+  Eigen::MatrixXd covariance;  ///< of the activations, without regard to their bounds
   Eigen::VectorXd left_over;   ///< observed less modelled, 3 P, m
 };
 
+/// Fits activations and the jaw's pose to displacements of points.
 class MuscleFit {
  public:
-  /// `sigma_m`: of a coordinate's error. `tone[m]`: may go below 0; `ring[m]`: acts as a
-  /// ring.
+  /// `sigma_m`: 1 sigma of the error of a coordinate. `tone[m]`: muscle m may go below 0.
+  /// `ring[m]`: it acts as a ring.
   MuscleFit(PointResponse response, const JawKinematics& jaw, const FitPriors& priors,
             double sigma_m, std::vector<char> tone, std::vector<char> ring);
-  /// `displacement`: of the points, 3 P. Starts from the last answer.
+  /// `displacement` of the points: 3 P, m. The search starts from the last answer.
   FitResult fit(const Eigen::VectorXd& displacement);
   double wide_share(double activation) const { return response_.wide_share(activation); }
 

@@ -58,11 +58,6 @@ struct Driven {
   }
 };
 
-MuscleModelOptions model_options(const SimulationOptions& options) {
-  return {muscle_support(options.support, options.muscles), options.muscles.shape,
-          options.muscles.widening};
-}
-
 int counterpart_of(const std::vector<muscles::MuscleLine>& lines, const std::string& name) {
   const std::string other = muscles::other_side(name);
   for (std::size_t m = 0; m < lines.size(); ++m)
@@ -129,8 +124,7 @@ Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patch
   const std::vector<int>& held = model.boundary().prescribed();
   const std::vector<int> prescribed = with_nodes(held, patches.nodes);
   fem::PartitionedFactor factor(
-      model.stiffness(), prescribed, "patches of the driven points", {},
-      fem::LinearSolver::automatic,
+      model.stiffness(), prescribed, "patches of the driven points",
       std::make_shared<const fem::NodeOrder>(
           restricted(*model.order(), int(model.stiffness().rows()), held, prescribed)));
   const auto unknown = [&](Eigen::Index row) { return 3 * patches.nodes[row / 3] + int(row % 3); };
@@ -214,6 +208,14 @@ Eigen::MatrixXd name_groups(const std::vector<muscles::MuscleLine>& lines,
   return members;
 }
 
+void resize(MuscleCourse& course, Eigen::Index muscles, Eigen::Index groups, Eigen::Index samples) {
+  course.group_activation.resize(groups, samples);
+  course.group_sigma.resize(groups, samples);
+  course.activation.resize(muscles, samples);
+  course.sigma.resize(muscles, samples);
+  course.jaw_opening_deg.resize(samples);
+}
+
 /// Orthonormal directions of the columns, as many as matter.
 Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
@@ -224,43 +226,6 @@ Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
 }
 
 }  // namespace
-
-SupportOptions muscle_support(const SupportOptions& given, const MuscleOptions& options) {
-  SupportOptions support = given;
-  support.skull_layer = options.skull_layer;
-  support.mandible_layer = options.mandible_layer;
-  support.teeth_layer = options.teeth_layer;
-  support.teeth_reach_m = options.teeth_reach_m;
-  support.field_pa_per_m = options.foundation_pa_per_m;
-  support.throat_pa_per_m = options.throat_pa_per_m;
-  support.throat_reach_m = options.throat_reach_m;
-  return support;
-}
-
-void stiffen_lips(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                  const MuscleOptions& options, fem::Material& material) {
-  const std::vector<double> to_lips = distances_to_lips(mesh, landmarks);
-  const auto columns = static_cast<int>(mesh.volume.surface_nodes());
-  for (Eigen::Index t = 0; t < mesh.volume.tets.rows(); ++t) {
-    double distance = 0;
-    for (int a = 0; a < 4; ++a) distance += 0.25 * to_lips[mesh.volume.tets(t, a) % columns];
-    material.young_pa[std::size_t(t)] *=
-        1 + (options.lip_stiffening - 1) * std::exp(-std::pow(distance / options.lip_reach_m, 2));
-  }
-}
-
-MuscleModel muscle_model(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                         const SimulationOptions& options, const fem::SparseMatrix& stiffness,
-                         std::shared_ptr<const fem::NodeOrder> order,
-                         const std::function<void()>& between) {
-  return {mesh,
-          landmarks,
-          stiffness,
-          options.muscles.table(),
-          model_options(options),
-          std::move(order),
-          between};
-}
 
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const AlignedMotion& motion, const MeasuredRegion& region,
@@ -283,11 +248,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Eigen::Index of_jaw = jaw_row(load);
   const Eigen::MatrixXd members =
       name_groups(model.lines(), options.muscles.table(), muscle.groups);
-  muscle.group_activation.resize(members.rows(), samples);
-  muscle.group_sigma.resize(members.rows(), samples);
-  muscle.activation.resize(count, samples);
-  muscle.sigma.resize(count, samples);
-  muscle.jaw_opening_deg.resize(samples);
+  resize(muscle, count, members.rows(), samples);
   Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
   Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
   for (Eigen::Index k = 0; k < samples; ++k) {

@@ -18,8 +18,7 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
       stiffness_(stiffness),
       mesh_(mesh) {
   boundary_.add_springs(stiffness_);
-  factor_.emplace(stiffness_, boundary_.prescribed(), "muscles", mesh.volume.nodes,
-                  fem::LinearSolver::automatic, std::move(order));
+  factor_.emplace(stiffness_, boundary_.prescribed(), "muscles", std::move(order));
   const Eigen::Index unknowns = 3 * mesh.volume.nodes.rows();
   const auto count = static_cast<Eigen::Index>(lines_.size());
   const auto forces = [&](double widening, Eigen::MatrixXd& force) {

@@ -15,16 +15,16 @@ namespace hyperex::simulate {
 struct MuscleModelOptions {
   SupportOptions support;
   muscles::ForceShape shape;
-  double widening = 1;    ///< of a pull's band when it is strong, over that when it is weak
-  double unit_m = 0.010;  ///< a muscle at 1 moves the skin by this much where most
+  double widening = 1;    ///< width of the band of a strong pull over that of a weak one
+  double unit_m = 0.010;  ///< greatest displacement of the skin by a muscle of activation 1
 };
 
-/// What unit pulls of the muscles and unit motions of the jaw make of a face at rest: one
-/// factorisation of the stiffness without driven points, a solution for each.
+/// The static responses of a face at rest to unit pulls of its muscles and unit motions of its jaw:
+/// one factorisation of the stiffness without driven points, and one solution for each.
 class MuscleModel {
  public:
-  /// `stiffness`: assembled, without the springs, which are added here. `between` (may be empty):
-  /// called again and again; may throw, which ends it.
+  /// `stiffness`: assembled, without springs, which are added here. `between` (may be empty) is
+  /// called repeatedly; it may throw, which ends the computation.
   MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
               const fem::SparseMatrix& stiffness,
               const std::vector<muscles::TemplateMuscle>& muscles,
@@ -36,13 +36,14 @@ class MuscleModel {
   const Boundary& boundary() const { return boundary_; }
   const fem::SparseMatrix& stiffness() const { return stiffness_; }  ///< with springs
   const std::shared_ptr<const fem::NodeOrder>& order() const { return factor_->order(); }
-  /// 3 |nodes| x |lines|, N and m: of a muscle at 1.
+  /// 3 |nodes| x |lines|, N and m: force and response of each muscle at activation 1.
   const Eigen::MatrixXd& force() const { return force_; }
   const Eigen::MatrixXd& response() const { return response_; }
   /// The same with the wide bands; no columns where widening is 1.
   const Eigen::MatrixXd& wide_force() const { return wide_force_; }
   const Eigen::MatrixXd& wide_response() const { return wide_response_; }
-  /// 3 |nodes| x 12: of each entry of the jaw's turn (column by column), then of its slide (m).
+  /// 3 |nodes| x 12: one column per entry of the jaw's turn (column by column) and of its slide
+  /// (m).
   const Eigen::MatrixXd& jaw_force() const { return jaw_force_; }
   const Eigen::MatrixXd& jaw_response() const { return jaw_response_; }
 

@@ -6,17 +6,17 @@
 
 namespace hyperex::simulate {
 
-/// Three numbers a node over time, linear between samples and held after the last.
+/// Three numbers per node over time, linear between samples and constant after the last.
 struct NodalCourse {
   std::vector<int> nodes;
-  std::vector<double> time_s;          ///< rising; none: nothing is known
-  std::vector<Eigen::VectorXd> value;  ///< 3 |nodes| a sample
+  std::vector<double> time_s;          ///< rising
+  std::vector<Eigen::VectorXd> value;  ///< per sample, 3 |nodes|
 
   void take(double at_s, const Eigen::VectorXd& v) {
     time_s.push_back(at_s);
     value.push_back(v);
   }
-  /// There must be a sample.
+  /// Needs at least one sample.
   void at(double t_s, Eigen::VectorXd& out) const {
     const auto after = std::upper_bound(time_s.begin(), time_s.end(), t_s) - time_s.begin();
     const auto to = std::min(std::size_t(after), time_s.size() - 1);

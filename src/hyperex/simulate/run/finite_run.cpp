@@ -187,7 +187,6 @@ FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assem
   }
   out.solution.displacement.swap(read_off.displacement());
   out.solution.free_dofs = newton.free_count();
-  out.solution.linear_solver = newton.solver();
   return out;
 }
 

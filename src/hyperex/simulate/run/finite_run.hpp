@@ -10,28 +10,29 @@
 
 namespace hyperex::simulate {
 
-/// What moves a face at finite strain. Drives are given at steps of `step_s` and taken linearly
-/// between them.
+/// What moves a face at finite strain. Drives are given at steps of `step_s` and are linear between
+/// them.
 struct FiniteDrive {
   double step_s = 0.002;
-  fem::Drive still;    ///< what is prescribed, and forces whose direction stays
+  fem::Drive still;    ///< prescribed displacements, and forces that keep their direction
   fem::Drive turning;  ///< forces that turn with the tissue about them; no shapes: none
-  const NodalCourse* forces = nullptr;  ///< N, whose direction stays; null: none
-  /// Displacements (m) of nodes that are prescribed besides those of `still`; null: none.
+  const NodalCourse* forces = nullptr;  ///< N, further forces that keep their direction; null: none
+  /// Displacements (m) of further prescribed nodes; null: none.
   const NodalCourse* places = nullptr;
 };
 
 struct FiniteSolution {
   Solution solution;
-  /// What acts on the nodes of `places` besides the other forces, N: in the place of the
-  /// displacements they make the same motion.
+  /// Forces (N) that act on the nodes of `places` because they are prescribed. As forces they make
+  /// the same motion.
   NodalCourse reactions;
   int steps = 0, parts = 0, iterations = 0, factorisations = 0;
 };
 
-/// From rest, in steps that end at `step_ends_s` (0 first) or parts of them; displacements at
-/// `times` (in steps of the drive), by cubics between steps. `newton` prescribes what `still` does
-/// and the nodes of `places`. Throws NumericalError as FiniteNewton::step().
+/// Runs from rest, in steps that end at `step_ends_s` (the first is 0) or in parts of them. The
+/// displacements at `times` (in steps of the drive) are cubic between steps. `newton` prescribes
+/// the unknowns of `still` and the nodes of `places`. Throws NumericalError as
+/// FiniteNewton::step().
 FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assembler,
                           const std::vector<int>& still_prescribed, const FiniteDrive& drive,
                           const std::vector<double>& step_ends_s, const std::vector<double>& times,

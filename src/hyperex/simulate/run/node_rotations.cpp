@@ -7,7 +7,7 @@ namespace hyperex::simulate {
 namespace {
 /// Forces smaller than this share of the greatest act nowhere.
 constexpr double kNoForce = 1e-9;
-constexpr int kMostIterations = 20;
+constexpr int kMostPolarSteps = 20;
 constexpr double kEnough = 1e-10;
 }  // namespace
 
@@ -33,7 +33,7 @@ void NodeRotations::update(const Eigen::VectorXd& d) {
     }
     mean = mean / volume + Eigen::Matrix3d::Identity();
     if (!(mean.determinant() > 0)) return;
-    for (int k = 0; k < kMostIterations; ++k) {
+    for (int k = 0; k < kMostPolarSteps; ++k) {
       const Eigen::Matrix3d next = 0.5 * (mean + mean.inverse().transpose());
       const double change = (next - mean).cwiseAbs().maxCoeff();
       mean = next;

@@ -6,12 +6,12 @@
 
 namespace hyperex::simulate {
 
-/// The rotation of the tissue about nodes: the orthogonal polar factor of the mean of the
-/// deformation gradients around each, weighed by volume, by Higham's iteration (SIAM J. Sci. Stat.
-/// Comput. 7, 1986). A node whose mean is turned inside out keeps its last rotation.
+/// The rotation of the tissue at nodes: the orthogonal polar factor of the mean deformation
+/// gradient around each node, weighted by volume, by Higham's iteration (SIAM J. Sci. Stat. Comput.
+/// 7, 1986). A node whose mean gradient has a negative determinant keeps its last rotation.
 class NodeRotations {
  public:
-  /// Of the nodes on which any of the forces (columns; 3 |nodes| rows) act. `assembler` must
+  /// For the nodes on which any of the forces (columns of 3 |nodes| rows) act. `assembler` must
   /// outlive this.
   NodeRotations(const fem::Assembler& assembler, const Eigen::MatrixXd& forces);
   /// At displacement d (3 |nodes|, m).

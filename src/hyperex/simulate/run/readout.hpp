@@ -13,28 +13,27 @@
 
 namespace hyperex::simulate {
 
-/// What is read off a moving face: the skin, its landmarks, the lips. Depends on the face alone
-/// and serves any number of runs. Const members may be called from several threads.
+/// Reads skin, landmarks and lips off a moving face. It depends on the face alone and serves any
+/// number of runs. Const members may be called from several threads.
 class Readout {
  public:
   /// `mesh` must outlive this.
   Readout(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
-  /// Displacement of the skin (|skin| x 3, m): of the tissue's nodes (|nodes| x 3) or, where
-  /// measured, of the tracked points (P x 3).
-  /// `rim`: as DrivenPoints has it.
+  /// Displacement of the skin (|skin| x 3, m). It follows the tissue's nodes (|nodes| x 3) or,
+  /// where it is measured, the tracked points (P x 3). `rim`: DrivenPoints::rim.
   PointsF skin(const MeasuredRegion& region, const std::vector<tissue::RimVertex>& rim,
                const Points& nodes, const Points& points) const;
-  /// The landmarks as the moved skin carries them, a sample a frame.
+  /// The landmarks as the moved skin carries them, one sample per frame.
   motion::Motion landmark_tracks(const std::vector<double>& time_s,
                                  const std::vector<PointsF>& frames) const;
 
-  /// Over the frames: the greatest depth of LipSurfaces, by which the lips pass through each other,
-  /// and the greatest distance between upper and lower lip (ibug68_62, 66) over the first frame's.
+  /// The greatest depth of the lips in each other in any frame (LipSurfaces), and the greatest
+  /// distance between upper and lower lip (ibug68_62, 66) less that of the first frame.
   struct Lips {
     double overlap_mm = 0, gap_mm = 0;
   };
-  /// `each` calls a function with every frame from 0 to a count, side by side or not.
+  /// `each(count, f)` calls f for 0 to count - 1, in parallel or not.
   using EachFrame = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
   Lips lips(const motion::Motion& tracks, const std::vector<PointsF>& frames,
             const EachFrame& each) const;
@@ -49,13 +48,13 @@ class Readout {
   std::shared_ptr<const LipSurfaces> surfaces_;
 };
 
-/// As floats. What a float could hold with fewer digits alone becomes 0: some libraries' threads
-/// flush such numbers and others do not, and which thread works must not show.
+/// As floats. Subnormal numbers become 0: some libraries' threads flush them and others do not, and
+/// results must not depend on the thread.
 PointsF in_single_precision(const Points& points);
 
-/// The points of a motion that drive, and where they lie on the skin.
+/// The points of a motion that drive, and their places on the skin.
 struct DrivenPoints {
-  /// `wanted`: names; those that the motion does not have are left out.
+  /// `wanted`: names; those that the motion lacks are left out.
   DrivenPoints(const tissue::TissueMesh& mesh, const AlignedMotion& motion,
                const std::vector<std::string>& wanted);
 
@@ -63,14 +62,14 @@ struct DrivenPoints {
   std::vector<std::string> names;
   Points rest;                         ///< positions at rest (n x 3, m)
   std::vector<Match> places;           ///< on the skin
-  std::vector<tissue::RimVertex> rim;  ///< the mesh's, through these places (rim_through)
+  std::vector<tissue::RimVertex> rim;  ///< the mesh's rim through these places (rim_through)
 
-  /// Of each, over the frames: the greatest distance (m) from where it is driven.
+  /// Per point: the greatest distance (m) in any frame from where it is driven.
   std::vector<double> off_m(const Performance& performance, const PointCurve& wanted) const;
 };
 
-/// The frame nearest to `peak_time_s`; below 0: that in which the points of `rows` moved most in
-/// the mean.
+/// The frame nearest to `peak_time_s`. Below 0: the frame in which the mean displacement of the
+/// points of `rows` is greatest.
 int peak_frame(const std::vector<double>& time_s, double peak_time_s, const std::vector<int>& rows,
                const PointCurve& points);
 

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
 
 namespace hyperex::simulate {
@@ -17,28 +16,7 @@ Simulator::Simulator(std::shared_ptr<const tissue::TissueMesh> mesh, io::Landmar
   impl_->motion = std::make_shared<const AlignedMotion>(std::move(motion));
   impl_->options = std::move(options);
 }
-
-Simulator::Simulator(const Simulator& other) : impl_(std::make_unique<Impl>()) {
-  const Impl& from = *other.impl_;
-  impl_->mesh = from.mesh;
-  impl_->landmarks = from.landmarks;
-  impl_->motion = from.motion;
-  impl_->options = from.options;
-  impl_->readout = from.readout;
-  impl_->region = from.region;
-  impl_->driven = from.driven;
-  impl_->driven_points = from.driven_points;
-  impl_->boundary = from.boundary;
-  impl_->assembler = from.assembler;
-  impl_->order = from.order;
-  impl_->known_muscles = from.known_muscles;
-  impl_->load = from.load;
-  impl_->load_held = from.load_held;
-  impl_->load_lost = from.load_lost;
-  impl_->input = from.input;
-  impl_->obstacles = from.obstacles;
-  impl_->touchable = from.touchable;
-}
+Simulator::Simulator(const Simulator& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator other) noexcept {
   impl_.swap(other.impl_);
@@ -58,6 +36,9 @@ const io::Landmarks& Simulator::landmarks() const {
 const AlignedMotion& Simulator::motion() const {
   return *impl_->motion;
 }
+const StageGraph& Simulator::stages() const {
+  return impl_->stages;
+}
 
 void Simulator::set_options(SimulationOptions options) {
   impl_->set(std::move(options));
@@ -71,29 +52,44 @@ void Simulator::set_support(SupportOptions support) {
 void Simulator::set_drive(DriveOptions drive) {
   impl_->set_part(&SimulationOptions::drive, std::move(drive));
 }
-void Simulator::set_obstacles(std::shared_ptr<const std::vector<Obstacle>> obstacles) {
-  impl_->obstacles = std::move(obstacles);
-  impl_->touchable.reset();
-  impl_->drop_contact();
-}
 void Simulator::set_motion(AlignedMotion motion) {
   impl_->set(std::move(motion));
 }
-std::shared_ptr<const EliminationOrder> Simulator::elimination_order() const {
-  return impl_->order;
+void Simulator::set_obstacles(std::shared_ptr<const std::vector<Obstacle>> obstacles) {
+  impl_->set(std::move(obstacles));
 }
-void Simulator::use_order(std::shared_ptr<const EliminationOrder> order) {
-  const auto all = static_cast<std::size_t>(3 * impl_->mesh->volume.nodes.rows());
-  if (!order || !order->nodes || order->prescribed.size() + order->nodes->unknowns.size() != all)
-    return;
-  impl_->order = std::move(order);
-  impl_->drop_factors();
+
+void Simulator::hold_load() {
+  impl_->stages.load.hold();
 }
 void Simulator::reuse_factor(Simulator&& spent) {
   impl_->take_factor(*spent.impl_);
 }
-void Simulator::hold_load() {
-  impl_->load_held = true;
+std::shared_ptr<const EliminationOrder> Simulator::elimination_order() const {
+  return impl_->stages.order.pointer();
+}
+void Simulator::use_order(std::shared_ptr<const EliminationOrder> order) {
+  impl_->use_order(std::move(order));
+}
+
+void Simulator::prepare() {
+  impl_->progress.begin({});
+  impl_->prepare();
+}
+SimulationResult Simulator::run(const RunCallbacks& callbacks) {
+  impl_->progress.begin(callbacks);
+  return impl_->run();
+}
+PointsF Simulator::still(double time_s) {
+  impl_->progress.begin({});
+  return impl_->still(time_s);
+}
+void Simulator::start_stream(double interval_s) {
+  impl_->progress.begin({});
+  impl_->start_stream(interval_s);
+}
+PointsF Simulator::step(const Points& displacement_m) {
+  return impl_->step(displacement_m);
 }
 
 SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
@@ -101,29 +97,6 @@ SimulationResult simulate(const tissue::TissueMesh& mesh, const io::Landmarks& l
                           const RunCallbacks& callbacks) {
   const std::shared_ptr<const tissue::TissueMesh> borrowed(std::shared_ptr<void>(), &mesh);
   return Simulator(borrowed, landmarks, motion, options).run(callbacks);
-}
-
-void Simulator::start_stream(double interval_s) {
-  impl_->callbacks = {};
-  impl_->start_stream(interval_s);
-}
-PointsF Simulator::step(const Points& displacement_m) {
-  return impl_->step(displacement_m);
-}
-
-void Simulator::prepare() {
-  impl_->callbacks = {};
-  impl_->prepare();
-}
-
-SimulationResult Simulator::run(const RunCallbacks& callbacks) {
-  impl_->callbacks = callbacks;
-  return impl_->run();
-}
-
-PointsF Simulator::still(double time_s) {
-  impl_->callbacks = {};
-  return impl_->still(time_s);
 }
 
 }  // namespace hyperex::simulate

@@ -25,8 +25,9 @@ std::vector<Eigen::Isometry3d> Simulator::Impl::jaw_now_from_rest(
     const std::vector<double>& times_s, const PointCurve& points) const {
   std::vector<Eigen::Isometry3d> out(times_s.size(), Eigen::Isometry3d::Identity());
   if (options.support.mandible == Mandible::held) return out;
-  if (options.drive.by == DriveBy::muscles && load) {
-    const Eigen::MatrixXd course = course_at(*load, jaw_row(*load), 12, times_s);
+  if (options.drive.by == DriveBy::muscles && stages.load.has_value()) {
+    const HeldLoad& load = stages.load.value();
+    const Eigen::MatrixXd course = course_at(load, jaw_row(load), 12, times_s);
     const Vec3 chin = landmarks->at(face::ibug(8));
     for (std::size_t i = 0; i < out.size(); ++i) {
       const auto own = course.col(Eigen::Index(i));
@@ -34,7 +35,7 @@ std::vector<Eigen::Isometry3d> Simulator::Impl::jaw_now_from_rest(
     }
     return out;
   }
-  const std::vector<int> rows = jaw_rows(*motion, driven_points->rows, options.support);
+  const std::vector<int> rows = jaw_rows(*motion, stages.points->rows, options.support);
   if (rows.empty()) return out;
   Jaw jaw(*landmarks);
   const Points rest = motion->rest(rows, Eigen::all);

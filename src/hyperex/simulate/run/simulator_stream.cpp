@@ -21,33 +21,40 @@ void Simulator::Impl::start_stream(double interval_s) {
     throw InputError("stream",
                      "a stream knows neither finite strain nor contact: expected model.strain = "
                      "linear and contact.lips = false");
-  stream.reset();
-  renew_stream(interval_s);
+  stages.stream.drop();
+  stream_interval_s = interval_s;
+  ensure_stream();
 }
 
-void Simulator::Impl::renew_stream(double interval_s) {
-  need_region();
-  need_boundary();
-  need_assembler();
-  fem::System system;
-  fill(system);
-  if (stream && stream_fits) {
-    stream->refill(std::move(system), *boundary);
-  } else {
-    stream.emplace(std::move(system), *boundary, interval_s, options.solver.linear, known_order());
-    keep_order(stream->order());
-  }
-  stream_current = stream_fits = true;
+void Simulator::Impl::ensure_stream() {
+  ensure_skin();
+  ensure_boundary();
+  ensure_pattern();
+  stages.stream.ensure(
+      [&] {
+        fem::System system;
+        fill(system);
+        Stream stream(std::move(system), *stages.values->boundary, *stream_interval_s,
+                      known_order());
+        keep_order(stream.order());
+        return stream;
+      },
+      [&](Stream& stream) {
+        fem::System system;
+        fill(system);
+        stream.refill(std::move(system), *stages.values->boundary);
+      });
 }
 
 PointsF Simulator::Impl::step(const Points& displacement_m) {
-  if (!stream) throw std::logic_error("Simulator::step before start_stream");
+  if (!stream_interval_s) throw std::logic_error("Simulator::step before start_stream");
   if (displacement_m.rows() != motion->rest.rows() || !displacement_m.allFinite())
     throw InputError("stream", fmt::format("{} rows: expected {} points, all finite",
                                            displacement_m.rows(), motion->rest.rows()));
-  if (!stream_current) renew_stream(stream->interval_s());
+  ensure_stream();
   const Points points = options.drive.gain * displacement_m;
-  return readout->skin(*region, driven_points->rim, stream->step(points), points);
+  return stages.readout->skin(stages.measured.value(), stages.points->rim,
+                              stages.stream->step(points), points);
 }
 
 }  // namespace hyperex::simulate

@@ -9,7 +9,6 @@ namespace hyperex::simulate {
 Solution run_full(fem::Newmark& newmark, const fem::Drive& drive, const std::vector<double>& times,
                   const StepProgress& progress) {
   Solution out;
-  out.linear_solver = newmark.solver();
   out.free_dofs = newmark.free_count();
   const std::vector<int>& prescribed = newmark.prescribed();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(newmark.displacement().size());
@@ -46,7 +45,6 @@ Solution run_full(fem::Newmark& newmark, const fem::Drive& drive, const std::vec
 Solution run_reduced(const fem::ReducedModel& model, const fem::Response& response,
                      const std::vector<double>& times) {
   Solution out;
-  out.linear_solver = model.solver();
   out.free_dofs = model.free_count();
   out.displacement = response.displacement(times);
   out.basis_size = response.basis_size;

@@ -9,29 +9,28 @@
 
 namespace hyperex::simulate {
 
-/// Displacements of all unknowns at wanted times.
+/// Displacements of all unknowns at given times.
 struct Solution {
   Eigen::MatrixXd displacement;  ///< 3 |nodes| x |times|, m
   int free_dofs = 0, basis_size = 0;
-  fem::LinearSolver linear_solver = fem::LinearSolver::automatic;  ///< the one picked
   double estimated_error = -1;  ///< of the reduced model, over the greatest displacement
-  double verified_error = -1;   ///< against the full model, where asked for: over these times
+  double verified_error = -1;  ///< measured against the full model at these times; -1: not measured
   bool converged = true;
 };
 
-/// Called with the share of the steps that are done, 0 to 1; may throw, which ends the run.
+/// Called with the share of the steps that are done, 0 to 1. It may throw, which ends the run.
 using StepProgress = std::function<void(double share)>;
 
-/// From rest through all steps of the drive. `times_in_steps`: rising, from 0 to the last step;
-/// linear between steps.
+/// Runs all steps of the drive, from rest. `times_in_steps`: rising, from 0 to the last step. The
+/// displacements are linear between steps.
 Solution run_full(fem::Newmark& newmark, const fem::Drive& drive,
                   const std::vector<double>& times_in_steps, const StepProgress& progress = {});
-/// `response`: of the same model.
+/// The same by the reduced model; `response` is one of `model`.
 Solution run_reduced(const fem::ReducedModel& model, const fem::Response& response,
                      const std::vector<double>& times_in_steps);
 
-/// Greatest distance of any node (three rows each) between the two in any column, over the greatest
-/// displacement of any node in `truth`.
+/// The greatest distance between `a` and `truth` of any node (three rows) in any column, over the
+/// greatest displacement of any node in `truth`.
 double greatest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth);
 
 }  // namespace hyperex::simulate

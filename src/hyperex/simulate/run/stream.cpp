@@ -9,9 +9,8 @@ constexpr double kBeta = (kStreamGamma + 0.5) * (kStreamGamma + 0.5) / 4;
 }
 
 Stream::Stream(fem::System system, const Boundary& boundary, double interval_s,
-               fem::LinearSolver linear, std::shared_ptr<const fem::NodeOrder> order)
-    : interval_s_(interval_s),
-      newmark_(std::move(system), boundary.prescribed(), {interval_s, kBeta, kStreamGamma}, linear,
+               std::shared_ptr<const fem::NodeOrder> order)
+    : newmark_(std::move(system), boundary.prescribed(), {interval_s, kBeta, kStreamGamma},
                std::move(order)),
       boundary_(boundary),
       values_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(boundary.prescribed().size()))),

@@ -10,24 +10,22 @@
 namespace hyperex::simulate {
 
 /// A face that follows points as they come in, one sample after the other, by Newmark's method with
-/// the numerical damping kStreamGamma (simulator.hpp). Begins at rest.
+/// the numerical damping kStreamGamma (simulator.hpp). It begins at rest.
 class Stream {
  public:
-  /// `interval_s` between samples, > 0. Throws NumericalError where the system cannot be factored.
-  Stream(fem::System system, const Boundary& boundary, double interval_s, fem::LinearSolver linear,
+  /// `interval_s`: between samples, > 0. Throws NumericalError where the system cannot be factored.
+  Stream(fem::System system, const Boundary& boundary, double interval_s,
          std::shared_ptr<const fem::NodeOrder> order);
 
   /// Other values and springs on the same unknowns; the motion goes on.
   void refill(fem::System system, const Boundary& boundary);
-  /// Displacement of all nodes (|nodes| x 3, m) after one more sample: displacements of all the
-  /// motion's points (P x 3, m). Valid until the next.
+  /// Takes one more sample, the displacements of all the motion's points (P x 3, m). Returns the
+  /// displacement of all nodes (|nodes| x 3, m), valid until the next sample.
   Eigen::Map<const Points> step(const Points& point_displacement);
 
-  double interval_s() const { return interval_s_; }
   const std::shared_ptr<const fem::NodeOrder>& order() const { return newmark_.order(); }
 
  private:
-  double interval_s_;
   fem::Newmark newmark_;
   std::optional<Boundary> boundary_;  // always there; following the jaw begins at its last position
   Eigen::VectorXd values_, force_;

@@ -17,7 +17,7 @@ class FrontalField {
   /// `points`: n x 2, n >= 1, no two closer than 0.1 mm.
   explicit FrontalField(const Eigen::MatrixX2d& points);
   ~FrontalField();
-  /// One value a point -> one a row of `places` (m x 2).
+  /// One value per point -> one per row of `places` (m x 2).
   Eigen::VectorXd at(const Eigen::MatrixX2d& places, const Eigen::VectorXd& values) const;
 
  private:

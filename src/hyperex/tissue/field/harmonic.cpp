@@ -17,15 +17,16 @@ constexpr double kRadius_m = 0.006;
 constexpr double kNearest_m = 0.05 * kRadius_m;  // keeps k finite: beyond, nothing changes
 constexpr double kLeastShare = 1e-3;
 
-struct Edge {
+struct WeightedEdge {
   double weight = 0, conductivity = 0;
   int triangles = 0;
 };
 
 /// Weights of the edges between joined vertices.
-std::map<std::pair<int, int>, Edge> edges_of(const TriMesh& mesh, const std::vector<int>& same,
-                                             const Points& points) {
-  std::map<std::pair<int, int>, Edge> edges;
+std::map<std::pair<int, int>, WeightedEdge> edges_of(const TriMesh& mesh,
+                                                     const std::vector<int>& same,
+                                                     const Points& points) {
+  std::map<std::pair<int, int>, WeightedEdge> edges;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
     std::array<Vec3, 3> p;
     std::array<int, 3> v{};
@@ -44,14 +45,14 @@ std::map<std::pair<int, int>, Edge> edges_of(const TriMesh& mesh, const std::vec
       const int a = v[(k + 1) % 3], b = v[(k + 2) % 3];
       if (a == b) continue;
       const double cotangent = (p[(k + 1) % 3] - p[k]).dot(p[(k + 2) % 3] - p[k]) / twice_area;
-      Edge& edge = edges[std::minmax(a, b)];
+      WeightedEdge& edge = edges[std::minmax(a, b)];
       edge.weight += conductivity * cotangent / 2;
       edge.conductivity += conductivity;
       ++edge.triangles;
     }
   }
   for (auto& entry : edges) {
-    Edge& edge = entry.second;
+    WeightedEdge& edge = entry.second;
     edge.weight = std::max(edge.weight, kLeastShare * edge.conductivity / edge.triangles);
   }
   return edges;
@@ -70,8 +71,8 @@ struct HarmonicField::Impl {
   std::array<int, 2> shared{-1, -1};
 
   void fix(const std::vector<PlaceOnMesh>& at);
-  void number(const std::map<std::pair<int, int>, Edge>& edges);
-  void assemble(const std::map<std::pair<int, int>, Edge>& edges, Eigen::Index points);
+  void number(const std::map<std::pair<int, int>, WeightedEdge>& edges);
+  void assemble(const std::map<std::pair<int, int>, WeightedEdge>& edges, Eigen::Index points);
 };
 
 void HarmonicField::Impl::fix(const std::vector<PlaceOnMesh>& at) {
@@ -86,7 +87,7 @@ void HarmonicField::Impl::fix(const std::vector<PlaceOnMesh>& at) {
 }
 
 /// Numbers the free vertices that a walk from some point reaches; the others are strays.
-void HarmonicField::Impl::number(const std::map<std::pair<int, int>, Edge>& edges) {
+void HarmonicField::Impl::number(const std::map<std::pair<int, int>, WeightedEdge>& edges) {
   std::vector<std::vector<int>> around(same.size());
   for (const auto& [ends, edge] : edges) {
     around[ends.first].push_back(ends.second);
@@ -116,7 +117,7 @@ void HarmonicField::Impl::number(const std::map<std::pair<int, int>, Edge>& edge
   }
 }
 
-void HarmonicField::Impl::assemble(const std::map<std::pair<int, int>, Edge>& edges,
+void HarmonicField::Impl::assemble(const std::map<std::pair<int, int>, WeightedEdge>& edges,
                                    Eigen::Index points) {
   using Triplet = Eigen::Triplet<double>;
   std::vector<Triplet> inner, outer;

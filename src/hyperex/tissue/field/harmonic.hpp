@@ -28,9 +28,9 @@ class HarmonicField {
                 const std::vector<PlaceOnMesh>& at);
   ~HarmonicField();
 
-  /// One value a point -> one a vertex. Where two points share a corner the first one's holds there
-  /// (shared_corner tells). A piece of the surface without a point takes the value of the vertex
-  /// nearest to it.
+  /// One value per point -> one per vertex. Where two points share a corner the first one's holds
+  /// there (see shared_corner). A piece of the surface without a point takes the value of the
+  /// vertex nearest to it.
   Eigen::VectorXd solve(const Eigen::VectorXd& values) const;
 
   /// Two points whose triangles touch: {-1, -1} where there are none.

@@ -101,13 +101,6 @@ const std::vector<FacialRegion>& facial_regions() {
   return regions;
 }
 
-std::vector<std::string> region_names() {
-  std::vector<std::string> names;
-  for (const FacialRegion& region : facial_regions())
-    for (const char* side : {"", "_L", "_R"}) names.push_back(region.name + side);
-  return names;
-}
-
 bool is_region(const std::string& name) {
   return find_region(without_side(name)) != nullptr;
 }

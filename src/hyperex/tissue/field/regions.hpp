@@ -18,8 +18,7 @@ struct FacialRegion {
   std::vector<int> vertices;  ///< of the canonical face
 };
 const std::vector<FacialRegion>& facial_regions();
-/// The names, each alone and with _L and _R.
-std::vector<std::string> region_names();
+/// Whether `name` is that of a region, alone or with _L or _R.
 bool is_region(const std::string& name);
 
 /// Where each vertex of a skin lies on the canonical face laid over it.
@@ -28,10 +27,10 @@ class RegionMap {
   RegionMap(const TissueMesh& mesh, const io::Landmarks& landmarks,
             const anatomy::RegisteredFace& face);
 
-  /// Per skin vertex how deep it lies inside the region, m: below 0 outside. `name` of
-  /// region_names(). A region's border runs between canonical vertices inside and outside,
-  /// that of a half along the middle of the face; skin farther than 10 mm from the canonical face
-  /// is outside of all.
+  /// Per skin vertex how deep it lies inside the region, m: below 0 outside. `name` is
+  /// one that is_region() knows. A region's border runs between canonical vertices inside and
+  /// outside, that of a half along the middle of the face; skin farther than 10 mm from the
+  /// canonical face is outside of all.
   Eigen::VectorXd depth(const std::string& name) const;
 
  private:

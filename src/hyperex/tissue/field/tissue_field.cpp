@@ -131,8 +131,8 @@ bool is_graded(const TissueFieldOptions& options) {
          (preset && !preset->points.empty());
 }
 
-std::vector<std::string> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan) {
-  std::vector<std::string> notes;
+std::vector<Note> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan) {
+  std::vector<Note> notes;
   if (!options.per_vertex.empty()) read_per_vertex(options.per_vertex, scan, notes);
   for (const TissueRegion& region : options.regions)
     if (!region.painted.empty()) read_paint(region.painted, scan, notes);
@@ -168,7 +168,7 @@ SkinField TissueFieldMaker::skin_field(const TissueFieldOptions& options) const 
     field[p] = Eigen::VectorXd::Constant(vertices, uniform[p]);
   interpolate(options, field);
   if (!options.per_vertex.empty()) {
-    std::vector<std::string> noted;  // when the inputs were read
+    std::vector<Note> noted;  // when the inputs were read
     const PerVertex own = read_per_vertex(options.per_vertex, scan_of(mesh_), noted);
     for (int p = 0; p < parameter_count; ++p) {
       if (own[p].size() == 0) continue;
@@ -263,7 +263,7 @@ Eigen::VectorXd TissueFieldMaker::region_shares(const TissueFieldOptions& option
                                                 std::size_t index) const {
   const TissueRegion& region = options.regions[index];
   Eigen::VectorXd shares;
-  std::vector<std::string> noted;  // when the inputs were read
+  std::vector<Note> noted;  // when the inputs were read
   if (region.painted.empty())
     shares = region_depth(options, index).unaryExpr([&](double depth) {
       return region_share(depth, region.blend_m);

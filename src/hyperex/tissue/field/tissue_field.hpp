@@ -41,9 +41,9 @@ struct FieldError : std::runtime_error {
   FieldProblem problem;
 };
 
-/// Reads the files of values a vertex that the options name, as make() will: what was done to match
-/// them with the scan. Throws InputError where they cannot serve.
-std::vector<std::string> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan);
+/// Reads the files of values per vertex that the options name, as make() will: what was done to
+/// match them with the scan. Throws InputError where they cannot serve.
+std::vector<Note> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan);
 
 /// Fields on one mesh: what does not depend on the options is found once, so that variants cost
 /// their own solve alone.
@@ -51,7 +51,7 @@ std::vector<std::string> notes_on_files(const TissueFieldOptions& options, const
 ///      interpolated, not its logarithm: fields then add up, as the source's models 2 and 3 do
 ///      about model 1.
 ///   2. A preset's factor multiplies it.
-///   3. The file a vertex replaces it where it has values.
+///   3. The file per vertex replaces it where it has values.
 ///   4. Regions in turn: u <- u (1 + w (factor - 1)), or u <- u + w (value - u), w the region's
 ///      share at the vertex.
 ///   5. A tetrahedron takes the field at the point of the skin above its centroid: constant through
@@ -63,7 +63,7 @@ class TissueFieldMaker {
   TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& landmarks,
                    const anatomy::RegisteredFace* face);
 
-  /// problems_of(options) must be empty. Throws FieldError, InputError (the file a vertex).
+  /// problems_of(options) must be empty. Throws FieldError, InputError (the file per vertex).
   TissueField make(const TissueFieldOptions& options) const;
   /// How much of a region's change holds at each vertex of the skin, 0 to 1. Throws as make().
   Eigen::VectorXd region_shares(const TissueFieldOptions& options, std::size_t index) const;

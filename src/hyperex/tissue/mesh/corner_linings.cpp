@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kNear_m = 0.012;     // the inner corners
 constexpr double kWalk_m = 0.012;     // from the border of the mouth
-constexpr double kReach_m = 0.03;     // of rays
+constexpr double kRayReach_m = 0.03;  // of rays
 constexpr double kHiddenShare = 0.9;  // of the directions
 
-/// Unit, one a row.
+/// Unit, one per row.
 Points forward_directions(const face::FaceFrame& frame) {
   Points directions(15, 3);
   Eigen::Index row = 0;
@@ -45,7 +45,7 @@ int give_up_corner_linings(TriMesh& mesh, const io::Landmarks& landmarks) {
       near.push_back(int(v));
   }
   const std::vector<double> blocked =
-      blocked_shares(mesh, near, forward_directions(face::face_frame(landmarks)), kReach_m);
+      blocked_shares(mesh, near, forward_directions(face::face_frame(landmarks)), kRayReach_m);
   std::vector<char> hidden(walk.size(), 0);
   for (std::size_t i = 0; i < near.size(); ++i)
     hidden[std::size_t(near[i])] = blocked[i] > kHiddenShare;

@@ -11,7 +11,7 @@ TissueMesh with_full_skin(const TissueMesh& mesh);
 /// Closest points on the skin, near the mouth those of one's own lip.
 SideTree skin_tree(const TissueMesh& mesh, const io::Landmarks& landmarks);
 
-/// The scan that the skin was cut from: what files with a row a vertex name.
+/// The scan that the skin was cut from: what files with a row per vertex name.
 TriMesh scan_of(const TissueMesh& mesh);
 
 /// Values of the scan's vertices, and between them those of the vertices that the cut added; where

@@ -24,7 +24,7 @@ struct RimVertex {
 /// 141). Distances are walked along the skin, so that lips that touch at rest do not carry each
 /// other. The field alone moves what lies within 2 mm of the rim or hangs over the surface's border
 /// by 1 mm; it fades to the anchor alone at 5 mm from the rim.
-/// `anchors`: one a vertex of the skin; `on_border`: per outer node, on the outer border, where
+/// `anchors`: one per vertex of the skin; `on_border`: per outer node, on the outer border, where
 /// nothing is fitted.
 std::vector<RimVertex> rim_vertices(const TriMesh& skin, const TriMesh& outer,
                                     const std::vector<Anchor>& anchors,

@@ -13,7 +13,7 @@ namespace hyperex::tissue {
 struct PlaceOnMesh {
   std::array<int, 3> vertex{};
   Vec3 weight = Vec3::Zero();  ///< barycentric, each >= 0, sum 1
-  double distance_m = 0;       ///< from the point asked about
+  double distance_m = 0;       ///< from the query point
 
   /// Exactly a constant's value.
   double value(const Eigen::VectorXd& of_vertices) const {
@@ -30,7 +30,7 @@ class SideTree {
   /// Sides matter within the sphere about the mouth alone: beyond, both walks are equally long.
   SideTree(const TriMesh& mesh, const std::vector<double>& margin, const Vec3& mouth,
            double reach_m);
-  /// `margin` of the point asked about: below 4 mm in size it belongs to either side.
+  /// `margin` of the query point: below 4 mm in size it belongs to either side.
   PlaceOnMesh query(const Vec3& point, double margin) const;
 
  private:

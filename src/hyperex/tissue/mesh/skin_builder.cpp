@@ -34,7 +34,8 @@ SkinBuilder::SkinBuilder(const TriMesh& scan, const io::Landmarks& landmarks,
   } catch (const std::invalid_argument& e) {
     throw InputError(source, e.what());
   }
-  for (const auto& note : clean_.notes) out_.notes.push_back("scan: " + note);
+  for (const auto& note : clean_.notes)
+    out_.notes.push_back(make_note("scan.mended", "scan: " + note));
   out_.skin = scan;
   out_.scan_vertices = scan.points.rows();
   out_.source_triangle.resize(scan.triangles.rows());
@@ -46,16 +47,19 @@ void SkinBuilder::cut(LipCut mode) {
   if (mode == LipCut::never) return;
   const bool open = anatomy::mouth_is_open(clean_.mesh, landmarks_);
   if (open) {
-    if (mode == LipCut::always) out_.notes.push_back("the mouth is open already: not cut");
+    if (mode == LipCut::always)
+      out_.notes.push_back(make_note("lips.open_already", "the mouth is open already: not cut"));
     return;
   }
   const Vec3 forward = face::face_frame(landmarks_).z;
   const auto attempt = [&](const Points& line, const char* course) {
     const CutSurface surface = cut_along_line(clean_.mesh, line, forward);
     apply(surface);
-    out_.notes.push_back(fmt::format(
-        "the lips are joined in the scan and were cut from corner to corner {}, {:.0f} mm long",
-        course, 1e3 * length_of(out_.lip_cut)));
+    out_.notes.push_back(make_note(
+        "lips.cut",
+        fmt::format(
+            "the lips are joined in the scan and were cut from corner to corner {}, {:.0f} mm long",
+            course, 1e3 * length_of(out_.lip_cut))));
   };
   if (const auto crease = anatomy::lip_line_of_crease(clean_.mesh, landmarks_)) {
     try {
@@ -181,10 +185,12 @@ void SkinBuilder::thin(double element_size_m, const std::vector<char>& held) {
   full->scan_vertices = out_.scan_vertices;
   full->appended = std::move(out_.appended);
   full->source_triangle = std::move(out_.source_triangle);
-  out_.notes.push_back(fmt::format(
-      "the scan's {} vertices were thinned to {} for computing and drawing: the others lie up to "
-      "{:.2f} mm from that surface; skin_peak.ply has them all",
-      out_.scan_vertices, thinned.mesh.points.rows(), 1e3 * thinned.greatest_distance_m));
+  out_.notes.push_back(make_note(
+      "scan.thinned",
+      fmt::format("the scan's {} vertices were thinned to {} for computing and drawing: the others "
+                  "lie up to {:.2f} mm from that surface; skin_peak.ply has them all",
+                  out_.scan_vertices, thinned.mesh.points.rows(),
+                  1e3 * thinned.greatest_distance_m)));
   out_.skin = thinned.mesh;
   out_.scan_vertices = out_.skin.points.rows();
   out_.appended.clear();

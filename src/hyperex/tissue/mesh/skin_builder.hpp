@@ -11,7 +11,7 @@
 
 namespace hyperex::tissue {
 
-/// The cleaned scan, cut where asked, and the same cut in the scan as given.
+/// The cleaned scan with the cuts that were requested, and the same cuts in the scan as given.
 class SkinBuilder {
  public:
   /// Fills `out.skin` and what belongs to it; all must outlive this. Throws InputError.

@@ -10,9 +10,8 @@ bool is_painted(const TissueMeshOptions& options) {
   return !options.depth_per_vertex.empty() || !options.depth_regions.empty();
 }
 
-std::vector<std::string> notes_on_depth_files(const TissueMeshOptions& options,
-                                              const TriMesh& scan) {
-  std::vector<std::string> notes;
+std::vector<Note> notes_on_depth_files(const TissueMeshOptions& options, const TriMesh& scan) {
+  std::vector<Note> notes;
   if (!options.depth_per_vertex.empty()) read_depths(options.depth_per_vertex, scan, notes);
   for (const DepthRegion& region : options.depth_regions) read_paint(region.painted, scan, notes);
   return notes;
@@ -38,7 +37,7 @@ Eigen::VectorXd skin_depth(const TissueMesh& mesh, const io::Landmarks& landmark
   }
   Eigen::VectorXd depth = unpainted_depth(mesh.skin.points, landmarks, options);
   const TriMesh scan = scan_of(mesh);
-  std::vector<std::string> noted;  // when the inputs were read
+  std::vector<Note> noted;  // when the inputs were read
   if (!options.depth_per_vertex.empty()) {
     const Eigen::VectorXd own = on_skin(mesh, read_depths(options.depth_per_vertex, scan, noted));
     depth = own.array().isNaN().select(depth, own).eval();

@@ -12,8 +12,7 @@ bool is_painted(const TissueMeshOptions& options);
 
 /// Reads them as skin_depth() will: what was done to match them with the scan. Throws InputError
 /// where they cannot serve.
-std::vector<std::string> notes_on_depth_files(const TissueMeshOptions& options,
-                                              const TriMesh& scan);
+std::vector<Note> notes_on_depth_files(const TissueMeshOptions& options, const TriMesh& scan);
 
 /// Wanted thickness at points, m, without what files say: the same everywhere, or depths at
 /// landmarks, interpolated (depth_field).

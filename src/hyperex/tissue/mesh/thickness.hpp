@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/describe.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/tissue/options.hpp"
 
 namespace hyperex::tissue {
 
@@ -13,12 +15,33 @@ namespace hyperex::tissue {
 struct DepthAt {
   std::string landmark;
   double depth_m = 0;
+
+  static constexpr const char* about = "Thickness of the soft tissue at a landmark.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(landmark), "A landmark of the scan.", {.required = true, .least = 1});
+    v.option(
+        HX_MEMBER(depth_m), "Thickness of the soft tissue there.",
+        {.unit = kMillimetres, .bounds = thickness_m_in, .key = "thickness_mm", .required = true});
+  }
 };
 
 /// Depth of the soft tissue in a part of the skin that was painted.
 struct DepthRegion {
   std::filesystem::path painted;  ///< shares a vertex of the scan (field/per_vertex.hpp)
   double depth_m = 0;             ///< where the share is 1
+
+  static constexpr const char* about = "Thickness in a painted part of the skin.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(painted),
+             "The scan painted red where the tissue is of this thickness (PLY, OBJ, GLB with "
+             "vertex colours), or a CSV or PLY file with one weight from 0 to 1 per vertex.",
+             {.required = true});
+    v.option(
+        HX_MEMBER(depth_m), "Thickness of the soft tissue where the weight is 1.",
+        {.unit = kMillimetres, .bounds = thickness_m_in, .key = "thickness_mm", .required = true});
+  }
 };
 
 /// Mean depths of adult facial soft tissue, whole millimetres, after C. N. Stephan and E. K.

@@ -67,7 +67,7 @@ std::vector<int> outer_border(const TriMesh& mesh) {
 
 /// Small holes closed, the outer border trimmed by `trim_m`.
 TriMesh mend(TriMesh mesh, const io::Landmarks& landmarks, double trim_m,
-             std::vector<std::string>& notes) {
+             std::vector<Note>& notes) {
   std::vector<Vec3> open;  // around these, holes stay
   for (int k = 31; k < 68; ++k) open.push_back(landmarks.at(face::ibug(k)));
   int mended = 0;
@@ -81,14 +81,17 @@ TriMesh mend(TriMesh mesh, const io::Landmarks& landmarks, double trim_m,
     if (nearest < 0.012) continue;
     mended += fill_hole(mesh, loop);
   }
-  if (mended > 0) notes.push_back(fmt::format("{} small holes of the scan mended", mended));
+  if (mended > 0)
+    notes.push_back(
+        make_note("mesh.holes_mended", fmt::format("{} small holes of the scan mended", mended)));
   if (trim_m > 0 && !border.empty()) {
     const auto far = EdgePaths(mesh).distances(border, trim_m);
     std::vector<char> drop(far.size());
     for (std::size_t v = 0; v < far.size(); ++v) drop[v] = std::isfinite(far[v]);
     mesh = without_triangles(mesh, touching(mesh.triangles, drop));
-    notes.push_back(
-        fmt::format("{:.1f} mm trimmed off the border for the simulation", trim_m * 1e3));
+    notes.push_back(make_note(
+        "mesh.border_trimmed",
+        fmt::format("{:.1f} mm trimmed off the border for the simulation", trim_m * 1e3)));
   }
   return mesh;
 }
@@ -171,8 +174,10 @@ VolumeMesh thicken(TriMesh outer, const Eigen::VectorXd& skin_depth, const io::L
       VolumeMesh mesh = build_volume_mesh(
           outer, thickness_over(outer, out, skin_depth, landmarks, options), volume);
       if (given_up > 0)
-        out.notes.push_back(fmt::format(
-            "{} triangles of the simulated skin were dropped: no layer fits under them", given_up));
+        out.notes.push_back(make_note(
+            "mesh.folds_given_up",
+            fmt::format("{} triangles of the simulated skin were dropped: no layer fits under them",
+                        given_up)));
       return mesh;
     } catch (const FoldedSurface& folded) {
       given_up += folded.triangles.size();
@@ -215,10 +220,11 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
   naming(source_, [&] {
     TissueMesh& out = *mesh_;
     if (const int dropped = give_up_corner_linings(working_copy_, landmarks_); dropped > 0)
-      out.notes.push_back(fmt::format(
-          "{} triangles on the inner sides of the lips were given up at the corners of the mouth, "
-          "where they lie on each other",
-          dropped));
+      out.notes.push_back(
+          make_note("mesh.lip_linings_dropped",
+                    fmt::format("{} triangles on the inner sides of the lips were given up at the "
+                                "corners of the mouth, where they lie on each other",
+                                dropped)));
     const TriMesh mended =
         mend(std::move(working_copy_), landmarks_, options_.trim_border_m, out.notes);
     const face::FaceFrame frame = face::face_frame(landmarks_);
@@ -231,7 +237,7 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
     remove_short_border_edges(outer, size, least_border_edge_share);
 
     out.volume = thicken(outer, skin_depth_, landmarks_, options_, source_, out);
-    out.notes.insert(out.notes.end(), out.volume.notes.begin(), out.volume.notes.end());
+    append(out.notes, out.volume.notes);
     out.quality = quality_of(out.volume.nodes, out.volume.tets);
     out.upper_margin = anatomy::upper_lip_margin(out.volume.outer, landmarks_);
     out.on_border.assign(out.volume.surface_nodes(), 0);

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/core/bounds.hpp"
+#include "hyperex/core/describe.hpp"
+#include "hyperex/core/note.hpp"
 #include "hyperex/geometry/insert_line.hpp"
 #include "hyperex/geometry/thin_mesh.hpp"
 #include "hyperex/geometry/types.hpp"
@@ -19,6 +20,10 @@
 namespace hyperex::tissue {
 
 enum class LipCut { automatic, always, never };
+constexpr auto words_of(LipCut) {
+  return std::array{Word{"auto", LipCut::automatic}, Word{"always", LipCut::always},
+                    Word{"never", LipCut::never}};
+}
 
 struct TissueMeshOptions {
   double element_size_m = 0.0033;  ///< edges at the mouth; they grow smoothly away from it
@@ -30,9 +35,38 @@ struct TissueMeshOptions {
   std::vector<DepthRegion> depth_regions;  ///< applied in turn
   LipCut cut_lips = LipCut::automatic;
   double trim_border_m = 0;  ///< this much is taken off the scan's outer border
-  static constexpr Bounds element_size_m_in{0.0005, 0.03}, layers_in{1, 8},
-      thickness_m_in = tissue::thickness_m_in,
-      trim_border_m_in{0, 0.05};  ///< a thickness may be 0 besides
+
+  static constexpr const char* about = "The volume of soft tissue.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(element_size_m), "Edge length of the tetrahedra along the skin.",
+             {.unit = kMillimetres, .bounds = {0.0005, 0.03}});
+    v.option(HX_MEMBER(layers), "Layers of elements between the skin and the inner surface.",
+             {.bounds = {1, 8}});
+    v.option(
+        HX_MEMBER(thickness_m),
+        "Thickness of the soft tissue, the same everywhere. 0: from published depths at "
+        "landmarks, interpolated.",
+        {.unit = kMillimetres, .bounds = {thickness_m_in.least, thickness_m_in.most, false, true}});
+    v.option(HX_MEMBER(cut_lips),
+             "Whether the scan is cut between the lips: \"auto\" cuts where they are joined.");
+    v.option(HX_MEMBER(trim_border_m),
+             "Takes off a strip of this width along the scan's outer border.",
+             {.unit = kMillimetres, .bounds = {0, 0.05}});
+    v.option(HX_MEMBER(depths),
+             "Thickness at a landmark, instead of the published depth there; interpolated in "
+             "between. Only where mesh.thickness_mm is 0.",
+             {.key = "thickness_point"});
+    v.option(HX_MEMBER(depth_per_vertex),
+             "Thickness for each vertex of the scan: a CSV file with a column thickness_mm and "
+             "one row per vertex, or a PLY file with such a vertex property; 1 to 40. An empty "
+             "cell (in PLY: nan) keeps the thickness that the other keys give.",
+             {.key = "thickness_per_vertex"});
+    v.option(HX_MEMBER(depth_regions),
+             "Thickness in a painted part of the face, applied after all of the above and in the "
+             "order of the file.",
+             {.key = "thickness_region"});
+  }
 };
 
 /// A scan with more vertices is thinned to edges of a third of an element (thin_mesh) before it is
@@ -60,7 +94,7 @@ struct Anchor {
 struct TissueMesh {
   /// The scan as given; where its lips were cut, triangles of the scan are replaced by a piece of
   /// themselves, and new vertices and the other pieces are appended.
-  /// Of a scan with very many vertices a thinned one, which counts as the scan from there on.
+  /// Thins a scan with very many vertices; the thinned one counts as the scan from there on.
   TriMesh skin;
   std::shared_ptr<const FullSkin> full;  ///< where the scan was thinned
   Eigen::Index scan_vertices = 0;
@@ -76,8 +110,8 @@ struct TissueMesh {
   std::vector<char> on_border;  ///< per outer node: on the outer border, not at mouth or eyes
   MeshQuality quality;
   double mean_distance_mm = 0,
-         max_distance_mm = 0;      ///< scan vertices to the simulated outer surface
-  std::vector<std::string> notes;  ///< what was mended, trimmed or cut, a sentence each
+         max_distance_mm = 0;  ///< scan vertices to the simulated outer surface
+  std::vector<Note> notes;     ///< what was mended, trimmed or cut
 };
 
 /// build_tissue_mesh() in two steps, as what needs the skin alone need not wait for the volume.

@@ -85,7 +85,7 @@ void update_visibility(const TriMesh& mesh, const std::vector<char>& moved,
   }
 }
 
-TriMesh unfold(const TriMesh& mesh, std::vector<std::string>& notes, double least) {
+TriMesh unfold(const TriMesh& mesh, std::vector<Note>& notes, double least) {
   TriMesh out = mesh;
   std::size_t smoothed = 0;
   Eigen::Index dropped = 0;
@@ -114,10 +114,12 @@ TriMesh unfold(const TriMesh& mesh, std::vector<std::string>& notes, double leas
   }
   if (smoothed > 0)
     notes.push_back(
-        fmt::format("the simulated skin was smoothed around {} folded nodes", smoothed));
+        make_note("mesh.folds_smoothed",
+                  fmt::format("the simulated skin was smoothed around {} folded nodes", smoothed)));
   if (dropped > 0)
-    notes.push_back(
-        fmt::format("{} triangles of the simulated skin were dropped in folds", dropped));
+    notes.push_back(make_note(
+        "mesh.folds_dropped",
+        fmt::format("{} triangles of the simulated skin were dropped in folds", dropped)));
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/note.hpp"
 #include "hyperex/geometry/types.hpp"
 
 namespace hyperex::tissue {
@@ -22,6 +23,6 @@ void update_visibility(const TriMesh& mesh, const std::vector<char>& moved,
 
 /// Makes a surface fit to be thickened: smooths it around folded vertices (visibility below
 /// `least`), and where that does not help drops the triangles around them. Says what it did.
-TriMesh unfold(const TriMesh& mesh, std::vector<std::string>& notes, double least = 0.3);
+TriMesh unfold(const TriMesh& mesh, std::vector<Note>& notes, double least = 0.3);
 
 }  // namespace hyperex::tissue

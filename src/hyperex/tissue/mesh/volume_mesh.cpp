@@ -136,10 +136,9 @@ int LayerBuilder::untangle() {
   if (left.empty()) return static_cast<int>(std::count(touched.begin(), touched.end(), 1));
   const Vec3 where = 1e3 * point(left.front(), 0);
   throw FoldedSurface(
-      fmt::format(
-          "no layer of tissue with positive volume fits under {} triangles of the skin, one "
-          "at ({:.1f}, {:.1f}, {:.1f}) mm: the surface is folded there",
-          left.size(), where.x(), where.y(), where.z()),
+      fmt::format("no layer of tissue with positive volume fits under {} triangles of the skin, "
+                  "one at ({:.1f}, {:.1f}, {:.1f}) mm: the surface is folded there",
+                  left.size(), where.x(), where.y(), where.z()),
       left);
 }
 
@@ -178,10 +177,10 @@ VolumeMesh build_once(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
   VolumeMesh mesh;
   const int changed = builder.untangle();
   if (changed > 0)
-    mesh.notes.push_back(
-        fmt::format("the layer was turned or thinned at {} of {} skin nodes, to below half of its "
-                    "thickness at {}",
-                    changed, outer.points.rows(), builder.thinned(0.5)));
+    mesh.notes.push_back(make_note(
+        "mesh.layer_thinned", fmt::format("the layer was turned or thinned at {} of {} skin nodes, "
+                                          "to below half of its thickness at {}",
+                                          changed, outer.points.rows(), builder.thinned(0.5))));
   const Eigen::Index n = outer.points.rows();
   mesh.outer = builder.outer();
   mesh.layers = options.layers;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/note.hpp"
 #include "hyperex/geometry/types.hpp"
 
 namespace hyperex::tissue {
@@ -16,7 +17,7 @@ struct VolumeMesh {
   TriMesh outer;    ///< the skin side (vertices = nodes of level 0)
   int layers = 0;   ///< of prisms; levels of nodes are layers + 1
   Eigen::VectorXd thickness_m;  ///< per outer vertex, as built
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
 
   Eigen::Index surface_nodes() const { return outer.points.rows(); }
   int inner_node(int vertex) const { return static_cast<int>(layers * surface_nodes()) + vertex; }

@@ -67,34 +67,37 @@ Eigen::VectorXd redness(const io::VertexColours& colours) {
 class OnScan {
  public:
   OnScan(const std::filesystem::path& file, const std::optional<TriMesh>& own, const TriMesh& scan,
-         std::vector<std::string>& notes)
+         std::vector<Note>& notes)
       : file_(file), notes_(notes) {
     if (own) match_.emplace(file, *own, scan);
     if (match_ && !match_->same_order())
-      notes_.push_back(fmt::format(
-          "{}: its {} vertices do not stand in the scan's order; they were matched by place",
-          file.string(), own->points.rows()));
+      notes_.push_back(make_note(
+          "tissue.matched_by_place",
+          fmt::format(
+              "{}: its {} vertices do not stand in the scan's order; they were matched by place",
+              file.string(), own->points.rows())));
   }
 
   Eigen::VectorXd operator()(const Eigen::VectorXd& values, double otherwise) const {
     if (!match_) return values;
     if (const auto count = match_->disagreements(values); count > 0)
       notes_.push_back(
-          fmt::format("{}: at {} of the scan's vertices several of its vertices lie, "
-                      "of different values; their mean was taken",
-                      file_.string(), count));
+          make_note("tissue.values_averaged",
+                    fmt::format("{}: at {} of the scan's vertices several of its vertices lie, of "
+                                "different values; their mean was taken",
+                                file_.string(), count)));
     return match_->on_scan(values, otherwise);
   }
 
  private:
   const std::filesystem::path& file_;
-  std::vector<std::string>& notes_;
+  std::vector<Note>& notes_;
   std::optional<VertexMatch> match_;
 };
 
 /// A column that is looked for.
 struct Wanted {
-  const char* key;
+  std::string key;
   double si;            ///< SI = value * si
   std::string allowed;  ///< in words
   std::function<bool(double)> is_allowed;
@@ -123,7 +126,7 @@ std::optional<Eigen::VectorXd> sound_values(const std::filesystem::path& file, c
 }  // namespace
 
 PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan,
-                          std::vector<std::string>& notes) {
+                          std::vector<Note>& notes) {
   const Table table = read_table(file);
   PerVertex columns;
   std::optional<OnScan> on_scan;
@@ -144,7 +147,7 @@ PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan
 }
 
 Eigen::VectorXd read_depths(const std::filesystem::path& file, const TriMesh& scan,
-                            std::vector<std::string>& notes) {
+                            std::vector<Note>& notes) {
   constexpr Bounds in = thickness_m_in;
   const Table table = read_table(file);
   const Wanted wanted{"thickness_mm", 1e-3,
@@ -159,7 +162,7 @@ Eigen::VectorXd read_depths(const std::filesystem::path& file, const TriMesh& sc
 }
 
 Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& scan,
-                           std::vector<std::string>& notes) {
+                           std::vector<Note>& notes) {
   Table table = read_table(file);
   Eigen::VectorXd share;
   for (const auto& column : table.columns)
@@ -179,15 +182,17 @@ Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& sca
                                        share.size(), scan.points.rows()));
   for (Eigen::Index v = 0; v < share.size(); ++v)
     if (!(share[v] >= 0 && share[v] <= 1))
-      throw InputError(file, fmt::format("weight = {:g} at vertex {} (counted from 0): expected a "
-                                         "number from 0 to 1",
-                                         share[v], v));
+      throw InputError(
+          file,
+          fmt::format("weight = {:g} at vertex {} (counted from 0): expected a number from 0 to 1",
+                      share[v], v));
   constexpr double least = 1e-6;
   if (share.maxCoeff() < least)
-    throw InputError(file, by_colour
-                               ? "nothing is painted red: expected the region in pure red, on "
-                                 "white, grey or black"
-                               : "every weight is 0: expected 1 where the region is");
+    throw InputError(
+        file,
+        by_colour
+            ? "nothing is painted red: expected the region in pure red, on white, grey or black"
+            : "every weight is 0: expected 1 where the region is");
   return OnScan(file, table.mesh, scan, notes)(share, 0);
 }
 

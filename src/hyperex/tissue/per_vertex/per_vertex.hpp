@@ -2,33 +2,34 @@
 #pragma once
 #include <filesystem>
 
+#include "hyperex/core/note.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/tissue/options.hpp"
 
 namespace hyperex::tissue {
 
-/// Per parameter one value a vertex of the scan, NaN where the file gives none; empty where it has
-/// no such column.
+/// Per parameter one value per vertex of the scan, NaN where the file gives none; empty where it
+/// has no such column.
 using PerVertex = std::array<Eigen::VectorXd, parameter_count>;
 
 /// A CSV with columns young_kpa, viscosity_pa_s, poisson, density_kg_m3 (one or more; others are
-/// passed over), a row a vertex of the scan in its order; or a PLY of the scan whose vertices have
-/// them, in any order (vertex_match.hpp). What was done to match them is added to `notes`.
+/// passed over), a row per vertex of the scan in its order; or a PLY of the scan whose vertices
+/// have them, in any order (vertex_match.hpp). What was done to match them is added to `notes`.
 /// Throws InputError: another number of rows, vertices that are not the scan's, none of the
 /// columns, a value out of range.
 PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan,
-                          std::vector<std::string>& notes);
+                          std::vector<Note>& notes);
 
 /// Thickness of the soft tissue, m, likewise: a column or property thickness_mm, of 1 to 40, NaN
 /// where the file gives none.
 Eigen::VectorXd read_depths(const std::filesystem::path& file, const TriMesh& scan,
-                            std::vector<std::string>& notes);
+                            std::vector<Note>& notes);
 
-/// A region painted on the scan: a share from 0 to 1 a vertex, in the scan's order. A CSV with a
+/// A region painted on the scan: a share from 0 to 1 per vertex, in the scan's order. A CSV with a
 /// column `weight` in that order; or a PLY whose vertices have it, or a mesh of the scan (PLY, OBJ,
 /// GLB) painted red on white, grey or black, either in any order: the share is how much more red
 /// there is than green and blue. Notes and errors as above; also neither weights nor colours.
 Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& scan,
-                           std::vector<std::string>& notes);
+                           std::vector<Note>& notes);
 
 }  // namespace hyperex::tissue

@@ -28,9 +28,9 @@ class VertexMatch {
   static double tolerance(const Points& scan);
 
   bool same_order() const { return same_order_; }
-  /// `of_file`: a value a vertex of the file. Where several of its vertices lie at one place, their
-  /// mean (without NaN). Of vertices that no triangle uses and no place matches: NaN, or 0 where
-  /// `otherwise` says so.
+  /// `of_file`: a value per vertex of the file. Where several of its vertices lie at one place,
+  /// their mean (without NaN). Of vertices that no triangle uses and no place matches: NaN, or 0
+  /// where `otherwise` says so.
   Eigen::VectorXd on_scan(const Eigen::VectorXd& of_file, double otherwise) const;
   /// Scan vertices at which the vertices of the file that lie there disagree.
   Eigen::Index disagreements(const Eigen::VectorXd& of_file) const;

@@ -33,7 +33,7 @@ TrackerOptions for_mesh_of(const expression::FaceModel& model, TrackerOptions op
     fit->network_outline_px *= network;
     fit->network_inner_lip_px *= network;
     fit->depth_m *= std::sqrt(surface);
-    // Bounded, a hundred vertices say too little to tell pose from units (CANDIDE-3 on a talking
+    // Bounded, a hundred vertices are too few to separate pose from units (CANDIDE-3 on a talking
     // face: 0.6 instead of 0.5 degrees, 1.75 instead of 1.74 mm).
     if (surface < 0.5) fit->off_units_share = fit->off_units_lip_m = 0;
   }

@@ -14,22 +14,22 @@
 namespace hyperex::tracking {
 
 struct TrackerOptions {
-  /// What a measurement counts is stated for the canonical face's 468 vertices; of a model with
-  /// fewer each counts for more.
+  /// Weights are stated for the canonical face's 468 vertices; those of a model with fewer vertices
+  /// are raised in proportion.
   FitOptions fit;
   NeutralOptions neutral;
   LandmarkOptions network{.mirrored_too = true};
-  /// >= 1; the person's shape is estimated on the first so many frames with a face, of those in
-  /// which it is at rest: as in the first.
+  /// >= 1: the person's shape is estimated from the first n frames with a face, from those of them
+  /// in which it is at rest, as it is in the first.
   int neutral_frames = 15;
   double at_rest_px = 0.5;  ///< root mean square over the network's points
   bool use_depth = true;
 };
 
 /// Follows one face from frame to frame: the landmark network, then the model's fit. The first
-/// frames with a face are held back until the person's shape is known from them; before and after
-/// that a frame fed is a frame given. A frame without a face, or not valid itself, comes back as
-/// not valid, and the face is found again after.
+/// frames with a face are held back until the person's shape is known from them; at other times
+/// each frame is returned at once. A frame without a face, or an invalid one, is returned as not
+/// valid, and the face is detected anew in the next.
 class FaceTracker {
  public:
   /// `model` must outlive the tracker.

@@ -38,7 +38,7 @@ struct FaceState {
   Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
   Eigen::VectorXd weights;  ///< of the animation units
   Points free_m;            ///< |V| x 3, head frame: what the units do not explain
-  /// One row a pair of the model: where the fit put the vertex less where the network saw it.
+  /// One row per pair of the model: where the fit put the vertex less where the network saw it.
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> network_offset_px;
 };
 
@@ -47,7 +47,8 @@ struct FitOptions {
   int iterations = 3;             ///< by network and depth, with coarse skin, with fine skin ...
   double network_px = 3;          ///< of a network point
   double network_outline_px = 6;  ///< of one on the face's outline, which slides on the skin
-  /// Of one within the lips' outer border: it sees the lips as they look, not where the skin goes.
+  /// Of a point within the lips' outer border: the network sees how the lips look there, not
+  /// where the skin goes.
   double network_inner_lip_px = 4;
   double network_robust_px = 10;  ///< Geman-McClure
   double depth_m = 0.0005;        ///< of a vertex against the surface, along its normal
@@ -63,7 +64,7 @@ struct FitOptions {
   int coarse_iterations = 1;
   int free_iterations = 1;  ///< the last so many solve for the free displacements too
   /// How far a vertex may be off any weights of the units, of its typical displacement by them, and
-  /// what is added to that within the lips: many pixels that agree on it tell no more of pose and
+  /// what is added to that within the lips: many pixels that agree on it say no more about pose and
   /// units than this.
   double off_units_share = 0.7, off_units_lip_m = 0.003;
   double units = 0.5;           ///< times the unit's typical weight

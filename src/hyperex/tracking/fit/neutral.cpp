@@ -15,7 +15,7 @@ namespace hyperex::tracking {
 
 namespace {
 
-double square(double x) {
+double squared(double x) {
   return x * x;
 }
 
@@ -61,7 +61,7 @@ std::optional<double> scale_from_depth(const expression::FaceModel& model,
     for (int round = 0; round < 5; ++round) {
       for (Eigen::Index i = 0; i < a.rows(); ++i) {
         const double off = (fit * Vec3(a.row(i).transpose()) - Vec3(b.row(i).transpose())).norm();
-        weights[i] = 1 / square(1 + square(off / 0.01));
+        weights[i] = 1 / squared(1 + squared(off / 0.01));
       }
       fit = fit_similarity(a, b, weights);
     }
@@ -108,7 +108,7 @@ Eigen::VectorXd fit_shape(const expression::FaceModel& model, double scale,
     for (std::size_t i = 0; i < unit.vertices.size(); ++i)
       columns.block<3, 1>(3 * unit.vertices[i], k) =
           scale * unit.displacement_m.row(Eigen::Index(i)).transpose();
-    hessian(k, k) += 1 / square(unit.typical);
+    hessian(k, k) += 1 / squared(unit.typical);
   }
   constexpr double kModel_m = 0.004;  // how well any person's face is one of the model's
   for (Eigen::Index v = 0; v < model.vertex_count(); ++v) {
@@ -116,8 +116,8 @@ Eigen::VectorXd fit_shape(const expression::FaceModel& model, double scale,
     const Vec3 target =
         (mean.sum.row(v) / mean.weight[v] - scale * model.mesh.points.row(v)).transpose();
     const auto rows = columns.middleRows<3>(3 * v);
-    hessian += rows.transpose() * rows / square(kModel_m);
-    right += rows.transpose() * target / square(kModel_m);
+    hessian += rows.transpose() * rows / squared(kModel_m);
+    right += rows.transpose() * target / squared(kModel_m);
   }
   return hessian.ldlt().solve(right);
 }
@@ -126,11 +126,11 @@ Eigen::VectorXd fit_shape(const expression::FaceModel& model, double scale,
 Points smoothed(const expression::FaceModel& model, const Points& shape, const VertexMean& mean,
                 const NeutralOptions& options) {
   const expression::SparseMatrix laplacian = expression::mesh_laplacian(model.mesh);
-  expression::SparseMatrix matrix = laplacian.transpose() * laplacian / square(options.bend_m);
+  expression::SparseMatrix matrix = laplacian.transpose() * laplacian / squared(options.bend_m);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(model.vertex_count(), 3);
   constexpr double kWeak = 1e2;  // a centimetre: where nothing else is known
   for (Eigen::Index v = 0; v < model.vertex_count(); ++v) {
-    const double weight = std::min(1.0, mean.weight[v]) / square(options.vertex_m);
+    const double weight = std::min(1.0, mean.weight[v]) / squared(options.vertex_m);
     matrix.coeffRef(v, v) += weight + kWeak;
     if (mean.weight[v] > 0)
       right.row(v) = weight * (mean.sum.row(v) / mean.weight[v] - shape.row(v));

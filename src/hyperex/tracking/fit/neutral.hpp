@@ -17,7 +17,7 @@ struct NeutralOptions {
 /// The person's shape from some frames, at least one. Round by round each frame is fitted with the
 /// shape so far; then each vertex becomes the mean over the frames of where the picture and the
 /// depth at its network point put it, taken back to rest, and is held to the model's shape units
-/// and to its neighbours as its spread asks for.
+/// and to its neighbours as its spread requires.
 Neutral estimate_neutral(const expression::FaceModel& model, const capture::Intrinsics& camera,
                          const std::vector<Observation>& frames,
                          const NeutralOptions& options = {});

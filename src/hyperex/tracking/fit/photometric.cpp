@@ -27,8 +27,6 @@ bool inside(const cv::Mat& picture, double u, double v) {
   return u >= 0 && v >= 0 && u < picture.cols - 1 && v < picture.rows - 1;
 }
 
-using Pixels = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-
 Pixels project_all(const capture::Intrinsics& camera, const Eigen::Isometry3d& camera_from_head,
                    const Points& points) {
   Pixels pixels(points.rows(), 2);
@@ -138,22 +136,17 @@ Template::Template(const FinePicture& picture, const capture::Intrinsics& camera
   }
 }
 
-double Template::add_to(VertexSystem& system, const FinePicture& picture,
-                        const capture::Intrinsics& camera,
-                        const Eigen::Isometry3d& camera_from_head, const Points& head_points,
-                        double weight) const {
-  if (samples_.empty() || picture.value.empty()) return 0;
-  const Pixels px = project_all(camera, camera_from_head, head_points);
-  struct Seen {
-    double u, v, value;
-  };
+/// The samples in another picture with the mesh's vertices at these places, and the brightness
+/// there over that of the samples; 0 where none is seen.
+std::vector<Template::Seen> Template::seen_in(const FinePicture& picture, const Pixels& vertices,
+                                              double& gain) const {
   std::vector<Seen> seen(samples_.size());
   double product = 0, square = 0;
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     const Sample& sample = samples_[s];
     Eigen::RowVector2d at(-picture.origin.x, -picture.origin.y);
     for (int k = 0; k < 3; ++k)
-      at += double(sample.weights[k]) * px.row(triangles_(sample.triangle, k));
+      at += double(sample.weights[k]) * vertices.row(triangles_(sample.triangle, k));
     if (!inside(picture.value, at.x(), at.y())) {
       seen[s] = {-1, -1, 0};
       continue;
@@ -162,10 +155,22 @@ double Template::add_to(VertexSystem& system, const FinePicture& picture,
     product += double(sample.value) * seen[s].value;
     square += double(sample.value) * double(sample.value);
   }
-  if (square <= 0) return 0;
+  gain = 0;
+  if (square <= 0) return seen;
   // Contrast follows the brightness of the scene.
-  const double gain =
-      options_.channel == Channel::grey ? std::clamp(product / square, 0.2, 3.0) : 1;
+  gain = options_.channel == Channel::grey ? std::clamp(product / square, 0.2, 3.0) : 1;
+  return seen;
+}
+
+double Template::add_to(VertexSystem& system, const FinePicture& picture,
+                        const capture::Intrinsics& camera,
+                        const Eigen::Isometry3d& camera_from_head, const Points& head_points,
+                        double weight) const {
+  if (samples_.empty() || picture.value.empty()) return 0;
+  const Pixels px = project_all(camera, camera_from_head, head_points);
+  double gain = 0;
+  const std::vector<Seen> seen = seen_in(picture, px, gain);
+  if (gain == 0) return 0;
   const double noise = options_.noise * std::max(gain, 0.4);
   const double scale = weight / (noise * noise * options_.pixels_as_one);
   const Eigen::Matrix3d turn = camera_from_head.linear();

@@ -34,8 +34,11 @@ struct PhotometricOptions {
   double pixels_as_one = 8;   ///< neighbouring pixels err alike: so many count as one
 };
 
-/// How the face looked in one frame, pixel for pixel on the mesh. Compared with later frames it
-/// tells where the skin went, without drift, for it is always the same picture that is compared.
+/// Places in a picture, u and v in a row.
+using Pixels = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+/// How the face looked in one frame, pixel for pixel on the mesh. Later frames are compared with it
+/// to find where the skin went; there is no drift, as the picture compared with is always the same.
 class Template {
  public:
   Template() = default;
@@ -62,6 +65,11 @@ class Template {
     float weights[3];
     float value;
   };
+  struct Seen {
+    double u, v, value;  // u below 0: outside the picture
+  };
+  std::vector<Seen> seen_in(const FinePicture& picture, const Pixels& vertices, double& gain) const;
+
   std::vector<Sample> samples_;  // by triangle
   Triangles triangles_;
   PhotometricOptions options_;

@@ -95,6 +95,18 @@ std::optional<double> jitter(const std::vector<Points>& camera_points) {
   return count ? std::optional(1e3 * std::sqrt(squares / double(count))) : std::nullopt;
 }
 
+/// Per time of the truth the frame of that time, or null.
+std::vector<const TrackedFrame*> frames_at(const std::vector<double>& time_s,
+                                           const std::vector<TrackedFrame>& tracked) {
+  std::vector<const TrackedFrame*> match(time_s.size(), nullptr);
+  for (const TrackedFrame& frame : tracked) {
+    const auto near = std::lower_bound(time_s.begin(), time_s.end(), frame.time_s - kSameTime_s);
+    if (near != time_s.end() && *near <= frame.time_s + kSameTime_s && frame.valid)
+      match[std::size_t(near - time_s.begin())] = &frame;
+  }
+  return match;
+}
+
 }  // namespace
 
 const std::vector<int>& score_points() {
@@ -164,13 +176,7 @@ Score score(const expression::FaceModel& model, const std::vector<TrackedFrame>&
             const Truth& truth) {
   Score result;
   result.frames = truth.time_s.size();
-  std::vector<const TrackedFrame*> match(truth.time_s.size(), nullptr);
-  for (const TrackedFrame& frame : tracked) {
-    const auto near =
-        std::lower_bound(truth.time_s.begin(), truth.time_s.end(), frame.time_s - kSameTime_s);
-    if (near != truth.time_s.end() && *near <= frame.time_s + kSameTime_s && frame.valid)
-      match[std::size_t(near - truth.time_s.begin())] = &frame;
-  }
+  const std::vector<const TrackedFrame*> match = frames_at(truth.time_s, tracked);
   std::optional<std::size_t> first;
   std::vector<double> rotation, translation, deformation, jaw, true_jaw;
   std::vector<std::vector<double>> by_point(score_points().size());

@@ -14,7 +14,7 @@ using Points68 = Eigen::Matrix<double, 68, 3, Eigen::RowMajor>;
 
 /// What a recording's face truly did: a folder with truth_pose.csv (time_s, T00 ... T23:
 /// camera_from_face), truth_landmarks68_camera_m.csv (time_s, x0, y0, z0 ...; metres, camera frame)
-/// and truth_weights.csv (time_s and a column a shape, jawOpen among them).
+/// and truth_weights.csv (time_s and a column per shape, jawOpen among them).
 struct Truth {
   std::vector<double> time_s;
   std::vector<Eigen::Isometry3d> camera_from_face;
@@ -39,8 +39,8 @@ struct Score {
   /// Head motion: the rotation angle and the length of the shift of (T_0^-1 T_k)^-1 M_k, T the true
   /// camera_from_face and M_k = T_0^-1 (P_k P_0^-1) T_0 the tracked motion P in its frame.
   Quantiles rotation_deg, translation_mm;
-  /// Of the points 7 to 9 and 48 to 67, in the face's frame: |(e_k - e_0) - (t_k - t_0)|, e turned
-  /// into the true face's axes by the poses of frame 0; over all points and frames.
+  /// Errors of the points 7 to 9 and 48 to 67, in the face's frame: |(e_k - e_0) - (t_k - t_0)|, e
+  /// turned into the true face's axes by the poses of frame 0; over all points and frames.
   Quantiles deformation_mm;
   std::optional<double> jaw_correlation;  ///< none where the jaw does not move
   /// Over the frames in which neither head nor face truly moves (at least five): root mean square

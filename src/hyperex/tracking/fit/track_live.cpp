@@ -34,7 +34,7 @@ class LiveTracker {
     result_.status.seconds = seconds_between(*first_, Clock::now());
     result_.status.dropped = dropped;
     if (!learnt_) result_.status.dropped_while_learning = dropped;
-    learnt_ = !learning;  // what was dropped in this call is told with the next frame
+    learnt_ = !learning;  // what was dropped in this call is reported with the next frame
   }
 
   LiveTracking finish(std::size_t dropped) {

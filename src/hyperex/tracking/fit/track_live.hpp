@@ -24,8 +24,8 @@ struct LiveStatus {
 struct LiveOptions {
   /// Frames that arrive later after the first are left out, and tracking ends.
   double seconds = std::numeric_limits<double>::infinity();
-  std::function<bool()> stop;                     ///< asked before each frame
-  std::function<void(const LiveStatus&)> status;  ///< told after each frame fed
+  std::function<bool()> stop;                     ///< called before each frame
+  std::function<void(const LiveStatus&)> status;  ///< called after each frame
   /// Told of each frame once it is finished, in order, and of when it arrived.
   std::function<void(const TrackedFrame&, std::chrono::steady_clock::time_point arrived)> finished;
   /// Frames and delays are kept for the result; false: for a camera without end.
@@ -43,7 +43,7 @@ struct LiveTracking {
 /// network saw in them, and one waits in the source: while those held back are worked off, as
 /// whenever a frame takes longer than the camera's period, the source drops what comes in between,
 /// and the next frame is the newest one. So the delay is bounded by the work for one frame and a
-/// period, and nothing adds up. Times rise and Frame::index tells where frames are missing. Throws
+/// period, and nothing adds up. Times rise and Frame::index shows where frames are missing. Throws
 /// InputError where no frame shows a face.
 LiveTracking track_live(capture::FrameSource& source, const expression::FaceModel& model,
                         const TrackerOptions& options, const LiveOptions& live,

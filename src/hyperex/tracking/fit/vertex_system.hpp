@@ -28,7 +28,7 @@ class VertexSystem {
   void add_triangle(int triangle, const Eigen::Matrix<double, 9, 9>& hessian,
                     const Eigen::Matrix<double, 9, 1>& gradient);
 
-  /// As if each vertex, beside what moves it here, strayed by `sigma_m` (metres, one a vertex)
+  /// As if each vertex, beside what moves it here, strayed by `sigma_m` (metres, one per vertex)
   /// as it likes: no vertex then weighs more than 1 / sigma^2, however much was measured of it. H
   /// and g are scaled from both sides by 1 / sqrt(1 + sigma^2 trace(H_vv) / 2), a diagonal stand-in
   /// for H (1 + sigma^2 H)^-1.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int numbers_a_box = 16;  // x, y, width, height, six points
 
-/// Centres of the detector's 896 boxes in its square, 0 to 1: two a cell of a 16 x 16 grid, then
-/// six a cell of an 8 x 8 grid (SSD anchors of fixed size).
+/// Centres of the detector's 896 boxes in its square, 0 to 1: two per cell of a 16 x 16 grid, then
+/// six per cell of an 8 x 8 grid (SSD anchors of fixed size).
 std::vector<cv::Point2d> anchors() {
   std::vector<cv::Point2d> centres;
   for (const auto& [cells, boxes] : {std::pair{16, 2}, std::pair{8, 6}})
@@ -123,7 +123,7 @@ struct FaceFinder::Impl {
 };
 
 namespace {
-void check(const cv::Mat& bgr) {
+void check_picture(const cv::Mat& bgr) {
   if (bgr.empty() || bgr.type() != CV_8UC3)
     throw std::invalid_argument("FaceFinder: a picture of type CV_8UC3 is wanted");
 }
@@ -137,7 +137,7 @@ FaceFinder::FaceFinder(FaceFinder&&) noexcept = default;
 FaceFinder& FaceFinder::operator=(FaceFinder&&) noexcept = default;
 
 const std::vector<FoundFace>& FaceFinder::find(const cv::Mat& bgr) {
-  check(bgr);
+  check_picture(bgr);
   Impl& my = *impl_;
   my.boxes.clear();
   my.look_at(bgr,
@@ -147,7 +147,7 @@ const std::vector<FoundFace>& FaceFinder::find(const cv::Mat& bgr) {
 }
 
 const std::vector<FoundFace>& FaceFinder::find_in(const cv::Mat& bgr, const FaceRegion& square) {
-  check(bgr);
+  check_picture(bgr);
   impl_->boxes.clear();
   impl_->look_at(bgr, square);
   return impl_->joined();

@@ -21,7 +21,7 @@ constexpr const char* file_name = "face_landmark_with_attention.tflite";
 /// What is looked at again: lips, one eye, the other.
 struct Region {
   std::vector<int> points;          // of the 468, in the order of the second look's output
-  int left = 0, right = 0;          // the two that tell how the region is turned
+  int left = 0, right = 0;          // the two that give the rotation of the region
   double scale_x = 1, scale_y = 1;  // of the box about the points
   Network network;                  // from its features to its points
   cv::Mat features;                 // 1 x C x h x w, sampled
@@ -187,7 +187,7 @@ double FaceMeshNetwork::look(const cv::Mat& picture, double least_score, FacePoi
                .cast<double>();
   const double score = 1 / (1 + std::exp(-double(my.outputs[2].ptr<float>()[0])));
   if (score >= least_score) {
-    // All regions are told by the first look, whatever the others have changed.
+    // All regions follow from the first output, whatever the others have changed.
     const FacePoints first = points;
     for (Region& region : my.regions) {
       FacePoints again = first;

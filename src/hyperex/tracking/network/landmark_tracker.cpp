@@ -23,7 +23,7 @@ bool settled(const FaceRegion& a, const FaceRegion& b) {
          std::abs(std::remainder(a.angle_rad - b.angle_rad, 2 * M_PI)) < turn_rad;
 }
 
-void check(const cv::Mat& bgr, const FaceRegion& region) {
+void check_region(const cv::Mat& bgr, const FaceRegion& region) {
   if (bgr.empty() || bgr.type() != CV_8UC3)
     throw std::invalid_argument("LandmarkTracker: a picture of type CV_8UC3 is wanted");
   if (!(region.side_px > 0))
@@ -128,7 +128,7 @@ LandmarkTracker::LandmarkTracker(LandmarkTracker&&) noexcept = default;
 LandmarkTracker& LandmarkTracker::operator=(LandmarkTracker&&) noexcept = default;
 
 std::optional<FaceLandmarks> LandmarkTracker::track(const cv::Mat& bgr) {
-  check(bgr, {0, 0, 1, 0});
+  check_region(bgr, {0, 0, 1, 0});
   Impl& my = *impl_;
   std::optional<FaceLandmarks> found;
   if (my.following) found = my.follow(bgr);
@@ -139,12 +139,12 @@ std::optional<FaceLandmarks> LandmarkTracker::track(const cv::Mat& bgr) {
 }
 
 FaceLandmarks LandmarkTracker::look_at(const cv::Mat& bgr, const FaceRegion& region) {
-  check(bgr, region);
+  check_region(bgr, region);
   return impl_->look_at(bgr, region);
 }
 
 FaceLandmarks LandmarkTracker::settle(const cv::Mat& bgr, const FaceRegion& first) {
-  check(bgr, first);
+  check_region(bgr, first);
   return impl_->settle(bgr, first);
 }
 

@@ -43,7 +43,7 @@ struct LandmarkOptions {
 
 /// Finds a face and follows it from picture to picture: the 468 points of MediaPipe Face Mesh
 /// (Y. Kartynnik et al., "Real-time Facial Surface Geometry from Monocular Video on Mobile GPUs",
-/// CVPR Workshop 2019; lips as FaceMeshNetwork says). The points of one picture tell where to look
+/// CVPR Workshop 2019; lips as FaceMeshNetwork says). The points of one picture say where to look
 /// in the next; a lost face is looked for in the whole picture. Of several faces the largest is
 /// taken, and kept while it is followed. The pictures need not be of one size. The same pictures
 /// give the same points.

@@ -20,7 +20,7 @@ class TfliteConstants {
 
   const tflite::SubGraph& graph() const { return *graph_; }
   tflite::Operation operation(const tflite::Operator& op) const;
-  /// Of an operator of kind CUSTOM; else empty.
+  /// The name of an operator of kind CUSTOM; else empty.
   std::string custom_name(const tflite::Operator& op) const;
   /// The operator that computes a tensor.
   const tflite::Operator& maker(int tensor) const;
@@ -34,7 +34,7 @@ class TfliteConstants {
 
  private:
   const tflite::Tensor& tensor(int index) const;
-  /// Of so many bytes a number.
+  /// With this many bytes per number.
   const std::uint8_t* data(int index, std::size_t width) const;
 
   std::string source_;

@@ -13,7 +13,7 @@ struct Network {
   cv::dnn::Net net;
   int width_px = 0, height_px = 0,
       channels = 0;  ///< of the one input, 1 x channels x height x width
-  /// Names to ask cv::dnn::Net::forward() for, in the file's order. An output of rank 4 is 1 x C x
+  /// Names to pass to cv::dnn::Net::forward(), in the file's order. An output of rank 4 is 1 x C x
   /// H x W (channels first); one that the file reshapes has the file's own shape and order.
   std::vector<std::string> outputs;
 };

@@ -7,6 +7,8 @@
 
 #include <cctype>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
@@ -17,6 +19,20 @@ namespace {
 
 constexpr int kRate_hz = 60;
 constexpr std::size_t kBeforeWeights = 2;  // Timecode, BlendShapeCount
+
+/// As the app names them, in its order.
+constexpr const char* kColumns =
+    "Timecode BlendShapeCount EyeBlinkLeft EyeLookDownLeft EyeLookInLeft EyeLookOutLeft "
+    "EyeLookUpLeft EyeSquintLeft EyeWideLeft EyeBlinkRight EyeLookDownRight EyeLookInRight "
+    "EyeLookOutRight EyeLookUpRight EyeSquintRight EyeWideRight JawForward JawRight JawLeft "
+    "JawOpen MouthClose MouthFunnel MouthPucker MouthRight MouthLeft MouthSmileLeft "
+    "MouthSmileRight MouthFrownLeft MouthFrownRight MouthDimpleLeft MouthDimpleRight "
+    "MouthStretchLeft MouthStretchRight MouthRollLower MouthRollUpper MouthShrugLower "
+    "MouthShrugUpper MouthPressLeft MouthPressRight MouthLowerDownLeft MouthLowerDownRight "
+    "MouthUpperUpLeft MouthUpperUpRight BrowDownLeft BrowDownRight BrowInnerUp "
+    "BrowOuterUpLeft BrowOuterUpRight CheekPuff CheekSquintLeft CheekSquintRight "
+    "NoseSneerLeft NoseSneerRight TongueOut HeadYaw HeadPitch HeadRoll LeftEyeYaw "
+    "LeftEyePitch LeftEyeRoll RightEyeYaw RightEyePitch RightEyeRoll";
 
 /// HH:MM:SS:FF.fff, rounded to thousandths of a frame.
 std::string timecode(double time_s) {
@@ -30,69 +46,10 @@ std::string timecode(double time_s) {
 }  // namespace
 
 const std::vector<std::string>& live_link_columns() {
-  static const std::vector<std::string> columns = {"Timecode",
-                                                   "BlendShapeCount",
-                                                   "EyeBlinkLeft",
-                                                   "EyeLookDownLeft",
-                                                   "EyeLookInLeft",
-                                                   "EyeLookOutLeft",
-                                                   "EyeLookUpLeft",
-                                                   "EyeSquintLeft",
-                                                   "EyeWideLeft",
-                                                   "EyeBlinkRight",
-                                                   "EyeLookDownRight",
-                                                   "EyeLookInRight",
-                                                   "EyeLookOutRight",
-                                                   "EyeLookUpRight",
-                                                   "EyeSquintRight",
-                                                   "EyeWideRight",
-                                                   "JawForward",
-                                                   "JawRight",
-                                                   "JawLeft",
-                                                   "JawOpen",
-                                                   "MouthClose",
-                                                   "MouthFunnel",
-                                                   "MouthPucker",
-                                                   "MouthRight",
-                                                   "MouthLeft",
-                                                   "MouthSmileLeft",
-                                                   "MouthSmileRight",
-                                                   "MouthFrownLeft",
-                                                   "MouthFrownRight",
-                                                   "MouthDimpleLeft",
-                                                   "MouthDimpleRight",
-                                                   "MouthStretchLeft",
-                                                   "MouthStretchRight",
-                                                   "MouthRollLower",
-                                                   "MouthRollUpper",
-                                                   "MouthShrugLower",
-                                                   "MouthShrugUpper",
-                                                   "MouthPressLeft",
-                                                   "MouthPressRight",
-                                                   "MouthLowerDownLeft",
-                                                   "MouthLowerDownRight",
-                                                   "MouthUpperUpLeft",
-                                                   "MouthUpperUpRight",
-                                                   "BrowDownLeft",
-                                                   "BrowDownRight",
-                                                   "BrowInnerUp",
-                                                   "BrowOuterUpLeft",
-                                                   "BrowOuterUpRight",
-                                                   "CheekPuff",
-                                                   "CheekSquintLeft",
-                                                   "CheekSquintRight",
-                                                   "NoseSneerLeft",
-                                                   "NoseSneerRight",
-                                                   "TongueOut",
-                                                   "HeadYaw",
-                                                   "HeadPitch",
-                                                   "HeadRoll",
-                                                   "LeftEyeYaw",
-                                                   "LeftEyePitch",
-                                                   "LeftEyeRoll",
-                                                   "RightEyeYaw",
-                                                   "RightEyePitch",
-                                                   "RightEyeRoll"};
+  static const std::vector<std::string> columns = [] {
+    std::istringstream names(kColumns);
+    return std::vector<std::string>(std::istream_iterator<std::string>(names), {});
+  }();
   return columns;
 }
 

@@ -20,7 +20,7 @@ class PreviewPainter {
   /// `model` must outlive the painter.
   PreviewPainter(const expression::FaceModel& model, const capture::Intrinsics& camera);
 
-  /// Of every picture that is drawn; multiples of 16.
+  /// Size of every picture that is drawn; multiples of 16.
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
 

@@ -10,7 +10,7 @@ namespace hyperex::tracking {
 
 namespace {
 
-constexpr std::size_t kFirst = 12;    // frames that tell the rate
+constexpr std::size_t kFirst = 12;    // frames that the rate is estimated from
 constexpr double kLongestGap_s = 10;  // a longer one is cut short
 
 }  // namespace

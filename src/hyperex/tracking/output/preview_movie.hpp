@@ -10,8 +10,8 @@
 namespace hyperex::tracking {
 
 /// A video of what PreviewPainter draws, in the recording's own time: pictures come at a constant
-/// rate, which is that of the first frames (1 to 120 a second); where the recording skips, the last
-/// picture stands, and frames that come faster are left out.
+/// rate, which is that of the first frames (1 to 120 per second); where the recording skips, the
+/// last picture stands, and frames that come faster are left out.
 class PreviewMovie {
  public:
   /// Throws InputError where the name does not end in .mp4. `model` must outlive the movie.

@@ -19,7 +19,7 @@ namespace hyperex::tracking {
 namespace {
 
 /// One picture's rays: a point of each in the plane of the camera's target.
-struct Observation {
+struct PictureRays {
   Vec3 to_viewer;
   Points on_rays;  // 468 x 3
   double score = 0;
@@ -35,8 +35,8 @@ FacePoints unmirrored(const FacePoints& points, int width_px, const std::vector<
   return back;
 }
 
-Observation observe(const ScanView& view, const FacePoints& points_px, double score) {
-  Observation o{view.camera.to_viewer.normalized(), Points(face_point_count, 3), score};
+PictureRays observe(const ScanView& view, const FacePoints& points_px, double score) {
+  PictureRays o{view.camera.to_viewer.normalized(), Points(face_point_count, 3), score};
   for (int i = 0; i < face_point_count; ++i)
     o.on_rays.row(i) = view.point_on_ray(points_px(i, 0), points_px(i, 1)).transpose();
   return o;
@@ -57,7 +57,7 @@ render::Camera mirrored(render::Camera camera) {
 
 /// Two pictures a view, one of the scan and one of its mirror image, lit from the same side: what
 /// the network prefers on one side of a face, and what the lamps make it see, then cancel.
-std::vector<Observation> look_from_views(const TriMesh& scan, const render::VertexColours& colours,
+std::vector<PictureRays> look_from_views(const TriMesh& scan, const render::VertexColours& colours,
                                          LandmarkTracker& tracker, const FacePose& pose,
                                          const ScanLandmarkOptions& options) {
   constexpr double least_score = 0.5, rad = std::numbers::pi / 180;
@@ -65,7 +65,7 @@ std::vector<Observation> look_from_views(const TriMesh& scan, const render::Vert
   const Points laid = pose.scan_from_canonical.apply(face::canonical_face().mesh.points);
   const TriMesh image = mirrored(scan);
   const ScanViewer viewer(scan, colours), image_viewer(image, colours);
-  std::vector<Observation> seen;
+  std::vector<PictureRays> seen;
   Progress progress("finding landmarks", long(options.views_deg.size()));
   for (std::size_t v = 0; v < options.views_deg.size(); ++v) {
     const auto [yaw, pitch] = options.views_deg[v];
@@ -93,20 +93,20 @@ Vec3 normal_of(const TriMesh& mesh, int triangle) {
 }
 
 /// Distance of a point from a view's ray.
-double distance(const Observation& o, int i, const Vec3& point) {
+double distance(const PictureRays& o, int i, const Vec3& point) {
   const Vec3 away = point - o.on_rays.row(i).transpose();
   return (away - o.to_viewer * o.to_viewer.dot(away)).norm();
 }
 
 /// Where the rays of one face point come nearest to each other.
-Vec3 agreed(const std::vector<Observation>& seen, int i, Vec3 point, const Vec3& normal,
+Vec3 agreed(const std::vector<PictureRays>& seen, int i, Vec3 point, const Vec3& normal,
             double tolerance_m) {
   constexpr int rounds = 10;
   constexpr double depth_prior = 1e-3;  // holds the depth where one view alone sees the point
   for (int round = 0; round < rounds; ++round) {
     Eigen::Matrix3d sum = depth_prior * Eigen::Matrix3d::Identity();
     Vec3 right = depth_prior * point;
-    for (const Observation& o : seen) {
+    for (const PictureRays& o : seen) {
       const double facing = std::max(0.05, normal.dot(o.to_viewer));
       const double off = distance(o, i, point) / tolerance_m;
       const double weight = o.score * facing * facing / (1 + off * off);
@@ -151,7 +151,7 @@ ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColou
   for (int i = 0; i < face_point_count; ++i) {
     const Vec3 normal = normal_of(scan, surface.query(laid.row(i).transpose()).triangle);
     const Vec3 point = agreed(seen, i, laid.row(i).transpose(), normal, options.tolerance_m);
-    for (const Observation& o : seen) off.push_back(distance(o, i, point));
+    for (const PictureRays& o : seen) off.push_back(distance(o, i, point));
     points.row(i) = point.transpose();
   }
   for (const auto& entry : canonical.landmarks)
@@ -161,7 +161,7 @@ ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColou
     found.face_points.row(i) = surface.query(points.row(i).transpose()).point.transpose();
   found.scan_from_canonical = fit_similarity(canonical.mesh.points, points);
   found.views = int(seen.size());
-  for (const Observation& o : seen) found.score += o.score / double(seen.size());
+  for (const PictureRays& o : seen) found.score += o.score / double(seen.size());
   found.spread_m = off.empty() ? 0 : median(off);
   return found;
 }

@@ -24,7 +24,7 @@ struct ScanView {
 
 class ScanViewer {
  public:
-  /// Both are referred to. `colours`: one row a vertex, or none.
+  /// Both are referred to. `colours`: one row per vertex, or none.
   ScanViewer(const TriMesh& mesh, const render::VertexColours& colours);
 
   ScanView look(const render::Camera& camera, int size_px, int samples) const;

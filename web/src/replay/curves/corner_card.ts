@@ -121,18 +121,18 @@ export function cornerCurves(replay: Replay, shown: Shown): Omit<Chart, 'title'>
 /** Words above the chart, and below it what the variants do; they follow the face that is shown until undone. */
 export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement): Undo {
   card.classList.add('corners');
-  const said = element('div', '', 'said');
+  const line = element('div', '', 'said');
   const floor = element('p', '', 'floor');
   const show = () => {
     const face = shown.visible[shown.visible.length - 1];
     const corners = cornersOf(replay, face)!;
-    said.replaceChildren(headline(corners));
+    line.replaceChildren(headline(corners));
     const whose = replay.faces.length > 1 ? `Of ${faceWords(replay.faces, face)}. ` : '';
     floor.textContent = whose + floorWords(replay, corners);
   };
   show();
   const unfollow = shown.onChange(show);
-  card.querySelector('.plot-head')!.after(said, floor);
+  card.querySelector('.plot-head')!.after(line, floor);
   const lines = variantLines(replay, shown, cornersOf(replay, 0)!);
   if (lines) card.append(lines);
   return unfollow;

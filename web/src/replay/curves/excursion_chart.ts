@@ -40,7 +40,7 @@ export class ExcursionCurves {
   }
 }
 
-/** `changed` is told after each choice. */
+/** `changed` is called after each choice. */
 export function sideChooser(curves: ExcursionCurves, changed: () => void): HTMLElement {
   const label = element('label', '', 'one-of-chooser');
   const select = document.createElement('select');

@@ -48,7 +48,7 @@ export class MuscleCurves {
   }
 }
 
-/** Names every group with its greatest activation a side; `changed` is told after each choice. */
+/** Names every group with its greatest activation on each side; `changed` is called after each choice. */
 export function muscleChooser(curves: MuscleCurves, changed: () => void): HTMLElement {
   const label = element('label', '', 'one-of-chooser');
   const select = document.createElement('select');

@@ -102,7 +102,7 @@ export class TrackCurves {
   }
 }
 
-/** Check boxes; `changed` is told after each change of `chosen`. */
+/** Check boxes; `changed` is called after each change of `chosen`. */
 export function trackChooser(names: string[], chosen: Set<number>, changed: () => void): HTMLElement {
   const details = element('details', '', 'chooser');
   const list = element('div');

@@ -25,9 +25,9 @@ export interface Painting {
   /** Writes a number from 0 (least) to 1 (greatest) a vertex; may leave that range; NaN: no value. `other`: the
    *  other face of two. */
   fill(shape: FaceShape, out: Float32Array, other: FaceShape | null): void;
-  /** Whether a face's colours tell of the other face too. */
+  /** Whether a face's colours depend on the other face, too. */
   together?: boolean;
-  /** A word on what a face shows, where the colours alone would not say. */
+  /** Explains the colours of a face where they need it. */
   note(face: Face): string;
 }
 

@@ -8,7 +8,8 @@ import { element } from '../../page/dom';
 import { faceColour } from '../../page/face_colour';
 import { faceWords, landmarkName, number } from '../../page/format';
 import type { Shown } from '../shown';
-import type { FaceViewer, Place } from './viewer';
+import type { Place } from './picking';
+import type { FaceViewer } from './viewer';
 
 const restMs = 350;
 /** A pointer that went farther, or was held longer, has turned the face. */
@@ -18,7 +19,7 @@ const pressMs = 600;
 interface Figures {
   face: number;
   displacement: string;
-  /** What the colours tell, where that is something else. */
+  /** The value of the colouring, unless it is the displacement. */
   value: string;
 }
 
@@ -34,10 +35,10 @@ export class Readout {
   constructor(
     host: HTMLElement, canvas: HTMLElement, private readonly viewer: FaceViewer, private readonly replay: Replay,
     private readonly shown: Shown, private readonly now: () => { colouring: Colouring; painting: Painting },
-    private readonly say: (text: string) => void,
+    private readonly announce: (text: string) => void,
   ) {
     this.landmarks = replay.landmarks.positions.slice(0, 3 * replay.landmarks.names.length);
-    this.box.setAttribute('aria-hidden', 'true'); // what is pressed is said elsewhere
+    this.box.setAttribute('aria-hidden', 'true'); // pressed places are announced elsewhere
     host.append(this.dot, this.box);
     this.clear();
     viewer.onDraw(() => this.draw());
@@ -91,7 +92,7 @@ export class Readout {
   }
 
   private show(clientX: number, clientY: number, pinned: boolean): void {
-    const place = this.viewer.placeAt(clientX, clientY);
+    const place = this.viewer.pick.placeAt(clientX, clientY);
     if (!place) {
       this.clear();
       return;
@@ -99,7 +100,7 @@ export class Readout {
     this.place = place;
     this.pinned = pinned;
     this.draw();
-    if (pinned) this.say(this.words());
+    if (pinned) this.announce(this.words());
   }
 
   private figures({ vertex }: Place): Figures[] {
@@ -116,7 +117,7 @@ export class Readout {
     });
   }
 
-  /** On the button of what the colours tell; empty where that stands there anyway. */
+  /** The value of the colouring for the button; empty where the button shows it anyway. */
   private get measure(): string {
     const { colouring, painting } = this.now();
     return painting.scale && colouring.key !== 'displacement' ? colouring.label : '';
@@ -157,7 +158,7 @@ export class Readout {
   }
 
   private draw(): void {
-    const at = this.place && this.viewer.whereIs(this.place);
+    const at = this.place && this.viewer.pick.whereIs(this.place);
     this.box.hidden = this.dot.hidden = !at;
     if (!at) return;
     const near = this.near(this.place!);

@@ -17,7 +17,8 @@ import type { Shown } from '../shown';
 import { theme } from '../../page/theme';
 import { Readout } from './readout';
 import { changesOf } from '../variants';
-import { FaceViewer, type View } from './viewer';
+import type { View } from './view_camera';
+import { FaceViewer } from './viewer';
 import { WipeHandle } from './wipe_handle';
 
 const pictureScale = 2;
@@ -55,7 +56,7 @@ export class Stage {
     this.wireReadout();
     this.undoing.add(shown.onChange(() => {
       this.paint();
-      this.say();
+      this.announce();
     }));
     at('save-picture').addEventListener('click', () => void this.savePicture(), { signal: this.undoing.signal });
   }
@@ -88,7 +89,7 @@ export class Stage {
     this.fillColourings();
   }
 
-  /** After what a colouring tells has changed. */
+  /** After the values of a colouring have changed. */
   repaint(): void {
     if (this.viewer) this.paint();
   }
@@ -131,7 +132,7 @@ export class Stage {
         { shown: 'x', does: 'left and right face change places', when: ['x'], act: () => at('swap').click() },
       );
     }
-    const turn = (key: string, yaw: number, pitch: number): [string, () => void] => [key, () => viewer.turn(yaw, pitch)];
+    const turn = (key: string, yaw: number, pitch: number): [string, () => void] => [key, () => viewer.view.turn(yaw, pitch)];
     const turns = new Map([
       turn('ArrowLeft', -10, 0), turn('ArrowRight', 10, 0), turn('ArrowUp', 0, 10), turn('ArrowDown', 0, -10),
     ]);
@@ -141,7 +142,7 @@ export class Stage {
         shown: 'Shift and arrows', does: 'turn the face',
         when: (event) => event.shiftKey && turns.has(event.key), act: (event) => turns.get(event.key)!(),
       },
-      { shown: '+ or -', does: 'nearer, farther', when: ['+', '=', '-'], act: ({ key }) => viewer.zoom(key === '-' ? 1 / 1.15 : 1.15) },
+      { shown: '+ or -', does: 'nearer, farther', when: ['+', '=', '-'], act: ({ key }) => viewer.view.zoom(key === '-' ? 1 / 1.15 : 1.15) },
       { shown: 'f', does: 'from the front', when: ['f'], act: () => at('views').querySelector('button')!.click() },
       {
         shown: 'Escape', does: 'clear the figures at a place; a click on the face shows them',
@@ -163,7 +164,7 @@ export class Stage {
     for (const button of buttons)
       button.addEventListener('click', () => {
         for (const other of buttons) other.setAttribute('aria-pressed', String(other === button));
-        this.viewer!.lookFrom(button.dataset.view as View);
+        this.viewer!.view.lookFrom(button.dataset.view as View);
       }, { signal: this.undoing.signal });
   }
 
@@ -191,7 +192,7 @@ export class Stage {
     this.paint();
   }
 
-  /** What colours tell may depend on the faces shown. */
+  /** Colourings may depend on the faces shown. */
   private paint(): void {
     const painting = this.colouring.of(this.shown.visible);
     this.painting = painting;
@@ -203,15 +204,15 @@ export class Stage {
   private nextColouring(): void {
     const colourings = this.choices;
     this.setColouring(colourings[(colourings.indexOf(this.colouring) + 1) % colourings.length]);
-    this.say();
+    this.announce();
   }
 
-  /** For those who hear the page and chose by a key. */
-  private say(): void {
+  /** To screen readers, after a choice by a key. */
+  private announce(): void {
     const { replay, shown, colouring, painting } = this;
     const faces = shown.visible.map((i) => faceWords(replay.faces, i));
     const named = replay.faces.length > 1 ? `${faces.join(', right ')}; ` : '';
-    at('said').textContent = `${faces.length > 1 ? 'left ' : ''}${named}${painting.scale?.title ?? colouring.label}`;
+    at('announcement').textContent = `${faces.length > 1 ? 'left ' : ''}${named}${painting.scale?.title ?? colouring.label}`;
   }
 
   private fillOverlays(): void {
@@ -248,7 +249,7 @@ export class Stage {
     this.readout = new Readout(
       at('canvas-host'), at('face'), viewer!, replay, shown,
       () => ({ colouring: this.colouring, painting: this.painting }),
-      (text) => (at('said').textContent = text),
+      (text) => (at('announcement').textContent = text),
     );
   }
 

@@ -20,7 +20,7 @@ export interface Excursion {
   peak_speed_mm_s: Sides;
   speed_correlation: number | null;
   undecided: boolean;
-  /** What |L - R| of the excursions must exceed to be told from jitter and mesh. */
+  /** What |L - R| of the excursions must exceed to stand out from jitter and mesh. */
   floor_mm?: number | null;
   [ratio: string]: unknown;
 }

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "symmetry_print.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "hyperex/face/point_words.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+std::string cell(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:10.{}f}", value, digits)
+                              : fmt::format("{:>10}", "-");
+}
+
+/// Which figures of a pair jitter alone may have made.
+std::string undecided_note(const metrics::PairExcursion& p) {
+  std::vector<std::string> figures;
+  if (p.undecided) figures.push_back("excursion");
+  if (p.peak_speed_undecided) figures.push_back("speed");
+  if (p.speed_correlation_undecided) figures.push_back("correlation");
+  return figures.empty() ? "" : fmt::format("  undecided: {}", fmt::join(figures, ", "));
+}
+
+}  // namespace
+
+void print_curve(const metrics::SymmetryCurve& curve) {
+  constexpr std::size_t rows = 20;
+  const std::size_t count = curve.time_s.size(), every = (count + rows - 1) / rows;
+  std::cout << fmt::format("{:>10} {:>10} {:>10} {:>10} {:>10}\n", "time (s)", "xi_L", "xi_R",
+                           "S (ln)", "S_floor");
+  for (std::size_t i = 0; i < count; i += every)
+    std::cout << fmt::format("{:10.4f} {} {} {} {}{}\n", curve.time_s[i], cell(curve.xi_left[i], 5),
+                             cell(curve.xi_right[i], 5), cell(curve.s[i], 5),
+                             cell(curve.noise.empty() ? NAN : std::log(curve.noise[i]), 3),
+                             i > 0 && curve.undecided(i) ? "  undecided" : "");
+  if (every > 1)
+    std::cout << fmt::format("one in {} of {} samples; --out FILE.csv writes all\n", every, count);
+  std::cout << fmt::format("floor: |xi_L - xi_R| = {:.3g}, S = {:.3f}\n", curve.floor,
+                           std::log(curve.floor));
+}
+
+void print_excursions(const metrics::Excursions& excursions) {
+  std::cout << fmt::format("\n{:<43}{:>32}{:>33}{:>13}\n", "", "excursion (mm)  ",
+                           "peak speed (mm/s)  ", "correlation");
+  std::cout << fmt::format("{:<43} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "point",
+                           "L", "R", "R/L", "L", "R", "R/L", "of speeds");
+  for (const metrics::PairExcursion& p : excursions.pairs)
+    std::cout << fmt::format("{:<43} {} {} {} {} {} {}   {}{}\n", face::point_words(p.name),
+                             cell(p.left_side.excursion_mm, 2), cell(p.right_side.excursion_mm, 2),
+                             cell(p.excursion_ratio, 3), cell(p.left_side.peak_speed_mm_s, 1),
+                             cell(p.right_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),
+                             cell(p.speed_correlation, 3), undecided_note(p));
+  if (excursions.lowpass_hz > 0)
+    std::cout << fmt::format(
+        "speeds smoothed with a cut-off of {:g} Hz; undecided: within what "
+        "jitter alone makes\n",
+        excursions.lowpass_hz);
+}
+
+void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter) {
+  const metrics::SymmetryCurve& curve = all.curve;
+  size_t undecided = 0;
+  for (size_t i = 1; i < curve.time_s.size(); ++i) undecided += curve.undecided(i);
+  std::cout << fmt::format("\nstretch: {}", metrics::verdict_of(curve));
+  if (curve.jitter_m > 0)
+    std::cout << fmt::format("; jitter {:.2f} mm leaves {} of {} samples undecided",
+                             1e3 * curve.jitter_m, undecided, curve.time_s.size() - 1);
+  std::cout << '\n' << jitter.how << '\n';
+  if (all.map && !all.map->frames.empty()) {
+    const auto& worst = all.map->frames[static_cast<size_t>(all.map->worst_frame)];
+    std::cout << fmt::format(
+        "asymmetry of the surface at {:.3f} s: face rms {:.2f} mm, 95 % below {:.2f} mm; mouth rms "
+        "{:.2f} mm, 95 % below {:.2f} mm (at rest, taken out: rms {:.2f} mm)\n",
+        curve.time_s[static_cast<size_t>(all.map->worst_frame)], worst.face_rms_mm,
+        worst.face_p95_mm, worst.mouth_rms_mm, worst.mouth_p95_mm, all.map->rest_rms_mm);
+  }
+  std::cout << "This is no medical device: the figures describe a motion and diagnose nothing.\n";
+}
+
+}  // namespace hyperex::cli

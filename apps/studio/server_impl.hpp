@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The parts of the server: connections are accepted here (server.cpp), answered as HTTP
+// (server_http.cpp), and one of them may become the page's WebSocket (server_socket.cpp).
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/message.hpp>
+#include <list>
+#include <memory>
+#include <string>
+
+#include "server.hpp"
+
+namespace hyperex::studio {
+
+/// A connected peer. Peers that have not proven to be the user's page give way to others.
+class Peer {
+ public:
+  virtual ~Peer() = default;
+  virtual bool proven() const = 0;
+  virtual void close() = 0;  ///< at once
+};
+
+/// The page's WebSocket, once its token was right.
+class PageSocket : public Peer {
+ public:
+  virtual void send(std::shared_ptr<const std::string> message, bool binary,
+                    const std::string& replaces) = 0;
+  /// Another page has taken over.
+  virtual void yield() = 0;
+};
+
+struct Server::Impl {
+  using tcp = boost::asio::ip::tcp;
+  using Request = boost::beast::http::request<boost::beast::http::empty_body>;
+
+  ServerOptions options;
+  ServerEvents events;
+  boost::asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  unsigned short port = 0;
+  std::string policy;                  ///< Content-Security-Policy of each answer
+  std::shared_ptr<PageSocket> client;  ///< null: no page has shown the token
+  int connections = 0;
+  std::list<std::weak_ptr<Peer>> peers;  ///< oldest first
+  std::size_t uploaded = 0;              ///< bytes in all
+  int parts = 0;                         ///< uploads begun
+  boost::asio::steady_timer retry{io};
+
+  void accept();
+  /// Whether another connection may be accepted. Closes the oldest unproven one if need be.
+  bool make_room();
+  /// Answers requests of a new connection (server_http.cpp).
+  void serve_http(tcp::socket&& socket);
+  /// Upgrades a connection to a WebSocket (server_socket.cpp).
+  void serve_socket(tcp::socket&& socket, const Request& request);
+};
+
+}  // namespace hyperex::studio

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the page receives without a request.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/scene/scene_text.hpp"
+#include "session.hpp"
+#include "shape_message.hpp"
+
+namespace hyperex::studio {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+json muscles_json(const muscles::MuscleTable& table) {
+  json out = json::array();
+  for (const muscles::TemplateMuscle& muscle : table)
+    out.push_back({{"name", muscle.name},
+                   {"latin", muscle.latin},
+                   {"group", muscle.group},
+                   {"branch", muscle.branch}});
+  return {{"muscles", out}, {"names", muscles::gain_names(table)}};
+}
+
+}  // namespace
+
+void Session::send_motion(Stopwatch& watch) {
+  report::BinaryBlock block;
+  json head = {{"event", face_sent_ ? "motion" : "face"}};
+  head["replay"] = face_->replay(block, !face_sent_);
+  head["activations"] = face_->activations(block);
+  if (face_sent_) {
+    head["table"] = head["replay"]["summary"].contains("variants")
+                        ? head["replay"]["summary"]["variants"]["table"]
+                        : json::array();
+    head["seconds"] = watch.lap();
+    head["bands"] = face_->session().certainty_known();
+  } else {
+    json landmarks = json::array();
+    const std::vector<std::string>& placed = face_->inputs().placed;
+    const fs::path& given = face_->scene().scan.landmarks;
+    for (const auto& [name, place] : face_->inputs().landmarks)
+      landmarks.push_back(
+          {{"name", name},
+           {"other", face::mirrored_landmark(name)},
+           {"position", {place.x(), place.y(), place.z()}},
+           {"found", given.empty() || std::count(placed.begin(), placed.end(), name) > 0}});
+    head["landmarks"] = landmarks;
+    head["muscles"] = muscles_json(face_->scene().muscles.table());
+    const Eigen::VectorXf thickness = face_->unpainted_mm();
+    head["thickness"] = block.add("float32", thickness.data(), std::size_t(thickness.size()));
+  }
+  send_(binary_message(head, block), true, "");
+  face_sent_ = true;
+}
+
+void Session::send_scene() {
+  const scene::Scene& scene = face_->scene();
+  json values = json::array({values_of(scene)});
+  json faces = json::array({{{"name", "base"}, {"changes", json::object()}}});
+  for (const scene::Variant& variant : scene.variants) {
+    values.push_back(values_of(variant.scene));
+    faces.push_back({{"name", variant.name}, {"changes", variant.changes}});
+  }
+  const std::vector<json> blocks = scene::variant_blocks(face_->text());
+  for (std::size_t i = 0; i < blocks.size() && i + 1 < faces.size(); ++i)
+    if (blocks[i].contains("preset")) faces[i + 1]["preset"] = blocks[i]["preset"];
+  const json event = {{"event", "scene"},
+                      {"title", scene.title},
+                      {"values", values},
+                      {"faces", faces},
+                      {"drive", values[0]["drive.by"]},
+                      {"drive_why", face_->session().drive_reason()},
+                      {"can_undo", !undo_.empty()},
+                      {"can_redo", !redo_.empty()},
+                      {"saved", saved_},
+                      {"text", now_.text}};
+  send_(event.dump(-1, ' ', false, json::error_handler_t::replace), false, "scene");
+}
+
+void Session::send_shape(std::size_t face, double time_s) {
+  Stopwatch watch;
+  if (face >= face_->session().faces()) throw InputError("face: there is none of this number");
+  const bool first = !face_->session().ready(face);
+  if (first) report_progress("finding the forces that move the face");
+  const PointsF shape = face_->session().still(face, time_s);
+  if (first) report_progress("");
+  report::BinaryBlock block;
+  json head = {{"event", "shape"}, {"face", face}, {"time_s", time_s}};
+  add_shape(shape, block, head);
+  head["seconds"] = watch.lap();
+  send_(binary_message(head, block), true, fmt::format("shape-{}", face));
+}
+
+void Session::report_progress(const std::string& stage, double share) {
+  const json event = {{"event", "progress"}, {"stage", stage}, {"share", share}};
+  send_(event.dump(), false, "progress");
+}
+
+void Session::log(const char* level, const std::string& text) {
+  const json event = {{"event", "log"}, {"level", level}, {"text", text}};
+  send_(event.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
+}
+
+}  // namespace hyperex::studio

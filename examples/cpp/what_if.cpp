@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A scene as it is, and the same pull in other tissue:  what_if SCENE.toml KEY VALUE OUT.glb
+#include <cstdio>
+#include <cstdlib>
+#include <hyperex/hyperex.hpp>
+
+using namespace hyperex;
+
+int main(int argc, char** argv) try {
+  if (argc != 5) {
+    std::fprintf(stderr, "what_if SCENE.toml KEY VALUE OUT.glb\n");
+    return 2;
+  }
+  FaceSession face(argv[1]);  // or face(read_face("me.ply"), read_motion("me.csv"))
+  const auto before = face.run();
+  face.set(argv[2], std::atof(argv[3]));  // where forces drive, they are kept
+  const auto after = face.run();
+  write_glb(argv[4], after);
+  for (const auto& result : {before, after})
+    for (const auto& pair : result.measures().excursions.pairs)
+      if (pair.name == "cheilion")
+        std::printf("%s: corners of the mouth left %.2f mm, right %.2f mm\n", result.name.c_str(),
+                    pair.left_side.excursion_mm, pair.right_side.excursion_mm);
+  for (const Note& warning : face.warnings()) std::fprintf(stderr, "%s\n", warning.text.c_str());
+} catch (const InputError& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
+}

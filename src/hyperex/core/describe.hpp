@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A struct of options describes them once, beside its members, for all who walk through them: scene
+// files and their reference, checks of bounds, Python and its type stubs, tests.
+//
+//   struct TimeOptions {
+//     double step_s = 0.002;
+//     static constexpr const char* about = "Steps and frames.";
+//     template <class Visitor>
+//     static void describe(Visitor& visitor) {
+//       visitor.option(HX_MEMBER(step_s), "The time step.",
+//                      {.unit = kSeconds, .bounds = {1e-6, 0.1}});
+//     }
+//   };
+//
+// A visitor has three functions. `at` returns the member of the options that are handed to it:
+//   option(name, at, sentence, details = {})   a value, a list, or options described in turn
+//   one_or_all(name, at, all_name, all_at, sentence)   a list of names, or a flag: all there are
+//   factors(name, at, words, sentence, details)  rows of a name (one of `words`) and a number
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hyperex/core/bounds.hpp"
+
+/// The name of a member, "skull_layer.along_pa_per_m", and what returns it: they cannot disagree.
+#define HX_MEMBER(member)                     \
+#member, [](auto& options) -> auto& {       \
+    return options.member; /* const or not */ \
+  }
+
+namespace hyperex {
+
+/// The unit of an option in scene files, and in the program (SI), with what ends their names.
+/// SI = value * times / over: two exact integers, so that 9 mm is 0.009 to the last bit.
+struct Unit {
+  const char* name = "";       ///< "kPa/mm"
+  const char* ending = "";     ///< of keys: "_kpa_per_mm"
+  const char* si_name = "";    ///< "Pa/m"
+  const char* si_ending = "";  ///< of members: "_pa_per_m"
+  double times = 1, over = 1;
+  constexpr double to_si(double value) const { return value * times / over; }
+  double from_si(double si) const;  ///< rounded to 15 digits: 9 again
+  Bounds from_si(const Bounds& si) const;
+};
+
+inline constexpr Unit kMillimetres{"mm", "_mm", "m", "_m", 1, 1000};
+inline constexpr Unit kSeconds{"s", "_s", "s", "_s"};
+inline constexpr Unit kHertz{"Hz", "_hz", "Hz", "_hz"};
+inline constexpr Unit kMegabytes{"MB", "_mb", "MB", "_mb"};
+inline constexpr Unit kKilopascals{"kPa", "_kpa", "Pa", "_pa", 1000, 1};
+inline constexpr Unit kKilopascalsPerMillimetre{"kPa/mm",    "_kpa_per_mm", "Pa/m",
+                                                "_pa_per_m", 1000000,       1};
+inline constexpr Unit kPascalSeconds{"Pa s", "_pa_s", "Pa s", "_pa_s"};
+inline constexpr Unit kKilogramsPerCubicMetre{"kg/m^3", "_kg_m3", "kg/m^3", "_kg_m3"};
+
+/// What there is to say of an option besides its sentence.
+struct OptionDetails {
+  Unit unit = {};
+  Bounds bounds = {0, std::numeric_limits<double>::infinity()};  ///< of numbers, SI
+  /// In scene files: the key within its section where it is not the member's name (in the unit of
+  /// keys), or with a dot the whole key. Of options described in turn: what their keys begin with.
+  const char* key = nullptr;
+  const char* name = nullptr;  ///< in Python, where it is not the member's
+  bool in_scene = true;        ///< false: from C++ and Python alone
+  bool required = false;       ///< in scene files
+  std::size_t least = 0;       ///< how many elements; of a text: how many characters
+  std::size_t most = 1000;
+  /// Of a truth value: the words for true and for false. Of a text: all that it may be.
+  std::array<const char*, 3> words = {};
+  const char* none = nullptr;   ///< the word of an optional that holds nothing
+  bool folder_too = false;      ///< of a path: folders are allowed
+  const char* only_where = "";  ///< a condition without which it has no effect
+};
+
+/// A value of an enumeration and its word, spelled once, by words_of(Enum) beside the enumeration:
+///   constexpr auto words_of(Hold) { return std::array{Word{"held", Hold::held}, ...}; }
+template <class Value>
+struct Word {
+  std::string_view text;
+  Value value;
+};
+template <class Value>
+Word(const char*, Value) -> Word<Value>;
+
+template <class Enum>
+concept Worded = requires(Enum value) {
+  words_of(value);
+};
+
+/// Empty for a value without a word.
+template <Worded Enum>
+constexpr std::string_view word_of(Enum value) {
+  for (const Word<Enum>& word : words_of(value))
+    if (word.value == value) return word.text;
+  return {};
+}
+
+template <Worded Enum>
+constexpr std::optional<Enum> value_of(std::string_view text) {
+  for (const Word<Enum>& word : words_of(Enum{}))
+    if (word.text == text) return word.value;
+  return std::nullopt;
+}
+
+template <class Options>
+concept Described = requires {
+  Options::about;
+};
+
+/// The key of a member within its section: "patch_radius_m" in millimetres is "patch_radius_mm".
+std::string key_of(std::string_view member, const OptionDetails& details);
+
+inline std::string python_name(std::string_view member, const OptionDetails& details) {
+  return std::string(details.name ? details.name : member);
+}
+
+}  // namespace hyperex

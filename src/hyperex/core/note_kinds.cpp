@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/core/note_kinds.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace hyperex {
+namespace {
+
+constexpr NoteKind warning(const char* id, const char* key, const char* when) {
+  return {id, Severity::warning, key, when};
+}
+constexpr NoteKind note(const char* id, const char* key, const char* when) {
+  return {id, Severity::note, key, when};
+}
+
+// clang-format off
+constexpr NoteKind kKinds[] = {
+  warning("landmarks.doubtful", "scan.landmarks",
+    "A landmark is probably not where its name says: more than 5 mm off the scan or from another "
+    "name of the same place, or farther from where the others put it than faces differ."),
+  warning("landmarks.many_doubtful", "scan.landmarks",
+    "More than a third of the landmarks are doubtful: they may belong to another scan."),
+  warning("landmarks.misspelt", "scan.landmarks",
+    "A landmark's name is not known and looks like one that is; at most five are named."),
+  warning("recording.mirror_unknown", "motion.mirrored",
+    "The recording is a video, which has no flag for mirroring, and motion.mirrored is not given."),
+  warning("recording.time_unit_doubtful", "motion.file",
+    "Samples are more than 0.5 s apart (median), or the recording lasts more than ten minutes: its "
+    "times are probably in milliseconds."),
+  warning("recording.nothing_moves", "motion.unit",
+    "No point moves 0.05 mm from its first place, head motion removed."),
+  warning("recording.starts_in_expression", "motion.rest_s",
+    "The face comes nearer to rest later than it is at the start, where displacements are taken "
+    "from."),
+  warning("recording.fits_badly", "motion.unit",
+    "After alignment the common points are more than 10 mm rms apart, or the scale is outside 0.8 "
+    "to 1.25."),
+  warning("sides.exchanged_pair", "motion.file",
+    "Single pairs of points have left and right exchanged. Where most pairs do, the recording is "
+    "refused."),
+  warning("law.idle", "tissue.strain",
+    "Keys are given that only finite strain uses, and neither the scene nor a variant has it."),
+  warning("skin.far_from_scan", "mesh.element_size_mm",
+    "Within 25 mm of a landmark the simulated skin is more than 5 mm off the scan."),
+  warning("forces.found_anew", "drive.by",
+    "Tissue or support was changed after a run whose forces were not held: other forces were found."),
+  warning("drive.points_off", "drive.points",
+    "A driven point ends more than 0.1 mm from where it is driven."),
+  warning("contact.no_equilibrium", "contact",
+    "At finite strain no equilibrium with contact was found in some frames."),
+  warning("solver.reduced_not_converged", "solver.method",
+    "The reduced model's estimated error stayed above solver.tolerance."),
+  warning("lips.pass_through", "contact.lips",
+    "The lips pass through each other by more than 0.5 mm in some frame."),
+  warning("tissue.inverted", "tissue.strain",
+    "More than 0.1 % of the tetrahedra are turned inside out in some frame."),
+  warning("tissue.volume_changed", "mesh.element_size_mm",
+    "At finite strain the volume of a single element changes more than threefold at the peak."),
+  warning("symmetry.plane_of_landmarks", "",
+    "The midsagittal plane is that of the landmarks alone, as the surface could not refine it."),
+  warning("output.glb_coarse", "output.glb_max_mb",
+    "performance.glb reaches output.glb_max_mb before output.glb_tolerance_mm."),
+  warning("variant.no_effect", "variant",
+    "A variant moves as base does, to 0.001 mm: probably a mistake."),
+  warning("variant.lips_pass_through", "contact.lips",
+    "A variant's lips pass through each other by more than 0.5 mm and farther than base's."),
+  warning("variant.muscle_hardly_used", "muscles.gain",
+    "A variant changes the strength of muscles that the recording uses by less than their "
+    "uncertainty (1 sigma)."),
+
+  note("scan.unit_guessed", "scan.unit", "The scan's unit was guessed from its size."),
+  note("scan.mended", "scan.file", "Faults of the scan's mesh were mended in a working copy."),
+  note("scan.thinned", "scan.file", "The scan has more than 60,000 vertices and was thinned."),
+  note("landmarks.placed", "scan.landmarks",
+    "Landmarks that were not given were placed by the canonical face."),
+  note("landmarks.found", "scan.landmarks",
+    "The scene names no landmarks; they were found in pictures of the scan."),
+  note("landmarks.not_searched", "scan.landmarks",
+    "`hyperex check` does not search for landmarks; it names what it could not check."),
+  note("landmarks.unknown", "scan.landmarks", "Landmarks have names that are not known."),
+  note("recording.expressions", "motion", "What was assumed or left out in reading expressions."),
+  note("recording.tracked", "motion.recording", "In how many frames a face was tracked."),
+  note("recording.first_face", "motion.recording",
+    "`hyperex check` tracks a recording to its first frame with a face."),
+  note("recording.no_depth", "motion.recording",
+    "The recording has no depth: lengths rest on a usual distance between the eyes."),
+  note("recording.source", "motion.recording", "What the camera or the video reader reports."),
+  note("recording.unit", "motion.unit", "The recording's unit, and how it is known."),
+  note("recording.timing", "motion.file", "How long the recording lasts, and its sampling."),
+  note("recording.gaps_filled", "motion.max_gap_s", "Gaps of the recording were interpolated."),
+  note("recording.lead_in", "motion.rest_s",
+    "The recording does not start at rest: the face is led from rest into it."),
+  note("recording.checked_by_average_face", "scan.landmarks",
+    "The scan's landmarks are not known: sides and start were checked by an average face."),
+  note("recording.start_unchecked", "motion.rest_s",
+    "`hyperex check` does not see whether a camera's recording starts at rest."),
+  note("recording.aligned", "alignment.method", "How recording and scan were aligned."),
+  note("recording.jitter_stated", "output.jitter_mm", "The jitter that the scene states."),
+  note("recording.jitter", "output.jitter_mm", "The jitter that the recorded points show."),
+  note("recording.no_jitter", "output.jitter_mm",
+    "The recorded points show no jitter, or the recording is too short to show it."),
+  note("head.pose_uncertain", "motion.rigid_points",
+    "The head's position is uncertain by more than 1 mm (95 %)."),
+  note("tissue.matched_by_place", "tissue.per_vertex",
+    "Values per vertex are in another order than the scan's vertices and were matched by place."),
+  note("tissue.values_averaged", "tissue.per_vertex",
+    "Several vertices of a file with different values lie at one vertex of the scan."),
+  note("tissue.regions_unchecked", "tissue.region",
+    "`hyperex check` does not look where the regions of the tissue lie."),
+  note("support.none", "support.border",
+    "Nothing holds the tissue but the driven points."),
+  note("drive.chosen", "drive.by", "What drives the face, and why."),
+  note("drive.points_left_out", "drive.points",
+    "The face model lacks some of the default points."),
+  note("teeth.closed", "teeth", "Borders of a scan of teeth were filled."),
+  note("teeth.average", "teeth.shape", "Average teeth were laid behind the lips."),
+  note("teeth.none", "teeth.shape", "Why no average teeth could be laid behind the lips."),
+  note("lips.open_already", "mesh.cut_lips",
+    "The lips are open in the scan and were not cut."),
+  note("lips.cut", "mesh.cut_lips", "The lips are joined in the scan and were cut."),
+  note("mesh.lip_linings_dropped", "mesh",
+    "Triangles inside the lips were dropped at the mouth's corners, where they lie on each other."),
+  note("mesh.holes_mended", "mesh", "Small holes of the scan were closed in the simulated skin."),
+  note("mesh.border_trimmed", "mesh.trim_border_mm",
+    "A strip was removed along the border of the simulated skin."),
+  note("mesh.folds_smoothed", "mesh", "Folds of the simulated skin were smoothed."),
+  note("mesh.folds_dropped", "mesh", "Folds of the simulated skin were removed."),
+  note("mesh.folds_given_up", "mesh",
+    "Triangles of the simulated skin under which no layer fits were removed."),
+  note("mesh.layer_thinned", "mesh",
+    "The layer of tissue was turned or thinned where it would have folded."),
+  note("tissue.few_inverted", "",
+    "At most 0.1 % of the tetrahedra are turned inside out in some frame: too few to matter."),
+  note("contact.none", "contact", "Contact is switched on, and nothing touches in any frame."),
+  note("symmetry.no_mesh_floor", "",
+    "The run has no mirrored twin, so that the mesh's own floor of symmetry is not known."),
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const NoteKind> note_kinds() {
+  return kKinds;
+}
+
+const NoteKind* find_note_kind(std::string_view id) {
+  const auto* const found =
+      std::ranges::find(kKinds, id, [](const NoteKind& kind) { return std::string_view(kind.id); });
+  return found == std::end(kKinds) ? nullptr : found;
+}
+
+}  // namespace hyperex

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The iterations of FiniteNewton: one part of a step.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hyperex/fem/time/finite_newton_impl.hpp"
+
+namespace hyperex::fem {
+namespace {
+
+using Eigen::VectorXd;
+
+/// BDF2 on unequal steps keeps its stability while a step is less than 2.41 times the one before
+/// (Grigorieff, Numer. Math. 42, 1983).
+constexpr double kMostGrowth = 2.0 + 1e-9;
+/// The residual that counts as none, of the first one.
+constexpr double kNoResidual = 1e-9;
+/// Share of the rounding in the terms of an energy.
+constexpr double kEnergyNoise = 1e-11;
+/// A correction of less than this many tolerances that is no smaller than the one before it is no
+/// reason for a new factor, so many times.
+constexpr double kSmall = 10;
+constexpr int kForgiven = 2;
+constexpr int kBacktracks = 12;
+
+RateRule rule_for(double h, double last_h) {
+  if (!(last_h > 0) || h > kMostGrowth * last_h) return {1 / h, -1 / h, 0, h};
+  const double w = h / last_h;
+  return {(1 + 2 * w) / ((1 + w) * h), -(1 + w) / h, w * w / ((1 + w) * h), h};
+}
+
+}  // namespace
+
+double greatest_motion(const VectorXd& d) {
+  double most = 0;
+  for (Eigen::Index n = 0; n < d.size(); n += 3)
+    most = std::max(most, d.segment<3>(n).squaredNorm());
+  return std::sqrt(most);
+}
+
+void FiniteNewton::Impl::find_residual() {
+  residual = gradient - external;
+  for (std::size_t i = 0; i < factor->free().size(); ++i) q[i] = residual[factor->free()[i]];
+}
+
+/// A part of a step of length h (0: statics) to `target` under `part_force`. True: x is its end.
+bool FiniteNewton::Impl::converge(double h, const VectorXd* guess, const FiniteNewtonHooks& hooks,
+                                  FiniteStepReport& report) {
+  begin(h, guess);
+  external = part_force;
+  Iterations now;
+  now.energy = potential(x, gradient);
+  const auto follow = [&] {
+    if (hooks.before_iteration) hooks.before_iteration(x, time + h, external);
+    find_residual();
+  };
+  follow();
+  now.refactor = options.full_newton || age.is_due(rule.now);
+  now.jumped = prescribed_change.isZero(0);
+  const bool began_afresh = now.refactor;
+  const int factorisations = report.factorisations + (began_afresh ? 1 : 0);
+  int corrections = 0;
+  for (int k = 0; k < options.most_iterations; ++k) {
+    now.fresh = now.refactor || options.full_newton;
+    if (now.fresh && !factor_at(x, report)) return false;
+    now.refactor = false;
+    if (now.fresh) now.forgiven = 0;
+    const bool jumps = !now.jumped;
+    find_direction(jumps);
+    ++corrections;
+    age.count_correction();
+    if (k == 0) now.first_residual = right_side;
+    now.size = greatest_motion(delta);
+    now.share = 1;
+    const Move move = jumps ? jump(now) : descend(now, report);
+    if (move == Move::converged || move == Move::failed) return move == Move::converged;
+    if (move == Move::again) continue;
+    accept_trial(jumps);
+    ++report.iterations;
+    follow();
+    const double scale = std::max(greatest_motion(x), options.least_motion_m);
+    report.error = missing_m(now, k, scale) / scale;
+    if (report.error <= options.tolerance) {
+      age.count_part(began_afresh,
+                     corrections + kFactorInCorrections * (report.factorisations - factorisations));
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The correction that takes the prescribed unknowns to their targets: they do work, and the energy
+/// may well rise.
+FiniteNewton::Impl::Move FiniteNewton::Impl::jump(Iterations& now) {
+  trial = x + delta;
+  const double there = potential(trial, trial_gradient);
+  if (!std::isfinite(there) || !trial_gradient.allFinite()) {
+    if (now.fresh) return Move::failed;
+    now.refactor = true;
+    find_residual();
+    return Move::again;
+  }
+  now.energy = there;
+  now.jumped = true;
+  return Move::made;
+}
+
+/// A correction by which the potential falls.
+FiniteNewton::Impl::Move FiniteNewton::Impl::descend(Iterations& now, FiniteStepReport& report) {
+  if (!(now.size > 0)) {
+    trial = x;
+    trial_gradient = gradient;
+    return Move::made;
+  }
+  now.share = search(now.energy);
+  if (now.share != 0) return Move::made;
+  find_residual();  // the direction was stored in its place
+  if (!now.fresh) {
+    now.refactor = true;  // the old factor's direction leads nowhere
+    return Move::again;
+  }
+  // At an iterate as good as found there may be no descent that rounding does not hide.
+  report.error = now.size / std::max(greatest_motion(x), options.least_motion_m);
+  return residual_is_rounding(now.first_residual) || report.error <= options.tolerance
+             ? Move::converged
+             : Move::failed;
+}
+
+void FiniteNewton::Impl::accept_trial(bool jumped) {
+  for (std::size_t i = 0; i < factor->free().size(); ++i) {
+    const int u = factor->free()[i];
+    s[i] = trial[u] - x[u];
+    y[i] = trial_gradient[u] - gradient[u];
+  }
+  if (!jumped) secants.add(s, y);
+  x.swap(trial);
+  gradient.swap(trial_gradient);
+}
+
+/// How far x may still be from the solution (m), estimated from the last two corrections; decides
+/// on a new factor. `scale`: what the tolerance is relative to, m.
+double FiniteNewton::Impl::missing_m(Iterations& now, int iteration, double scale) {
+  double missing = now.size;
+  if (q.norm() <= kNoResidual * now.first_residual) {
+    missing = 0;
+  } else if (iteration > 0 && now.share == 1 && now.size < now.last_size) {
+    const double rate = now.size / now.last_size;
+    missing = rate / (1 - rate) * now.size;
+    const double needed = std::log(options.tolerance * scale / missing) / std::log(rate);
+    now.refactor = needed > kFactorInCorrections;
+  } else if (iteration == 0) {
+    missing = 10 * now.size;  // nothing is known of the rate yet
+  } else {
+    now.refactor = true;
+  }
+  if (now.refactor && now.size < kSmall * options.tolerance * scale && now.forgiven++ < kForgiven)
+    now.refactor = false;
+  now.last_size = now.share * now.size;
+  return missing;
+}
+
+void FiniteNewton::Impl::begin(double h, const VectorXd* guess) {
+  const bool dynamic = h > 0;
+  rule = dynamic ? rule_for(h, last_h) : RateRule{0, 0, 0, std::numeric_limits<double>::infinity()};
+  form.begin_step(rule, state.d, d_before);
+  mass_share = dynamic && options.inertia ? rule.now * rule.now : 0;
+  if (mass_share > 0)
+    x_hat = -(rule.now * (rule.last * state.d + rule.before * d_before) + rule.last * state.v +
+              rule.before * v_before) /
+            mass_share;
+  const auto& prescribed = factor->prescribed();
+  if (guess) {
+    x = *guess;
+    for (std::size_t i = 0; i < prescribed.size(); ++i) x[prescribed[i]] = target[i];
+  } else if (dynamic) {
+    x = state.d + h * state.v;  // the acceleration besides leads farther off more often than not
+  } else {
+    x = state.d;
+  }
+  for (std::size_t i = 0; i < prescribed.size(); ++i)
+    prescribed_change[i] = target[i] - x[prescribed[i]];
+}
+
+/// delta := -A^-1 residual, with the prescribed unknowns' way to their target in the first
+/// iteration.
+void FiniteNewton::Impl::find_direction(bool jump) {
+  const auto& free = factor->free();
+  const auto& prescribed = factor->prescribed();
+  delta.setZero();
+  if (jump) {
+    for (std::size_t i = 0; i < prescribed.size(); ++i) {
+      const double by = prescribed_change[i];
+      if (by == 0) continue;
+      for (SparseMatrix::InnerIterator it(matrix, prescribed[i]); it; ++it)
+        delta[it.row()] += by * it.value();
+    }
+    for (std::size_t i = 0; i < free.size(); ++i) q[i] += delta[free[i]];
+    delta.setZero();
+  }
+  q = -q;
+  right_side = q.norm();
+  secants.apply(q, [&](VectorXd& v) { factor->solve(v); });
+  for (std::size_t i = 0; i < free.size(); ++i) delta[free[i]] = q[i];
+  if (jump)
+    for (std::size_t i = 0; i < prescribed.size(); ++i) delta[prescribed[i]] = prescribed_change[i];
+}
+
+/// The share of delta at which the potential has fallen enough (Armijo), or is level within its
+/// rounding while its slope has become smaller (Hager and Zhang, SIAM J. Optim. 16, 2005); 0:
+/// none. trial and trial_gradient are then those there, `energy` the potential there.
+double FiniteNewton::Impl::search(double& energy) {
+  const double slope = residual.dot(delta);
+  if (!(slope < 0)) return 0;
+  const double at_x = energy - external.dot(x);
+  double share = 1;
+  for (int i = 0; i < kBacktracks; ++i) {
+    trial = x + share * delta;
+    const double there = potential(trial, trial_gradient);
+    const double change = there - external.dot(trial) - at_x;
+    const double noise =
+        kEnergyNoise * (energy_scale + std::abs(external.dot(trial))) + form.energy_rounding();
+    const double end_slope = trial_gradient.dot(delta) - external.dot(delta);
+    if (std::isfinite(there) && trial_gradient.allFinite() &&
+        (change <= 1e-4 * share * slope ||
+         (change <= noise && std::abs(end_slope) <= 0.9 * std::abs(slope)))) {
+      energy = there;
+      return share;
+    }
+    // The least of the parabola through what is known.
+    const double least = -slope * share * share / (2 * (change - slope * share));
+    share = std::isfinite(least) ? std::clamp(least, 0.1 * share, 0.5 * share) : 0.1 * share;
+  }
+  return 0;
+}
+
+/// Whether nothing is left to gain but rounding.
+bool FiniteNewton::Impl::residual_is_rounding(double first_residual) const {
+  return q.norm() <= 1e-6 * first_residual;
+}
+
+}  // namespace hyperex::fem

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <tiny_gltf.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hyperex::io {
+
+/// Reads the accessors of a glTF model, each checked against the bytes that are there. `what` names
+/// the values in the InputError that is thrown where they are not as they should be. Both arguments
+/// must outlive this.
+class GltfAccessors {
+ public:
+  GltfAccessors(const std::filesystem::path& file, const tinygltf::Model& model)
+      : file_(file), model_(model) {}
+
+  std::size_t count(int id, const char* what) const { return accessor(id, what).count; }
+  /// Numbers per item.
+  int columns(int id, const char* what) const;
+  /// `columns` numbers per item, row-major; integers that stand for fractions are scaled.
+  std::vector<double> read(int id, int columns, const char* what) const;
+  /// The bytes of a buffer view.
+  std::pair<const unsigned char*, std::size_t> view(int id, const char* what) const;
+
+ private:
+  const tinygltf::Accessor& accessor(int id, const char* what) const;
+  [[noreturn]] void fail(int id, const char* what, const std::string& why) const;
+
+  const std::filesystem::path& file_;
+  const tinygltf::Model& model_;
+};
+
+}  // namespace hyperex::io

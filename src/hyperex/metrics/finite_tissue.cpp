@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/metrics/finite_tissue.hpp"
+
+#include <tbb/task_arena.h>
+
+namespace hyperex::metrics {
+namespace {
+using simulate::Performance;
+
+fem::Hyperelastic without_branches(fem::Hyperelastic law) {
+  law.branches.clear();
+  return law;
+}
+
+}  // namespace
+
+fem::Material elastic_material(const Performance& p) {
+  // Values are rounded to float, as the written stress always was: its last digits stay the same.
+  fem::Material material = p.material;
+  for (std::vector<double>* values : {&material.young_pa, &material.poisson})
+    for (double& value : *values) value = static_cast<float>(value);
+  material.viscosity_pa_s.assign(material.young_pa.size(), 0);
+  material.density_kg_m3.assign(material.young_pa.size(), 0);
+  material.viscous_form = fem::ViscousForm::isotropic;
+  return material;
+}
+
+FiniteTissue::FiniteTissue(const Performance& p)
+    : assembler_(p.nodes, p.tets, p.model.element),
+      form_(assembler_, elastic_material(p), without_branches(p.model.law)) {}
+
+FiniteState FiniteTissue::at(const Points& d) const {
+  const Eigen::VectorXd flat = Eigen::Map<const Eigen::VectorXd>(d.data(), d.size());
+  FiniteState state;
+  const std::scoped_lock lock(one_at_a_time_);
+  // Isolated: else a thread that holds the lock might take up another frame and wait for itself.
+  tbb::this_task_arena::isolate([&] {
+    state.green_lagrange = form_.green_lagrange(flat);
+    state.cauchy_pa = form_.cauchy_stress_pa(flat);
+    state.von_mises_pa = fem::von_mises_of(state.cauchy_pa);
+    state.volume_ratio = form_.volume_ratio(flat);
+    state.stretch = form_.principal_stretches(flat);
+  });
+  return state;
+}
+
+}  // namespace hyperex::metrics

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/run/run_scene.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <functional>
+#include <optional>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/output_directory.hpp"
+#include "hyperex/core/run_together.hpp"
+#include "hyperex/core/stopwatch.hpp"
+#include "hyperex/run/earlier_run.hpp"
+#include "hyperex/run/outputs.hpp"
+#include "hyperex/run/report_page.hpp"
+#include "hyperex/run/summary.hpp"
+#include "hyperex/run/variants.hpp"
+#include "hyperex/scene/file_names.hpp"
+#include "hyperex/session/log_note.hpp"
+#include "hyperex/session/remarks_json.hpp"
+#include "hyperex/session/variants.hpp"
+
+namespace hyperex::run {
+namespace {
+using Json = nlohmann::ordered_json;
+
+Json seconds_json(const session::FaceSession& session) {
+  const session::StageSeconds stages = session.seconds();
+  const simulate::SimulationReport& report = session.simulation().report;
+  return {{"read", stages.read},         {"mesh", stages.mesh},
+          {"tissue", stages.tissue},     {"assemble", report.assemble_s},
+          {"analyse", report.analyse_s}, {"factor", report.factor_s},
+          {"basis", report.basis_s},     {"simulate", report.simulate_s}};
+}
+
+/// Notes name files as their paths are given; summary and report name the files alone, unless the
+/// scene asks for paths.
+void name_files(const scene::Scene& scene, std::vector<Note>& notes) {
+  for (Note& note : notes) note.text = scene::with_file_names(scene, note.text);
+}
+
+/// Base's own files are written on one core while the variants are simulated on the other.
+struct Written {
+  std::optional<report::GlbReport> glb;
+  Json variants;
+};
+Written write_files(session::FaceSession& session, Results& results,
+                    const std::filesystem::path& directory) {
+  Written out;
+  run_together({[&] { out.glb = write_outputs(results, directory); },
+                [&] {
+                  if (results.scene.output.report)
+                    results.modes = report::displacement_modes(
+                        results.simulation.performance.skin_displacement_m);
+                },
+                [&] {
+                  session.run_variants();
+                  if (!session.variants().empty())
+                    out.variants =
+                        write_variants(results, session.variants(), session.mesh(), directory);
+                }});
+  return out;
+}
+
+void write_summary(Json& summary, const std::filesystem::path& directory) {
+  // A later run into the same folder removes these and nothing else.
+  std::vector<std::string> files = files_below(directory);
+  files.push_back("summary.json");
+  summary["files"] = files;
+  write_file_atomically(directory / "summary.json", [&](std::ostream& stream) {
+    // A path need not be UTF-8.
+    stream << summary.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  });
+}
+
+Json write_into(session::FaceSession& session, Stopwatch& total,
+                const std::filesystem::path& directory) {
+  session.run_base();
+  Stopwatch stage;
+  Results results = results_of(session);
+  Json summary = summary_of(session, results);
+  const Written written = write_files(session, results, directory);
+  session.find_certainty();
+  results.notes = session.notes();
+  if (!written.variants.is_null()) summary["variants"] = written.variants;
+  if (written.glb) {
+    summary["glb"] = glb_json(*written.glb);
+    for (const Note& note : glb_notes(results.scene.output, *written.glb)) {
+      session::log_note(note);
+      results.notes.push_back(note);
+    }
+  }
+  name_files(results.scene, results.notes);
+  Json seconds = seconds_json(session);
+  if (!written.variants.is_null()) seconds["variants"] = session.seconds().variants;
+  seconds["export"] = stage.lap() - session.seconds().variants;
+  seconds["total"] = total.lap();
+  summary["seconds"] = seconds;
+  summary["notes"] = texts_of(results.notes);
+  summary["warnings"] = texts_of(results.notes, Severity::warning);
+  summary["remarks"] = session::remarks_json(results.notes);
+  summary["options"] = scene::echoed_options(results.scene);
+  if (results.scene.output.report) {
+    write_report(results, session.variants(), summary, directory);
+    summary["seconds"]["export"] = seconds["export"].get<double>() + stage.lap();
+    summary["seconds"]["total"] = seconds["total"].get<double>() + total.lap();
+  }
+  write_summary(summary, directory);
+  return summary;
+}
+
+/// `write` gets the folder that becomes `directory` when it is done.
+Json into(const std::filesystem::path& directory, const scene::Scene& scene,
+          const std::function<Json(const std::filesystem::path&)>& write) {
+  OutputDirectory out(directory, files_of_earlier_run, files_named_by(scene));
+  try {
+    Json summary = write(out.path());
+    out.commit();
+    return summary;
+  } catch (const InputError& error) {
+    throw InputError(out.with_own_name(error.what()));
+  }
+}
+
+}  // namespace
+
+Json run_scene(const scene::Scene& scene, const std::filesystem::path& directory) {
+  return into(directory, scene, [&](const std::filesystem::path& folder) {
+    Stopwatch total;
+    session::FaceSession session(scene, {.note = session::log_note});
+    const tissue::TissueMesh& mesh = session.mesh();
+    spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
+                 mesh.volume.tets.rows(), mesh.skin.points.rows());
+    return write_into(session, total, folder);
+  });
+}
+
+Json write_run(session::FaceSession& session, const std::filesystem::path& directory) {
+  return into(directory, session.scene(), [&](const std::filesystem::path& folder) {
+    Stopwatch total;
+    session.run();
+    session.find_certainty();  // before the files that state it
+    return write_into(session, total, folder);
+  });
+}
+
+}  // namespace hyperex::run

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/face_session.hpp"
+
+namespace hyperex::run {
+
+/// A session of the scene, run, and all its outputs in `directory`, which appears complete or not
+/// at all. What was found is logged. Returns the summary (summary.json). Throws InputError,
+/// NumericalError.
+nlohmann::ordered_json run_scene(const scene::Scene& scene, const std::filesystem::path& directory);
+
+/// Runs what is not up to date in a session and writes all outputs in the same way.
+nlohmann::ordered_json write_run(session::FaceSession& session,
+                                 const std::filesystem::path& directory);
+
+}  // namespace hyperex::run

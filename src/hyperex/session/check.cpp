@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "hyperex/core/progress.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/face_session.hpp"
+#include "hyperex/session/inputs.hpp"
+
+namespace hyperex::session {
+
+std::vector<Note> check(const scene::Scene& scene) {
+  Progress progress("reading scan and recording", 0);
+  std::vector<Note> notes = read_inputs(scene, Extent::quick).notes;
+  const auto has_regions = [](const scene::Scene& s) { return !s.tissue.regions.empty(); };
+  if (has_regions(scene) ||
+      std::any_of(scene.variants.begin(), scene.variants.end(),
+                  [&](const scene::Variant& variant) { return has_regions(variant.scene); }))
+    notes.push_back(make_note(
+        "tissue.regions_unchecked",
+        "not checked: whether the regions of the tissue lie on this scan and which values their "
+        "factors lead to",
+        "tissue.region"));
+  return notes;
+}
+
+}  // namespace hyperex::session

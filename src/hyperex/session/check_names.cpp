@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/check_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hyperex/anatomy/landmarks.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/session/unknown_names.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
+
+namespace hyperex::session {
+namespace {
+
+/// Those of `names` that are no points of the recording or no landmarks of the scan.
+std::vector<InputProblem> unknown_names(const scene::Scene& scene, const Inputs& in,
+                                        const std::vector<std::string>& names, const char* key,
+                                        bool in_motion) {
+  std::vector<InputProblem> problems;
+  for (const auto& name : names)
+    if (in_motion ? in.motion.motion.index_of(name) < 0 : !in.landmarks.count(name))
+      problems.push_back(scene::problem_at(
+          scene, key,
+          fmt::format("names of {} ({} is none)",
+                      in_motion ? "points in the recording " + in.motion.motion.source
+                                : "landmarks of the scan",
+                      name)));
+  return problems;
+}
+
+}  // namespace
+
+void check_names(const scene::Scene& scene, const Inputs& in, const std::string& owner) {
+  std::vector<std::string> thick;
+  for (const auto& p : scene.mesh.depths) thick.push_back(p.landmark);
+  std::vector<InputProblem> all;
+  const auto add = [&](const std::vector<std::string>& names, const char* key, bool in_motion) {
+    const auto more = unknown_names(scene, in, names, key, in_motion);
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  add(in.driven, "drive.points", true);
+  add(scene.support.jaw_points, "support.jaw_points", true);
+  add(scene.region.measured_points, "region.measured_points", true);
+  add(scene.drive.still_points, "drive.still_points", false);
+  add(thick, "mesh.thickness_point", false);
+  for (const auto& problem : tissue::problems_of(scene.tissue, in.landmarks))
+    all.push_back(scene::problem_at(scene, "tissue." + problem.key, problem.expected));
+  for (InputProblem& problem : all) {
+    const bool of_region =
+        problem.key.starts_with("tissue.region[") && problem.key.ends_with("].name");
+    if (const std::string near = of_region ? nearest_region(problem.value) : ""; !near.empty())
+      problem.expected += "; did you mean " + near + "?";
+    problem.key = owner + problem.key;
+  }
+  if (!all.empty()) throw InputError(all);
+}
+
+void check_element_size(const scene::Scene& scene, const Inputs& in) {
+  constexpr double share_of_mouth = 1.0 / 3;
+  const auto right = in.landmarks.find("cheilion_R"), left = in.landmarks.find("cheilion_L");
+  if (right == in.landmarks.end() || left == in.landmarks.end()) return;
+  const double mouth_m = (left->second - right->second).norm();
+  if (scene.mesh.element_size_m > share_of_mouth * mouth_m)
+    throw InputError(scene::problem_at(
+        scene, "mesh.element_size_mm",
+        fmt::format("at most {:.1f} mm, a third of this mouth's width, for the lips to move apart",
+                    1e3 * share_of_mouth * mouth_m)));
+}
+
+void note_unknown_landmarks(const scene::Scene& scene, const io::Landmarks& given, Inputs& in) {
+  std::vector<std::string> unknown = anatomy::unknown_landmarks(given);
+  std::erase_if(unknown, [&](const std::string& name) {
+    return in.motion.motion.index_of(name) >= 0 ||
+           std::count(scene.drive.still_points.begin(), scene.drive.still_points.end(), name) > 0 ||
+           std::any_of(scene.mesh.depths.begin(), scene.mesh.depths.end(),
+                       [&](const tissue::DepthAt& p) { return p.landmark == name; }) ||
+           std::any_of(scene.tissue.points.begin(), scene.tissue.points.end(),
+                       [&](const tissue::TissuePoint& p) { return name.starts_with(p.landmark); });
+  });
+  append(in.notes, misspelt_landmarks(unknown));
+  if (!unknown.empty()) in.notes.push_back(anatomy::unknown_landmarks_note(unknown));
+}
+
+void note_missing_support(const scene::Scene& scene, Inputs& in) {
+  const simulate::SupportOptions& s = scene.support;
+  if (!s.border_held && s.skull == simulate::Hold::free && s.mandible == simulate::Mandible::free &&
+      s.field_pa_per_m == 0)
+    in.notes.push_back(make_note(
+        "support.none",
+        "nothing holds the tissue: support.border, support.skull and support.mandible are free and "
+        "support.field_kpa_per_mm is 0; it hangs on the driven points alone and may swing about "
+        "them"));
+}
+
+}  // namespace hyperex::session

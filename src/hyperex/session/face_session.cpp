@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From the inputs to a face that is ready to run, and what it holds.
+#include "hyperex/session/face_session.hpp"
+
+#include <utility>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/core/run_together.hpp"
+#include "hyperex/core/stopwatch.hpp"
+#include "hyperex/session/driven_points.hpp"
+#include "hyperex/session/face_session_impl.hpp"
+#include "hyperex/session/kept_order.hpp"
+#include "hyperex/session/obstacles.hpp"
+#include "hyperex/session/same_face.hpp"
+#include "hyperex/session/simulation_options.hpp"
+#include "hyperex/session/teeth.hpp"
+
+namespace hyperex::session {
+namespace {
+
+/// Whether a scene or one of its variants has contact with teeth, and with eyeballs.
+std::vector<bool> contact_of(const scene::Scene& scene) {
+  std::vector<bool> out{scene.contact.teeth, scene.contact.eyes};
+  for (const scene::Variant& variant : scene.variants) {
+    out[0] = out[0] || variant.scene.contact.teeth;
+    out[1] = out[1] || variant.scene.contact.eyes;
+  }
+  return out;
+}
+
+std::vector<std::string> overrides_of(const Changes& changes) {
+  std::vector<std::string> overrides;
+  for (const auto& [key, value] : changes) overrides.push_back(key + "=" + value.json());
+  return overrides;
+}
+
+scene::GivenFace given_face(Face face, motion::Motion motion) {
+  if (motion.source.empty()) motion.source = "the motion";
+  if (face.scan.file.empty()) face.scan.file = "the scan";
+  return {std::make_shared<const io::Scan>(std::move(face.scan)), std::move(face.landmarks),
+          std::make_shared<const motion::Motion>(std::move(motion))};
+}
+
+}  // namespace
+
+FaceSession::Impl::Impl(SceneSource given, SessionOptions options)
+    : session_options(std::move(options)), source(std::move(given)) {
+  scene::Scene next = source.scene();
+  scene = next;
+  read();
+  mesh();
+  fields = std::make_unique<TissueFields>(inputs, *face.mesh);
+  Stopwatch watch;
+  take(std::move(next));
+  seconds.tissue = watch.lap();
+  begin_stage("assembling and factoring");
+  Progress progress("assembling and factoring", 0);
+  run_together({[&] { prepare_with_kept_order(scene, inputs, *simulator); },
+                [&] {
+                  teeth = teeth_of(scene, inputs, *face.mesh, teeth_notes);
+                  skin_off = skin_off_scan(*face.mesh, inputs.landmarks);
+                }});
+  report(teeth_notes);
+  if (auto warning = skin_warning(skin_off)) {
+    report({*warning});
+    skin_notes.push_back(*std::move(warning));
+  }
+  set_obstacles();
+}
+
+void FaceSession::Impl::begin_stage(const std::string& name) const {
+  if (session_options.stage) session_options.stage(name);
+}
+
+void FaceSession::Impl::report(const std::vector<Note>& notes) const {
+  if (session_options.note)
+    for (const Note& note : notes) session_options.note(note);
+}
+
+void FaceSession::Impl::read() {
+  begin_stage("reading scan and recording");
+  Progress progress("reading scan and recording", 0);
+  Stopwatch watch;
+  inputs = read_inputs(scene);
+  drive = drive_choice(scene, inputs);
+  seconds.read = watch.lap();
+  report(notes_on_inputs(Severity::note));
+  report(notes_on_inputs(Severity::warning));
+}
+
+void FaceSession::Impl::mesh() {
+  begin_stage("meshing the soft tissue");
+  Progress progress("meshing the soft tissue", 0);
+  Stopwatch watch;
+  whole_scan = inputs.scan;
+  face = prepare_face(scene, inputs, [&] {
+    if (with_runs()) begin_search();
+  });
+  if (!face.mesh->full) whole_scan.reset();
+  seconds.mesh = watch.lap();
+  report(face.mesh->notes);
+}
+
+simulate::SimulationOptions FaceSession::Impl::options_of(
+    const scene::Scene& of, const Inputs& its_inputs,
+    const std::optional<tissue::TissueField>& its_field) const {
+  simulate::SimulationOptions options = simulation_options(of, its_inputs);
+  if (its_field) options.tissue.element = its_field->element;
+  return options;
+}
+
+/// Everything that may throw comes before anything is changed.
+void FaceSession::Impl::take(scene::Scene next) {
+  DriveChoice choice = drive_choice(next, inputs);
+  next.drive.by = choice.by;
+  std::vector<std::string> driven_before =
+      std::exchange(inputs.driven, driven_points(next, inputs.motion.motion));
+  std::optional<tissue::TissueField> next_field;
+  std::vector<VariantRun> next_runs;
+  simulate::SimulationOptions options;
+  std::vector<simulate::SimulationOptions> options_of_runs;
+  try {
+    next_field = fields->of(next);
+    next_runs = prepare_variants(next, inputs, *fields);
+    options = options_of(next, inputs, next_field);
+    check(options);
+    for (const VariantRun& run : next_runs) {
+      options_of_runs.push_back(options_of(run.scene, run.inputs, run.field));
+      check(options_of_runs.back());
+    }
+  } catch (...) {
+    inputs.driven = std::move(driven_before);
+    throw;
+  }
+  drive = std::move(choice);
+  scene = std::move(next);
+  field = std::move(next_field);
+  const bool same_base = simulator && simulator->options() == options;
+  if (!simulator) {
+    simulator.emplace(face.mesh, inputs.landmarks, inputs.motion, options);
+  } else if (next_base && next_base->options() == options) {
+    simulator = std::move(next_base);
+  } else if (!same_base) {
+    simulator->set_options(options);
+    next_variant.reset();
+  }
+  next_base.reset();
+  stale = stale || !same_base;
+  std::vector<VariantRun> before = std::exchange(runs, std::move(next_runs));
+  keep_variants(std::move(before), options_of_runs, same_base);
+}
+
+/// What variants of the same name had, as far as it still holds.
+void FaceSession::Impl::keep_variants(std::vector<VariantRun> before,
+                                      const std::vector<simulate::SimulationOptions>& options,
+                                      bool same_base) {
+  std::vector<VariantState> old = std::exchange(states, std::vector<VariantState>(runs.size()));
+  for (std::size_t i = 0; i < runs.size() && same_base; ++i) {
+    std::size_t known = 0;
+    while (known < before.size() && before[known].scene.title != runs[i].scene.title) ++known;
+    if (known == before.size()) continue;
+    VariantState& now = states[i];
+    const bool same = before[known].options == options[i];
+    now.simulator = std::exchange(old[known].simulator, std::nullopt);
+    now.stale = old[known].stale || !same;
+    now.has_bands = !now.stale && old[known].has_bands;
+    if (!now.stale) {
+      runs[i].simulation = std::move(before[known].simulation);
+      runs[i].symmetry = std::move(before[known].symmetry);
+    }
+    if (same || !now.simulator) continue;
+    try {
+      now.simulator->set_options(options[i]);
+    } catch (const InputError&) {
+      now.simulator.reset();  // a run will make another, or say why it cannot
+    }
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].options = options[i];
+}
+
+/// Made where a face first asks for them, as a grid of distances takes a moment.
+void FaceSession::Impl::set_obstacles() {
+  if (contact_of(scene) == obstacles_of_teeth_and_eyes) return;
+  obstacles_of_teeth_and_eyes = contact_of(scene);
+  obstacles = obstacles_of(scene, inputs, *face.mesh, teeth.get());
+  simulator->set_obstacles(obstacles);
+  next_variant.reset();
+}
+
+// ----- the class
+
+FaceSession::FaceSession(const std::filesystem::path& scene_file, const Changes& changes,
+                         SessionOptions options)
+    : FaceSession(scene::read_scene(scene_file, overrides_of(changes)), std::move(options)) {}
+
+FaceSession::FaceSession(Face face, motion::Motion motion, const Changes& changes,
+                         SessionOptions options)
+    : impl_(std::make_unique<Impl>(
+          SceneSource(given_face(std::move(face), std::move(motion)), changes),
+          std::move(options))) {}
+
+FaceSession::FaceSession(scene::Scene scene, SessionOptions options)
+    : impl_(std::make_unique<Impl>(SceneSource(std::move(scene)), std::move(options))) {}
+
+FaceSession::FaceSession(FaceSession&&) noexcept = default;
+FaceSession& FaceSession::operator=(FaceSession&&) noexcept = default;
+FaceSession::~FaceSession() = default;
+
+bool FaceSession::set_scene(scene::Scene next) {
+  if (!same_face(impl_->scene, next)) return false;
+  next.kept = impl_->scene.kept;
+  next.given = impl_->scene.given;
+  impl_->source.replace(next);
+  impl_->take(std::move(next));
+  impl_->set_obstacles();
+  return true;
+}
+
+const scene::Scene& FaceSession::scene() const {
+  return impl_->scene;
+}
+const Inputs& FaceSession::inputs() const {
+  return impl_->inputs;
+}
+const io::Scan& FaceSession::scan() const {
+  return impl_->whole_scan ? *impl_->whole_scan : impl_->inputs.scan;
+}
+const tissue::TissueMesh& FaceSession::mesh() const {
+  return *impl_->face.mesh;
+}
+std::shared_ptr<const tissue::TissueMesh> FaceSession::shared_mesh() const {
+  return impl_->face.mesh;
+}
+const metrics::RestAsymmetry& FaceSession::rest_asymmetry() const {
+  return impl_->face.at_rest;
+}
+const SkinOff& FaceSession::skin_off() const {
+  return impl_->skin_off;
+}
+std::shared_ptr<const anatomy::Teeth> FaceSession::teeth() const {
+  return impl_->teeth;
+}
+std::shared_ptr<const std::vector<simulate::Obstacle>> FaceSession::obstacles() const {
+  return impl_->obstacles;
+}
+const std::string& FaceSession::drive_reason() const {
+  return impl_->drive.why;
+}
+std::size_t FaceSession::faces() const {
+  return 1 + impl_->runs.size();
+}
+simulate::SimulationOptions FaceSession::options(std::size_t face) const {
+  return face == 0 ? impl_->options_of(impl_->scene, impl_->inputs, impl_->field)
+                   : impl_->runs.at(face - 1).options;
+}
+simulate::Simulator FaceSession::simulator() const {
+  return *impl_->simulator;
+}
+const tissue::TissueField* FaceSession::field() const {
+  return impl_->field ? &*impl_->field : nullptr;
+}
+const simulate::SimulationResult& FaceSession::simulation() const {
+  return impl_->simulation;
+}
+const metrics::SymmetryMeasures& FaceSession::symmetry() const {
+  return impl_->symmetry;
+}
+const metrics::PeakTissue& FaceSession::tissue_at_peak() const {
+  return impl_->peak();
+}
+const std::vector<VariantRun>& FaceSession::variants() const {
+  return impl_->runs;
+}
+StageSeconds FaceSession::seconds() const {
+  return impl_->seconds;
+}
+
+simulate::TissueValues FaceSession::tissue_of(const scene::Scene& scene) {
+  return impl_->options_of(scene, impl_->inputs, impl_->fields->of(scene)).tissue;
+}
+
+Eigen::VectorXd FaceSession::region_shares(const scene::Scene& scene, std::size_t region) {
+  return impl_->fields->region_shares(scene, region);
+}
+
+simulate::AlignedMotion FaceSession::mirrored_motion() const {
+  std::string why_not;
+  auto motion = session::mirrored_motion(impl_->inputs.motion, impl_->face.at_rest.plane,
+                                         impl_->inputs.driven, why_not);
+  if (!motion) throw InputError(impl_->scene.file, "the motion has no mirror image: " + why_not);
+  return *std::move(motion);
+}
+
+}  // namespace hyperex::session

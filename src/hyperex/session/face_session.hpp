@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// One face from its inputs to its results: what the program, the studio, Python and C++ programs
+// call. Nothing else puts a run together.
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/core/note.hpp"
+#include "hyperex/metrics/asymmetry.hpp"
+#include "hyperex/metrics/symmetry_tables.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/session/changes.hpp"
+#include "hyperex/session/face.hpp"
+#include "hyperex/session/face_result.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
+
+namespace hyperex::scene {
+struct Scene;
+}
+namespace hyperex::metrics {
+struct PeakTissue;
+}
+
+namespace hyperex::session {
+
+struct Inputs;
+struct SkinOff;
+struct VariantRun;
+
+/// When a session does the work that makes no figure but says how certain figures are: the mirrored
+/// twins that give error bands, and the search for landmarks that checks those given.
+enum class Certainty {
+  with_runs,  ///< beside the runs, on the other cores
+  on_request  ///< by find_certainty(), so that a run answers sooner
+};
+
+struct SessionOptions {
+  Certainty certainty = Certainty::with_runs;
+  std::function<void(const std::string&)> stage = {};  ///< called as each stage begins
+  std::function<void(const Note&)> note = {};          ///< called with each note as it is found
+};
+
+/// Wall time of the stages, s; 0 for those that were kept.
+struct StageSeconds {
+  double read = 0;      ///< scan and recording
+  double mesh = 0;      ///< the tissue's mesh
+  double tissue = 0;    ///< values that differ from place to place
+  double variants = 0;  ///< all variants of the last run
+};
+
+/// A face, its motion and the options of a scene, with every stage between them and the results.
+/// A stage is computed when it is first needed and kept until something that it depends on changes:
+///
+///   stage                  depends on
+///   inputs                 [scan], [motion] but its gain, [alignment], [teeth]
+///   mesh, rest asymmetry   inputs, [mesh]
+///   teeth                  inputs, mesh
+///   tissue fields          mesh, [tissue], each face's own
+///   obstacles              teeth, whether any face has contact.teeth or contact.eyes
+///   simulator of base      mesh, inputs, base's options (its stages: simulator.hpp)
+///   result of base         simulator of base
+///   twin of base           result of base
+///   simulators of variants simulator of base with its forces held, the variant's options
+///   results of variants    their simulators
+///   notes                  all of these
+///
+/// Faces are numbered: 0 is base, the scene without its variants; 1, 2, ... are its variants, in
+/// the scene's order. One thread at a time. Moving a session leaves nothing behind that can be
+/// used.
+class FaceSession {
+ public:
+  /// Reads a scene file, changes keys of it, reads what it names, and meshes the tissue; simulates
+  /// nothing yet. Relative paths in `changes` are taken from the current folder. Throws InputError.
+  explicit FaceSession(const std::filesystem::path& scene_file, const Changes& changes = {},
+                       SessionOptions options = {});
+  /// The same for a face and a recorded motion (its own frame, metres, the head's pose included) in
+  /// memory; all keys are at their defaults but `changes`. Throws InputError.
+  FaceSession(Face face, motion::Motion motion, const Changes& changes = {},
+              SessionOptions options = {});
+  /// The same for a scene that was read (scene/scene.hpp).
+  explicit FaceSession(scene::Scene scene, SessionOptions options = {});
+  FaceSession(FaceSession&&) noexcept;
+  FaceSession& operator=(FaceSession&&) noexcept;
+  ~FaceSession();
+
+  // ----- asking "what if"
+
+  /// Runs what is not up to date and returns the face with all changes of set(): base as long as
+  /// nothing was set. Throws NumericalError, simulate::Cancelled.
+  FaceResult run(const simulate::RunCallbacks& callbacks = {});
+
+  /// Another value for a key, which the next run() takes. What the keys of [tissue], [support],
+  /// [drive], [muscles], [region] and motion.gain change is asked as a variant asks it: where
+  /// forces drive, base's forces are kept. Parts of lists are named as in
+  /// "tissue.region[0].young_factor". Any other key opens the face anew. Throws InputError, and
+  /// then nothing is changed.
+  void set(const std::string& key, const Value& value);
+
+  /// Adds a variant of this name, or gives the one of this name other changes, runs what is not up
+  /// to date and returns the variant. Throws as set() and run().
+  FaceResult variant(const std::string& name, const Changes& changes,
+                     const simulate::RunCallbacks& callbacks = {});
+
+  /// Of what run() returned last; runs first where that is not up to date.
+  const simulate::Performance& performance();
+  const metrics::SymmetryMeasures& measures();
+
+  /// What was assumed, repaired and found so far, warnings among it; by id in docs/notes.md.
+  std::vector<Note> notes() const;
+  /// Those of severity warning.
+  std::vector<Note> warnings() const;
+
+  // ----- stage by stage
+
+  /// Another scene. False, and nothing is changed, where it names another scan, recording or mesh:
+  /// that is another session. Throws InputError, and nothing is changed, where it cannot be.
+  bool set_scene(scene::Scene next);
+
+  /// Runs base where it is not up to date.
+  void run_base(const simulate::RunCallbacks& callbacks = {});
+  /// Runs the variants that are not up to date. After run_base(); results of base may be read
+  /// meanwhile in another thread.
+  void run_variants(const simulate::RunCallbacks& callbacks = {});
+  bool base_up_to_date() const;
+  bool up_to_date() const;  ///< base and all variants
+
+  /// Whether all error bands are known and given landmarks are checked.
+  bool certainty_known() const;
+  /// Finds what is not known of them, once all is up to date. What was done stays where it throws
+  /// NumericalError or, as `cancelled` says so, simulate::Cancelled.
+  void find_certainty(const std::function<bool()>& cancelled = {});
+
+  /// The skin's displacement (|skin| x 3, m) in static equilibrium at `time_s`: a view that follows
+  /// a slider. Throws as Simulator::still().
+  PointsF still(std::size_t face, double time_s);
+  /// Whether still() has all but what the change itself asks for.
+  bool ready(std::size_t face) const;
+  /// Finds in advance what the first change of a first variant will need. Once all is up to date;
+  /// nothing where there are variants already.
+  void prepare_variant();
+
+  // ----- what it holds
+
+  const scene::Scene& scene() const;  ///< with the drive that was chosen
+  const Inputs& inputs() const;
+  const io::Scan& scan() const;  ///< as read; that of inputs() is thinned where it is large
+  const tissue::TissueMesh& mesh() const;
+  std::shared_ptr<const tissue::TissueMesh> shared_mesh() const;
+  const metrics::RestAsymmetry& rest_asymmetry() const;
+  const SkinOff& skin_off() const;  ///< where the simulated skin is farthest from the scan
+  std::shared_ptr<const anatomy::Teeth> teeth() const;  ///< null: none
+  /// What tissue may touch, as far as a face asks for it; null: nothing.
+  std::shared_ptr<const std::vector<simulate::Obstacle>> obstacles() const;
+  /// Why the program chose what drives, a sentence.
+  const std::string& drive_reason() const;
+
+  std::size_t faces() const;
+  simulate::SimulationOptions options(std::size_t face) const;
+  /// A simulator of base as it stands: a copy that shares its stages.
+  simulate::Simulator simulator() const;
+  /// Where base's tissue differs from place to place; else null.
+  const tissue::TissueField* field() const;
+  /// Of base, once it was run.
+  const simulate::SimulationResult& simulation() const;
+  const metrics::SymmetryMeasures& symmetry() const;
+  const metrics::PeakTissue& tissue_at_peak() const;  ///< strain and stress of base
+  const std::vector<VariantRun>& variants() const;
+  FaceResult result(std::size_t face) const;
+
+  /// The tissue of another scene of this face. Throws InputError.
+  simulate::TissueValues tissue_of(const scene::Scene& scene);
+  /// How much of the change of a region ([[tissue.region]]) of `scene`, another scene of this face,
+  /// holds at each vertex of the skin, 0 to 1. Throws InputError.
+  Eigen::VectorXd region_shares(const scene::Scene& scene, std::size_t region);
+  /// Each point moves as the mirror image of its counterpart does. Throws InputError where points
+  /// have none.
+  simulate::AlignedMotion mirrored_motion() const;
+
+  StageSeconds seconds() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads what a scene names, what takes long only in part, and simulates nothing: what is assumed,
+/// doubtful and was not checked. Throws InputError with every problem found.
+std::vector<Note> check(const scene::Scene& scene);
+
+}  // namespace hyperex::session
+
+namespace hyperex {
+using motion::read_motion;
+using session::Face;
+using session::FaceResult;
+using session::FaceSession;
+using session::read_face;
+using session::Value;
+using session::write_glb;
+using session::write_motion_csv;
+using session::write_skin_ply;
+}  // namespace hyperex

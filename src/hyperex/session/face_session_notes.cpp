@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a session has to say, stage by stage.
+#include "hyperex/session/face_session_impl.hpp"
+#include "hyperex/session/run_notes.hpp"
+
+namespace hyperex::session {
+
+void FaceSession::Impl::begin_search() {
+  if (search || searched) return;
+  // Landmarks that the program found itself agree with those that it finds.
+  if (scene.scan.landmarks.empty() && scene.given.landmarks.empty())
+    searched = true;
+  else
+    search.emplace(inputs, scene.kept);
+}
+
+void FaceSession::Impl::finish_search() {
+  if (!search) return;
+  doubts = search->doubts(notes());
+  search.reset();
+  searched = true;
+  report(doubts);
+}
+
+/// After base was run.
+void FaceSession::Impl::note_base() {
+  base_notes =
+      notes_on_contact_and_elements(simulation.report, simulation.performance, scene.contact);
+  append(base_notes, run_warnings(simulation.report, simulation.performance));
+  append(base_notes, symmetry_notes(symmetry, twin ? twin->why_not : ""));
+  if (scene.model.strain == simulate::Strain::finite) append(base_notes, volume_warnings(peak()));
+  report(base_notes);
+}
+
+std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {
+  std::vector<Note> out;
+  for (const Note& note : inputs.notes)
+    if (note.severity == severity) out.push_back(note);
+  if (severity == Severity::note) out.push_back(drive.note());
+  return out;
+}
+
+std::vector<Note> FaceSession::Impl::notes() const {
+  std::vector<Note> all = notes_on_inputs(Severity::note);
+  append(all, face.mesh->notes);
+  append(all, teeth_notes);
+  append(all, notes_on_inputs(Severity::warning));
+  append(all, skin_notes);
+  append(all, base_notes);
+  append(all, doubts);
+  append(all, variant_notes);
+  return all;
+}
+
+std::vector<Note> FaceSession::notes() const {
+  return impl_->notes();
+}
+
+std::vector<Note> FaceSession::warnings() const {
+  std::vector<Note> all = notes();
+  std::erase_if(all, [](const Note& note) { return note.severity != Severity::warning; });
+  return all;
+}
+
+}  // namespace hyperex::session

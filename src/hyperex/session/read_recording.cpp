@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/read_recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "hyperex/motion/exaggerate.hpp"
+#include "hyperex/motion/fill_gaps.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/rest.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/session/plausible.hpp"
+#include "hyperex/session/recording_jitter.hpp"
+#include "hyperex/session/track_recording.hpp"
+
+namespace hyperex::session {
+namespace {
+
+/// The points of a face model that recorded expressions move.
+motion::Motion read_expressions(const scene::MotionOptions& options, Inputs& in) {
+  const expression::BlendShapes shapes = options.arkit.empty()
+                                             ? expression::read_openface(options.openface)
+                                             : expression::read_arkit(options.arkit);
+  std::vector<std::string> notes = shapes.notes;
+  std::optional<expression::FaceModel> own;
+  motion::Motion m = expression::motion_of(shapes, face_model(options, own), notes);
+  const char* key = options.arkit.empty() ? "motion.openface" : "motion.arkit";
+  for (const auto& note : notes)
+    in.notes.push_back(make_note("recording.expressions", "motion: " + note, key));
+  return m;
+}
+
+/// Rest is where the scene says; `m` has its head pose taken out.
+void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
+  const auto stretch = rest_stretch(scene.motion);
+  if (!stretch) return;
+  auto rested = motion::with_rest(m, *stretch);
+  m = std::move(rested.motion);
+  if (rested.lead_s > 0)
+    in.notes.push_back(make_note(
+        "recording.lead_in",
+        fmt::format("the recording does not start at rest: the run leads the face from rest into "
+                    "it and so begins {:g} s before it",
+                    rested.lead_s * scene.motion.time_scale)));
+}
+
+/// A wrong name is reported by its key.
+void check_point_gains(const scene::Scene& scene, const motion::Motion& m) {
+  std::vector<InputProblem> problems;
+  const auto& gains = scene.motion.point_gains;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const std::string key = fmt::format("motion.point_gain[{}].point", i);
+    if (m.index_of(gains[i].point) < 0)
+      problems.push_back(scene::problem_at(scene, key, "the name of a point in the recording"));
+    for (std::size_t j = 0; j < i; ++j)
+      if (gains[j].point == gains[i].point) {
+        problems.push_back(scene::problem_at(scene, key, "each point once"));
+        break;
+      }
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+void note_head(const motion::StabilisedMotion& steady, Inputs& in) {
+  const auto greatest = [](const std::vector<double>& v) { return *std::ranges::max_element(v); };
+  in.head_shift_uncertainty_mm = 1e3 * greatest(steady.shift_uncertainty_m);
+  in.head_turn_uncertainty_deg = greatest(steady.turn_uncertainty_rad) * 180 / std::numbers::pi;
+  constexpr double worth_a_note_mm = 1;
+  if (in.head_shift_uncertainty_mm > worth_a_note_mm)
+    in.notes.push_back(make_note(
+        "head.pose_uncertain",
+        fmt::format("the head's pose is uncertain by up to {:.1f} mm and {:.1f} degrees (95 %), as "
+                    "the points around it move with the expression; motion.rigid_points names "
+                    "points fixed to the skull where there are any",
+                    in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg)));
+}
+
+/// A quick reading of a camera's recording has its first face alone.
+bool is_read_whole(const scene::Scene& scene, Extent extent) {
+  return scene.motion.recording.empty() || extent == Extent::full;
+}
+
+}  // namespace
+
+motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in) {
+  if (scene.motion.mirrored && scene.motion.recording.empty())
+    throw InputError(
+        scene::problem_at(scene, "motion.mirrored",
+                          "false, as there is no motion.recording: only a camera's pictures "
+                          "can be turned back"));
+  if (scene.given.motion) return *scene.given.motion;
+  if (!scene.motion.recording.empty()) return track_recording(scene, extent, in);
+  if (scene.motion.source.file.empty()) return read_expressions(scene.motion, in);
+  auto m = motion::read_motion(scene.motion.source.file, scene.motion.unit);
+  if (!m.unit_note.empty())
+    in.notes.push_back(make_note("recording.unit", "motion: " + m.unit_note));
+  return m;
+}
+
+motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::Motion& m,
+                                       Extent extent, Inputs& in) {
+  const bool whole = is_read_whole(scene, extent);
+  if (!scene.motion.source.embedded && whole) {
+    in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
+    add(in.notes, timing_warning(m));
+  }
+  motion::GapOptions gaps;
+  gaps.max_gap_s = scene.motion.max_gap_s;
+  const motion::FilledMotion filled = motion::fill_gaps(m, gaps);
+  if (!filled.gaps.empty())
+    in.notes.push_back(make_note(
+        "recording.gaps_filled",
+        fmt::format("{} gaps of the recording were interpolated, the first of {} at {:.3f} s",
+                    filled.gaps.size(), filled.gaps.front().point, filled.gaps.front().from_s)));
+  motion::StabiliseOptions options;
+  options.rigid_points = scene.motion.rigid_points;
+  // Expressions move a face model, whose head stays where it is.
+  const bool expressions = !scene.motion.arkit.empty() || !scene.motion.openface.empty();
+  auto steady = expressions ? motion::with_still_head(filled.motion)
+                            : motion::stabilise(filled.motion, options);
+  note_head(steady, in);
+  if (whole) {
+    settle_rest(scene, steady.motion, in);
+    add(in.notes, stillness_warning(steady.motion));
+  }
+  return steady;
+}
+void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, Inputs& in) {
+  check_point_gains(scene, m);
+  m = motion::with_point_gains(m, scene.motion.point_gains);
+  settle_jitter(scene, extent, m, in);
+  m = motion::time_scaled(m, scene.motion.time_scale);
+  if (is_read_whole(scene, extent)) check_length(scene, m);
+}
+
+void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m, Inputs& in) {
+  const FaceAtRest average = average_face();
+  const bool whole = scene.motion.recording.empty();  // of a camera's there is its first face only
+  check_sides(m, average);
+  if (whole) {
+    add(in.notes, start_warning(m, average));
+    add(in.notes, exchanged_warning(m, average));
+  }
+  in.notes.push_back(
+      whole ? make_note("recording.checked_by_average_face",
+                        "whether left and right are exchanged and whether the recording starts at "
+                        "rest was checked against an average face, as the scan's landmarks are not "
+                        "known")
+            : make_note("recording.start_unchecked",
+                        "not checked: whether the recording starts at rest, which a run tells"));
+}
+
+}  // namespace hyperex::session

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/read_scan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/session/kept.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
+#include "hyperex/tissue/mesh/skin_depth.hpp"
+
+namespace hyperex::session {
+
+void read_scan(const scene::Scene& scene, Inputs& in) {
+  if (scene.given.scan) {
+    in.scan = *scene.given.scan;
+    return;
+  }
+  if (scene.scan.source.embedded) {
+    in.scan.file = "embedded face";
+    in.scan.mesh = anatomy::embedded_face().mesh;
+    return;
+  }
+  in.scan = io::read_scan(scene.scan.source.file, scene.scan.unit);
+  if (in.scan.unit_guessed)
+    in.notes.push_back(make_note(
+        "scan.unit_guessed",
+        fmt::format("the scan's unit is {}; state it with scan.unit", io::unit_note(in.scan))));
+}
+
+io::Landmarks given_landmarks(const scene::Scene& scene) {
+  if (!scene.given.landmarks.empty()) return scene.given.landmarks;
+  if (!scene.scan.landmarks.empty())
+    return io::read_landmarks(scene.scan.landmarks, scene.scan.landmarks_unit);
+  if (scene.scan.source.embedded) return anatomy::embedded_face().landmarks;
+  return {};
+}
+
+void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, const io::Scan& scan,
+                        Inputs& in) {
+  const std::string source = scene.scan.source.embedded     ? "embedded face"
+                             : scene.scan.landmarks.empty() ? scan.file.string()
+                                                            : scene.scan.landmarks.string();
+  auto completed = completed_landmarks(given, scan, source, scene.kept);
+  in.landmarks = std::move(completed.landmarks);
+  in.placed = std::move(completed.placed);
+  if (!in.placed.empty())
+    in.notes.push_back(make_note(
+        "landmarks.placed",
+        fmt::format("{} of {} landmarks were not given and were placed by fitting the canonical "
+                    "face to the {} given ones and the scan",
+                    in.placed.size(), in.landmarks.size(), given.size())));
+}
+
+void note_tissue_files(const scene::Scene& scene, Inputs& in) {
+  const auto note_once = [&](std::vector<Note> notes) {
+    for (Note& note : notes)
+      if (std::find(in.notes.begin(), in.notes.end(), note) == in.notes.end())
+        in.notes.push_back(std::move(note));
+  };
+  const auto add = [&](const scene::Scene& s) {
+    note_once(tissue::notes_on_files(s.tissue, in.scan.mesh));
+  };
+  note_once(tissue::notes_on_depth_files(scene.mesh, in.scan.mesh));
+  add(scene);
+  for (const scene::Variant& variant : scene.variants)
+    if (!(variant.scene.tissue == scene.tissue)) add(variant.scene);
+}
+
+io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why, std::vector<Note>& notes,
+                             const KeptResults& kept) {
+  FoundLandmarks found = landmarks_on(scan, std::nullopt, kept);
+  notes.push_back(make_note(
+      "landmarks.found",
+      fmt::format("{}: {} were found on the scan in {} pictures, which lie {:.1f} mm (median) from "
+                  "where all agree; hyperex landmarks --picture draws them",
+                  why, found.landmarks.size(), found.views, 1e3 * found.spread_m)));
+  return std::move(found.landmarks);
+}
+
+}  // namespace hyperex::session

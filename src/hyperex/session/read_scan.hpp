@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/session/inputs.hpp"
+
+namespace hyperex::session {
+
+/// The parts of read_inputs() that concern the scan. Notes go into `in`.
+
+/// Sets in.scan. Throws InputError.
+void read_scan(const scene::Scene& scene, Inputs& in);
+
+/// The landmarks that the scene names, or the embedded face's; none where it names none. Throws
+/// InputError.
+io::Landmarks given_landmarks(const scene::Scene& scene);
+
+/// Sets in.landmarks and in.placed. Throws InputError as anatomy::complete_landmarks().
+void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, const io::Scan& scan,
+                        Inputs& in);
+
+/// Reads the files of tissue per vertex, of the scene and of its variants; each note once. Throws
+/// InputError.
+void note_tissue_files(const scene::Scene& scene, Inputs& in);
+
+}  // namespace hyperex::session

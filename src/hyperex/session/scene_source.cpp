@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/scene_source.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/scene/given_text.hpp"
+#include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/override.hpp"
+#include "hyperex/scene/scene_text.hpp"
+
+namespace hyperex::session {
+namespace {
+using nlohmann::json;
+
+/// A key and what stands below it: "tissue.region" and "[0].young_factor".
+struct PartName {
+  std::string key, below;
+};
+
+PartName part_name(const std::string& name) {
+  const auto bracket = name.find('[');
+  if (bracket == std::string::npos) return {name, ""};
+  return {name.substr(0, bracket), name.substr(bracket)};
+}
+
+/// `list` with another value at `below`: "[0]" or "[0].young_factor".
+json with_part(json list, const PartName& name, const json& value) {
+  const auto wrong = [&](const std::string& expected) {
+    return InputError(InputProblem{{}, 0, name.key + name.below, "", expected});
+  };
+  const auto close = name.below.find(']');
+  if (close == std::string::npos)
+    throw wrong("a part of a list, as in tissue.region[0].young_factor");
+  const std::size_t index = std::strtoul(name.below.c_str() + 1, nullptr, 10);
+  if (!list.is_array() || index >= list.size())
+    throw wrong("a place in the list, which has " +
+                std::to_string(list.is_array() ? list.size() : 0) + " from 0 on");
+  const std::string column = name.below.substr(close + 1);
+  if (column.empty()) {
+    list[index] = value;
+  } else {
+    if (column[0] != '.' || !list[index].is_object())
+      throw wrong("a column, as in [0].young_factor");
+    list[index][column.substr(1)] = value;
+  }
+  return list;
+}
+
+const scene::Key& known_key(const std::string& name) {
+  if (const scene::Key* key = scene::find_key(name)) return *key;
+  throw InputError(InputProblem{{}, 0, name, "", scene::unknown_key(name)});
+}
+
+/// {"tissue.young_kpa": 300} as a table [[variant]] has it: {"tissue": {"young_kpa": 300}}.
+void put(json& block, const std::string& key, const json& value) {
+  const std::string section = scene::section_of(known_key(key).name);
+  if (section.empty())
+    block[key] = value;
+  else
+    block[section][key.substr(section.size() + 1)] = value;
+}
+
+json parsed(const Value& value) {
+  return json::parse(value.json());
+}
+
+/// The block of this name; appended where there is none.
+json& block_of(std::vector<json>& blocks, const std::string& name) {
+  for (json& block : blocks)
+    if (block.value("name", "") == name) return block;
+  blocks.push_back({{"name", name}});
+  return blocks.back();
+}
+
+const scene::Scene* variant_of(const scene::Scene& scene, const std::string& name) {
+  for (const scene::Variant& variant : scene.variants)
+    if (variant.name == name) return &variant.scene;
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_variant_key(const std::string& key) {
+  const auto& sections = scene::variant_sections();
+  if (key == "muscles.file" || key == "muscles.without") return false;
+  return key == "motion.gain" || std::find(sections.begin(), sections.end(),
+                                           scene::section_of(part_name(key).key)) != sections.end();
+}
+
+SceneSource::SceneSource(scene::Scene scene) : scene_(std::move(scene)), given_(scene_.given) {}
+
+SceneSource::SceneSource(scene::GivenFace given, const Changes& changes)
+    : given_(std::move(given)) {
+  // Placeholders, which the given face and motion replace.
+  text_ = scene::with_value("", "scan.file", "embedded");
+  text_ = scene::with_value(text_, "motion.file", "embedded");
+  for (const auto& [key, value] : changes)
+    text_ = scene::with_value(text_, known_key(key).name, parsed(value));
+  read();
+}
+
+void SceneSource::replace(scene::Scene scene) {
+  scene_ = std::move(scene);
+  text_.clear();
+}
+
+std::string SceneSource::text_now() const {
+  return text_.empty() ? scene::given_text(scene_) : text_;
+}
+
+void SceneSource::read() {
+  const KeptResults kept = scene_.kept;
+  scene_ = scene::read_scene_text(text_, scene_.file);
+  scene_.kept = kept;
+  if (!given_.scan) return;
+  scene_.given = given_;
+  scene_.scan.source = {false, given_.scan->file};
+  scene_.motion.source = {false, given_.motion->source};
+}
+
+SceneSource SceneSource::with_value(const std::string& key, const Value& value) const {
+  SceneSource next = *this;
+  next.text_ = scene::with_value(text_now(), known_key(key).name, parsed(value));
+  next.read();
+  return next;
+}
+
+SceneSource SceneSource::with_variant(const std::string& name, const Changes& changes) const {
+  SceneSource next = *this;
+  next.text_ = text_now();
+  std::vector<json> blocks = scene::variant_blocks(next.text_);
+  json& block = block_of(blocks, name);
+  block = {{"name", name}};
+  for (const auto& [key, value] : changes) put(block, key, parsed(value));
+  next.text_ = scene::with_variants(next.text_, blocks);
+  next.read();
+  return next;
+}
+
+SceneSource SceneSource::with_change(const std::string& name, const std::string& key,
+                                     const Value& value) const {
+  const PartName part = part_name(key);
+  const scene::Key& found = known_key(part.key);
+  json whole = parsed(value);
+  if (!part.below.empty()) {
+    const scene::Scene* variant = variant_of(scene_, name);
+    whole = with_part(found.get(variant ? *variant : scene_), part, whole);
+  }
+  SceneSource next = *this;
+  next.text_ = text_now();
+  std::vector<json> blocks = scene::variant_blocks(next.text_);
+  put(block_of(blocks, name), part.key, whole);
+  next.text_ = scene::with_variants(next.text_, blocks);
+  next.read();
+  return next;
+}
+
+}  // namespace hyperex::session

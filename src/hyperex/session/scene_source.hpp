@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/changes.hpp"
+
+namespace hyperex::session {
+
+/// Whether a variant may change the key: another value needs neither inputs nor mesh anew.
+bool is_variant_key(const std::string& key);
+
+/// Where a session's scene comes from, and how it is changed key by key: always through the text of
+/// a scene file, so that every value is checked as the program checks it.
+class SceneSource {
+ public:
+  /// A scene that was read. `scene.given` is handed on to every scene that is made of it.
+  explicit SceneSource(scene::Scene scene);
+  /// A face and a motion in memory (`given`), with keys changed.
+  SceneSource(scene::GivenFace given, const Changes& changes);
+
+  const scene::Scene& scene() const { return scene_; }
+
+  /// Another scene in its place.
+  void replace(scene::Scene scene);
+
+  /// With another value of a key of base.
+  SceneSource with_value(const std::string& key, const Value& value) const;
+  /// With a variant of this name that has these changes, in the place of one of that name.
+  SceneSource with_variant(const std::string& name, const Changes& changes) const;
+  /// With one more change of the variant `name`, which is added where there is none. `key` may name
+  /// a part of a list: "tissue.region[0].young_factor".
+  SceneSource with_change(const std::string& name, const std::string& key,
+                          const Value& value) const;
+
+ private:
+  void read();
+  std::string text_now() const;
+
+  scene::Scene scene_;
+  std::string text_;  // empty: not made yet of scene_
+  scene::GivenFace given_;
+};
+
+}  // namespace hyperex::session

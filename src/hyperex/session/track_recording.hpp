@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+
+#include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/motion/rest.hpp"
+#include "hyperex/session/inputs.hpp"
+
+namespace hyperex::session {
+
+/// The face model that motion.candide names, kept in `own`; else the canonical one.
+const expression::FaceModel& face_model(const scene::MotionOptions& options,
+                                        std::optional<expression::FaceModel>& own);
+
+/// The stretch that motion.rest_s says; one time stands for the sample there.
+std::optional<motion::RestStretch> rest_stretch(const scene::MotionOptions& options);
+
+/// The points of motion.recording, tracked, or taken from an earlier run; in a quick reading those
+/// of its first face alone. Notes go into `in`. Throws InputError where no face is found.
+motion::Motion track_recording(const scene::Scene& scene, Extent extent, Inputs& in);
+
+}  // namespace hyperex::session

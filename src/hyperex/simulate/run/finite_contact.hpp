@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "hyperex/simulate/contact/finite_correction.hpp"
+#include "hyperex/simulate/run/contact_frames.hpp"
+
+namespace hyperex::simulate {
+
+/// Corrects frames at finite strain, one after the other. Contact forces are found in the
+/// compliance at rest, and the tissue as it is displaced answers them. A frame takes some rounds of
+/// both, until nothing passes through anything else or the rounds gain little.
+class FiniteContact {
+ public:
+  /// The displacement of the skin, of that of all nodes, in frame `i`.
+  using SkinOf = std::function<PointsF(std::size_t i, const Points& nodes)>;
+  /// Everything must outlive this.
+  FiniteContact(const MouthContact& contact, FiniteCorrection& tissue, const ContactFrames& frames,
+                SkinOf skin_of);
+
+  /// Corrects a frame: `displacement` of all nodes (3 |nodes|, m). It stays where no equilibrium is
+  /// found. Frames are given in the order of their times.
+  void correct(std::size_t frame, Eigen::Ref<Eigen::VectorXd> displacement);
+
+  double residual_m() const { return residual_m_; }  ///< greatest of the complementarity problems
+  int given_up() const { return given_up_; }         ///< frames without equilibrium
+  double hopeless_m() const { return hopeless_m_; }  ///< least depth of these
+
+ private:
+  /// What contact did in a frame: altogether, and to first order at rest.
+  struct Push {
+    std::size_t frame = 0;
+    Eigen::VectorXd in_all, first_order;
+  };
+  /// A frame in work.
+  struct Work {
+    std::size_t frame;
+    const Eigen::VectorXd without;  // displacement without contact
+    PointsF skin;
+    std::vector<Points> at_sides;
+    Eigen::VectorXd first_order;  // of the last round's forces
+    double least_m;               // depth of the best round
+    double residual_m = 0;        // of that round
+  };
+  enum class Round { deeper, little, better, failed };
+  Round round(Work& work, bool take_off, const Eigen::VectorXd* guess,
+              Eigen::Ref<Eigen::VectorXd> best);
+  void move(Work& work, const Eigen::VectorXd& displacement) const;
+  double depth_m(const Work& work) const;
+
+  const MouthContact& contact_;
+  FiniteCorrection& tissue_;
+  const ContactFrames& frames_;
+  SkinOf skin_of_;
+  Push last_;
+  Eigen::VectorXd force_;
+  double residual_m_ = 0, hopeless_m_ = std::numeric_limits<double>::infinity();
+  int given_up_ = 0;
+};
+
+}  // namespace hyperex::simulate

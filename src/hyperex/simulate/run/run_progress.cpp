@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/run/run_progress.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <thread>
+
+namespace hyperex::simulate {
+
+void RunProgress::begin(const RunCallbacks& callbacks) {
+  callbacks_ = callbacks;
+}
+
+void RunProgress::throw_if_cancelled() const {
+  if (callbacks_.cancelled && callbacks_.cancelled()) throw Cancelled();
+}
+
+void RunProgress::report(double share) {
+  throw_if_cancelled();
+  done_ = share;
+  if (callbacks_.progress) callbacks_.progress(share);
+}
+
+void RunProgress::for_frames(std::size_t count, const std::function<void(std::size_t)>& body) {
+  const auto caller = std::this_thread::get_id();  // on which callbacks are called
+  const double from = done_, step = 0.5 * (1 - from) / static_cast<double>(count);
+  std::atomic<std::size_t> done{0};
+  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+    body(i);
+    const std::size_t now = ++done;
+    if (std::this_thread::get_id() == caller) report(from + step * static_cast<double>(now));
+  });
+  report(from + step * static_cast<double>(count));
+}
+
+}  // namespace hyperex::simulate

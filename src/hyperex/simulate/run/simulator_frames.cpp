@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is stored of a run and reported about it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "hyperex/fem/form/inverted.hpp"
+#include "hyperex/simulate/run/simulator_impl.hpp"
+
+namespace hyperex::simulate {
+
+std::vector<double> Simulator::Impl::in_steps(const std::vector<FrameTime>& frame_times) const {
+  std::vector<double> out;
+  for (const FrameTime& at : frame_times)
+    out.push_back(std::clamp(at.time_s / options.time.step_s, 0.0, static_cast<double>(steps())));
+  return out;
+}
+
+void Simulator::Impl::store(const FrameTime& at, const Points& nodes, const PointCurve& points,
+                            SimulationResult& result) const {
+  const PointsF skin = stages.readout->skin(stages.measured.value(), stages.points->rim, nodes,
+                                            points.at(at.time_s));
+  if (at.is_still()) {
+    result.still_displacement_m[at.index()] = skin;
+    return;
+  }
+  Performance& p = result.performance;
+  p.skin_displacement_m[at.index()] = skin;
+  if (!p.node_displacement_m.empty())
+    p.node_displacement_m[at.index()] = in_single_precision(nodes);
+}
+
+void Simulator::Impl::place_jaw(const PointCurve& points, SimulationResult& result) const {
+  std::vector<double> times_s = result.performance.frame_time_s;
+  for (const double t : options.time.still_times_s) times_s.push_back(std::min(t, end_s()));
+  auto jaw = jaw_now_from_rest(times_s, points);
+  const auto stills = jaw.begin() + std::ptrdiff_t(result.performance.frame_time_s.size());
+  result.still_jaw_now_from_rest.assign(stills, jaw.end());
+  jaw.erase(stills, jaw.end());
+  result.performance.jaw_now_from_rest = std::move(jaw);
+}
+
+void Simulator::Impl::describe_tissue(Performance& p) {
+  p.nodes = mesh->volume.nodes;
+  p.tets = mesh->volume.tets;
+  p.model = options.model;
+  p.material = material();
+  const std::vector<int> held = stages.boundary->held_nodes();
+  p.held_points_rest.resize(held.size(), 3);
+  for (std::size_t i = 0; i < held.size(); ++i)
+    p.held_points_rest.row(i) = mesh->volume.nodes.row(held[i]);
+  if (progress.skin_alone()) return;
+  std::vector<int> inverted(p.node_displacement_m.size());
+  progress.for_frames(inverted.size(), [&](std::size_t f) {
+    const auto marks = fem::inverted_tets(p.nodes, p.tets, p.node_displacement_m[f].cast<double>());
+    inverted[f] = static_cast<int>(std::count(marks.begin(), marks.end(), 1));
+  });
+  report.inverted_tets = *std::max_element(inverted.begin(), inverted.end());
+}
+
+void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
+  const Readout& readout = stages.readout.value();
+  const DrivenPoints& driven = stages.points.value();
+  p.skin_rest = mesh->skin;
+  p.scan_vertices = mesh->scan_vertices;
+  p.appended = mesh->appended;
+  p.source_triangle = mesh->source_triangle;
+  p.lip_cut_rest = mesh->lip_cut;
+  p.landmarks = readout.landmark_tracks(p.frame_time_s, p.skin_displacement_m);
+  p.driven_names = driven.names;
+  p.driven_points_rest = driven.rest;
+  if (stages.load.has_value()) p.muscles = changed_muscles(stages.load->muscles, options.muscles);
+  p.peak_frame = peak_frame(p.frame_time_s, options.time.peak_time_s, driven.rows, points);
+  if (progress.skin_alone()) return;
+  const Readout::Lips lips = readout.lips(
+      p.landmarks, p.skin_displacement_m,
+      [this](std::size_t count, const auto& frame) { progress.for_frames(count, frame); });
+  report.lip_overlap_mm = lips.overlap_mm;
+  report.lip_gap_mm = lips.gap_mm;
+  note_driven_off(driven.off_m(p, points), p.driven_names);
+}
+
+void Simulator::Impl::note_driven_off(const std::vector<double>& off_m,
+                                      const std::vector<std::string>& points) {
+  std::string names;
+  for (std::size_t i = 0; i < off_m.size(); ++i) {
+    report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * off_m[i]);
+    if (off_m[i] > kDrivenWithin_m) names += (names.empty() ? "" : ", ") + points[i];
+  }
+  if (!names.empty())
+    warn("drive.points_off", "drive.points",
+         fmt::format("driven points end up to {:.2f} mm from where they are driven: {}; points "
+                     "that lie closer together than the elements and move differently are met in "
+                     "the mean",
+                     report.driven_off_mm, names));
+}
+
+void Simulator::Impl::warn(const char* id, const char* key, std::string text) {
+  report.notes.push_back(make_warning(id, std::move(text), key));
+}
+
+}  // namespace hyperex::simulate

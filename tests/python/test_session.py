@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import pathlib
+import re
+import tempfile
+import unittest
+
+import numpy as np
+
+import hyperex
+from support import SOURCE
+
+EXAMPLES = SOURCE / "examples"
+COARSE = {"mesh.element_size_mm": 10, "mesh.layers": 1, "time.frame_rate_hz": 5}
+
+
+class FaceSessions(unittest.TestCase):
+    def test_the_same_calls_have_the_same_names_as_in_cpp(self):
+        header = (SOURCE / "src/hyperex/session/face_session.hpp").read_text()
+        front = header[header.rindex("namespace hyperex {"):]
+        names = re.findall(r"using \w+::(\w+);", front)
+        self.assertIn("FaceSession", names)
+        for name in names:
+            if name != "Value":  # Python has values of its own
+                self.assertTrue(hasattr(hyperex, name), name)
+        asking = header[header.index("// ----- asking"):header.index("// ----- stage by stage")]
+        calls = re.findall(r"^  [\w:<>& ]+ (\w+)\(", asking, re.M)
+        self.assertEqual(set(calls), {"run", "set", "variant", "performance", "measures", "notes", "warnings"})
+        for call in calls:
+            self.assertTrue(callable(getattr(hyperex.FaceSession, call)), call)
+
+    def test_what_if(self):
+        face = hyperex.FaceSession(EXAMPLES / "stiff_cheek.toml", {"drive.by": "muscles", **COARSE})
+        before = face.run()
+        face.set("tissue.region[0].young_factor", 50)
+        after = face.run()
+        self.assertEqual(before.name, "base")
+        self.assertFalse(np.array_equal(before.performance().skin_displacement_m,
+                                        after.performance().skin_displacement_m))
+        np.testing.assert_array_equal(face.performance().skin_displacement_m,
+                                      after.performance().skin_displacement_m)
+        self.assertGreater(after.measures().excursions["cheilion"].left.excursion_mm, 0)
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            hyperex.write_glb(folder / "after.glb", after)
+            hyperex.write_skin_ply(folder / "after.ply", after)
+            hyperex.write_motion_csv(folder / "after.csv", after)
+            self.assertEqual((folder / "after.glb").read_bytes()[:4], b"glTF")
+            self.assertEqual(hyperex.read_motion(folder / "after.csv").names[:3],
+                             after.performance().landmarks.names[:3])
+        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -3"):
+            face.set("tissue.young_kpa", -3)
+
+    def test_from_memory(self):
+        face = hyperex.embedded_face()
+        session = hyperex.FaceSession(face, hyperex.embedded_mouth_opening(face.landmarks), COARSE)
+        self.assertGreater(session.run().performance().report.lip_gap_mm, 5)
+
+    def test_a_law_at_small_strain_is_a_warning_as_everywhere(self):
+        with self.assertLogs("hyperex", "WARNING") as log:
+            session = hyperex.FaceSession(EXAMPLES / "mouth_open.toml", {"tissue.law": "yeoh", **COARSE})
+        self.assertIn("law.idle", [note.id for note in session.warnings()])
+        self.assertTrue(any("tissue.law" in line for line in log.output))
+
+
+if __name__ == "__main__":
+    unittest.main()

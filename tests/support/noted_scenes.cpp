@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/noted_scenes.hpp"
+
+#include <sstream>
+
+#include "apps/good_inputs.hpp"
+#include "hyperex/capture/video_writer.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "support/rendered_clip.hpp"
+
+namespace hyperex::test {
+namespace {
+namespace fs = std::filesystem;
+
+void write_landmarks(const fs::path& folder, const io::Landmarks& landmarks) {
+  io::write_landmarks(folder / "face_landmarks.json", landmarks, io::LengthUnit::millimetre);
+}
+
+void misplace_a_landmark(const fs::path& folder) {
+  io::Landmarks landmarks = good_landmarks();
+  landmarks["cheilion_R"] = landmarks["cheek_R"];
+  write_landmarks(folder, landmarks);
+}
+
+void shift_all_landmarks(const fs::path& folder) {
+  io::Landmarks landmarks = good_landmarks();
+  for (auto& [name, at] : landmarks) at.z() += 0.01;
+  write_landmarks(folder, landmarks);
+}
+
+void misspell_a_landmark(const fs::path& folder) {
+  io::Landmarks landmarks = good_landmarks();
+  landmarks["cheilon_L"] = landmarks["cheilion_L"];
+  landmarks.erase("cheilion_L");
+  write_landmarks(folder, landmarks);
+}
+
+void write_video(const fs::path& folder) {
+  RenderedClip clip;
+  capture::VideoWriter writer(folder / "clip.mp4", clip.intrinsics().width_px,
+                              clip.intrinsics().height_px, 30);
+  for (int k = 0; k < 3; ++k) writer.add(clip.next()->colour);
+  writer.finish();
+}
+
+void time_in_milliseconds(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (double& t : m.time_s) t *= 1000;
+  });
+}
+
+void hold_still(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (Points& sample : m.positions) sample = m.positions.front();
+    m.positions[8](m.index_of("cheilion_L"), 1) += 0.03e-3;
+  });
+}
+
+void start_with_the_mouth_open(const fs::path& folder) {
+  write_opening(folder, 40, 41);
+}
+
+void enlarge_the_motion(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (Points& sample : m.positions) sample *= 1.5;
+  });
+}
+
+void exchange_the_corners(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    std::swap(m.names[std::size_t(m.index_of("cheilion_L"))],
+              m.names[std::size_t(m.index_of("cheilion_R"))]);
+  });
+}
+
+/// The lower lip rises by 6 mm, the upper one stays.
+void press_the_lips(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    const Points rest = m.positions.front();
+    for (std::size_t k = 0; k < m.positions.size(); ++k) {
+      m.positions[k] = rest;
+      for (const int i : {55, 56, 57, 58, 59, 65, 66, 67})
+        if (const int row = m.index_of(face::ibug(i)); row >= 0)
+          m.positions[k](row, 1) += 6e-3 * double(k) / 15;
+    }
+  });
+}
+
+}  // namespace
+
+const std::vector<NotedScene>& noted_scenes() {
+  static const std::vector<NotedScene> all = {
+      {"landmarks.doubtful", true, "", misplace_a_landmark},
+      {"landmarks.many_doubtful", true, "", shift_all_landmarks},
+      {"landmarks.misspelt", true, "", misspell_a_landmark},
+      {"recording.mirror_unknown", true, "motion.file=\nmotion.recording=\"clip.mp4\"",
+       write_video},
+      {"recording.time_unit_doubtful", true, "", time_in_milliseconds},
+      {"recording.nothing_moves", true, "", hold_still},
+      {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
+      {"recording.fits_badly", true, "", enlarge_the_motion},
+      {"sides.exchanged_pair", true, "", exchange_the_corners},
+      {"law.idle", true, "tissue.law=\"yeoh\"", nullptr},
+      {"skin.far_from_scan", false, "mesh.element_size_mm=15", nullptr},
+      {"lips.pass_through", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",
+       press_the_lips},
+      {"tissue.inverted", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",
+       press_the_lips},
+      {"output.glb_coarse", false,
+       "output.glb=true\noutput.glb_tolerance_mm=0.01\noutput.glb_max_mb=0.1\ntime.end_s=0.5\n"
+       "time.frame_rate_hz=60",
+       nullptr},
+      {"variant.no_effect", false,
+       "drive.by=\"displacement\"\nvariant=[{name=\"same\", tissue={young_kpa=100}}]\n"
+       "tissue.young_kpa=100",
+       nullptr},
+      {"variant.lips_pass_through", false,
+       "drive.by=\"displacement\"\nmotion.gain=0.05\ntime.end_s=0.5\n"
+       "variant=[{name=\"more\", motion={gain=5}}]",
+       press_the_lips},
+      {"variant.muscle_hardly_used", false,
+       "variant=[{name=\"weak\", muscles={gain={corrugator_L=0.3}}}]", nullptr},
+  };
+  return all;
+}
+
+const std::map<std::string, std::string>& warnings_without_scene() {
+  static const std::map<std::string, std::string> all = {
+      {"contact.no_equilibrium", "none: no scene is known to cause it"},
+      {"drive.points_off", "SimulationOfAFace, points close to each other"},
+      {"forces.found_anew", "MuscleSimulatorOfAFace, tissue changed without hold_load()"},
+      {"solver.reduced_not_converged", "SimulationOfAFace, a basis that stops growing"},
+      {"symmetry.plane_of_landmarks", "Midsagittal.ASurfaceOfOneSideLeavesItToTheLandmarks"},
+      {"tissue.volume_changed", "VolumeWarning.IsGivenFromAThreefoldChangeOn"},
+  };
+  return all;
+}
+
+fs::path write_noted_scene(const NotedScene& scene, const fs::path& folder) {
+  fs::create_directories(folder);
+  write_good_inputs(folder);
+  if (scene.spoil) scene.spoil(folder);
+  std::map<std::string, std::string> keys = {{"scan.file", "\"face.ply\""},
+                                             {"scan.unit", "\"mm\""},
+                                             {"scan.landmarks", "\"face_landmarks.json\""},
+                                             {"motion.file", "\"motion.csv\""},
+                                             {"mesh.element_size_mm", "8"},
+                                             {"mesh.layers", "1"},
+                                             {"time.step_s", "0.01"},
+                                             {"time.end_s", "0.2"},
+                                             {"time.frame_rate_hz", "10"},
+                                             {"output.vtu", "false"},
+                                             {"output.glb", "false"},
+                                             {"output.report", "false"}};
+  std::istringstream lines(scene.keys);
+  for (std::string line; std::getline(lines, line);) {
+    const auto at = line.find('=');
+    keys[line.substr(0, at)] = line.substr(at + 1);
+  }
+  std::string text;
+  for (const auto& [key, value] : keys)
+    if (!value.empty()) text += key + " = " + value + "\n";
+  put(folder / "scene.toml", text);
+  return folder / "scene.toml";
+}
+
+}  // namespace hyperex::test

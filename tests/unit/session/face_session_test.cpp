@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/face_session.hpp"
+
+#include <gmock/gmock.h>
+
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/scene/given_text.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/session/scene_source.hpp"
+#include "hyperex/session/variants.hpp"
+
+namespace hyperex::session {
+namespace {
+
+const std::string kCoarse = R"(
+[scan]
+file = "embedded"
+[motion]
+file = "embedded"
+[mesh]
+element_size_mm = 10
+layers = 1
+[time]
+frame_rate_hz = 5
+[tissue]
+young_kpa = 100
+[[tissue.region]]
+name = "cheek_R"
+young_factor = 2
+)";
+const std::string kMuscles = "[drive]\nby = \"muscles\"\n";
+
+scene::Scene scene_of(const std::string& text) {
+  return scene::read_scene_text(text, "coarse.toml");
+}
+
+FaceSession session_of(const std::string& text, Certainty certainty = Certainty::on_request) {
+  return FaceSession(scene_of(text), {.certainty = certainty});
+}
+
+void expect_equal(const FaceResult& a, const FaceResult& b) {
+  const auto &one = a.performance().skin_displacement_m,
+             &other = b.performance().skin_displacement_m;
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t f = 0; f < one.size(); ++f) EXPECT_EQ(one[f], other[f]) << "frame " << f;
+}
+
+double apart_mm(const FaceResult& a, const FaceResult& b) {
+  double most = 0;
+  for (std::size_t f = 0; f < a.performance().skin_displacement_m.size(); ++f)
+    most = std::max(most, double((a.performance().skin_displacement_m[f] -
+                                  b.performance().skin_displacement_m[f])
+                                     .cwiseAbs()
+                                     .maxCoeff()));
+  return 1e3 * most;
+}
+
+TEST(FaceSession, AsksWhatTheSameForcesDoInOtherTissue) {
+  FaceSession face = session_of(kCoarse + kMuscles);
+  const FaceResult before = face.run();
+  EXPECT_EQ(before.name, "base");
+  const auto mesh = face.shared_mesh();
+  face.set("tissue.young_kpa", 300);
+  EXPECT_FALSE(face.up_to_date());
+  const FaceResult after = face.run();
+  EXPECT_EQ(face.shared_mesh(), mesh) << "other tissue needs no other mesh";
+  EXPECT_GT(apart_mm(before, after), 0.1);
+  expect_equal(face.result(0), before);
+  expect_equal(face.variant("stiff", {{"tissue.young_kpa", 300}}), after);
+  EXPECT_EQ(&face.performance(), &face.variants()[0].simulation.performance) << "that of set()";
+  face.set("tissue.young_kpa", 100);
+  EXPECT_LT(apart_mm(face.run(), before), 0.05) << "the forces make the recorded motion";
+}
+
+TEST(FaceSession, ChangesPartsOfLists) {
+  FaceSession face = session_of(kCoarse + kMuscles);
+  const FaceResult before = face.run();
+  face.set("tissue.region[0].young_factor", 20);
+  const FaceResult part = face.run();
+  EXPECT_GT(apart_mm(before, part), 0.01);
+  expect_equal(
+      face.variant("whole", {{"tissue.region",
+                              Value::from_json(R"([{"name": "cheek_R", "young_factor": 20}])")}}),
+      part);
+  EXPECT_THROW(face.set("tissue.region[3].young_factor", 2), InputError);
+  EXPECT_THROW(face.set("tissue.region[0]young_factor", 2), InputError);
+}
+
+TEST(FaceSession, RefusedChangesChangeNothing) {
+  FaceSession face = session_of(kCoarse);
+  face.run();
+  for (const auto& [key, value] :
+       std::vector<std::pair<std::string, Value>>{{"tissue.young_kpa", -3},
+                                                  {"tissue.young", 3},
+                                                  {"mesh.layers", 0},
+                                                  {"drive.by", "magic"}}) {
+    EXPECT_THROW(face.set(key, value), InputError) << key;
+    EXPECT_TRUE(face.up_to_date()) << key;
+    EXPECT_EQ(face.faces(), 1U) << key;
+  }
+}
+
+TEST(FaceSession, OpensTheFaceAnewForAnotherMeshOnly) {
+  FaceSession face = session_of(kCoarse);
+  const auto mesh = face.shared_mesh();
+  face.set("time.end_s", 0.5);
+  EXPECT_EQ(face.shared_mesh(), mesh);
+  face.set("mesh.element_size_mm", 12);
+  EXPECT_NE(face.shared_mesh(), mesh);
+  EXPECT_LT(face.mesh().volume.nodes.rows(), mesh->volume.nodes.rows());
+  EXPECT_EQ(face.scene().time.end_s, 0.5) << "earlier changes stay";
+}
+
+TEST(FaceSession, OtherScenesOfTheFaceGiveWhatAFreshSessionGives) {
+  const std::string variants =
+      "[[variant]]\nname = \"soft\"\ntissue.young_kpa = 60\n[[variant]]\nname = \"weak\"\n"
+      "muscles.gain = { side_R = 0.5 }\n";
+  FaceSession face = session_of(kCoarse + kMuscles + variants);
+  face.run();
+  const std::string stiffer = kCoarse + "viscosity_factor = 2\n" + kMuscles + variants +
+                              "[[variant]]\nname = \"third\"\nmotion.gain = 0.5\n";
+  ASSERT_TRUE(face.set_scene(scene_of(stiffer)));
+  EXPECT_FALSE(face.base_up_to_date()) << "the tissue of base has changed";
+  face.run();
+  FaceSession fresh = session_of(stiffer);
+  fresh.run();
+  ASSERT_EQ(face.faces(), fresh.faces());
+  for (std::size_t f = 0; f < face.faces(); ++f) expect_equal(face.result(f), fresh.result(f));
+  // A variant alone changes: base and the others stay.
+  ASSERT_TRUE(
+      face.set_scene(scene_of(kCoarse + "viscosity_factor = 2\n" + kMuscles +
+                              "[[variant]]\nname = \"weak\"\nmuscles.gain = { side_R = 0.2 }\n")));
+  EXPECT_TRUE(face.base_up_to_date());
+  EXPECT_FALSE(face.up_to_date());
+  EXPECT_FALSE(face.set_scene(scene_of(stiffer + "\n[alignment]\nmethod = \"similarity\"\n")));
+}
+
+TEST(FaceSession, KnowsItsBandsWithTheRunOrOnRequest) {
+  const std::string variant = "[[variant]]\nname = \"soft\"\ntissue.young_kpa = 60\n";
+  FaceSession at_once = session_of(kCoarse + kMuscles + variant, Certainty::with_runs);
+  FaceSession later = session_of(kCoarse + kMuscles + variant);
+  at_once.run();
+  later.run();
+  EXPECT_FALSE(later.certainty_known());
+  later.find_certainty();
+  EXPECT_TRUE(later.certainty_known());
+  at_once.find_certainty();  // the search for landmarks
+  EXPECT_TRUE(at_once.certainty_known());
+  for (std::size_t f = 0; f < 2; ++f) {
+    const auto one = at_once.result(f), other = later.result(f);
+    ASSERT_EQ(one.measures().excursions.pairs.size(), other.measures().excursions.pairs.size());
+    for (std::size_t i = 0; i < one.measures().excursions.pairs.size(); ++i)
+      EXPECT_EQ(one.measures().excursions.pairs[i].mesh_floor_mm,
+                other.measures().excursions.pairs[i].mesh_floor_mm);
+  }
+}
+
+TEST(FaceSession, TakesAFaceAndAMotionFromMemory) {
+  const anatomy::EmbeddedFace embedded = anatomy::embedded_face();
+  Face face;
+  face.scan.mesh = embedded.mesh;
+  face.landmarks = embedded.landmarks;
+  FaceSession session(face, motion::embedded_mouth_opening(embedded.landmarks),
+                      {{"mesh.element_size_mm", 10}, {"mesh.layers", 1}, {"time.frame_rate_hz", 5}},
+                      {.certainty = Certainty::on_request});
+  const FaceResult result = session.run();
+  EXPECT_GT(result.report().lip_gap_mm, 5) << "the mouth opens";
+  session.set("tissue.young_kpa", 500);
+  EXPECT_NO_THROW(session.run());
+  EXPECT_THROW(
+      FaceSession(face, motion::embedded_mouth_opening(embedded.landmarks), {{"mesh.size", 10}}),
+      InputError);
+}
+
+TEST(GivenText, MakesTheSameScene) {
+  for (const char* name : {"demo", "variants", "stiff_cheek", "mouth_open"}) {
+    const scene::Scene scene = scene::read_scene(
+        std::string(HYPEREX_SOURCE_DIR "/examples/") + name + ".toml", {"tissue.poisson=0.4"});
+    const scene::Scene again = scene::read_scene_text(scene::given_text(scene), scene.file);
+    const auto absolute = [](nlohmann::json options) {
+      for (auto& [section, keys] : options.items())
+        if (keys.is_object())
+          for (auto& [key, value] : keys.items())
+            if (value.is_string() && std::filesystem::exists(value.get<std::string>()))
+              value = std::filesystem::absolute(value.get<std::string>()).generic_string();
+      return options;
+    };
+    EXPECT_EQ(absolute(options_json(again)), absolute(options_json(scene))) << name;
+    ASSERT_EQ(again.variants.size(), scene.variants.size()) << name;
+    for (std::size_t i = 0; i < again.variants.size(); ++i)
+      EXPECT_EQ(options_json(again.variants[i].scene)["tissue"],
+                options_json(scene.variants[i].scene)["tissue"]);
+  }
+}
+
+}  // namespace
+}  // namespace hyperex::session

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Notes on sound inputs, and how far these may be spoilt before a warning is given: noted_scenes
+// has a scene for each.
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "apps/good_inputs.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "support/note_matchers.hpp"
+#include "unit/scene/scene_files.hpp"
+
+namespace hyperex::session {
+namespace {
+using test::has_id;
+using test::is_note;
+using test::is_warning;
+using test::says;
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::Not;
+
+class InputNotes : public testing::Test {
+ protected:
+  InputNotes() { write_good_inputs(folder_ / ""); }
+
+  std::vector<Note> notes(const std::vector<std::string>& overrides = {}) const {
+    return read_inputs(scene::read_scene(folder_ / "scene.toml", overrides), Extent::quick).notes;
+  }
+  std::vector<Note> warnings() const { return notes_of(notes(), Severity::warning); }
+  void open(std::size_t first, std::size_t count,
+            const std::function<void(motion::Motion&)>& change) const {
+    write_opening(folder_ / "", first, count, change);
+  }
+
+  scene::SceneFolder folder_;
+};
+
+TEST_F(InputNotes, OfSoundInputsAreNoWarnings) {
+  EXPECT_THAT(warnings(), IsEmpty());
+  EXPECT_THAT(notes(), Contains(AllOf(is_note("recording.timing"), says("0.5 s: 16 samples"))));
+}
+
+TEST_F(InputNotes, KnowSlowRecordingsFromMilliseconds) {
+  open(0, 16, [](motion::Motion& m) {
+    for (double& t : m.time_s) t *= 14;
+  });
+  EXPECT_THAT(warnings(), IsEmpty());
+  open(0, 16, [](motion::Motion& m) {
+    for (double& t : m.time_s) t *= 16;
+  });
+  EXPECT_THAT(warnings(), ElementsAre(is_warning("recording.time_unit_doubtful")));
+}
+
+TEST_F(InputNotes, TakeTwoTenthsOfAMillimetreForMotion) {
+  const auto by = [&](double mm) {
+    open(0, 16, [&](motion::Motion& m) {
+      for (auto& sample : m.positions) sample = m.positions.front();
+      m.positions[8](m.index_of("cheilion_L"), 1) += 1e-3 * mm;
+    });
+  };
+  by(0.03);
+  EXPECT_THAT(warnings(), ElementsAre(is_warning("recording.nothing_moves")));
+  by(0.2);
+  EXPECT_THAT(warnings(), IsEmpty());
+}
+
+TEST_F(InputNotes, NameThePairThatIsExchanged) {
+  for (const auto& [one, other] :
+       {std::pair{"cheilion_L", "cheilion_R"}, {"ibug68_48", "ibug68_54"}}) {
+    open(0, 16, [&, one = std::string(one), other = std::string(other)](motion::Motion& m) {
+      std::swap(m.names[std::size_t(m.index_of(one))], m.names[std::size_t(m.index_of(other))]);
+    });
+    EXPECT_THAT(warnings(),
+                Contains(AllOf(is_warning("sides.exchanged_pair"),
+                               says(std::string(one) + " and " + other), says("the scan"))));
+  }
+}
+
+TEST_F(InputNotes, JudgeByAnAverageFaceWhereLandmarksAreNotKnown) {
+  replace_in(folder_ / "scene.toml", "landmarks = \"face_landmarks.json\"\n", "");
+  EXPECT_THAT(warnings(), IsEmpty());
+  EXPECT_THAT(notes(), AllOf(Contains(is_note("landmarks.not_searched")),
+                             Contains(is_note("recording.checked_by_average_face"))));
+  open(40, 41, [](motion::Motion&) {});
+  EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.starts_in_expression"),
+                                            says("an average face"))));
+}
+
+TEST_F(InputNotes, SayHowBadlyTheRecordingFits) {
+  open(0, 16, [](motion::Motion& m) {
+    for (auto& sample : m.positions) sample *= 1.5;
+  });
+  EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.fits_badly"), says("0.667"))));
+}
+
+TEST_F(InputNotes, NameMisspeltAndOwnLandmarks) {
+  io::Landmarks landmarks = good_landmarks();
+  landmarks["cheilon_L"] = landmarks["cheilion_L"];
+  landmarks.erase("cheilion_L");
+  landmarks["my_own_mark"] = landmarks["nasion"];
+  io::write_landmarks(folder_ / "face_landmarks.json", landmarks, io::LengthUnit::millimetre);
+  EXPECT_THAT(notes(), AllOf(Contains(AllOf(is_warning("landmarks.misspelt"), says("cheilon_L"),
+                                            says("cheilion_L?"))),
+                             Contains(AllOf(is_note("landmarks.unknown"), says("my_own_mark")))));
+}
+
+TEST_F(InputNotes, SayWhereTheJitterIsFrom) {
+  open(0, 81, [](motion::Motion&) {});
+  EXPECT_THAT(notes(), Contains(is_note("recording.no_jitter")));
+  open(0, 81, [](motion::Motion& m) {
+    std::mt19937 generator(1);
+    std::normal_distribution<double> noise(0, 0.2e-3);
+    for (auto& sample : m.positions)
+      for (double& x : sample.reshaped()) x += noise(generator);
+  });
+  const Inputs noisy = read_inputs(scene::read_scene(folder_ / "scene.toml"), Extent::quick);
+  EXPECT_THAT(noisy.notes, Contains(is_note("recording.jitter")));
+  EXPECT_NEAR(1e3 * noisy.jitter_m, 0.2, 0.03);
+  EXPECT_THAT(notes({"output.jitter_mm=0.1"}),
+              AllOf(Contains(AllOf(is_note("recording.jitter_stated"), says("0.10 mm"))),
+                    Not(Contains(has_id("recording.jitter")))));
+}
+
+}  // namespace
+}  // namespace hyperex::session

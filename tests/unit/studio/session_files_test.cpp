@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Opening, saving, and what a crashed session leaves.
+#include <fstream>
+
+#include "hyperex/core/files.hpp"
+#include "support/zip_writer.hpp"
+#include "unit/studio/session_fixture.hpp"
+
+namespace hyperex::studio {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(StudioSession, OpensTheRecordingInAZipAndNothingElse) {
+  const fs::path uploads = folder_.path() / "own" / "uploads";
+  const auto opened = [&](const std::vector<hyperex::test::Zipped>& files) {
+    fs::remove_all(uploads);
+    fs::create_directory(uploads);
+    std::ofstream(uploads / "me.ply") << "ply\n";
+    std::ofstream(uploads / "rec.zip", std::ios::binary) << hyperex::test::zip_of(files);
+    return ask("open", {{"what", "me.ply"}, {"recording", "rec.zip"}}).value("error", "");
+  };
+  const auto names = [&] {
+    std::vector<std::string> out;
+    for (const auto& one : fs::directory_iterator(uploads))
+      out.push_back(one.path().filename().string());
+    return out;
+  };
+  EXPECT_THAT(opened({{"a.txt", "1"}}), HasSubstr("holds no recording"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec.zip"));
+  EXPECT_THAT(opened({{"../../scene.toml", "1"}, {"rgb.txt", ""}}), HasSubstr("leads elsewhere"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec.zip"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "own" / "scene.toml"));
+  EXPECT_THAT(opened({{"talk/rgb.txt", ""}}), HasSubstr("me.ply")) << "the scan is no scan";
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "talk"));
+  EXPECT_THAT(opened({{"rgb.txt", ""}}), HasSubstr("me.ply"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec"));
+}
+
+TEST_F(StudioSession, ASavedSceneOpensAgainFromItsFiles) {
+  open();
+  ask("save", {{"what", "scene"}, {"name", "mine"}});
+  const fs::path mine = folder_.path() / "mine", uploads = folder_.path() / "own" / "uploads";
+  fs::copy(mine / "mine.toml", uploads / "mine.toml");
+  EXPECT_THAT(ask("open", {{"what", "mine.toml"}})["error"].get<std::string>(),
+              HasSubstr("open that file together with it"));
+  fs::copy(mine / "mine_files" / "smile_arkit.csv", uploads / "smile_arkit.csv");
+  EXPECT_FALSE(ask("open", {{"what", "mine.toml"}}).contains("error"));
+}
+
+TEST_F(StudioSession, WritesOverNothingThatItDidNotWrite) {
+  open();
+  std::ofstream(folder_.path() / "mine" / "theirs.toml") << "mine";
+  EXPECT_THAT(ask("save", {{"what", "scene"}, {"name", "theirs"}})["error"].get<std::string>(),
+              HasSubstr("is there already"));
+  EXPECT_EQ(read_file(folder_.path() / "mine" / "theirs.toml"), "mine");
+  fs::create_directory(folder_.path() / "mine" / "theirs-2");
+  EXPECT_EQ(ask("free_name", {{"name", "theirs"}})["name"], "theirs-3");
+  EXPECT_EQ(ask("free_name", {{"name", "nobody's"}}).contains("error"), true);
+  EXPECT_EQ(ask("free_name", {{"name", "ours"}})["name"], "ours");
+  for (const char* name : {"../x", "a/b", ".x", ""})
+    EXPECT_TRUE(ask("save", {{"what", "scene"}, {"name", name}}).contains("error")) << name;
+  for (int i = 0; i < 2; ++i)
+    EXPECT_FALSE(ask("save", {{"what", "scene"}, {"name", "ours"}}).contains("error"));
+  EXPECT_EQ(ask("free_name", {{"name", "ours"}})["name"], "ours") << "which may be written again";
+  EXPECT_FALSE(ask("save", {{"what", "landmarks"}, {"name", "marks"}}).contains("error"));
+  EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "marks.mrk.json"));
+}
+
+TEST(StudioSessionLeftovers, AreDeletedWhenAskedButNotWhileTheyAreOpen) {
+  const test::OwnFolder folder;
+  SessionOptions options;
+  options.save_into = options.folder = folder.path();
+  options.rescued = folder.path() / "left";
+  fs::create_directories(options.rescued);
+  fs::create_directories(options.folder / "uploads");
+  std::ofstream(options.rescued / "scene.toml")
+      << "scan.file = \"embedded\"\nmotion.file = \"embedded\"\n";
+  std::vector<json> answers;
+  Session session(options, [&](const std::string& message, bool binary, const std::string&) {
+    if (!binary && json::parse(message).contains("answer")) answers.push_back(json::parse(message));
+  });
+  session.answer({1, "open", {{"what", "autosave"}}});
+  session.answer({2, "discard_autosave", json::object()});
+  EXPECT_THAT(answers.back().value("error", ""), HasSubstr("is open"));
+  session.answer({3, "open", {{"what", "embedded"}}});
+  session.answer({4, "discard_autosave", json::object()});
+  EXPECT_FALSE(answers.back().contains("error")) << answers.back();
+  EXPECT_FALSE(fs::exists(options.rescued));
+  EXPECT_FALSE(session.keeps_rescued());
+  session.answer({5, "discard_autosave", json::object()});
+  EXPECT_TRUE(answers.back().contains("error"));
+  session.answer({6, "hello", {{"token", ""}, {"version", 1}}});
+  EXPECT_TRUE(answers.back()["places"]["autosave"].is_null());
+}
+
+TEST_F(StudioSession, WhatIsDoneLiesInItsFolderAtOnce) {
+  open();
+  set({{"tissue.young_kpa", 151}}, 0);
+  EXPECT_THAT(read_file(folder_.path() / "own" / "scene.toml"), HasSubstr("young_kpa = 151"));
+}
+
+}  // namespace
+}  // namespace hyperex::studio

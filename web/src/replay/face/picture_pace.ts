@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How finely pictures are drawn. Without a graphics processor, pictures in motion have few pixels, and the last one is
+// drawn once more with all.
+import { drawsInSoftware } from '../software_gl';
+
+/** So many late pictures in a row: from then on those in motion stay coarse, as changing back and forth would show. */
+const lateInARow = 3;
+
+export class PicturePace {
+  readonly software = drawsInSoftware();
+  /** More live shapes follow as fast as they are drawn, computed by the same processor. */
+  streaming = false;
+  private drawnAt = 0;
+  private late = 0;
+  private timer = 0;
+
+  /** Pixels of the picture for each of the page's. */
+  get ratio(): number {
+    if (!this.software) return Math.min(window.devicePixelRatio, 2);
+    return this.late < lateInARow && !this.streaming ? 1 : 0.7;
+  }
+
+  /** After a picture that was begun at `time`, ms. `refine` is called when no other follows. */
+  drawn(time: number, playing: boolean, live: boolean, refine: () => void): void {
+    const gap = time - this.drawnAt;
+    this.drawnAt = time;
+    if (this.late < lateInARow) this.late = (playing || live) && gap > 50 && gap < 400 ? this.late + 1 : 0;
+    this.stop();
+    // A hand that rests on a slider soon goes on.
+    if (!playing) this.timer = window.setTimeout(refine, live ? 700 : 150);
+  }
+
+  stop(): void {
+    clearTimeout(this.timer);
+  }
+}

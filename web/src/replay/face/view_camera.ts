@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The camera, how it fits the face into the stage, and how it moves around the face.
+import { PerspectiveCamera, Spherical, Vector3, type Box3 } from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+
+export type View = 'front' | 'three-quarter' | 'left' | 'right';
+
+const yawDegrees: Record<View, number> = { front: 0, 'three-quarter': 38, left: 90, right: -90 };
+const radians = (degrees: number) => (degrees * Math.PI) / 180;
+
+export class ViewCamera {
+  readonly camera = new PerspectiveCamera(24, 1, 0.01, 10);
+  readonly controls: OrbitControls;
+  private readonly centre = new Vector3();
+  private readonly size = new Vector3();
+
+  /** `room`: what must be visible, m. `moved` is called after each movement. */
+  constructor(canvas: HTMLCanvasElement, room: Box3, private readonly moved: () => void) {
+    room.getCenter(this.centre);
+    room.getSize(this.size);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.addEventListener('change', moved);
+  }
+
+  lookFrom(view: View): void {
+    const yaw = radians(yawDegrees[view]);
+    const from = new Vector3(Math.sin(yaw), 0.04, Math.cos(yaw)).normalize();
+    this.camera.position.copy(this.centre).addScaledVector(from, this.distance());
+    this.controls.target.copy(this.centre);
+    this.update();
+  }
+
+  /** Moves around the face, to its left and up; degrees. */
+  turn(yaw: number, pitch: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const at = new Spherical().setFromVector3(offset);
+    at.theta += radians(yaw);
+    at.phi = Math.min(Math.max(at.phi - radians(pitch), 0.05), Math.PI - 0.05);
+    this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(at));
+    this.update();
+  }
+
+  zoom(factor: number): void {
+    const { target } = this.controls;
+    this.camera.position.sub(target).divideScalar(factor).add(target);
+    this.update();
+  }
+
+  /** For a picture of another shape: nearer or farther, in the same direction. */
+  fit(aspect: number): void {
+    const before = this.distance();
+    this.camera.aspect = aspect;
+    this.camera.updateProjectionMatrix();
+    this.zoom(before / this.distance());
+  }
+
+  /** From where the face fills the picture, m. */
+  private distance(): number {
+    const half = Math.max(this.size.y, this.size.x / Math.max(this.camera.aspect, 0.1)) / 2;
+    return (1.06 * half) / Math.tan(radians(this.camera.fov) / 2) + this.size.z / 4;
+  }
+
+  private update(): void {
+    this.controls.update();
+    this.moved();
+  }
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The studio's page with a made-up face and a server of a few lines: neither the program nor a build is needed.
+import { readFile } from 'node:fs/promises';
+import { script } from './modules.mjs';
+
+const address = 'http://127.0.0.1:8123/';
+const side = 9;
+
+/** Collects arrays as a binary message has them. */
+class Block {
+  parts = [];
+  length = 0;
+  add(type, values) {
+    const bytes = Buffer.from(values.buffer, values.byteOffset, values.byteLength);
+    const at = { type, offset: this.length, count: values.length };
+    const padded = Buffer.alloc(Math.ceil(bytes.length / 8) * 8);
+    bytes.copy(padded);
+    this.parts.push(padded);
+    this.length += padded.length;
+    return at;
+  }
+}
+
+function binary(head, block) {
+  const text = Buffer.from(JSON.stringify(head));
+  const out = Buffer.alloc(Math.ceil((4 + text.length) / 8) * 8);
+  out.writeUInt32LE(text.length);
+  text.copy(out, 4);
+  return Buffer.concat([out, ...block.parts]);
+}
+
+/** A dome of 16 cm, each vertex with its mirror image. */
+function skin() {
+  const points = new Float32Array(3 * side * side);
+  const mirror = new Int32Array(3 * side * side).fill(-1);
+  const triangles = [];
+  for (let j = 0; j < side; ++j)
+    for (let i = 0; i < side; ++i) {
+      const [v, x, y] = [side * j + i, (i / (side - 1) - 0.5) * 0.16, (j / (side - 1) - 0.5) * 0.16];
+      points.set([x, y, 0.08 - 5 * (x * x + y * y)], 3 * v);
+      mirror[3 * v] = side * j + side - 1 - i;
+      if (i + 1 < side && j + 1 < side) triangles.push(v, v + 1, v + side, v + 1, v + side + 1, v + side);
+    }
+  return { points, triangles: new Int32Array(triangles), mirror };
+}
+
+/** Of base, or a variant of the same motion. */
+function motionOf(block, { points }) {
+  const values = new Int16Array(points.length);
+  for (let v = 0; v < points.length; v += 3) values[v + 1] = 1000;
+  const modes = [{ step_m: 1e-6, values: block.add('int16', values) }];
+  return { modes, weights: block.add('float32', new Float32Array([0, 1, 2])) };
+}
+
+function replayOf(block, { faces, remarks }) {
+  const { points, triangles, mirror } = skin();
+  const names = ['cheilion_L', 'cheilion_R', 'endocanthion_L', 'endocanthion_R'];
+  const at = [[0.02, -0.03, 0.07], [-0.02, -0.03, 0.07], [0.02, 0.03, 0.07], [-0.02, 0.03, 0.07]];
+  const landmarks = () => block.add('float32', new Float32Array([0, 1, 2].flatMap(() => at.flat())));
+  const { modes, weights } = motionOf(block, { points });
+  return {
+    version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), peak_time_s: 1 },
+    palette: { light: ['#147', '#a40'], dark: ['#8bf', '#fb8'], left: 0, right: 1, faces: [0, 1] },
+    scan_vertices: side * side,
+    skin: { points: block.add('float32', points), triangles: block.add('int32', triangles) },
+    motion: { time_s: [0, 0.5, 1], peak_frame: 2, modes, weights, max_error_mm: 0, max_displacement_mm: 2 },
+    landmarks: { names, time_s: [0, 0.5, 1], positions: landmarks() },
+    driven: { names: ['cheilion_L'], points: [at[0]] }, held: [at[2]], lip_cut: [], symmetry: null,
+    mirror: { normal: [1, 0, 0], vertices: block.add('int32', mirror), weights: block.add('uint8', new Uint8Array(mirror.length).fill(255)) },
+    point_words: {}, openings: [], eyeballs: [{ centre: [0.03, 0.03, 0.05], gaze: [0, 0, 1], radius_m: 0.012 }],
+    variants: faces.slice(1).map(({ name }) => ({
+      name, changes: [], difference: { ...motionOf(block, { points }), max_error_mm: 0 },
+      max_displacement_mm: 2, max_difference_mm: 1, max_difference_frame: 2, symmetry: null, landmarks: landmarks(), tissue: [],
+    })),
+  };
+}
+
+const muscles = [['zyg_major', 'zygomatic'], ['frontal_med', 'temporal']].map(([name, branch]) => ({ name, latin: name, group: branch, branch }));
+const key = (name, unit, low, high, value) => ({ name, kind: 'number', unit, low, high, choices: [], default: value, description: name });
+const keys = [
+  key('tissue.young_kpa', 'kPa', 0, 1e4, 150), key('tissue.viscosity_pa_s', 'Pa s', 0, 1e4, 100), key('tissue.poisson', '', 0, 0.5, 0.45),
+  key('tissue.density_kg_m3', 'kg/m^3', 0, 1e4, 1000), key('mesh.thickness_mm', 'mm', 0, 40, 0), key('motion.gain', '', 0, 5, 1),
+];
+const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => [name, value])), 'muscles.gain': {}, 'tissue.region': [] };
+
+/** What a session does with requests, as far as the page needs it. `remarksOf(faces)`: those on its motion. */
+class Session {
+  faces = [{ name: 'base', values: defaults }];
+  requests = [];
+  constructor(socket, remarksOf) {
+    Object.assign(this, { socket, remarksOf });
+    socket.onMessage((text) => this.answer(JSON.parse(text)));
+  }
+  send(message) {
+    this.socket.send(JSON.stringify(message));
+  }
+  scene() {
+    this.send({
+      event: 'scene', title: 'Made up', values: this.faces.map(({ values }) => values), faces: this.faces.map(({ name }) => ({ name, changes: {} })),
+      drive: 'muscles', drive_why: 'the scene says so', can_undo: false, can_redo: false, saved: true, text: JSON.stringify(this.faces),
+    });
+  }
+  moved(event) {
+    const block = new Block();
+    const replay = replayOf(block, { faces: this.faces, remarks: this.remarksOf(this.faces) });
+    const head = event === 'face'
+      ? { landmarks: [], muscles: { muscles, names: [] }, thickness: block.add('float32', new Float32Array(side * side).fill(8)) }
+      : { table: [], seconds: 0.1, bands: false };
+    this.socket.send(binary({ event, replay, activations: null, ...head }, block));
+  }
+  answer({ id, do: name, ...fields }) {
+    this.requests.push({ name, ...fields });
+    const answers = {
+      hello: () => ({ program: 'made up', keys, presets: [], tissues: [], regions: [{ name: 'cheek', meaning: 'the cheek' }], places: { folder: '/', open: true } }),
+      add_variant: () => ({ face: this.faces.push({ name: fields.name, values: this.faces[fields.like].values }) - 1 }),
+      set: () => {
+        const face = this.faces[fields.face];
+        if (!fields.live) face.values = { ...face.values, ...fields.changes };
+        return { superseded: false };
+      },
+      paint: () => ({ file: `painted-${this.requests.length}.csv` }),
+    };
+    this.send({ answer: id, ...answers[name]?.() });
+    if (name === 'region_shares') return;
+    if (name === 'hello' || !fields.live) this.scene();
+    if (name === 'hello' || (name === 'set' && !fields.live)) this.moved(name === 'hello' ? 'face' : 'motion');
+  }
+}
+
+/** Opens the page; ready once the face is drawn. */
+export async function openMadeUp(browser, remarksOf) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce' });
+  const page = await context.newPage();
+  page.setDefaultTimeout(90_000);
+  const complaints = [];
+  page.on('console', (message) => {
+    if (/GPU stall due to ReadPixels|readback operations/.test(message.text())) return;
+    if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(String(error.stack)));
+  const html = await readFile(new URL('../studio.html', import.meta.url), 'utf8');
+  const code = await script('studio/main.ts', 'studio');
+  await page.route(address, (route) => route.fulfill({ contentType: 'text/html', body: html.replace(/<script.*<\/script>/, '<script src="code.js"></script>') }));
+  await page.route(`${address}code.js`, (route) => route.fulfill({ contentType: 'text/javascript', body: code }));
+  let session = null;
+  await page.routeWebSocket(/socket/, (socket) => (session = new Session(socket, remarksOf)));
+  await page.goto(`${address}#token`);
+  await page.waitForSelector('html[data-ready]').catch((error) => {
+    throw new Error([error.message, ...complaints].join('\n'));
+  });
+  return { page, complaints, session: () => session, close: () => context.close() };
+}

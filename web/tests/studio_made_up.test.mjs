@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The studio's page on a made-up face with a made-up server: what must hold whatever the program computes.
+import assert from 'node:assert/strict';
+import { after, before, describe, test } from 'node:test';
+import { launch } from './browser.mjs';
+import { openMadeUp } from './made_up_studio.mjs';
+
+const id = 'variant.muscle_hardly_used';
+const weak = (face) => 'frontal_med_R' in face.values['muscles.gain'];
+/** As the program: a variant that changes a muscle which the recording hardly uses. */
+const remarksOf = (faces) => faces.slice(1).filter(weak)
+  .map(({ name }) => ({ id, severity: 'warning', text: `variant ${name}: hardly known`, key: 'muscles.gain', variant: name }));
+
+describe('the studio with a made-up face', { concurrency: false }, () => {
+  let browser;
+  before(async () => (browser = await launch()));
+  after(() => browser?.close());
+
+  test('a strength that the recording hardly uses: the warning stands beside its slider, and describes it', async () => {
+    const { page, complaints, close } = await openMadeUp(browser, remarksOf);
+    const slider = page.locator('[data-gain=frontal_med_R]');
+    await slider.evaluate((input) => (input.closest('details').open = true));
+    await slider.focus();
+    await page.keyboard.press('PageDown');
+    const beside = page.locator(`#panel-muscles [data-note-id="${id}"]`);
+    await beside.waitFor();
+    assert.equal(await beside.evaluate((note) => note.parentElement.querySelector('input').dataset.gain), 'frontal_med_R', 'in the row of the muscle');
+    assert.equal(await slider.getAttribute('aria-describedby'), await beside.getAttribute('id'));
+    assert.equal(await page.locator('[aria-describedby]').count(), 1, 'it describes no other control');
+    assert.equal(await page.locator(`#messages-panel [data-note-id="${id}"]`).count(), 1);
+    assert.equal(await page.locator('#tab-muscles.has-remark').count(), 1);
+    // Base has no such warning.
+    await page.locator('[data-mode=single]').dispatchEvent('click');
+    await page.locator('#tabs .tab-name').first().dispatchEvent('click');
+    await beside.waitFor({ state: 'detached' });
+    assert.equal(await slider.getAttribute('aria-describedby'), null);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('a stroke of the brush is painted, sent and shown as a patch', async () => {
+    const { page, complaints, session, close } = await openMadeUp(browser, () => []);
+    await page.locator('#tab-paint').dispatchEvent('click');
+    const { x, y, width, height } = await page.locator('#face').boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 20, y + height / 2, { steps: 3 });
+    await page.mouse.up();
+    await page.waitForFunction(() => document.getElementById('paint-patch').options.length === 2);
+    const painted = session().requests.find(({ name }) => name === 'paint');
+    assert.ok(painted.vertices.length > 0 && painted.shares.every((share) => share > 0 && share <= 1));
+    assert.deepEqual(session().faces[1].values['tissue.region'].map(({ young_factor: factor }) => factor), [3]);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+});

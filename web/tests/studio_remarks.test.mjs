@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Warnings of the program beside the control that causes them: its own server and page in Chromium. By id, not by sentence.
+//   HYPEREX=build/release/bin/hyperex node --test web/tests/studio_remarks.test.mjs
+import assert from 'node:assert/strict';
+import { after, before, describe, test } from 'node:test';
+import { launch } from './browser.mjs';
+import { openStudio, program, startStudio } from './studio_server.mjs';
+
+const skip = program() ? false : 'the program is not built';
+const id = 'variant.muscle_hardly_used';
+/** The smile needs next to nothing of it. */
+const muscle = 'frontal_med_R';
+
+describe('remarks in the studio', { skip, concurrency: false }, () => {
+  let browser;
+  before(async () => (browser = await launch()));
+  after(() => browser?.close());
+
+  test('a strength that the recording hardly uses: the warning stands beside its slider and goes with it', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    const slider = page.locator(`[data-gain=${muscle}]`);
+    const settled = () => page.waitForFunction(() => document.documentElement.dataset.current === 'true');
+    const beside = page.locator(`#panel-muscles [data-note-id="${id}"]`);
+    await slider.evaluate((input) => (input.closest('details').open = true));
+    assert.equal(await beside.count(), 0);
+    await slider.focus();
+    for (let i = 0; i < 3; ++i) await page.keyboard.press('PageDown');
+    await page.waitForFunction((name) => document.getElementById('scene-text').textContent.includes(`"${name}" = 0.4`), muscle);
+    await settled();
+    await beside.waitFor();
+    assert.equal(await beside.evaluate((note) => note.parentElement.querySelector('input').dataset.gain), muscle, 'in the row of the muscle');
+    assert.equal(await slider.getAttribute('aria-describedby'), await beside.getAttribute('id'));
+    assert.equal(await page.locator('[aria-describedby]').count(), 1, 'it describes no other control');
+    assert.equal(await page.locator(`#messages-panel [data-note-id="${id}"]`).count(), 1);
+    assert.ok(await page.locator('#tab-muscles.has-remark').count());
+
+    // Base has no such warning, and neither has the variant once the strength is as it was.
+    await page.click('#tabs .tab-name >> nth=0');
+    await page.evaluate(() => document.querySelector('[data-mode=single]').click());
+    await beside.waitFor({ state: 'detached' });
+    assert.equal(await slider.getAttribute('aria-describedby'), null);
+    await page.click('#tabs .tab-name >> nth=1');
+    await beside.waitFor();
+    await page.keyboard.press('Control+z');
+    await settled();
+    await beside.waitFor({ state: 'detached' });
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+});
