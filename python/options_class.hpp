@@ -40,7 +40,8 @@ inline std::string literal(const std::vector<std::string>& words) {
   return fmt::format("Literal[\"{}\"]", fmt::join(words, "\", \""));
 }
 
-/// What a type checker is told of a field of type V; of a class of ours its name.
+/// The type annotation of a field of type V, as written in the stub file. A class of this module is
+/// named by its Python name.
 template <class V>
 std::string type_name() {
   if constexpr (std::is_same_v<V, bool>)

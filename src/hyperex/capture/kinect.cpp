@@ -108,7 +108,8 @@ class Kinect : public FrameSource {
       throw;
     }
   }
-  /// Looked up in the list of modes: a driver may end the program when a mode is set that it lacks.
+  /// Sets a mode from the device's own list of modes. Some drivers abort the program when asked for
+  /// a mode that they do not support.
   void choose_depth_mode() {
     const auto set = [&](freenect_depth_format format) {
       for (int i = 0; i < freenect_get_depth_mode_count(); ++i) {

@@ -11,8 +11,8 @@
 
 namespace hyperex::scene {
 
-/// A key without kind and choices. The prefixes are those of the struct it is in, and `about` what
-/// is said of that.
+/// The name, unit, bounds and description of a key; its kind and allowed words are set later. The
+/// prefixes come from the struct that holds the member. `about` is that struct's own description.
 KeyInfo info_of(const std::string& member, const std::string& sentence,
                 const OptionDetails& details, const std::string& key_prefix,
                 const std::string& member_prefix, const std::string& about);
@@ -145,7 +145,8 @@ Field<Owner> factors_field(KeyInfo info, Reach<Owner, std::vector<Row>> reach) {
   return field;
 }
 
-/// The visitor that makes keys of what a struct within `Owner` describes. `Outer` returns it.
+/// A visitor that turns each described member of a struct into a key. The struct is a part of
+/// `Owner`; `Outer` is the function that returns it from an `Owner`.
 template <class Owner, class Outer>
 class KeyMaker {
  public:

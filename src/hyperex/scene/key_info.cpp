@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is said of keys: what is expected of their values, and what was given.
+// Texts about keys for messages and the reference page: which values are expected, and the value
+// that was given.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -174,7 +174,7 @@ struct TeethOptions {
 
 struct OutputOptions {
   bool vtu = true, glb = true, report = true;
-  int vtu_every = 1;              ///< every so many frames
+  int vtu_every = 1;              ///< write every n-th frame
   bool vtu_strain = true;         ///< the strain tensor in them
   bool variants_vtu = false;      ///< frames of each variant too
   double glb_tolerance_m = 1e-4;  ///< of any vertex in any frame

@@ -33,9 +33,7 @@ void FaceSession::Impl::note_base() {
 }
 
 std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {
-  std::vector<Note> out;
-  for (const Note& note : inputs.notes)
-    if (note.severity == severity) out.push_back(note);
+  std::vector<Note> out = notes_of(inputs.notes, severity);
   if (severity == Severity::note) out.push_back(drive.note());
   return out;
 }
@@ -57,9 +55,7 @@ std::vector<Note> FaceSession::notes() const {
 }
 
 std::vector<Note> FaceSession::warnings() const {
-  std::vector<Note> all = notes();
-  std::erase_if(all, [](const Note& note) { return note.severity != Severity::warning; });
-  return all;
+  return notes_of(notes(), Severity::warning);
 }
 
 }  // namespace hyperex::session

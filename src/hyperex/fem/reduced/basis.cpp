@@ -8,9 +8,11 @@
 
 namespace hyperex::fem {
 namespace {
-/// A growth takes at least this many directions, even where they move only a hundredth of what is
-/// wanted (less may be rounding). Where the basis converges slowly, a growth by one or two changes
-/// the motion by less than what is missing, and would give a false estimate of the error.
+/// The least number of directions added each time the basis grows. They are added even if each
+/// contributes only a hundredth of the tolerance; smaller contributions may be rounding. The error
+/// is estimated from how much the last growth changed the motion. When the basis converges slowly,
+/// one or two directions change it by less than the remaining error, and the estimate would be too
+/// small.
 constexpr Eigen::Index kAtLeast = 6;
 }  // namespace
 

@@ -18,8 +18,8 @@ constexpr double kMostGrowth = 2.0 + 1e-9;
 constexpr double kNoResidual = 1e-9;
 /// Share of the rounding in the terms of an energy.
 constexpr double kEnergyNoise = 1e-11;
-/// A correction of less than this many tolerances that is no smaller than the one before it is no
-/// reason for a new factor, so many times.
+/// If a correction is not smaller than the previous one, the matrix is factored again. Corrections
+/// below kSmall tolerances are exempt: up to kForgiven of them are accepted with the old factor.
 constexpr double kSmall = 10;
 constexpr int kForgiven = 2;
 constexpr int kBacktracks = 12;
