@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/scene/given_text.hpp"
 
+#include <algorithm>
+
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/scene_text.hpp"
 
@@ -19,15 +21,15 @@ void make_absolute(const KeyInfo& info, json& value) {
       if (row.contains(column.name)) make_absolute(column, row[column.name]);
 }
 
-void put(json& root, const std::string& key, json value) {
+}  // namespace
+
+void put_value(json& table, const std::string& key, json value) {
   const std::string section = section_of(key);
   if (section.empty())
-    root[key] = std::move(value);
+    table[key] = std::move(value);
   else
-    root[section][key.substr(section.size() + 1)] = std::move(value);
+    table[section][key.substr(section.size() + 1)] = std::move(value);
 }
-
-}  // namespace
 
 std::string given_text(const Scene& scene) {
   json root = json::object();
@@ -35,7 +37,7 @@ std::string given_text(const Scene& scene) {
     if (!scene.origins.contains(key.name)) continue;
     json value = key.get(scene);
     make_absolute(key, value);
-    put(root, key.name, std::move(value));
+    put_value(root, key.name, std::move(value));
   }
   json variants = json::array();
   for (const Variant& variant : scene.variants) {
@@ -46,7 +48,7 @@ std::string given_text(const Scene& scene) {
         value = known->get(variant.scene);
         make_absolute(*known, value);
       }
-      put(block, key, std::move(value));
+      put_value(block, key, std::move(value));
     }
     variants.push_back(std::move(block));
   }

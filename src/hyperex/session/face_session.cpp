@@ -2,6 +2,7 @@
 // From the inputs to a face that is ready to run, and what it holds.
 #include "hyperex/session/face_session.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "hyperex/core/error.hpp"
@@ -177,6 +178,10 @@ void FaceSession::Impl::keep_variants(std::vector<VariantRun> before,
     }
   }
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].options = options[i];
+  std::erase_if(variant_notes, [&](const Note& note) {
+    return std::none_of(runs.begin(), runs.end(),
+                        [&](const VariantRun& run) { return run.scene.title == note.variant; });
+  });
 }
 
 /// Made where a face first asks for them, as a grid of distances takes a moment.

@@ -53,15 +53,6 @@ const scene::Key& known_key(const std::string& name) {
   throw InputError(InputProblem{{}, 0, name, "", scene::unknown_key(name)});
 }
 
-/// {"tissue.young_kpa": 300} as a table [[variant]] has it: {"tissue": {"young_kpa": 300}}.
-void put(json& block, const std::string& key, const json& value) {
-  const std::string section = scene::section_of(known_key(key).name);
-  if (section.empty())
-    block[key] = value;
-  else
-    block[section][key.substr(section.size() + 1)] = value;
-}
-
 json parsed(const Value& value) {
   return json::parse(value.json());
 }
@@ -133,7 +124,8 @@ SceneSource SceneSource::with_variant(const std::string& name, const Changes& ch
   std::vector<json> blocks = scene::variant_blocks(next.text_);
   json& block = block_of(blocks, name);
   block = {{"name", name}};
-  for (const auto& [key, value] : changes) put(block, key, parsed(value));
+  for (const auto& [key, value] : changes)
+    scene::put_value(block, known_key(key).name, parsed(value));
   next.text_ = scene::with_variants(next.text_, blocks);
   next.read();
   return next;
@@ -151,7 +143,7 @@ SceneSource SceneSource::with_change(const std::string& name, const std::string&
   SceneSource next = *this;
   next.text_ = text_now();
   std::vector<json> blocks = scene::variant_blocks(next.text_);
-  put(block_of(blocks, name), part.key, whole);
+  scene::put_value(block_of(blocks, name), part.key, whole);
   next.text_ = scene::with_variants(next.text_, blocks);
   next.read();
   return next;

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
@@ -136,6 +138,19 @@ TEST(FaceSession, OtherScenesOfTheFaceGiveWhatAFreshSessionGives) {
   EXPECT_TRUE(face.base_up_to_date());
   EXPECT_FALSE(face.up_to_date());
   EXPECT_FALSE(face.set_scene(scene_of(stiffer + "\n[alignment]\nmethod = \"similarity\"\n")));
+}
+
+TEST(FaceSession, ForgetsTheWarningsOfAVariantThatIsGone) {
+  const auto idle = [](const FaceSession& face) {
+    return std::ranges::count(face.warnings(), "variant.no_effect", &Note::id);
+  };
+  FaceSession face =
+      session_of(kCoarse + kMuscles + "[[variant]]\nname = \"same\"\ntissue.young_kpa = 100\n");
+  face.run();
+  EXPECT_EQ(idle(face), 1);
+  ASSERT_TRUE(face.set_scene(scene_of(kCoarse + kMuscles)));
+  face.run();
+  EXPECT_EQ(idle(face), 0);
 }
 
 TEST(FaceSession, KnowsItsBandsWithTheRunOrOnRequest) {
