@@ -112,32 +112,37 @@ TEST_P(FaultyVariant, IsRefusedInOneLineBeforeAnythingIsSimulated) {
 INSTANTIATE_TEST_SUITE_P(
     Variant, FaultyVariant,
     testing::Values(
-        VariantFault{"Point", "drive = { points = [\"nobody\"] }\n",
-              "drive.points = [\"nobody\"]: expected names of points in the recording embedded "
-              "motion (nobody is none)"},
-        VariantFault{"Region", "tissue = { region = [{ name = \"cheek_Q\", young_factor = 2 }] }\n",
-              "tissue.region[0].name = \"cheek_Q\": expected the name of a region (hyperex presets "
-              "lists "
-              "them); did you mean cheek?"},
-        VariantFault{"SideOfARegion",
-              "tissue = { region = [{ name = \"right_cheek\", young_factor = 2 }] }\n",
-              "tissue.region[0].name = \"right_cheek\": expected the name of a region (hyperex "
-              "presets "
-              "lists them); did you mean cheek_R?"},
-        VariantFault{"Side",
-              "tissue = { point = [{ landmark = \"cheek_R\", side = \"L\", young_kpa = 5 }] }\n",
-              "tissue.point[0].side = \"L\": expected \"R\" or none"},
+        VariantFault{
+            "Point", "drive = { points = [\"nobody\"] }\n",
+            "drive.points = [\"nobody\"]: expected names of points in the recording embedded "
+            "motion (nobody is none)"},
+        VariantFault{
+            "Region", "tissue = { region = [{ name = \"cheek_Q\", young_factor = 2 }] }\n",
+            "tissue.region[0].name = \"cheek_Q\": expected the name of a region (hyperex presets "
+            "lists "
+            "them); did you mean cheek?"},
+        VariantFault{
+            "SideOfARegion",
+            "tissue = { region = [{ name = \"right_cheek\", young_factor = 2 }] }\n",
+            "tissue.region[0].name = \"right_cheek\": expected the name of a region (hyperex "
+            "presets "
+            "lists them); did you mean cheek_R?"},
+        VariantFault{
+            "Side",
+            "tissue = { point = [{ landmark = \"cheek_R\", side = \"L\", young_kpa = 5 }] }\n",
+            "tissue.point[0].side = \"L\": expected \"R\" or none"},
         VariantFault{
             "Empty",
             "tissue = { region = [{ scar_points_mm = [[500, 0, 0], [510, 0, 0]], young_factor = 2 "
             "}] }\n",
             "tissue.region[0].scar_points_mm"},
-        VariantFault{"Indefinite", "tissue = { region = [{ name = \"cheek_R\", poisson_factor = 2 }] }\n",
-              "tissue.region[0].poisson_factor = 2.0: expected Poisson's ratio to stay from"},
+        VariantFault{
+            "Indefinite", "tissue = { region = [{ name = \"cheek_R\", poisson_factor = 2 }] }\n",
+            "tissue.region[0].poisson_factor = 2.0: expected Poisson's ratio to stay from"},
         VariantFault{"Negative", "tissue = { young_kpa = -3 }\n",
-              "tissue.young_kpa = -3: expected a number from 0.001"},
+                     "tissue.young_kpa = -3: expected a number from 0.001"},
         VariantFault{"NotToVary", "mesh = { layers = 3 }\n",
-              "mesh.layers = 3: expected a key of what may vary"}),
+                     "mesh.layers = 3: expected a key of what may vary"}),
     [](const auto& fault) { return std::string(fault.param.name); });
 
 }  // namespace
