@@ -3,7 +3,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <functional>
 #include <optional>
 
 #include "hyperex/core/files.hpp"
@@ -16,6 +15,7 @@
 #include "hyperex/run/summary.hpp"
 #include "hyperex/run/variants.hpp"
 #include "hyperex/scene/file_names.hpp"
+#include "hyperex/session/face_session.hpp"
 #include "hyperex/session/log_note.hpp"
 #include "hyperex/session/remarks_json.hpp"
 #include "hyperex/session/variants.hpp"
@@ -109,39 +109,22 @@ Json write_into(session::FaceSession& session, Stopwatch& total,
   return summary;
 }
 
-/// `write` gets the folder that becomes `directory` when it is done.
-Json into(const std::filesystem::path& directory, const scene::Scene& scene,
-          const std::function<Json(const std::filesystem::path&)>& write) {
-  OutputDirectory out(directory, files_of_earlier_run, files_named_by(scene));
-  try {
-    Json summary = write(out.path());
-    out.commit();
-    return summary;
-  } catch (const InputError& error) {
-    throw InputError(out.with_own_name(error.what()));
-  }
-}
-
 }  // namespace
 
 Json run_scene(const scene::Scene& scene, const std::filesystem::path& directory) {
-  return into(directory, scene, [&](const std::filesystem::path& folder) {
+  OutputDirectory out(directory, files_of_earlier_run, files_named_by(scene));
+  try {
     Stopwatch total;
     session::FaceSession session(scene, {.note = session::log_note});
     const tissue::TissueMesh& mesh = session.mesh();
     spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
                  mesh.volume.tets.rows(), mesh.skin.points.rows());
-    return write_into(session, total, folder);
-  });
-}
-
-Json write_run(session::FaceSession& session, const std::filesystem::path& directory) {
-  return into(directory, session.scene(), [&](const std::filesystem::path& folder) {
-    Stopwatch total;
-    session.run();
-    session.find_certainty();  // before the files that state it
-    return write_into(session, total, folder);
-  });
+    Json summary = write_into(session, total, out.path());
+    out.commit();
+    return summary;
+  } catch (const InputError& error) {
+    throw InputError(out.with_own_name(error.what()));
+  }
 }
 
 }  // namespace hyperex::run

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "hyperex/scene/scene.hpp"
-#include "hyperex/session/face_session.hpp"
 
 namespace hyperex::run {
 
@@ -12,9 +11,5 @@ namespace hyperex::run {
 /// at all. What was found is logged. Returns the summary (summary.json). Throws InputError,
 /// NumericalError.
 nlohmann::ordered_json run_scene(const scene::Scene& scene, const std::filesystem::path& directory);
-
-/// Runs what is not up to date in a session and writes all outputs in the same way.
-nlohmann::ordered_json write_run(session::FaceSession& session,
-                                 const std::filesystem::path& directory);
 
 }  // namespace hyperex::run

@@ -52,10 +52,4 @@ DriveChoice drive_choice(const scene::Scene& scene, const Inputs& inputs) {
              : chosen(DriveBy::muscles, what + ", as by muscles");
 }
 
-void choose_drive(scene::Scene& scene, Inputs& inputs) {
-  const DriveChoice choice = drive_choice(scene, inputs);
-  scene.drive.by = choice.by;
-  inputs.notes.push_back(choice.note());
-}
-
 }  // namespace hyperex::session

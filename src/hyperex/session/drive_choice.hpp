@@ -18,7 +18,4 @@ struct DriveChoice {
 /// jaw drops wide and alone (simulate::jaw_drops_alone), muscles for all else.
 DriveChoice drive_choice(const scene::Scene& scene, const Inputs& inputs);
 
-/// Makes it so, in the scene and in the variants that do not say otherwise, and notes why.
-void choose_drive(scene::Scene& scene, Inputs& inputs);
-
 }  // namespace hyperex::session

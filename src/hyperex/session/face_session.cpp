@@ -237,9 +237,6 @@ const tissue::TissueMesh& FaceSession::mesh() const {
 std::shared_ptr<const tissue::TissueMesh> FaceSession::shared_mesh() const {
   return impl_->face.mesh;
 }
-const metrics::RestAsymmetry& FaceSession::rest_asymmetry() const {
-  return impl_->face.at_rest;
-}
 const SkinOff& FaceSession::skin_off() const {
   return impl_->skin_off;
 }

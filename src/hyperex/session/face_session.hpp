@@ -152,7 +152,6 @@ class FaceSession {
   const io::Scan& scan() const;  ///< as read; that of inputs() is thinned where it is large
   const tissue::TissueMesh& mesh() const;
   std::shared_ptr<const tissue::TissueMesh> shared_mesh() const;
-  const metrics::RestAsymmetry& rest_asymmetry() const;
   const SkinOff& skin_off() const;  ///< where the simulated skin is farthest from the scan
   std::shared_ptr<const anatomy::Teeth> teeth() const;  ///< null: none
   /// What tissue may touch, as far as a face asks for it; null: nothing.

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a session has to say, stage by stage.
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "hyperex/session/face_session_impl.hpp"
 #include "hyperex/session/run_notes.hpp"
 
@@ -22,14 +26,21 @@ void FaceSession::Impl::finish_search() {
   report(doubts);
 }
 
-/// After base was run.
+/// After base was run, and again once its twin is known: notes that were reported before are not
+/// reported again.
 void FaceSession::Impl::note_base() {
-  base_notes =
-      notes_on_contact_and_elements(simulation.report, simulation.performance, scene.contact);
+  const std::vector<Note> before = std::exchange(
+      base_notes,
+      notes_on_contact_and_elements(simulation.report, simulation.performance, scene.contact));
   append(base_notes, run_warnings(simulation.report, simulation.performance));
   append(base_notes, symmetry_notes(symmetry, twin ? twin->why_not : ""));
   if (scene.model.strain == simulate::Strain::finite) append(base_notes, volume_warnings(peak()));
-  report(base_notes);
+  std::vector<Note> added;
+  std::copy_if(base_notes.begin(), base_notes.end(), std::back_inserter(added),
+               [&](const Note& note) {
+                 return std::find(before.begin(), before.end(), note) == before.end();
+               });
+  report(added);
 }
 
 std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {

@@ -62,6 +62,7 @@ void FaceSession::Impl::run_base(const simulate::RunCallbacks& callbacks) {
   if (!stale) return;
   begin_stage("simulating");
   twin.reset();
+  base_notes.clear();
   if (with_runs()) {
     const simulate::Simulator before_run = *simulator;
     MirroredTwin made;

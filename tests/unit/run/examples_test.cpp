@@ -10,6 +10,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/run/run_scene.hpp"
+#include "hyperex/session/face_session.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::run {

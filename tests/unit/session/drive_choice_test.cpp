@@ -5,10 +5,13 @@
 
 #include <filesystem>
 
+#include "hyperex/session/face_session.hpp"
+
 namespace hyperex::session {
 using namespace scene;
 namespace {
 using simulate::DriveBy;
+using testing::Contains;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -49,13 +52,13 @@ TEST(DriveChoice, TakesWhatTheSceneSays) {
 }
 
 TEST(DriveChoice, HoldsForTheSceneAndIsNoted) {
-  Scene scene = example("one_sided_smile.toml");
-  Inputs inputs = read_inputs(scene);
+  const Scene scene = example("one_sided_smile.toml");
   EXPECT_EQ(scene.drive.by, DriveBy::displacement);
-  choose_drive(scene, inputs);
-  EXPECT_EQ(scene.drive.by, DriveBy::muscles);
-  const std::string why = drive_choice(example("one_sided_smile.toml"), inputs).why;
-  EXPECT_EQ(inputs.notes.back(), make_note("drive.chosen", why, "drive.by"));
+  const FaceSession session(scene, {.certainty = Certainty::on_request});
+  EXPECT_EQ(session.scene().drive.by, DriveBy::muscles);
+  const std::string why = drive_choice(scene, session.inputs()).why;
+  EXPECT_EQ(session.drive_reason(), why);
+  EXPECT_THAT(session.notes(), Contains(make_note("drive.chosen", why, "drive.by")));
 }
 
 /// Of real and of rendered recordings: talking opens the mouth as wide as the jaw alone does.
