@@ -11,7 +11,7 @@ export class MessagesPanel {
   private readonly none = element('p', words.noMessages, 'why');
 
   constructor(into: HTMLElement) {
-    this.list.setAttribute('role', 'log');
+    this.list.setAttribute('aria-live', 'polite');
     this.list.setAttribute('aria-label', words.messages);
     this.list.tabIndex = 0;
     into.append(this.none, this.list);

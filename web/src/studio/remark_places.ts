@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shows each remark beside the control of its key: under the slider, or at the top of the section's panel where there is
+// Shows each warning beside the control of its key: under the slider, or at the top of the section's panel where there is
 // no single control. Inputs are described by it (aria-describedby).
 import { at, element } from '../page/dom';
 import { holdingFor, sentenceOf, type Remark } from './remarks';
@@ -44,7 +44,9 @@ export class RemarkPlaces {
   update(): void {
     if (at('panels').querySelector('input:active')) return;
     this.clear();
-    for (const remark of holdingFor(this.variant(), this.remarks)) if (remark.key) this.place(remark);
+    for (const remark of holdingFor(this.variant(), this.remarks)) {
+      if (remark.key && remark.severity === 'warning') this.place(remark);
+    }
     for (const { key, element: panel } of this.panels) {
       const tab = at(`tab-${key}`);
       const has = this.shown.some(({ note }) => panel.contains(note));
