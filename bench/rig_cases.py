@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes with known answers from a rig: rig_cases.py FOLDER_OF_THE_DATA_SET OUT
+"""Scenes with known answers from a rig: rig_cases.py FOLDER_OF_THE_DATA_SET OUT [SUBJECT ...]
 
-Of each expression below: the scan of subject A moved as the rig moves (NAME_truth.ply, same vertices), a ramp of
-one second of its 68 landmarks (NAME_mm.csv), scenes with seven and with all points (NAME_7.toml, NAME_all.toml),
-and OUT/cases.txt for muscle_bench. About a minute. Needs Debian's python3-scipy."""
+Of each expression below and each subject (A, D and E unless named): the scan moved as the rig moves
+(SUBJECT_NAME_truth.ply, same vertices), a ramp of one second of its 68 landmarks (SUBJECT_NAME_mm.csv), scenes with
+seven and with all points (SUBJECT_NAME_7.toml, SUBJECT_NAME_all.toml), and for muscle_bench OUT/cases.txt, with the
+real smile and the markers, which belong to no subject of the rig. About a minute a subject. Needs Debian's
+python3-scipy."""
 import csv
 import json
 import os
@@ -41,10 +43,19 @@ HEADS = 6  # points of the skull, which stand still
 TYPES = {5126: np.float32, 5125: np.uint32, 5123: np.uint16}
 
 
-class Rig:
-    """Positions and morph targets in mm."""
+SUBJECTS = ("A", "D", "E")
 
-    def __init__(self, file):
+
+class Rig:
+    """Positions and morph targets in mm. The targets were made for subject A; they are added to all subjects' points."""
+
+    def __init__(self, folder, subject):
+        self.read(f"{folder}/subject_A_rig.glb")
+        if subject != "A":
+            self.points, _, _ = read_ply(f"{folder}/subject_{subject}_rig_neutral.ply")
+            self.points *= 1e3
+
+    def read(self, file):
         with open(file, "rb") as stream:
             data = stream.read()
         length = struct.unpack("<I", data[12:16])[0]
@@ -163,8 +174,8 @@ def write_motion(file, rig, moved, still):
             out.write(",".join([f"{t:.6f}"] + [f"{x:.5f}" for x in at.ravel()]) + "\n")
 
 
-def write_scene(file, name, data, points):
-    scan = f'"{data}/ict/subject_A_neutral_scan.ply", unit = "mm", landmarks = "{data}/ict/subject_A_landmarks.json"'
+def write_scene(file, name, scan_of, points):
+    scan = f'"{scan_of}_neutral_scan.ply", unit = "mm", landmarks = "{scan_of}_landmarks.json"'
     rigid = ", ".join(f'"head_{k + 1}"' for k in range(HEADS))
     drive = f"drive = {{ points = [{points}] }}\n" if points else ""
     with open(file, "w") as out:
@@ -185,18 +196,17 @@ def expressions(rig, data):
     return all_of_them
 
 
-def main():
-    data, out = (os.path.abspath(path) for path in sys.argv[1:3])
-    os.makedirs(out, exist_ok=True)
-    rig = Rig(f"{data}/ict/subject_A_rig.glb")
-    scan, header, tail = read_ply(f"{data}/ict/subject_A_neutral_scan.ply")
-    opened, _, _ = read_ply(f"{data}/ict/subject_A_mouth_open_truth.ply")
+def write_subject(data, out, subject):
+    """All expressions of one subject; returns their lines for muscle_bench."""
+    scan_of = f"{data}/ict/subject_{subject}"
+    rig = Rig(f"{data}/ict", subject)
+    scan, header, tail = read_ply(f"{scan_of}_neutral_scan.ply")
+    opened, _, _ = read_ply(f"{scan_of}_mouth_open_truth.ply")
     triangle, weight = places(rig, scan, opened)
     still = heads(rig)
-    smile = f"{data}/real/spacetime/smile"
-    lines = [f"real {smile}_{kind}.toml {smile}.ply {kind}" for kind in ("7", "all")]
-    lines.append(f"markers {data}/real/animface/cheeks_7.toml - markers")
-    for name, weights in expressions(rig, data).items():
+    lines = []
+    for expression, weights in expressions(rig, data).items():
+        name = f"{subject}_{expression}"
         moved = rig.moved(weights)
         carried = (weight[:, :, None] * moved[rig.triangles[triangle]]).sum(1)
         with open(f"{out}/{name}_truth.ply", "wb") as stream:
@@ -204,8 +214,19 @@ def main():
         write_motion(f"{out}/{name}_mm.csv", rig, moved, still)
         every = ", ".join(f'"ibug68_{k}"' for k in range(68))
         for kind, points in (("7", ""), ("all", every)):
-            write_scene(f"{out}/{name}_{kind}.toml", name, data, points)
+            write_scene(f"{out}/{name}_{kind}.toml", name, scan_of, points)
             lines.append(f"{name} {out}/{name}_{kind}.toml {out}/{name}_truth.ply {kind}")
+    return lines
+
+
+def main():
+    data, out = (os.path.abspath(path) for path in sys.argv[1:3])
+    os.makedirs(out, exist_ok=True)
+    smile = f"{data}/real/spacetime/smile"
+    lines = [f"real {smile}_{kind}.toml {smile}.ply {kind}" for kind in ("7", "all")]
+    lines.append(f"markers {data}/real/animface/cheeks_7.toml - markers")
+    for subject in sys.argv[3:] or SUBJECTS:
+        lines += write_subject(data, out, subject)
     with open(f"{out}/cases.txt", "w") as stream:
         stream.write("\n".join(lines) + "\n")
 
