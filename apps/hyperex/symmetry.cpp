@@ -22,6 +22,7 @@
 #include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
+#include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
@@ -187,6 +188,7 @@ motion::Motion until(motion::Motion motion, double end_s) {
                     motion.time_s[std::min<std::size_t>(1, motion.time_s.size() - 1)])});
   motion.time_s.resize(kept);
   motion.positions.resize(kept);
+  if (!motion.lines.empty()) motion.lines.resize(kept);
   if (!motion.head_pose.empty()) motion.head_pose.resize(kept);
   return motion;
 }
@@ -210,11 +212,15 @@ void run(const SymmetryOptions& options) {
   if (!options.map.empty() || !options.map_ply.empty())
     throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
                                   "a folder of surfaces; points alone have no map"});
-  const motion::Motion motion = until(motion::read_motion(file, unit), options.end_s);
+  const motion::MendedMotion mended =
+      motion::without_wild_samples(until(motion::read_motion(file, unit), options.end_s));
+  const motion::Motion& motion = mended.motion;
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(motion, options.floor);  // throws where points are missing
   const motion::Motion steady = without_head(motion, options.keep_head);
-  for (const auto& warning : {session::exchanged_warning(motion, session::average_face()),
+  if (!options.keep_head) motion::check_reach(steady);
+  for (const auto& warning : {session::wild_samples_warning(mended),
+                              session::exchanged_warning(motion, session::average_face()),
                               session::timing_warning(motion)})
     if (warning) spdlog::warn("{}", warning->text);
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);

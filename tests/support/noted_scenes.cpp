@@ -56,6 +56,12 @@ void hold_still(const fs::path& folder) {
   });
 }
 
+void let_a_marker_jump(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    m.positions[8](m.index_of("cheilion_L"), 2) += 0.3;
+  });
+}
+
 void start_with_the_mouth_open(const fs::path& folder) {
   write_opening(folder, 40, 41);
 }
@@ -96,6 +102,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.mirror_unknown", true, "motion.file=\nmotion.recording=\"clip.mp4\"",
        write_video},
       {"recording.time_unit_doubtful", true, "", time_in_milliseconds},
+      {"recording.wild_samples", true, "", let_a_marker_jump},
       {"recording.nothing_moves", true, "", hold_still},
       {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
       {"recording.fits_badly", true, "", enlarge_the_motion},

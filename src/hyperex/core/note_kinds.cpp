@@ -28,6 +28,9 @@ constexpr NoteKind kKinds[] = {
   warning("recording.time_unit_doubtful", "motion.file",
     "Samples are more than 0.5 s apart (median), or the recording lasts more than ten minutes: its "
     "times are probably in milliseconds."),
+  warning("recording.wild_samples", "motion.file",
+    "A point jumps away and comes back within one or two samples, by more than 20 mm and faster "
+    "than 0.6 m/s. The readings were left out and interpolated."),
   warning("recording.nothing_moves", "motion.unit",
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",

@@ -126,6 +126,7 @@ class TrcReader {
       if (missing == 1 || missing == 2) fail(trc_.names[m], "", "all three coordinates or none");
     }
     trc_.time_s.push_back(time);
+    trc_.lines.push_back(int(lines_.number()));
     trc_.positions.push_back(std::move(points));
   }
 

@@ -16,6 +16,7 @@ struct TrcFile {
   double data_rate_hz = 0;
   std::vector<std::string> names;
   std::vector<double> time_s;     ///< increasing
+  std::vector<int> lines;         ///< of the file, of each frame; not written
   std::vector<Points> positions;  ///< a frame each: |names| x 3, metres; NaN where a marker is lost
 };
 

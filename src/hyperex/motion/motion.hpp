@@ -18,6 +18,7 @@ struct Motion {
   /// N poses reference_from_head where head pose has been taken out of `positions` (which then are
   /// in the face's frame); empty where it has not.
   std::vector<Eigen::Isometry3d> head_pose;
+  std::vector<int> lines;  ///< of `source`, of each sample, for errors; empty where not known
   std::string source;     ///< what to name in errors: the file, or empty
   std::string unit_note;  ///< which length unit was read and why, for the log
 

@@ -239,6 +239,7 @@ Motion from_csv(const fs::path& file, std::optional<LengthUnit> stated) {
           {file, line, time_name, fmt::format("{}", t),
            fmt::format("a time after the sample before it ({} s)", motion.time_s.back())});
     motion.time_s.push_back(t);
+    motion.lines.push_back(line);
     Points sample(Eigen::Index(columns.points.size()), 3);
     for (Eigen::Index p = 0; p < sample.rows(); ++p)
       for (int axis = 0; axis < 3; ++axis)
@@ -268,6 +269,7 @@ Motion from_trc(const fs::path& file, std::optional<LengthUnit> stated) {
   motion.names = std::move(recording.names);
   motion.time_s = std::move(recording.time_s);
   motion.positions = std::move(recording.positions);
+  motion.lines = std::move(recording.lines);
   return motion;
 }
 

@@ -136,6 +136,24 @@ std::optional<Note> idle_law_warning(const scene::Scene& scene) {
       fmt::format("without effect, as tissue.strain is not \"finite\": {}", fmt::join(idle, ", ")));
 }
 
+std::optional<Note> wild_samples_warning(const motion::MendedMotion& mended) {
+  if (mended.wild.empty()) return std::nullopt;
+  constexpr std::size_t most_named = 3;
+  std::vector<std::string> named;
+  for (const motion::WildSample& wild : mended.wild)
+    if (named.size() < most_named)
+      named.push_back(fmt::format("{}: {:.4g} mm",
+                                  motion::place_of(mended.motion, wild.point, wild.sample),
+                                  1e3 * wild.off_m));
+  const std::size_t more = mended.wild.size() - named.size();
+  return make_warning(
+      "recording.wild_samples",
+      fmt::format("a point jumps away and back within {} reading{}, which no face does; left out "
+                  "and interpolated: {}{}",
+                  mended.wild.size(), mended.wild.size() > 1 ? "s" : "", fmt::join(named, "; "),
+                  more > 0 ? fmt::format("; and {} more", more) : ""));
+}
+
 std::optional<Note> stillness_warning(const motion::Motion& stabilised) {
   constexpr double least_m = 0.05e-3;
   double most_m = 0;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/session/inputs.hpp"
 
 namespace hyperex::session {
@@ -40,6 +41,9 @@ std::string timing_sentence(const motion::Motion& m);
 /// `recording.time_unit_doubtful`: times look like another unit, with a median step above 0.5 s or
 /// more than ten minutes in all.
 std::optional<Note> timing_warning(const motion::Motion& m);
+
+/// `recording.wild_samples`: names the first readings that were left out as no face can make them.
+std::optional<Note> wild_samples_warning(const motion::MendedMotion& mended);
 
 /// `recording.nothing_moves`: no point moves 0.05 mm from its first place, head pose out.
 std::optional<Note> stillness_warning(const motion::Motion& stabilised);

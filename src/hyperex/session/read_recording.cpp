@@ -10,6 +10,7 @@
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/rest.hpp"
+#include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
@@ -106,9 +107,11 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
     in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
     add(in.notes, timing_warning(m));
   }
+  const motion::MendedMotion mended = motion::without_wild_samples(m);
+  add(in.notes, wild_samples_warning(mended));
   motion::GapOptions gaps;
   gaps.max_gap_s = scene.motion.max_gap_s;
-  const motion::FilledMotion filled = motion::fill_gaps(m, gaps);
+  const motion::FilledMotion filled = motion::fill_gaps(mended.motion, gaps);
   if (!filled.gaps.empty())
     in.notes.push_back(make_note(
         "recording.gaps_filled",
@@ -120,6 +123,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   const bool expressions = !scene.motion.arkit.empty() || !scene.motion.openface.empty();
   auto steady = expressions ? motion::with_still_head(filled.motion)
                             : motion::stabilise(filled.motion, options);
+  motion::check_reach(steady.motion);
   note_head(steady, in);
   if (whole) {
     settle_rest(scene, steady.motion, in);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
 
 namespace hyperex::simulate {
@@ -51,6 +52,13 @@ PointsF Simulator::Impl::step(const Points& displacement_m) {
   if (displacement_m.rows() != motion->rest.rows() || !displacement_m.allFinite())
     throw InputError("stream", fmt::format("{} rows: expected {} points, all finite",
                                            displacement_m.rows(), motion->rest.rows()));
+  if (Eigen::Index row = 0; displacement_m.rowwise().norm().maxCoeff(&row) > motion::kFarthest_m)
+    throw InputError(
+        "stream",
+        fmt::format("point {} is displaced by {:.4g} mm: expected at most {:g}; displacements are "
+                    "in metres",
+                    motion->motion.names[std::size_t(row)], 1e3 * displacement_m.row(row).norm(),
+                    1e3 * motion::kFarthest_m));
   ensure_stream();
   const Points points = options.drive.gain * displacement_m;
   return stages.readout->skin(stages.measured.value(), stages.points->rim,

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/motion/wild_samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/quantile.hpp"
+
+namespace hyperex::motion {
+namespace {
+
+constexpr std::ptrdiff_t kHalfWindow = 2;
+
+/// Each coordinate's median; NaN where there is no measured row.
+Eigen::RowVector3d median_row(const std::vector<Eigen::RowVector3d>& rows) {
+  Eigen::RowVector3d out;
+  out.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (rows.empty()) return out;
+  std::vector<double> values(rows.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(rows, values.begin(),
+                           [axis](const Eigen::RowVector3d& row) { return row[axis]; });
+    out[axis] = median(values);
+  }
+  return out;
+}
+
+/// A point less the median of its readings around sample k; NaN where fewer than three are there.
+Eigen::RowVector3d off_its_neighbours(const Motion& m, std::size_t k, Eigen::Index point) {
+  const auto count = std::ptrdiff_t(m.positions.size());
+  // At the ends the window is moved, not cut: a wild first sample has four others beside it.
+  const std::ptrdiff_t first =
+      std::clamp(std::ptrdiff_t(k) - kHalfWindow, std::ptrdiff_t(0), count - 2 * kHalfWindow - 1);
+  std::vector<Eigen::RowVector3d> near;
+  for (std::ptrdiff_t i = first; i <= first + 2 * kHalfWindow; ++i)
+    if (const auto row = m.positions[std::size_t(i)].row(point); row.allFinite())
+      near.emplace_back(row);
+  if (near.size() < 3) near.clear();
+  return m.positions[k].row(point) - median_row(near);
+}
+
+/// Writes the readings that are NaN in `sound` alone, from those of `sound` around them.
+void interpolate(const Motion& sound, const WildSample& wild, Motion& to) {
+  const Eigen::Index row = sound.index_of(wild.point);
+  const auto measured = [&](std::size_t k) { return sound.positions[k].row(row).allFinite(); };
+  std::size_t before = wild.sample, after = wild.sample;
+  while (before > 0 && !measured(before)) --before;
+  while (after + 1 < sound.positions.size() && !measured(after)) ++after;
+  if (!measured(before)) before = after;
+  if (!measured(after)) after = before;
+  const double span = sound.time_s[after] - sound.time_s[before];
+  const double share =
+      span > 0 ? (sound.time_s[wild.sample] - sound.time_s[before]) / span : 0;
+  to.positions[wild.sample].row(row) = (1 - share) * sound.positions[before].row(row) +
+                                       share * sound.positions[after].row(row);
+}
+
+}  // namespace
+
+std::string place_of(const Motion& motion, const std::string& point, std::size_t sample) {
+  std::string at = named(motion);
+  if (sample < motion.lines.size()) at += fmt::format(":{}", motion.lines[sample]);
+  return fmt::format("{}, point {} at {:.3f} s", at, point, motion.time_s[sample]);
+}
+
+MendedMotion without_wild_samples(const Motion& motion) {
+  MendedMotion out{motion, {}};
+  const auto points = Eigen::Index(motion.names.size());
+  if (motion.positions.size() < 2 * kHalfWindow + 1 || points < 3) return out;
+  const double least_m = std::max(kWildJump_m, kWildSpeed_m_s * median_step(motion.time_s));
+  Motion sound = motion;
+  Points off(points, 3);
+  std::vector<Eigen::RowVector3d> measured;
+  for (std::size_t k = 0; k < motion.positions.size(); ++k) {
+    measured.clear();
+    for (Eigen::Index p = 0; p < points; ++p) {
+      off.row(p) = off_its_neighbours(motion, k, p);
+      if (off.row(p).allFinite()) measured.emplace_back(off.row(p));
+    }
+    const Eigen::RowVector3d of_head = median_row(measured);
+    for (Eigen::Index p = 0; p < points; ++p)
+      if (const double off_m = (off.row(p) - of_head).norm(); off_m > least_m) {
+        out.wild.push_back({motion.names[std::size_t(p)], k, off_m});
+        sound.positions[k].row(p).setConstant(std::numeric_limits<double>::quiet_NaN());
+      }
+  }
+  for (const WildSample& wild : out.wild) interpolate(sound, wild, out.motion);
+  return out;
+}
+
+void check_reach(const Motion& steady) {
+  for (std::size_t k = 1; k < steady.positions.size(); ++k)
+    for (std::size_t p = 0; p < steady.names.size(); ++p) {
+      const auto row = Eigen::Index(p);
+      const double far_m =
+          (steady.positions[k].row(row) - steady.positions.front().row(row)).norm();
+      if (far_m > kFarthest_m)
+        throw InputError(fmt::format(
+            "{}: {:.4g} mm from its place in the first sample: expected at most {:g} mm, as no "
+            "point of a face moves farther; correct the reading or leave its cells empty",
+            place_of(steady, steady.names[p], k), 1e3 * far_m, 1e3 * kFarthest_m));
+    }
+}
+
+}  // namespace hyperex::motion

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/motion/wild_samples.hpp"
+
+#include <cmath>
+
+#include "unit/motion/motions.hpp"
+
+namespace hyperex::motion {
+namespace {
+
+constexpr double kStep_s = 1.0 / 30;
+
+/// Four points; the last one opens by 20 mm and closes within a second while the head goes along.
+Motion opening(double step_s = kStep_s, double head_m_s = 0.1) {
+  return testing::sampled(31, step_s, {"a", "b", "c", "lip"}, [&](double t, int p, int axis) {
+    const double moved = p == 3 && axis == 1 ? 0.02 * std::pow(std::sin(M_PI * t), 2) : 0;
+    return 0.03 * p * (axis + 1) + moved + (axis == 0 ? head_m_s * t : 0);
+  });
+}
+
+Motion with_jump(double off_m, std::size_t first, std::size_t last, double step_s = kStep_s) {
+  Motion motion = opening(step_s);
+  for (std::size_t k = first; k <= last; ++k) motion.positions[k](3, 2) += off_m;
+  return motion;
+}
+
+double greatest_difference(const Motion& a, const Motion& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.positions.size(); ++k)
+    most = std::max(most, (a.positions[k] - b.positions[k]).cwiseAbs().maxCoeff());
+  return most;
+}
+
+TEST(WildSamples, SoundMotionStaysAsItIs) {
+  const MendedMotion mended = without_wild_samples(opening());
+  EXPECT_TRUE(mended.wild.empty());
+  EXPECT_EQ(greatest_difference(mended.motion, opening()), 0);
+}
+
+TEST(WildSamples, AJumpOfOneOrTwoReadingsIsInterpolated) {
+  for (const std::size_t last : {10, 11}) {
+    const MendedMotion mended = without_wild_samples(with_jump(0.3, 10, last));
+    ASSERT_EQ(mended.wild.size(), last - 9);
+    EXPECT_EQ(mended.wild[0].point, "lip");
+    EXPECT_EQ(mended.wild[0].sample, 10u);
+    EXPECT_NEAR(mended.wild[0].off_m, 0.3, 2e-3);
+    EXPECT_LT(greatest_difference(mended.motion, opening()), 1e-3);
+  }
+}
+
+TEST(WildSamples, TheFirstAndTheLastReadingAreHeld) {
+  for (const std::size_t at : {0, 30}) {
+    const MendedMotion mended = without_wild_samples(with_jump(0.3, at, at));
+    ASSERT_EQ(mended.wild.size(), 1u);
+    EXPECT_EQ(mended.wild[0].sample, at);
+    EXPECT_LT(greatest_difference(mended.motion, opening()), 5e-3);
+  }
+}
+
+TEST(WildSamples, WhatStaysAwayIsNoJump) {
+  EXPECT_TRUE(without_wild_samples(with_jump(0.03, 10, 30)).wild.empty());
+}
+
+TEST(WildSamples, TheHeadMayJump) {
+  Motion motion = opening();
+  motion.positions[10].col(0).array() += 0.05;
+  EXPECT_TRUE(without_wild_samples(motion).wild.empty());
+}
+
+TEST(WildSamples, SlowRecordingsMayMoveFartherInASample) {
+  EXPECT_EQ(without_wild_samples(with_jump(0.025, 10, 10)).wild.size(), 1u);
+  EXPECT_TRUE(without_wild_samples(with_jump(0.025, 10, 10, 0.1)).wild.empty());
+  EXPECT_EQ(without_wild_samples(with_jump(0.1, 10, 10, 0.1)).wild.size(), 1u);
+}
+
+TEST(WildSamples, GapsStayGaps) {
+  Motion motion = with_jump(0.3, 10, 10);
+  motion.positions[12].row(3).setConstant(testing::nan);
+  const MendedMotion mended = without_wild_samples(motion);
+  ASSERT_EQ(mended.wild.size(), 1u);
+  EXPECT_TRUE(std::isnan(mended.motion.positions[12](3, 0)));
+  EXPECT_TRUE(mended.motion.positions[10].allFinite());
+}
+
+TEST(WildSamples, WhatNoFaceCanReachIsRefusedByLinePointTimeAndDistance) {
+  Motion motion = with_jump(0.151, 10, 30);
+  motion.source = "markers.csv";
+  for (int k = 0; k < 31; ++k) motion.lines.push_back(k + 2);
+  testing::expect_refused([&] { check_reach(motion); },
+                          {"markers.csv:12", "point lip at 0.333 s", "155", "150 mm"});
+  EXPECT_NO_THROW(check_reach(with_jump(0.1, 10, 30)));
+}
+
+}  // namespace
+}  // namespace hyperex::motion
