@@ -39,6 +39,7 @@ EXPRESSIONS = {
     "snarlL": {"noseSneer_L": 0.9, "mouthUpperUp_L": 0.7},
 }
 TALK_S = {"talk46": 1.533333, "talk24": 0.8, "talk69": 2.3, "talk93": 3.1}  # of the talk recording
+MOUTH = (48, 54, 51, 57, 8, 58, 56)
 HEADS = 6  # points of the skull, which stand still
 TYPES = {5126: np.float32, 5125: np.uint32, 5123: np.uint16}
 
@@ -177,7 +178,7 @@ def write_motion(file, rig, moved, still):
 def write_scene(file, name, scan_of, points):
     scan = f'"{scan_of}_neutral_scan.ply", unit = "mm", landmarks = "{scan_of}_landmarks.json"'
     rigid = ", ".join(f'"head_{k + 1}"' for k in range(HEADS))
-    drive = f"drive = {{ points = [{points}] }}\n" if points else ""
+    drive = f"drive = {{ points = [{points}] }}\n"
     with open(file, "w") as out:
         out.write(
             f'title = "{name}"\nscan = {{ file = {scan} }}\n'
@@ -212,8 +213,9 @@ def write_subject(data, out, subject):
         with open(f"{out}/{name}_truth.ply", "wb") as stream:
             stream.write(header + (scan + carried).astype("<f4").tobytes() + tail)
         write_motion(f"{out}/{name}_mm.csv", rig, moved, still)
+        mouth = ", ".join(f'"ibug68_{k}"' for k in MOUTH)
         every = ", ".join(f'"ibug68_{k}"' for k in range(68))
-        for kind, points in (("7", ""), ("all", every)):
+        for kind, points in (("7", mouth), ("all", every)):
             write_scene(f"{out}/{name}_{kind}.toml", name, scan_of, points)
             lines.append(f"{name} {out}/{name}_{kind}.toml {out}/{name}_truth.ply {kind}")
     return lines

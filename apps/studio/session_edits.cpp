@@ -77,7 +77,7 @@ std::string Session::text_with_changes(const json& wanted, int face) {
     changes[key] = with_uploads(key, value, uploads(), known);
   }
   if (changes_muscles(changes) &&
-      session::drive_choice(committed, face_->inputs()).by != simulate::DriveBy::muscles)
+      session::drive_choice(committed).by != simulate::DriveBy::muscles)
     text = scene::with_value(text, "drive.by", "muscles");
   if (face == 0) {
     for (const auto& [key, value] : changes.items()) text = scene::with_value(text, key, value);

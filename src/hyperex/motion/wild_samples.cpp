@@ -53,10 +53,9 @@ void interpolate(const Motion& sound, const WildSample& wild, Motion& to) {
   if (!measured(before)) before = after;
   if (!measured(after)) after = before;
   const double span = sound.time_s[after] - sound.time_s[before];
-  const double share =
-      span > 0 ? (sound.time_s[wild.sample] - sound.time_s[before]) / span : 0;
-  to.positions[wild.sample].row(row) = (1 - share) * sound.positions[before].row(row) +
-                                       share * sound.positions[after].row(row);
+  const double share = span > 0 ? (sound.time_s[wild.sample] - sound.time_s[before]) / span : 0;
+  to.positions[wild.sample].row(row) =
+      (1 - share) * sound.positions[before].row(row) + share * sound.positions[after].row(row);
 }
 
 }  // namespace

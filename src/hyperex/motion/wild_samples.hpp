@@ -26,10 +26,11 @@ struct MendedMotion {
 /// at 30 Hz both bounds are the same jump.
 inline constexpr double kWildJump_m = 0.02, kWildSpeed_m_s = 0.6;
 
-/// Interpolates, linearly in time, each reading farther than max(kWildJump_m, kWildSpeed_m_s * median step) from the
-/// median of the five readings of its point around it, after the median over all points of the same
-/// difference has been taken off: a jump of the whole head is none of a point. So at most two
-/// samples in a row are mended. Needs three points and five samples; of fewer nothing is mended.
+/// Interpolates, linearly in time, each reading farther than max(kWildJump_m, kWildSpeed_m_s *
+/// median step) from the median of the five readings of its point around it, after the median over
+/// all points of the same difference has been taken off: a jump of the whole head is none of a
+/// point. So at most two samples in a row are mended. Needs three points and five samples; of fewer
+/// nothing is mended.
 MendedMotion without_wild_samples(const Motion& motion);
 
 /// No point of a face goes farther from its place in the first sample, m.

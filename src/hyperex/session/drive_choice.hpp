@@ -2,20 +2,20 @@
 #pragma once
 #include <string>
 
-#include "hyperex/session/inputs.hpp"
+#include "hyperex/core/note.hpp"
+#include "hyperex/scene/scene.hpp"
 
 namespace hyperex::session {
 
 struct DriveChoice {
   simulate::DriveBy by;
-  std::string why;  ///< a sentence: "driven by muscles: the mouth opens by 9 mm, ..."
+  std::string why;  ///< a sentence: "driven by muscles: the scene says so"
 
   Note note() const;  ///< `drive.chosen`
 };
 
-/// What drives a scene: what it says (drive.by); else muscles where it has variants; else, without
-/// keys of [support] or [region] that speak of displacement, by its motion: displacement where the
-/// jaw drops wide and alone (simulate::jaw_drops_alone), muscles for all else.
-DriveChoice drive_choice(const scene::Scene& scene, const Inputs& inputs);
+/// What drives a scene: what it says (drive.by); else displacement where keys of [support] or
+/// [region] speak of it; else what the variants say; else muscles, whatever the motion.
+DriveChoice drive_choice(const scene::Scene& scene);
 
 }  // namespace hyperex::session

@@ -3,33 +3,115 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
+#include "hyperex/face/ibug.hpp"
+
 namespace hyperex::session {
 namespace {
-bool keeps_to_its_model(const scene::Scene& scene) {
-  return !scene.motion.candide.empty() && !scene.drive.all_points &&
-         !scene.origins.contains("drive.points");
+
+/// Parts of the face beside the mouth, by their iBUG-68 points.
+struct FacePart {
+  const char* name;
+  int first, last;
+  bool joins;  ///< the default points where it moves
+};
+// The outline of the face is not driven by itself: trackers of pictures let it slide along the
+// skin. The bridge of the nose does not move.
+constexpr FacePart kParts[] = {{"brows", 17, 26, true},
+                               {"nostrils", 31, 35, true},
+                               {"lids", 36, 47, true},
+                               {"outline of the face", 0, 16, false}};
+
+/// Farther than the noise of a depth camera's points and what a pose of the head leaves over.
+constexpr double kMoves_m = 2e-3;
+
+/// How far a point goes from its first place; 0 where the motion lacks it.
+double reach_m(const motion::Motion& motion, const std::string& name) {
+  const int row = motion.index_of(name);
+  double most_m = 0;
+  if (row < 0 || motion.positions.empty()) return 0;
+  for (const Points& at : motion.positions)
+    most_m = std::max(most_m, (at.row(row) - motion.positions.front().row(row)).norm());
+  return most_m;
 }
+
+double reach_m(const motion::Motion& motion, const FacePart& part) {
+  double most_m = 0;
+  for (int i = part.first; i <= part.last; ++i)
+    most_m = std::max(most_m, reach_m(motion, face::ibug(i)));
+  return most_m;
+}
+
+bool by_default(const scene::Scene& scene) {
+  return !scene.drive.all_points && !scene.origins.contains("drive.points");
+}
+
+bool keeps_to_its_model(const scene::Scene& scene) {
+  return !scene.motion.candide.empty() && by_default(scene);
+}
+
+/// Points that skin cannot follow: those of the skull, and the middle of the slit between the lips,
+/// which belongs to neither of them.
+bool is_off_the_skin(const scene::Scene& scene, const std::string& name) {
+  const auto& rigid = scene.motion.rigid_points;
+  return name == "stomion" || std::ranges::find(rigid, name) != rigid.end();
+}
+
+void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& points) {
+  for (const FacePart& part : kParts) {
+    if (!part.joins || reach_m(motion, part) < kMoves_m) continue;
+    for (int i = part.first; i <= part.last; ++i)
+      if (const std::string name = face::ibug(i);
+          motion.index_of(name) >= 0 && std::ranges::find(points, name) == points.end())
+        points.push_back(name);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion) {
-  if (scene.drive.all_points) return motion.names;
-  std::vector<std::string> points = scene.drive.points;
+  std::vector<std::string> points = scene.drive.all_points ? motion.names : scene.drive.points;
+  if (scene.drive.all_points)
+    std::erase_if(points, [&](const std::string& name) { return is_off_the_skin(scene, name); });
   if (keeps_to_its_model(scene))
     std::erase_if(points, [&](const std::string& name) { return motion.index_of(name) < 0; });
+  if (by_default(scene)) add_moving_parts(motion, points);
   return points;
 }
 
 void note_left_out_points(const scene::Scene& scene, const motion::Motion& motion,
                           std::vector<Note>& notes) {
   const auto driven = driven_points(scene, motion);
-  if (!keeps_to_its_model(scene) || driven.size() == scene.drive.points.size()) return;
-  std::string missing;
-  for (const auto& name : scene.drive.points)
-    if (motion.index_of(name) < 0) missing += (missing.empty() ? "" : ", ") + name;
-  notes.push_back(make_note(
-      "drive.points_left_out",
-      fmt::format("drive.points: {} has no {}; the other {} of the default points are driven",
-                  scene.motion.candide.string(), missing, driven.size())));
+  if (keeps_to_its_model(scene)) {
+    std::string missing;
+    for (const auto& name : scene.drive.points)
+      if (motion.index_of(name) < 0) missing += (missing.empty() ? "" : ", ") + name;
+    if (!missing.empty())
+      notes.push_back(make_note(
+          "drive.points_left_out",
+          fmt::format("drive.points: {} has no {}; the other {} of the default points are driven",
+                      scene.motion.candide.string(), missing, driven.size())));
+  }
+  if (!by_default(scene)) return;
+  std::vector<std::string> joined, left_out;
+  for (const FacePart& part : kParts) {
+    const double far_m = reach_m(motion, part);
+    if (far_m < kMoves_m) continue;
+    (part.joins ? joined : left_out)
+        .push_back(fmt::format("{} ({:.1f} mm)", part.name, 1e3 * far_m));
+  }
+  if (!joined.empty())
+    notes.push_back(
+        make_note("drive.parts_joined",
+                  fmt::format("driven besides the mouth, as they move by more than {:g} mm: {}",
+                              1e3 * kMoves_m, fmt::join(joined, ", "))));
+  if (!left_out.empty())
+    notes.push_back(
+        make_note("drive.measured_not_driven",
+                  fmt::format("measured, but not driven: {}; drive.points names what drives",
+                              fmt::join(left_out, ", "))));
 }
 
 }  // namespace hyperex::session

@@ -9,10 +9,13 @@
 
 namespace hyperex::session {
 
-/// Those that drive.points names, or all. The default points are the canonical face's: where the
-/// motion is CANDIDE's and the scene names none, those that it has.
+/// Those that drive.points names. "all": every point but those of motion.rigid_points and
+/// `stomion`, which lies between the lips. Where the scene names none: seven of the mouth (of
+/// CANDIDE's motion those that it has), and of brows, nostrils and lids each part with a point that
+/// goes 2 mm from its first place. `motion`: head pose out.
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion);
-/// Adds `drive.points_left_out` where default points were left out.
+/// Adds `drive.points_left_out` where default points were left out, `drive.parts_joined` and
+/// `drive.measured_not_driven` where the default points follow the motion.
 void note_left_out_points(const scene::Scene& scene, const motion::Motion& motion,
                           std::vector<Note>& notes);
 

@@ -84,7 +84,7 @@ void FaceSession::Impl::read() {
   Progress progress("reading scan and recording", 0);
   Stopwatch watch;
   inputs = read_inputs(scene);
-  drive = drive_choice(scene, inputs);
+  drive = drive_choice(scene);
   seconds.read = watch.lap();
   report(notes_on_inputs(Severity::note));
   report(notes_on_inputs(Severity::warning));
@@ -113,7 +113,7 @@ simulate::SimulationOptions FaceSession::Impl::options_of(
 
 /// Everything that may throw comes before anything is changed.
 void FaceSession::Impl::take(scene::Scene next) {
-  DriveChoice choice = drive_choice(next, inputs);
+  DriveChoice choice = drive_choice(next);
   next.drive.by = choice.by;
   std::vector<std::string> driven_before =
       std::exchange(inputs.driven, driven_points(next, inputs.motion.motion));

@@ -187,7 +187,7 @@ void FaceSession::Impl::prepare_variant() {
   // At finite strain the run of base itself completes what a variant keeps.
   if (!runs.empty() || next_variant || scene.model.strain == simulate::Strain::finite) return;
   scene::Scene next = source.with_variant("next", {{"motion.gain", scene.drive.gain}}).scene();
-  next.drive.by = drive_choice(next, inputs).by;
+  next.drive.by = drive_choice(next).by;
   Inputs its_inputs = inputs;
   its_inputs.driven = driven_points(next, inputs.motion.motion);
   simulate::SimulationOptions options = options_of(next, its_inputs, field);

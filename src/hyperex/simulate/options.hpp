@@ -155,17 +155,17 @@ struct DriveOptions {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.one_or_all(HX_MEMBER(points), HX_MEMBER(all_points),
-                 "Points of the recording that drive the skin. With motion.candide and no points "
-                 "named: those of the default that the model has.");
+                 "Points of the recording that drive the skin; \"all\": all but motion.rigid_points "
+                 "and stomion, which lies between the lips. Where none are named, brows, nostrils "
+                 "and lids join the default where one of their points moves by 2 mm, and of "
+                 "motion.candide those of the default are driven that the model has.");
     v.option(HX_MEMBER(by),
              "What the points are: places that the skin is carried to, whatever the tissue; or "
              "what muscles, the jaw and forces at the points are found from (docs/muscles.md), or "
              "forces alone. Forces are found once, in the scene's tissue, and variants answer the "
              "same forces. Where it is not given: \"displacement\" where the scene or a variant "
              "sets a key of [support] (but jaw_points) or [region]; else \"muscles\" where there "
-             "are variants; else \"displacement\" where the mouth opens by more than 0.2 of the "
-             "distance between the outer corners of the eyes while its own corners part by less "
-             "than 0.004 of it, as by the jaw alone, and \"muscles\" for every other motion. The "
+             "are variants that do not say otherwise; else \"muscles\", whatever the motion. The "
              "run says which and why.");
     v.option(HX_MEMBER(patch_radius_m),
              "Radius of the patch of skin that a driven point moves where the lips part; half as "

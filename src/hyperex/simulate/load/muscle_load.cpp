@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
@@ -36,7 +38,8 @@ struct Driven {
   std::vector<int> rows;
   CarrierMatrix carrier;
 
-  Driven(const tissue::TissueMesh& mesh, const AlignedMotion& motion, const DriveOptions& drive) {
+  Driven(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+         const AlignedMotion& motion, const DriveOptions& drive) {
     std::vector<std::string> names;
     for (const std::string& name : drive.names_in(motion.motion))
       if (const int row = motion.motion.index_of(name);
@@ -48,14 +51,20 @@ struct Driven {
     for (std::size_t i = 0; i < rows.size(); ++i)
       rest.row(static_cast<Eigen::Index>(i)) = motion.rest.row(rows[i]);
     carrier = carriers(mesh, skin_places(mesh, names, rest));
+    const Vec3 nose = landmarks.at(face::ibug(33)), up = face::face_frame(landmarks).y;
+    below_nose_ = (((rest.rowwise() - nose.transpose()) * up).array() < -kBelowNose_m).count();
   }
-  bool few() const { return rows.size() <= std::size_t(kFewPoints); }
+  bool few() const { return below_nose_ <= kFewPoints; }
   Eigen::VectorXd of(const Points& all) const {
     Eigen::VectorXd out(3 * static_cast<Eigen::Index>(rows.size()));
     for (std::size_t i = 0; i < rows.size(); ++i)
       out.segment<3>(3 * static_cast<Eigen::Index>(i)) = all.row(rows[i]).transpose();
     return out;
   }
+
+ private:
+  static constexpr double kBelowNose_m = 3e-3;  // clear of the nostrils
+  Eigen::Index below_nose_ = 0;
 };
 
 int counterpart_of(const std::vector<muscles::MuscleLine>& lines, const std::string& name) {
@@ -232,7 +241,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
                      const SimulationOptions& options, const MuscleModel& model,
                      const std::function<void()>& between) {
   // First, since it says what is wrong with the points.
-  const Driven driven(mesh, motion, options.drive);
+  const Driven driven(mesh, landmarks, motion, options.drive);
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
   const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);

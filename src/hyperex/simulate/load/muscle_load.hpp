@@ -13,8 +13,8 @@
 
 namespace hyperex::simulate {
 
-/// At most this many driven points are few: landmark error dominates, and the prior decides most
-/// activations.
+/// At most this many driven points below the nose are few: landmark error dominates, and the prior
+/// decides most activations of the mouth's muscles.
 inline constexpr int kFewPoints = 20;
 
 /// The forces that make a recorded motion in this tissue. At each sample of the motion activations

@@ -9,10 +9,10 @@
 namespace hyperex::simulate {
 namespace {
 
-constexpr int kMostRounds = 20;
+constexpr int kMostFiniteRounds = 20;
 constexpr int kMostIdleRounds = 3;    // in a row that gain little
 constexpr double kGainsLittle = 0.9;  // depth over the least one before
-constexpr double kSettled_m = 2e-5;
+constexpr double kFiniteSettled_m = 2e-5;
 
 }  // namespace
 
@@ -78,7 +78,8 @@ void FiniteContact::correct(std::size_t frame, Eigen::Ref<Eigen::VectorXd> displ
   }
   last_.in_all.resize(0);
   int idle = 0;
-  for (int k = 0; k < kMostRounds && idle < kMostIdleRounds && work.least_m > kSettled_m; ++k) {
+  for (int k = 0;
+       k < kMostFiniteRounds && idle < kMostIdleRounds && work.least_m > kFiniteSettled_m; ++k) {
     const Round what =
         round(work, k > 0 || follows, k == 0 && follows ? &guess : nullptr, displacement);
     if (what == Round::failed) {
