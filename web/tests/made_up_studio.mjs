@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studio's page with a made-up face and a server of a few lines: neither the program nor a build is needed.
 import { readFile } from 'node:fs/promises';
-import { script } from './modules.mjs';
+import { script, styles } from './modules.mjs';
 
 const address = 'http://127.0.0.1:8123/';
 const side = 9;
@@ -139,8 +139,10 @@ export async function openMadeUp(browser, remarksOf) {
   });
   page.on('pageerror', (error) => complaints.push(String(error.stack)));
   const html = await readFile(new URL('../studio.html', import.meta.url), 'utf8');
-  const code = await script('studio/main.ts', 'studio');
-  await page.route(address, (route) => route.fulfill({ contentType: 'text/html', body: html.replace(/<script.*<\/script>/, '<script src="code.js"></script>') }));
+  const [code, css] = [await script('studio/main.ts', 'studio'), await styles('studio/main.ts')];
+  await page.route(address, (route) => route.fulfill({
+    contentType: 'text/html', body: html.replace(/<script.*<\/script>/, `<style>${css}</style><script src="code.js"></script>`),
+  }));
   await page.route(`${address}code.js`, (route) => route.fulfill({ contentType: 'text/javascript', body: code }));
   let session = null;
   await page.routeWebSocket(/socket/, (socket) => (session = new Session(socket, remarksOf)));

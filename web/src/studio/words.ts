@@ -46,6 +46,8 @@ const en = {
   weakerAdd: 'Show it',
   weakerName: (what: string, percent: number) => `${what} at ${percent} %`,
   sideNames: { R: 'Right', L: 'Left' } as Record<'L' | 'R', string>,
+  /** Over views of the face. */
+  sideLetters: { R: 'R', L: 'L' } as Record<'L' | 'R', string>,
   presetsTitle: 'From a preset',
   presetAdd: 'Add',
   presetSource: (source: string, assumed: string) => `Source: ${source}. Assumed: ${assumed}.`,
@@ -190,6 +192,8 @@ const en = {
   nowIs: (value: string) => `now ${value}`,
   againstBase: (value: string) => `${value} to base`,
   asBase: 'as base',
+  dragged: 'dragged farther',
+  alongBase: 'along its way in base',
   noBand: 'Error bands follow when you pause; until then a change below 0.5 mm may be none.',
   againstBaseWithin: (value: string, band: string) => `${value} (± ${band}) to base`,
   undecidedChange: (value: string, band: string) => `undecided, ${value} (± ${band})`,
@@ -199,7 +203,7 @@ const en = {
   atTime: (seconds: string) => `at ${seconds} s`,
   nearPoint: (point: string) => `near ${point}`,
   noCorners: 'This scan has no points at the corners of the mouth.',
-  undecided: (floor: string) => `Left and right differ by less than ${floor}, which jitter and mesh make: undecided.`,
+  undecided: (floor: string) => `Right and left differ by less than ${floor}, which jitter and mesh make: undecided.`,
   symmetry: 'Symmetry of motion, S(t)',
   corners: 'Corners of the mouth',
 
