@@ -59,7 +59,7 @@ function replayOf(block, { faces, remarks }) {
   const landmarks = () => block.add('float32', new Float32Array([0, 1, 2].flatMap(() => at.flat())));
   const { modes, weights } = motionOf(block, { points });
   return {
-    version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), peak_time_s: 1 },
+    version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), peak_time_s: 1, head_shift_uncertainty_mm: 2.6, head_turn_uncertainty_deg: 1.3 },
     palette: { light: ['#147', '#a40'], dark: ['#8bf', '#fb8'], left: 0, right: 1, faces: [0, 1] },
     scan_vertices: side * side,
     skin: { points: block.add('float32', points), triangles: block.add('int32', triangles) },
@@ -128,8 +128,9 @@ class Session {
 }
 
 /** Opens the page; ready once the face is drawn. */
-export async function openMadeUp(browser, remarksOf) {
+export async function openMadeUp(browser, remarksOf, { init } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce' });
+  if (init) await context.addInitScript(init);
   const page = await context.newPage();
   page.setDefaultTimeout(90_000);
   const complaints = [];

@@ -14,17 +14,22 @@ import { nearestVertex } from '../replay/face/deform';
 import { isNumber } from '../replay/tables/figure_table';
 import { variantsOf } from '../replay/variants';
 import { dark } from '../page/theme';
+import { remarksOf, sentenceOf } from './remarks';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
 /** Until error bands are known: changes below this are not made to look like findings, mm. */
 const unsureMm = 0.5;
 
+/** Remarks on what the figures rest on. */
+const restOn = /^(landmarks|recording|sides|skin|head|symmetry|forces)\./;
+
 const plus = (value: number): string => signed(`${value > 0 ? '+' : ''}${value.toFixed(1)} mm`);
 
 export class FiguresPanel {
   private readonly table = element('table', '', 'corner-table');
   private readonly remark = element('p', '', 'remark');
+  private readonly doubts = element('ul', '', 'doubts');
   private readonly charts = element('div', '', 'charts');
   private plots: { chart: TimeChart; made: () => Omit<Chart, 'title'>[] }[] = [];
   private corners: (Corners | null)[] = [];
@@ -33,7 +38,8 @@ export class FiguresPanel {
   private cornerVertex: Record<Side, number> | null = null;
 
   constructor(private readonly state: StudioState, into: HTMLElement) {
-    into.append(this.table, this.remark, this.charts);
+    this.doubts.setAttribute('aria-label', words.doubts);
+    into.append(this.table, this.remark, this.doubts, this.charts);
     state.shown.onChange(() => this.change());
     dark.addEventListener('change', () => this.plots.forEach(({ chart }) => chart.draw()));
   }
@@ -70,6 +76,7 @@ export class FiguresPanel {
     this.live = null;
     this.corners = replay.faces.map((_, i) => cornersOf(replay, i));
     this.fill();
+    this.tellDoubts();
     this.change();
   }
 
@@ -209,6 +216,18 @@ export class FiguresPanel {
     const place = typeof near === 'string' && near ? ` ${words.nearPoint(landmarkName(near))}` : '';
     const when = words.atTime((replay.timeS[replay.faces[i].maxDifferenceFrame] ?? 0).toFixed(3));
     return `${words.most}: ${mm(most)}${place} ${when}`;
+  }
+
+  /** Of what the figures rest on: scan, landmarks, recording, the head's pose. */
+  private tellDoubts(): void {
+    const { summary } = this.state.source.replay;
+    const [shiftMm, turnDeg] = [summary.head_shift_uncertainty_mm, summary.head_turn_uncertainty_deg];
+    const floorMm = this.corners[0]?.floorMm ?? 0;
+    const head = isNumber(shiftMm) && isNumber(turnDeg) && shiftMm >= sameMm && shiftMm > floorMm
+      ? [words.headUncertain(mm(shiftMm), turnDeg.toFixed(1))] : [];
+    const inputs = remarksOf(summary).filter(({ severity, variant, id }) => severity === 'warning' && variant === '' && restOn.test(id));
+    this.doubts.replaceChildren(...[...inputs.map((remark) => sentenceOf(remark, words.remarks)), ...head].map((text) => element('li', text)));
+    this.doubts.hidden = this.doubts.children.length === 0;
   }
 
   private tellRemark(): void {
