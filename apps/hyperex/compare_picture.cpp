@@ -61,7 +61,8 @@ render::Image draw(const ComparePicture& picture) {
     const render::Camera camera =
         render::framing(framed, scan_from_face * view,
                         static_cast<double>(size.width_px) / size.height_px, scan_from_face.col(1));
-    sheet.pictures.push_back({render::render({surface}, camera, size), caption});
+    sheet.pictures.push_back({render::render({surface}, camera, size), caption,
+                              render::side_marks(camera, scan_from_face.col(0))});
   }
   sheet.bar = render::ColourBar{{0, top}, "distance (mm)", scalar.maxCoeff() > top};
   return render::contact_sheet(sheet);

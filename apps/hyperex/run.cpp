@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
+#include "hyperex/run/corner_words.hpp"
 #include "hyperex/run/run_scene.hpp"
 
 namespace hyperex::cli {
@@ -33,100 +34,6 @@ std::string solver_line(const nlohmann::ordered_json& summary) {
   return line + " of the largest displacement\n";
 }
 
-double number_in(const nlohmann::ordered_json& json, const char* key) {
-  return json.contains(key) && json[key].is_number() ? json[key].get<double>() : 0;
-}
-
-/// Whether the corners' difference counts, and what the larger floor comes from.
-std::string floor_clause(const nlohmann::ordered_json& corners, double apart_mm) {
-  const double floor_mm = number_in(corners, "floor_mm");
-  if (floor_mm <= 0) return "";
-  const bool of_jitter =
-      number_in(corners, "jitter_floor_mm") > number_in(corners, "mesh_floor_mm");
-  return fmt::format(": {} the floor of {} mm ({})",
-                     corners.value("undecided", false) ? "undecided, below" : "more than",
-                     floor_mm < 0.095 || std::abs(apart_mm - floor_mm) < 0.1
-                         ? fmt::format("{:.2f}", floor_mm)
-                         : fmt::format("{:.1f}", floor_mm),
-                     of_jitter ? "jitter" : "mesh");
-}
-
-/// An error of the head's pose moves both corners: a shift along both their ways parts them by
-/// nothing, a turn or a shift to one side does. No floor holds that, so it is said where it is
-/// larger than the floor.
-std::string head_clause(const nlohmann::ordered_json& summary,
-                        const nlohmann::ordered_json& corners) {
-  const double shift_mm = number_in(summary, "head_shift_uncertainty_mm");
-  if (shift_mm <= number_in(corners, "floor_mm") || shift_mm < 0.05) return "";
-  return fmt::format(
-      "; not in it: the head's pose, uncertain by up to {:.1f} mm and {:.1f} degrees (95 %), of "
-      "which a turn or a shift to one side would part them too",
-      shift_mm, number_in(summary, "head_turn_uncertainty_deg"));
-}
-
-/// "corners of the mouth: left 3.8 mm, right 12.7 mm, 8.9 mm apart"; empty where they are not
-/// known.
-std::string corners_line(const nlohmann::ordered_json& summary) {
-  const auto& symmetry = summary["symmetry"];
-  if (!symmetry.contains("commissure")) return "";
-  const auto& corners = symmetry["commissure"];
-  if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
-  const double left = corners["excursion_mm"]["L"], right = corners["excursion_mm"]["R"];
-  std::string line =
-      fmt::format("corners of the mouth: left {:.1f} mm, right {:.1f} mm, {:.1f} mm apart", left,
-                  right, std::abs(left - right));
-  return line + floor_clause(corners, std::abs(left - right)) + head_clause(summary, corners) +
-         "\n";
-}
-
-/// Of the greatest excursion: "9.7 to 7.9 mm, 1.8 mm less (+- 0.2)"; `band`: not a number where it
-/// is not known.
-std::string change_text(double from, double to, double band) {
-  const double change = to - from;
-  if (std::abs(change) < 0.05) return fmt::format("{:.1f} mm, unchanged", to);
-  if (std::abs(change) < band)
-    return fmt::format("{:.1f} to {:.1f} mm, undecided (+- {:.1f})", from, to, band);
-  return fmt::format("{:.1f} to {:.1f} mm, {:.1f} mm {}", from, to, std::abs(change),
-                     change < 0 ? "less" : "more") +
-         (std::isnan(band) ? "" : fmt::format(" (+- {:.1f})", band));
-}
-
-/// Where the greatest excursions differ by much less than the paths do: "; up to 3.7 mm from base
-/// at 1.93 s".
-std::string path_text(double change, double band, double from_base_mm, double time_s) {
-  const double least = std::fmax(0.3, std::isnan(band) ? 0 : band);
-  if (!(from_base_mm > least) || from_base_mm < 1.5 * std::abs(change)) return "";
-  return fmt::format(", but up to {:.1f} mm from base at {:.2f} s", from_base_mm, time_s);
-}
-
-/// What each variant makes of the corners of the mouth, a line each.
-std::string variant_lines(const nlohmann::ordered_json& summary) {
-  std::string lines;
-  if (!summary.contains("variants")) return lines;
-  const auto& table = summary["variants"]["table"];
-  for (std::size_t i = 1; i < table.size(); ++i) {
-    const auto side = [&](const std::string& corner) {
-      const auto &from = table[0][corner + "_mm"], &to = table[i][corner + "_mm"],
-                 &band = table[i][corner + "_band_mm"];
-      if (!from.is_number() || !to.is_number()) return std::string("not known");
-      const double before = from.get<double>(), now = to.get<double>();
-      const double band_mm = band.is_number() ? band.get<double>() : std::nan("");
-      return change_text(before, now, band_mm) +
-             path_text(now - before, band_mm,
-                       number_in(table[i], (corner + "_from_base_mm").c_str()),
-                       number_in(table[i], (corner + "_from_base_s").c_str()));
-    };
-    lines += fmt::format("  {}: corner of the mouth left {}; right {}\n",
-                         table[i]["name"].get<std::string>(), side("commissure_L"),
-                         side("commissure_R"));
-  }
-  if (!lines.empty())
-    lines +=
-        "  (each corner's greatest distance from rest; +-: what one other mesh and 95 % of the "
-        "recording's jitter could make)\n";
-  return lines;
-}
-
 void run(const RunOptions& options) {
   take_library_memory();
   auto overrides = options.overrides;
@@ -140,8 +47,8 @@ void run(const RunOptions& options) {
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
-      summary["seconds"]["total"].get<double>(), solver_line(summary), corners_line(summary),
-      variant_lines(summary), options.out.string());
+      summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
+      run::variant_lines(summary), options.out.string());
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},

@@ -39,20 +39,20 @@ void draw_bars(render::Canvas& canvas, double y, const std::vector<metrics::Pair
     top = std::max({top, p.left_side.excursion_mm, p.right_side.excursion_mm});
   canvas.text(70, y, "Excursion, largest distance from rest (mm)", {.size_px = 13});
   double legend = x + width;
-  legend -= canvas.text(
-                legend, y, "right",
-                {.size_px = 13, .colour = render::right_colour(), .align = render::Align::right}) +
-            16;
-  canvas.text(legend, y, "left",
-              {.size_px = 13, .colour = render::left_colour(), .align = render::Align::right});
+  legend -=
+      canvas.text(legend, y, "left",
+                  {.size_px = 13, .colour = render::left_colour(), .align = render::Align::right}) +
+      16;
+  canvas.text(legend, y, "right",
+              {.size_px = 13, .colour = render::right_colour(), .align = render::Align::right});
   canvas.text(870, y, "R/L", {.size_px = 13, .align = render::Align::right});
   for (const auto& p : pairs) {
     y += 27;
     canvas.text(x - 10, y + 4, face::point_words(p.name),
                 {.size_px = 12, .align = render::Align::right});
-    for (const bool left : {true, false}) {
+    for (const bool left : {false, true}) {
       const double mm = (left ? p.left_side : p.right_side).excursion_mm;
-      const double bar_y = y - bar + (left ? 0 : bar + 1);
+      const double bar_y = y - bar + (left ? bar + 1 : 0);
       canvas.rectangle(x, bar_y, width * mm / top, bar,
                        left ? render::left_colour() : render::right_colour());
       canvas.text(x + width * mm / top + 6, bar_y + bar, fmt::format("{:.2f}", mm),
@@ -78,8 +78,8 @@ render::Image draw(const metrics::SymmetryMeasures& measures, const std::string&
                            std::max(curve.time_s.back(), curve.time_s.front() + 1e-3)};
   std::vector<double> floor;
   for (const double value : curve.noise) floor.push_back(std::log(value));
-  const std::vector<render::PlotCurve> sides = {{curve.xi_left, render::left_colour(), "left"},
-                                                {curve.xi_right, render::right_colour(), "right"}};
+  const std::vector<render::PlotCurve> sides = {{curve.xi_right, render::right_colour(), "right"},
+                                                {curve.xi_left, render::left_colour(), "left"}};
   std::vector<render::PlotCurve> s = {{curve.s, render::palette::ink, ""}};
   if (!floor.empty())
     s.push_back({floor, render::palette::cut,

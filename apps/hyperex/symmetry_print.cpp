@@ -33,11 +33,12 @@ std::string undecided_note(const metrics::PairExcursion& p) {
 void print_curve(const metrics::SymmetryCurve& curve) {
   constexpr std::size_t rows = 20;
   const std::size_t count = curve.time_s.size(), every = (count + rows - 1) / rows;
-  std::cout << fmt::format("{:>10} {:>10} {:>10} {:>10} {:>10}\n", "time (s)", "xi_L", "xi_R",
+  std::cout << fmt::format("{:>10} {:>10} {:>10} {:>10} {:>10}\n", "time (s)", "xi_R", "xi_L",
                            "S (ln)", "S_floor");
   for (std::size_t i = 0; i < count; i += every)
-    std::cout << fmt::format("{:10.4f} {} {} {} {}{}\n", curve.time_s[i], cell(curve.xi_left[i], 5),
-                             cell(curve.xi_right[i], 5), cell(curve.s[i], 5),
+    std::cout << fmt::format("{:10.4f} {} {} {} {}{}\n", curve.time_s[i],
+                             cell(curve.xi_right[i], 5), cell(curve.xi_left[i], 5),
+                             cell(curve.s[i], 5),
                              cell(curve.noise.empty() ? NAN : std::log(curve.noise[i]), 3),
                              i > 0 && curve.undecided(i) ? "  undecided" : "");
   if (every > 1)
@@ -50,12 +51,12 @@ void print_excursions(const metrics::Excursions& excursions) {
   std::cout << fmt::format("\n{:<43}{:>32}{:>33}{:>13}\n", "", "excursion (mm)  ",
                            "peak speed (mm/s)  ", "correlation");
   std::cout << fmt::format("{:<43} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "point",
-                           "L", "R", "R/L", "L", "R", "R/L", "of speeds");
+                           "R", "L", "R/L", "R", "L", "R/L", "of speeds");
   for (const metrics::PairExcursion& p : excursions.pairs)
     std::cout << fmt::format("{:<43} {} {} {} {} {} {}   {}{}\n", face::point_words(p.name),
-                             cell(p.left_side.excursion_mm, 2), cell(p.right_side.excursion_mm, 2),
-                             cell(p.excursion_ratio, 3), cell(p.left_side.peak_speed_mm_s, 1),
-                             cell(p.right_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),
+                             cell(p.right_side.excursion_mm, 2), cell(p.left_side.excursion_mm, 2),
+                             cell(p.excursion_ratio, 3), cell(p.right_side.peak_speed_mm_s, 1),
+                             cell(p.left_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),
                              cell(p.speed_correlation, 3), undecided_note(p));
   if (excursions.lowpass_hz > 0)
     std::cout << fmt::format(

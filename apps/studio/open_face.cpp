@@ -102,6 +102,8 @@ json OpenFace::replay(report::BinaryBlock& block, bool with_face) const {
   summary["symmetry"] = metrics::summary_of(all.symmetry);
   summary["warnings"] = texts_of(all.notes, Severity::warning);
   summary["remarks"] = session::remarks_json(all.notes);
+  summary["head_shift_uncertainty_mm"] = all.inputs.head_shift_uncertainty_mm;
+  summary["head_turn_uncertainty_deg"] = all.inputs.head_turn_uncertainty_deg;
   const simulate::Performance& p = all.simulation.performance;
   summary["peak_time_s"] = p.frame_time_s[std::size_t(p.peak_frame)];
   const std::vector<session::VariantRun>& variants = session_.variants();

@@ -12,6 +12,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/zip.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene_text.hpp"
 #include "hyperex/scene/toml_values.hpp"
 #include "upload_name.hpp"
@@ -100,6 +101,18 @@ std::string embedded_scene() {
 
 std::string_view embedded_smile() {
   return {hyperex_studio_smile_begin, hyperex_studio_smile_end};
+}
+
+std::string with_recording(const std::string& text, const fs::path& recording) {
+  const json root = scene::parse_toml(text).root;
+  std::string out = text;
+  if (root.contains("motion") && root["motion"].is_object())
+    for (const auto& [key, value] : root["motion"].items())
+      if (key != "gain") out = scene::with_value(out, "motion." + key, nullptr);
+  // The built-in smile gives its scene its title.
+  if (root.value("title", "") == scene::parse_toml(embedded_scene()).root["title"])
+    out = scene::with_value(out, "title", nullptr);
+  return scene::with_value(out, scene::recording_key(recording), fs::absolute(recording).string());
 }
 
 json with_uploads(const std::string& key, json value, const fs::path& uploads,

@@ -14,6 +14,10 @@ std::string embedded_scene();
 /// The contents of "smile_arkit.csv".
 std::string_view embedded_smile();
 
+/// A scene moved by another recording. What it says of the one before goes with it; the face and
+/// what is asked of it stay.
+std::string with_recording(const std::string& text, const std::filesystem::path& recording);
+
 /// Replaces each path in the value of a key, also in rows of tables, by the file of this name in
 /// `uploads`, so that no path of a page reaches the file system. "embedded" and paths in `known`
 /// stay. Throws InputError for a name that is not there.

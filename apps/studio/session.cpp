@@ -14,11 +14,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Removes the path of the session's own folder, which means nothing to the user.
+/// Removes the paths of the session's own folders, which mean nothing to the user.
 std::string without_folder(std::string text, const fs::path& folder) {
-  const std::string path = folder.string() + "/";
-  for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at))
-    text.erase(at, path.size());
+  for (const std::string& path : {(folder / "uploads").string() + "/", folder.string() + "/"})
+    for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at))
+      text.erase(at, path.size());
   return text;
 }
 

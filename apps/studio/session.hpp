@@ -101,6 +101,8 @@ class Session {
   std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
   /// Writes the built-in smile beside the session's scene.
   void write_smile() const;
+  /// Whether there may be work to offer: what is open or saved is not lost.
+  bool offers_rescued() const;
   std::filesystem::path uploads() const { return options_.folder / "uploads"; }
 
   // Changes and their history (session_edits.cpp).
@@ -108,6 +110,9 @@ class Session {
   std::vector<std::string> known_paths() const;
   /// The scene's text with changed keys of a face.
   std::string text_with_changes(const nlohmann::json& changes, int face);
+  /// The scene's text with another name of a variant.
+  std::string text_with_name(const std::string& text, std::size_t face,
+                             const std::string& name) const;
   void apply(const std::string& text);
   /// Makes the text the scene and adds one step to the history.
   void commit(const std::string& text);

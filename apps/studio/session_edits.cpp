@@ -99,7 +99,8 @@ json Session::set(const json& fields) {
   const bool following = live_ && !live_->ended();
   if (following) live_face_ = std::size_t(face);
   if (!fields.at("live").get<bool>()) {
-    commit(text);
+    const std::string name = fields.value("name", "");
+    commit(name.empty() ? text : text_with_name(text, std::size_t(face), name));
     return {{"superseded", false}};
   }
   if (!require_face().set_text(text)) return {{"superseded", false}};  // no new mesh during a drag

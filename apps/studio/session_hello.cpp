@@ -95,14 +95,18 @@ json regions_json() {
   return out;
 }
 
-/// The work of a crashed session, and its age; null where there is none.
+/// The work of a crashed session by its title, or by its scan's name, and its age; null where there
+/// is none.
 json rescued_json(const fs::path& folder) {
   const fs::path file = folder / "scene.toml";
   std::error_code error;
   if (folder.empty() || !fs::exists(file, error)) return nullptr;
   std::string title;
   try {
-    title = scene::parse_toml(read_file(file)).root.value("title", "");
+    const json root = scene::parse_toml(read_file(file)).root;
+    title = root.value("title", "");
+    if (title.empty() && root.contains("scan"))
+      title = fs::path(root["scan"].value("file", "")).filename().string();
   } catch (const std::exception&) {
     // Opening it reports the error.
   }
@@ -112,6 +116,11 @@ json rescued_json(const fs::path& folder) {
 }
 
 }  // namespace
+
+bool Session::offers_rescued() const {
+  const bool open = face_ && now_.file.parent_path() == options_.rescued;
+  return keeps_rescued_ && !open;
+}
 
 json Session::hello(const json&) {
   face_sent_ = false;
@@ -125,7 +134,7 @@ json Session::hello(const json&) {
           {"regions", regions_json()},
           {"places",
            {{"started", options_.started.empty() ? json() : json(options_.started.filename())},
-            {"autosave", rescued_json(options_.rescued)},
+            {"autosave", offers_rescued() ? rescued_json(options_.rescued) : json()},
             {"folder", options_.save_into},
             {"save_into", options_.save_into},
             {"device", options_.device.empty() ? json() : json(options_.device)},

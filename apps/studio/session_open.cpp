@@ -52,6 +52,11 @@ json Session::open(const json& fields) {
     open_text(read_file(file), file);
     saved_ = false;
     send_scene();
+  } else if (what == "current") {
+    const fs::path file = uploaded(recording);
+    if (file.empty()) throw InputError("recording: expected the name of an upload");
+    require_face();
+    commit(with_recording(now_.text, file));
   } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
     static_cast<void>(uploaded(recording));  // unpacks it: the scene names it
     open_text(with_uploads(read_file(file), uploads()), file);

@@ -51,15 +51,19 @@ json Session::remove_variant(const json& fields) {
   return json::object();
 }
 
-json Session::rename_variant(const json& fields) {
-  std::vector<json> blocks = scene::variant_blocks(now_.text);
-  const std::size_t face = fields.at("face");
-  if (face > blocks.size()) throw InputError("face: no such variant");
+std::string Session::text_with_name(const std::string& text, std::size_t face,
+                                    const std::string& name) const {
+  std::vector<json> blocks = scene::variant_blocks(text);
+  if (face < 1 || face > blocks.size()) throw InputError("face: no such variant");
   std::vector<json> others = blocks;
   others.erase(others.begin() + std::ptrdiff_t(face) - 1);
-  check_face_name(fields.at("name"), others);
-  blocks[face - 1]["name"] = fields.at("name");
-  commit(scene::with_variants(now_.text, blocks));
+  check_face_name(name, others);
+  blocks[face - 1]["name"] = name;
+  return scene::with_variants(text, blocks);
+}
+
+json Session::rename_variant(const json& fields) {
+  commit(text_with_name(now_.text, fields.at("face"), fields.at("name")));
   return json::object();
 }
 

@@ -212,8 +212,8 @@ describe(`curves of ${basename(report)}`, () => {
 
   test('the table tells what the data hold', async () => {
     const keys = [
-      'greatest_displacement_mm', 'greatest_distance_mm', 'rms_distance_at_peak_mm', 'mean_displacement_L_mm',
-      'mean_displacement_R_mm', 'asymmetry_rms_mm', 'added_xi_difference',
+      'greatest_displacement_mm', 'greatest_distance_mm', 'rms_distance_at_peak_mm', 'mean_displacement_R_mm',
+      'mean_displacement_L_mm', 'asymmetry_rms_mm', 'added_xi_difference',
       'share_within_25_mm_of_mouth', 'lag_ms', 'hysteresis', 'symmetry_integral_s',
     ];
     const table = page.getByRole('table', { name: 'Variants' });
@@ -354,20 +354,20 @@ describe('figures that are rare', () => {
     const texts = () => rows.evaluateAll((all) => all.map((row) => [...row.cells].map((c) => c.textContent)));
     assert.deepEqual((await texts()).map(([name]) => name), ['Corner of the mouth (cheilion)', 'Cheek', 'Wing of the nose (alare)']);
     const [cheilion, cheek] = await texts();
-    assert.deepEqual(cheilion.slice(2), ['6.78', '4.20', '0.619', '13.56', '8.40', '0.619', '61.0', '37.8', '0.619', '0.987']);
+    assert.deepEqual(cheilion.slice(2), ['4.20', '6.78', '0.619', '8.40', '13.56', '0.619', '37.8', '61.0', '0.619', '0.987']);
     assert.equal(cheek[4], '–', 'no ratio where the left rests');
     assert.equal((await texts())[2][4], 'undecided (below 0.3 mm)');
     await page.getByRole('button', { name: 'Show 1 more points' }).click();
     assert.deepEqual((await texts()).map(([name]) => name), ['Corner of the mouth (cheilion)', 'Cheek', 'Wing of the nose (alare)', 'Outline of the jaw']);
     const widths = await page.locator('.balance').evaluateAll((all) => all.map((b) => [...b.children].map((i) => i.offsetWidth)));
-    assert.ok(Math.abs(widths[0][0] / widths[3][0] - 6.78 / 12) < 0.05, String(widths));
+    assert.ok(Math.abs(widths[0][1] / widths[3][1] - 6.78 / 12) < 0.05, String(widths));
     const { names, rows: lines } = csv((await saved(page, page.locator('.excursions').getByRole('button', { name: /^CSV/ }))).bytes);
     assert.equal(lines.length, 4);
     assert.equal(lines.find(([p]) => p === 'cheilion')[names.indexOf('Excursion right (mm)')], '4.2');
     const whose = page.locator('.excursions .whose');
     assert.equal(await whose.textContent(), 'Of base.');
     await page.keyboard.press('3');
-    assert.deepEqual((await texts()).map(([name, , L, R]) => [name, L, R]), [['Wing of the nose (alare)', '6.00', '0.25'], ['Corner of the mouth (cheilion)', '5.00', '3.00']]);
+    assert.deepEqual((await texts()).map(([name, , R, L]) => [name, R, L]), [['Wing of the nose (alare)', '0.25', '6.00'], ['Corner of the mouth (cheilion)', '3.00', '5.00']]);
     assert.notEqual(await whose.textContent(), 'Of base.');
     await page.keyboard.press('1');
     assert.equal((await texts()).length, 4);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studio's page with a made-up face and a server of a few lines: neither the program nor a build is needed.
 import { readFile } from 'node:fs/promises';
-import { script } from './modules.mjs';
+import { script, styles } from './modules.mjs';
 
 const address = 'http://127.0.0.1:8123/';
 const side = 9;
@@ -59,7 +59,7 @@ function replayOf(block, { faces, remarks }) {
   const landmarks = () => block.add('float32', new Float32Array([0, 1, 2].flatMap(() => at.flat())));
   const { modes, weights } = motionOf(block, { points });
   return {
-    version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), peak_time_s: 1 },
+    version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), peak_time_s: 1, head_shift_uncertainty_mm: 2.6, head_turn_uncertainty_deg: 1.3 },
     palette: { light: ['#147', '#a40'], dark: ['#8bf', '#fb8'], left: 0, right: 1, faces: [0, 1] },
     scan_vertices: side * side,
     skin: { points: block.add('float32', points), triangles: block.add('int32', triangles) },
@@ -128,8 +128,9 @@ class Session {
 }
 
 /** Opens the page; ready once the face is drawn. */
-export async function openMadeUp(browser, remarksOf) {
+export async function openMadeUp(browser, remarksOf, { init } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce' });
+  if (init) await context.addInitScript(init);
   const page = await context.newPage();
   page.setDefaultTimeout(90_000);
   const complaints = [];
@@ -139,8 +140,10 @@ export async function openMadeUp(browser, remarksOf) {
   });
   page.on('pageerror', (error) => complaints.push(String(error.stack)));
   const html = await readFile(new URL('../studio.html', import.meta.url), 'utf8');
-  const code = await script('studio/main.ts', 'studio');
-  await page.route(address, (route) => route.fulfill({ contentType: 'text/html', body: html.replace(/<script.*<\/script>/, '<script src="code.js"></script>') }));
+  const [code, css] = [await script('studio/main.ts', 'studio'), await styles('studio/main.ts')];
+  await page.route(address, (route) => route.fulfill({
+    contentType: 'text/html', body: html.replace(/<script.*<\/script>/, `<style>${css}</style><script src="code.js"></script>`),
+  }));
   await page.route(`${address}code.js`, (route) => route.fulfill({ contentType: 'text/javascript', body: code }));
   let session = null;
   await page.routeWebSocket(/socket/, (socket) => (session = new Session(socket, remarksOf)));

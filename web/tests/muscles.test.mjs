@@ -58,7 +58,7 @@ describe('a report of a face that muscles drive', () => {
       const options = await card(page).locator('option').allTextContents();
       assert.equal(options.length, groups.length);
       order.forEach(({ name, left, right }, i) =>
-        assert.equal(options[i].toLowerCase(), `${name} (left ${extreme(left)}, right ${extreme(right)})`.toLowerCase()));
+        assert.equal(options[i].toLowerCase(), `${name} (right ${extreme(right)}, left ${extreme(left)})`.toLowerCase()));
       const shows = async ({ left, right }) => {
         const { time_s: timeS } = (await readPage(report)).data.muscles;
         const frame = Number(await page.locator('#frame').inputValue());
@@ -67,10 +67,10 @@ describe('a report of a face that muscles drive', () => {
         const texts = await card(page).locator('.u-series .u-value').allTextContents();
         assert.deepEqual(
           texts.slice(-2).map((t) => Number(t.replace('\u2212', '-'))),
-          [left, right].map((values) => Number(values[nearest].toFixed(2))));
+          [right, left].map((values) => Number(values[nearest].toFixed(2))));
       };
       await shows(order[0]);
-      assert.deepEqual(await card(page).locator('.u-series button').allTextContents(), ['left', 'right']);
+      assert.deepEqual(await card(page).locator('.u-series button').allTextContents(), ['right', 'left']);
       assert.equal((await card(page).textContent()).includes('not a measurement'), few);
       assert.ok((await card(page).textContent()).includes('Of base'));
       await card(page).locator('select').selectOption('1');
@@ -103,7 +103,7 @@ describe('a report of a face that muscles drive', () => {
     const frame = Number(await page.locator('#frame').inputValue());
     const at = data.motion.time_s[frame];
     const k = data.muscles.time_s.reduce((best, t, i) => (Math.abs(t - at) < Math.abs(data.muscles.time_s[best] - at) ? i : best), 0);
-    const valuesOf = ({ left, right }) => [left[k], right[k]].map((v) => Number(v.toFixed(2)));
+    const valuesOf = ({ left, right }) => [right[k], left[k]].map((v) => Number(v.toFixed(2)));
     assert.deepEqual(await shownValues(), valuesOf(groups[first]));
     await page.locator('.variant-lines .face-name').first().click();
     assert.deepEqual(await shownValues(), valuesOf(data.variants[0].muscles[first]));

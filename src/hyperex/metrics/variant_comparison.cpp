@@ -120,8 +120,11 @@ void measure_commissures(const ComparedRun& base, const ComparedRun& run, Varian
       c.commissure_right = change(Side::right);
       c.left_from_base =
           distance_from_base(base.performance.landmarks, run.performance.landmarks, left);
-      c.right_from_base = distance_from_base(base.performance.landmarks, run.performance.landmarks,
-                                             excursions.pairs[i].right);
+      const int right = excursions.pairs[i].right;
+      const motion::Motion &own = base.performance.landmarks, &run_own = run.performance.landmarks;
+      c.right_from_base = distance_from_base(own, run_own, right);
+      c.left_along_base_mm = along_base_mm(own, run_own, left);
+      c.right_along_base_mm = along_base_mm(own, run_own, right);
     }
 }
 
@@ -173,6 +176,24 @@ DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Mo
     if (!(mm <= farthest.most_mm)) farthest = {mm, run.time_s[k]};
   }
   return farthest;
+}
+
+double along_base_mm(const motion::Motion& base, const motion::Motion& run, int column) {
+  constexpr double least_mm = 0.1;
+  if (column < 0 || column >= int(base.names.size())) return std::nan("");
+  Vec3 way = Vec3::Zero();
+  for (const Points& sample : base.positions)
+    if (const Vec3 d = (sample.row(column) - base.positions[0].row(column)).transpose();
+        d.norm() > way.norm())
+      way = d;
+  if (!(1e3 * way.norm() >= least_mm)) return std::nan("");
+  double most = 0;
+  for (const Points& sample : run.positions) {
+    const double along =
+        1e3 * (sample.row(column) - run.positions[0].row(column)).dot(way.normalized());
+    if (std::abs(along) > std::abs(most)) most = along;
+  }
+  return most;
 }
 
 VariantComparison compare_variant(const std::string& name, const ComparedRun& base,

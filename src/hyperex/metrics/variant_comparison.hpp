@@ -47,6 +47,13 @@ struct DistanceFromBase {
 DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Motion& run,
                                     int column);
 
+/// How far a point goes along the way that it goes in base: with d its displacement since the first
+/// sample and u the direction of base's d where that is greatest, the value of d.u of the greatest
+/// size, with its sign, mm. Of base itself that is its excursion. A distance from rest has no
+/// direction: a weak corner that the other side drags back may be as far from rest as before. NaN
+/// where the point is not known or base moves it by less than a tenth of a millimetre.
+double along_base_mm(const motion::Motion& base, const motion::Motion& run, int column);
+
 /// A run against the scene's own. "Peak" is the scene's own.
 struct VariantComparison {
   std::string name;
@@ -62,6 +69,9 @@ struct VariantComparison {
   /// How far the corners of the mouth travel; NaN where they are not known.
   ExcursionChange commissure_left, commissure_right;
   DistanceFromBase left_from_base, right_from_base;  ///< of the same corners
+  /// Of the same corners: along_base_mm().
+  double left_along_base_mm = std::numeric_limits<double>::quiet_NaN();
+  double right_along_base_mm = std::numeric_limits<double>::quiet_NaN();
   double asymmetry_mm = 0;  ///< at the peak, root mean square over the face
   /// What the variant adds to xi_L - xi_R, where it adds most.
   double added_xi_difference = 0;

@@ -36,6 +36,8 @@ std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& 
           {"commissure_L_from_base_s", c.left_from_base.time_s},
           {"commissure_R_from_base_mm", c.right_from_base.most_mm},
           {"commissure_R_from_base_s", c.right_from_base.time_s},
+          {"commissure_L_along_base_mm", c.left_along_base_mm},
+          {"commissure_R_along_base_mm", c.right_along_base_mm},
           {"asymmetry_rms_mm", c.asymmetry_mm},
           {"added_xi_difference", c.added_xi_difference},
           {"added_xi_floor", c.added_xi_floor},

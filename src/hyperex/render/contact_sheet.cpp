@@ -5,6 +5,30 @@
 #include <stdexcept>
 
 namespace hyperex::render {
+namespace {
+
+/// Where the head leaves room in any view.
+void draw_marks(Canvas& canvas, const SheetPicture& picture, int x, int y) {
+  constexpr double inset = 12, size_px = 15;
+  const double line = y + inset + size_px - 3, right = x + picture.image.width - inset;
+  const auto letter = [&](double at, const std::string& text, Align align) {
+    if (!text.empty())
+      canvas.text(at, line, text, {.size_px = size_px, .align = align, .bold = true});
+  };
+  letter(x + inset, picture.marks.at_left, Align::left);
+  letter((x + inset + right) / 2, picture.marks.in_middle, Align::centre);
+  letter(right, picture.marks.at_right, Align::right);
+}
+
+/// A long name is written smaller, and not over the next one.
+TextStyle caption_style(const Canvas& canvas, const std::string& caption, int width_px) {
+  TextStyle style{.size_px = 13, .align = Align::centre};
+  const double width = canvas.text_width(caption, style);
+  if (width > width_px) style.size_px = std::max(7.0, style.size_px * width_px / width);
+  return style;
+}
+
+}  // namespace
 
 Image contact_sheet(const ContactSheet& sheet) {
   if (sheet.pictures.empty() || sheet.columns < 1)
@@ -41,10 +65,12 @@ Image contact_sheet(const ContactSheet& sheet) {
     const SheetPicture& picture = sheet.pictures[i];
     const int x = margin + static_cast<int>(i) % columns * step_x;
     const int y = top + static_cast<int>(i) / columns * step_y;
-    canvas.draw(picture.image, x + (cell_width - picture.image.width) / 2,
-                y + (cell_height - picture.image.height) / 2);
+    const int left = x + (cell_width - picture.image.width) / 2;
+    const int above = y + (cell_height - picture.image.height) / 2;
+    canvas.draw(picture.image, left, above);
+    draw_marks(canvas, picture, left, above);
     canvas.text(x + cell_width / 2.0, y + cell_height + 16, picture.caption,
-                {.size_px = 13, .align = Align::centre});
+                caption_style(canvas, picture.caption, cell_width));
   }
   if (sheet.bar) {
     const int height = std::clamp(rows * step_y - 60, 60, 420);

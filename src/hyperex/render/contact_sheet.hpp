@@ -6,12 +6,14 @@
 
 #include "hyperex/render/canvas.hpp"
 #include "hyperex/render/image.hpp"
+#include "hyperex/render/side_marks.hpp"
 
 namespace hyperex::render {
 
 struct SheetPicture {
   Image image;
-  std::string caption;  ///< under the picture; may be empty
+  std::string caption;   ///< under the picture; may be empty
+  SideMarks marks = {};  ///< over the picture, at its upper corners
 };
 
 /// Pictures side by side under one title, with one colour bar for all of them.

@@ -47,6 +47,26 @@ bool in_the_face(const std::vector<int>& loop, const Points& points, const FaceC
   return share > 0 && share < 1;
 }
 
+/// How deep a pocket may reach behind an opening before it shows behind the scan in profile: as far
+/// as the scan's border at the heights that the pocket has, less a clearance.
+/// Infinite where the border is elsewhere, as on a whole head.
+double room_behind(const Opening& opening, const std::vector<int>& border, const Points& points,
+                   const FaceCorners& corners) {
+  constexpr double moves_m = 0.01, clear_m = 0.004;
+  const Vec3 centre = centre_of(opening.loop, points);
+  const Vec3 up = opening.inward.cross(corners.outer[1] - corners.outer[0]).normalized();
+  double half_m = 0;
+  for (const int v : opening.loop)
+    half_m = std::max(half_m, std::abs(up.dot(points.row(v).transpose() - centre)));
+  double room_m = INFINITY;
+  for (const int v : border) {
+    const Vec3 off = points.row(v).transpose() - centre;
+    if (std::abs(up.dot(off)) > 1.35 * half_m + moves_m) continue;
+    room_m = std::min(room_m, off.dot(opening.inward) - clear_m);
+  }
+  return std::max(room_m, clear_m);
+}
+
 std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners) {
   constexpr double longest_m = 0.25;
   const std::vector<std::vector<int>> loops = boundary_loops(skin.triangles);
@@ -70,6 +90,9 @@ std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners
       openings.back().depth_m = 0.5 * length_m[i];
       openings.back().rings = {{{0.22, 1.35}, {0.95, 1.3}}};
     }
+    openings.back().depth_m =
+        std::min(openings.back().depth_m,
+                 room_behind(openings.back(), loops[std::size_t(border)], skin.points, corners));
   }
   return openings;
 }

@@ -53,7 +53,8 @@ render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm
     const auto& [view, caption] = views[i];
     const render::Camera camera =
         render::framing(framed, scan_from_face * view, aspect, scan_from_face.col(1));
-    sheet.pictures[i] = {render::render({surface}, camera, size), caption};
+    sheet.pictures[i] = {render::render({surface}, camera, size), caption,
+                         render::side_marks(camera, scan_from_face.col(0))};
   });
   float most = 0;
   for (Eigen::Index i = 0; i < map_mm.size(); ++i)

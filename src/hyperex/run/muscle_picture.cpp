@@ -61,9 +61,10 @@ struct View {
   bool left, right;  // the sides whose muscles are drawn
 };
 
-render::Image view_of(const View& view, const TriMesh& skin, const Points& framed,
-                      const std::vector<muscles::MuscleLine>& lines, const face::FaceFrame& frame,
-                      const AtPeak& peak, const muscles::MuscleTable& table) {
+render::SheetPicture view_of(const View& view, const TriMesh& skin, const Points& framed,
+                             const std::vector<muscles::MuscleLine>& lines,
+                             const face::FaceFrame& frame, const AtPeak& peak,
+                             const muscles::MuscleTable& table) {
   render::RenderOptions options{.width_px = 440, .height_px = 560};
   options.overlay_bias_m = 0.025;  // as deep as a muscle lies
   const render::Camera camera =
@@ -86,7 +87,7 @@ render::Image view_of(const View& view, const TriMesh& skin, const Points& frame
     canvas.disc(at.x, at.y, 7, {1, 1, 1});
     draw_mark(canvas, at.x, at.y, std::size_t(line.row), table);
   }
-  return canvas.image();
+  return {canvas.image(), view.caption, render::side_marks(camera)};
 }
 
 std::string shown(double activation) {
@@ -140,8 +141,7 @@ render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& 
   sheet.columns = 4;
   sheet.pictures.resize(views.size());
   tbb::parallel_for(std::size_t(0), views.size(), [&](std::size_t i) {
-    sheet.pictures[i] = {view_of(views[i], skin, framed, lines, frame, peak, table),
-                         views[i].caption};
+    sheet.pictures[i] = view_of(views[i], skin, framed, lines, frame, peak, table);
   });
   const int height_px = sheet.pictures.front().image.height;
   sheet.pictures.push_back({legend(table, peak, height_px), ""});

@@ -179,7 +179,7 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
 
   render::ContactSheet sheet;
   sheet.title = r.scene.title.empty() ? r.inputs.scan.file.filename().string() : r.scene.title;
-  sheet.note = "displacement of the skin; red: driven points";
+  sheet.note = "displacement of the skin; red: driven points; R and L: the subject's own sides";
   if (p.lip_cut_rest.rows() > 0) sheet.note += "; orange: where the joined lips were cut";
   sheet.columns = static_cast<int>(stills.size()) + 1;
   sheet.bar = render::ColourBar{{0, top}, "displacement (mm)"};
@@ -193,11 +193,11 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
     if (!still)
       return {
           render::render(behind.with({.mesh = mesh}), camera, options, markers(p, frame), lines),
-          "rest"};
+          "rest", render::side_marks(camera)};
     const render::Surface surface{
         .mesh = mesh, .scalar = 1e3F * still->displacement->rowwise().norm(), .range = {0, top}};
     return {render::render(behind.with(surface), camera, options),
-            fmt::format("{:.2f} s", still->time_s)};
+            fmt::format("{:.2f} s", still->time_s), render::side_marks(camera)};
   };
   const std::size_t columns = stills.size() + 1;
   sheet.pictures.resize(cameras.size() * columns);

@@ -41,10 +41,11 @@ render::Image sheet_of(const Results& r, int parameter) {
   sheet.columns = int(views.size());
   sheet.bar = render::ColourBar{range, info.title};
   const render::Surface surface{.mesh = local, .scalar = values, .range = range};
-  for (const auto& [view, caption] : views)
+  for (const auto& [view, caption] : views) {
+    const render::Camera camera = render::framing(framed, view, aspect);
     sheet.pictures.push_back(
-        {render::render({surface}, render::framing(framed, view, aspect), options, markers),
-         caption});
+        {render::render({surface}, camera, options, markers), caption, render::side_marks(camera)});
+  }
   return render::contact_sheet(sheet);
 }
 

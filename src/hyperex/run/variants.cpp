@@ -14,6 +14,7 @@
 #include "hyperex/metrics/variant_tables.hpp"
 #include "hyperex/run/variants_picture.hpp"
 #include "hyperex/scene/file_names.hpp"
+#include "hyperex/simulate/load/held_load.hpp"
 
 namespace hyperex::run {
 namespace {
@@ -32,9 +33,25 @@ void write_tables(const Results& base, const std::vector<VariantRun>& runs,
                                         base.symmetry.excursions, excursions);
 }
 
-}  // namespace
-
-namespace {
+/// The subject's own sides on which a variant lets some muscle pull less than base does, "L" and
+/// "R": a corner there that goes farther is dragged.
+Json weaker_sides(const Results& base, const VariantRun& run) {
+  const std::vector<std::string>& names = base.simulation.performance.muscles.names;
+  const auto pull = [&](const scene::Scene& scene) -> Eigen::VectorXd {
+    return scene.drive.gain *
+           simulate::muscle_gains(names, scene.muscles.gains, base.scene.muscles.table());
+  };
+  const Eigen::VectorXd before = pull(base.scene), now = pull(run.scene);
+  Json sides = Json::array();
+  for (const char* side : {"R", "L"})
+    for (std::size_t m = 0; m < names.size(); ++m)
+      if (names[m].ends_with(std::string("_") + side) &&
+          now[Eigen::Index(m)] < before[Eigen::Index(m)]) {
+        sides.push_back(side);
+        break;
+      }
+  return sides;
+}
 
 struct Compared {
   metrics::ResponsePair pair;
@@ -64,6 +81,7 @@ Json table_of(const Results& base, const std::vector<VariantRun>& runs, const Co
     Json one = metrics::json_of(compared.variants[i]);
     one["folder"] = "variants/" + runs[i].folder;
     one["changes"] = scene::echoed_changes(base.scene, base.scene.variants[i].changes);
+    one["weaker_sides"] = weaker_sides(base, runs[i]);
     one["lip_overlap_mm"] = runs[i].simulation.report.lip_overlap_mm;
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");

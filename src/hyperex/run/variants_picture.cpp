@@ -15,6 +15,7 @@
 #include "hyperex/render/render.hpp"
 #include "hyperex/render/time_plot.hpp"
 #include "hyperex/run/backing_surfaces.hpp"
+#include "hyperex/run/face_box.hpp"
 
 namespace hyperex::run {
 namespace {
@@ -65,26 +66,29 @@ ColourTop colour_top(const std::vector<metrics::VariantComparison>& compared) {
   return top;
 }
 
-/// From the front, and obliquely from the side on which most of the difference lies.
-std::array<render::Camera, 2> cameras_on(const Results& base, const face::FaceFrame& frame,
-                                         const Points& own,
-                                         const std::vector<metrics::VariantComparison>& compared,
-                                         double aspect) {
-  Points framed(Eigen::Index(base.inputs.landmarks.size()), 3);
-  Eigen::Index row = 0;
-  for (const auto& [name, at] : base.inputs.landmarks)
-    framed.row(row++) = frame.local(at).transpose();
-  Vec3 oblique = render::three_quarter_view();  // sees the left side
-  double lean = 0;
-  for (const auto& one : compared)
-    lean += one.difference.greatest_m.cwiseAbs2().cast<double>().dot(own.col(0));
-  if (lean < 0) oblique.x() *= -1;  // most of the difference is on the right
-  std::array<render::Camera, 2> cameras;
-  for (std::size_t v = 0; v < cameras.size(); ++v) {
-    cameras[v] = render::framing(framed, v == 0 ? render::front_view() : oblique, aspect);
-    cameras[v].height_m *= 1.15;
-  }
+/// Obliquely from the right, from the front and from the left: what a variant changes may lie on
+/// either side. They hold the whole face, and show it as large.
+std::array<render::Camera, 3> cameras_on(const Points& framed, double aspect) {
+  const Vec3 left = render::three_quarter_view(), right(-left.x(), left.y(), left.z());
+  std::array cameras{render::framing(framed, right, aspect),
+                     render::framing(framed, render::front_view(), aspect),
+                     render::framing(framed, left, aspect)};
+  double height_m = 0;
+  for (const render::Camera& camera : cameras) height_m = std::max(height_m, camera.height_m);
+  for (render::Camera& camera : cameras) camera.height_m = height_m;
   return cameras;
+}
+
+/// What the box holds of the skin at rest, in all the faces that are drawn.
+Points shown_points(const FaceBox& box, const Points& rest, const std::vector<TriMesh>& faces) {
+  std::vector<Vec3> kept;
+  for (Eigen::Index v = 0; v < rest.rows(); ++v) {
+    if (!box.holds(rest.row(v))) continue;
+    for (const TriMesh& face : faces) kept.emplace_back(face.points.row(v));
+  }
+  Points points(Eigen::Index(kept.size()), 3);
+  for (std::size_t i = 0; i < kept.size(); ++i) points.row(Eigen::Index(i)) = kept[i].transpose();
+  return points;
 }
 
 }  // namespace
@@ -102,12 +106,13 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   const ColourTop top = colour_top(compared);
   const render::RenderOptions size{.width_px = 300, .height_px = 380};
   const double aspect = double(size.width_px) / size.height_px;
-  const TriMesh own = skin_then(p);
+  std::vector<TriMesh> faces{skin_then(p)};
+  for (const VariantRun& run : runs) faces.push_back(skin_then(run.simulation.performance));
   render::ContactSheet sheet;
   sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
   sheet.note = fmt::format(
       "the faces at {:.2f} s, where they differ most; colour: greatest distance over "
-      "time from base",
+      "time from base; R and L: the subject's own sides",
       p.frame_time_s[shown]);
   sheet.columns = int(runs.size()) + 1;
   sheet.bar = render::ColourBar{{0, top.mm}, "distance (mm)", top.capped};
@@ -118,21 +123,28 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
                                  own_run.jaw_now_from_rest[shown]);
     return render::render(behind.with(skin), camera, size);
   };
-  const auto cameras = cameras_on(base, frame, own.points, compared, aspect);
+  const auto cameras = cameras_on(shown_points(face_box(base.inputs.landmarks, frame),
+                                               frame.local_points(p.skin_rest.points), faces),
+                                  aspect);
+  constexpr std::array from = {"from the right", "from in front", "from the left"};
   const std::size_t columns = runs.size() + 1;
   sheet.pictures.resize(cameras.size() * columns);
   tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t at) {
-    const render::Camera& camera = cameras[at / columns];
-    if (at % columns == 0) {
-      sheet.pictures[at] = {drawn({.mesh = own}, p, camera), "base"};
+    const std::size_t view = at / columns, face = at % columns;
+    const auto caption = [&](const std::string& name) {
+      return fmt::format("{}, {}", name, from[view]);
+    };
+    const render::SideMarks marks = render::side_marks(cameras[view]);
+    if (face == 0) {
+      sheet.pictures[at] = {drawn({.mesh = faces[0]}, p, cameras[view]), caption("base"), marks};
       return;
     }
-    const std::size_t i = at % columns - 1;
-    const TriMesh skin = skin_then(runs[i].simulation.performance);
-    const render::Surface surface{.mesh = skin,
-                                  .scalar = (1e3 * compared[i].difference.greatest_m).cast<float>(),
-                                  .range = {0, top.mm}};
-    sheet.pictures[at] = {drawn(surface, runs[i].simulation.performance, camera), compared[i].name};
+    const render::Surface surface{
+        .mesh = faces[face],
+        .scalar = (1e3 * compared[face - 1].difference.greatest_m).cast<float>(),
+        .range = {0, top.mm}};
+    sheet.pictures[at] = {drawn(surface, runs[face - 1].simulation.performance, cameras[view]),
+                          caption(compared[face - 1].name), marks};
   });
   render::write_png(file, render::contact_sheet(sheet));
 }

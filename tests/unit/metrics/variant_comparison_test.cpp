@@ -179,6 +179,26 @@ TEST(CompareVariant, TellsNoLagOfAMotionThatDoesNotComeBack) {
   EXPECT_TRUE(std::isnan(c.comparison({"corner", ""}).lag.lag_s));
 }
 
+// A corner that goes aside is as far from rest as before, and farther along base's way by nothing.
+TEST(VariantComparison, MeasuresAPointAlongTheWayThatItGoesInBase) {
+  const auto track = [](std::vector<Vec3> way_mm) {
+    motion::Motion m;
+    m.names = {"corner"};
+    for (const Vec3& at_mm : way_mm) {
+      m.time_s.push_back(0.1 * double(m.time_s.size()));
+      m.positions.push_back(Points(1e-3 * (at_mm + Vec3(40, -30, 10)).transpose()));
+    }
+    return m;
+  };
+  const motion::Motion base = track({{0, 0, 0}, {0, 3, 4}, {0, 6, 8}, {0, 1, 0}});
+  EXPECT_NEAR(along_base_mm(base, base, 0), 10, 1e-9);
+  EXPECT_NEAR(along_base_mm(base, track({{0, 0, 0}, {0, 9, 12}, {5, 0, 0}}), 0), 15, 1e-9);
+  EXPECT_NEAR(along_base_mm(base, track({{0, 0, 0}, {10, 0, 0}, {6, 3, 4}}), 0), 5, 1e-9);
+  EXPECT_NEAR(along_base_mm(base, track({{0, 0, 0}, {0, -3, -4}, {0, 1, 1}}), 0), -5, 1e-9);
+  EXPECT_TRUE(std::isnan(along_base_mm(base, base, 1)));
+  EXPECT_TRUE(std::isnan(along_base_mm(track({{0, 0, 0}, {0, 0.05, 0}}), base, 0)));
+}
+
 TEST(VariantTable, QuotesNamesAndLeavesUnknownFiguresEmpty) {
   const VariantComparison c = Compared().comparison();
   const auto file = std::filesystem::path(::testing::TempDir()) / "variant_comparison.csv";

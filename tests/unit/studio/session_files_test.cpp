@@ -94,6 +94,62 @@ TEST(StudioSessionLeftovers, AreDeletedWhenAskedButNotWhileTheyAreOpen) {
   EXPECT_TRUE(answers.back()["places"]["autosave"].is_null());
 }
 
+TEST(StudioSessionLeftovers, AreNamedByTheirScanAndNotOfferedWhileTheyAreOpen) {
+  const test::OwnFolder folder;
+  SessionOptions options;
+  options.save_into = options.folder = folder.path();
+  options.rescued = folder.path() / "left";
+  fs::create_directories(options.rescued);
+  fs::create_directories(options.folder / "uploads");
+  std::ofstream(options.rescued / "scene.toml")
+      << "scan.file = \"embedded\"\nmotion.file = \"embedded\"\n";
+  std::vector<json> answers;
+  Session session(options, [&](const std::string& message, bool binary, const std::string&) {
+    if (!binary && json::parse(message).contains("answer")) answers.push_back(json::parse(message));
+  });
+  const auto offered = [&] {
+    session.answer({1, "hello", {{"token", ""}, {"version", 1}}});
+    return answers.back()["places"]["autosave"];
+  };
+  EXPECT_EQ(offered()["title"], "embedded");
+  session.answer({2, "open", {{"what", "autosave"}}});
+  EXPECT_TRUE(offered().is_null());
+  session.answer({3, "open", {{"what", "embedded"}}});
+  EXPECT_FALSE(offered().is_null()) << "it is still there, and no file holds it";
+}
+
+// The open scan, its landmarks and what was asked of it stay; undo brings the other motion back.
+TEST_F(StudioSession, ASecondRecordingMovesTheFaceThatIsOpen) {
+  open();
+  ask("add_variant", {{"name", "weak"}, {"like", 0}});
+  set({{"muscles.gain", {{"side_R", 0.4}}}}, 1);
+  const double smile_mm = [&] {
+    work();
+    return right_mm(0);
+  }();
+  std::ofstream(folder_.path() / "own" / "uploads" / "visit2.csv")
+      << "time_s,mouthSmileLeft,mouthSmileRight\n0,0,0\n0.5,0.3,0.3\n1,0,0\n";
+  ASSERT_FALSE(ask("open", {{"what", "current"}, {"recording", "visit2.csv"}}).contains("error"));
+  const json scene = event("scene")->head;
+  EXPECT_THAT(scene["values"][0]["motion.arkit"].get<std::string>(),
+              testing::EndsWith("visit2.csv"));
+  EXPECT_EQ(scene["title"], "") << "it was that of the built-in smile";
+  EXPECT_EQ(scene["faces"][1]["name"], "weak");
+  work();
+  const json& table = event("face") ? event("face")->head["replay"]["summary"]["variants"]["table"]
+                                    : event("motion")->head["table"];
+  EXPECT_LT(table[0]["commissure_R_mm"].get<double>(), 0.6 * smile_mm);
+  ask("undo");
+  EXPECT_THAT(event("scene")->head["values"][0]["motion.arkit"].get<std::string>(),
+              testing::EndsWith("smile_arkit.csv"));
+  // One that is none changes nothing, and is named without the studio's own folder.
+  std::ofstream(folder_.path() / "own" / "uploads" / "notes.csv") << "shopping\nmilk\n";
+  const std::string error =
+      ask("open", {{"what", "current"}, {"recording", "notes.csv"}}).value("error", "");
+  EXPECT_THAT(error, HasSubstr("notes.csv"));
+  EXPECT_EQ(error.find("uploads"), std::string::npos) << error;
+}
+
 TEST_F(StudioSession, WhatIsDoneLiesInItsFolderAtOnce) {
   open();
   set({{"tissue.young_kpa", 151}}, 0);

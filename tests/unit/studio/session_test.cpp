@@ -280,6 +280,50 @@ TEST_F(StudioSession, MovesLandmarksOnTheSkinAndMakesTheFaceAnew) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(position()[k], before[k], 1e-6);
 }
 
+/// The ids of the remarks in the last event of a name.
+std::vector<std::string> remark_ids(const Message* event) {
+  std::vector<std::string> ids;
+  if (event)
+    for (const json& remark : event->head["replay"]["summary"]["remarks"])
+      ids.push_back(remark["id"]);
+  return ids;
+}
+
+// A page that is loaded again knows no more than what hello brings.
+TEST_F(StudioSessionWithBands, ADoubtfulLandmarkIsToldAgainToAPageThatIsLoadedAgain) {
+  open();
+  const json& marks = event("face")->head["landmarks"];
+  const auto mark = std::find_if(marks.begin(), marks.end(),
+                                 [](const json& one) { return one["name"] == "ibug68_54"; });
+  ASSERT_NE(mark, marks.end());
+  const std::vector<double> at = (*mark)["position"];
+  ask("move_landmark", {{"name", "ibug68_54"}, {"position", {at[0] + 0.015, at[1], at[2]}}});
+  EXPECT_FALSE(ask("landmarks_done").contains("error"));
+  work();
+  EXPECT_THAT(remark_ids(event("motion") ? event("motion") : event("face")),
+              testing::Contains("landmarks.doubtful"));
+  ask("hello");
+  work();
+  ASSERT_NE(event("face"), nullptr);
+  EXPECT_THAT(remark_ids(event("face")), testing::Contains("landmarks.doubtful"));
+  EXPECT_TRUE(event("face")->head["replay"]["summary"]["head_shift_uncertainty_mm"].is_number());
+}
+
+TEST_F(StudioSession, AChangeMayNameItsFaceInTheSameStep) {
+  open();
+  ask("add_variant", {{"name", "What if"}, {"like", 0}});
+  const json change = {{"changes", {{"muscles.gain", {{"side_R", 0.4}}}}},
+                       {"face", 1},
+                       {"live", false},
+                       {"time_s", 0},
+                       {"name", "right side 40 %"}};
+  EXPECT_FALSE(ask("set", change).contains("error"));
+  EXPECT_EQ(event("scene")->head["faces"][1]["name"], "right side 40 %");
+  ask("undo");
+  EXPECT_EQ(event("scene")->head["faces"][1]["name"], "What if");
+  EXPECT_EQ(event("scene")->head["values"][1]["muscles.gain"], json::object());
+}
+
 TEST_F(StudioSession, AMotionIsBrokenOffForARequestAndBegunAgain) {
   open();
   set({{"tissue.young_kpa", 150}}, 0);

@@ -4,8 +4,9 @@ import type { Replay } from './data';
 import { frameAt } from './face/deform';
 import { excursionsOf } from './tables/excursion_table';
 import { isNumber } from './tables/figure_table';
+import { letterOf, sides, type Side } from '../page/side_words';
 import { tracksMm } from './curves/track_chart';
-import { variantsOf } from './variants';
+import { variantsOf, type VariantRow } from './variants';
 
 export interface Corners {
   timeS: number[];
@@ -53,16 +54,63 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
   return null;
 }
 
-export const mm = (value: number): string => `${value.toFixed(1)} mm`;
+export const mm = (value: number): string => `${roundedMm(value).toFixed(1)} mm`;
 
 /** A difference from base below this is none, mm: half of what a figure here shows. */
 export const sameMm = 0.05;
 
+/** As it is shown: what is said of a difference is that of the figures shown. */
+export const roundedMm = (value: number): number => Math.round(10 * value) / 10;
+
+export const farthestMm = (corners: Corners, side: Side): number => (side === 'left' ? corners.leftMm : corners.rightMm);
+
+const rowOf = (replay: Replay, face: number): VariantRow | undefined =>
+  variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
+
 /** Of a variant's change against base: what mesh and jitter make of it, mm; null: not known. */
-export function changeBandMm(replay: Replay, face: number, side: 'left' | 'right'): number | null {
-  const row = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
-  const band = row?.[side === 'left' ? 'commissure_L_band_mm' : 'commissure_R_band_mm'];
+export function changeBandMm(replay: Replay, face: number, side: Side): number | null {
+  const band = rowOf(replay, face)?.[`commissure_${letterOf[side]}_band_mm`];
   return isNumber(band) ? band : null;
+}
+
+/** What a variant does to a corner of the mouth. */
+export interface CornerChange {
+  side: Side;
+  /** Greatest distances from rest in base and in the variant, as they are shown. */
+  fromMm: number;
+  toMm: number;
+  /** What it goes farther than in base, along the way that it goes there. */
+  byMm: number;
+  /** Where it goes along that way, with its sign. */
+  alongMm: number;
+  /** It goes along base's way as far as from rest, so that the figures above say it all. */
+  sameWay: boolean;
+  /** Some muscle of that side pulls less than in base. */
+  weaker: boolean;
+  bandMm: number | null;
+  undecided: boolean;
+}
+
+/** A distance from rest has no direction: compared is what lies along base's own way, which the program measures
+ *  (metrics/variant_comparison.hpp, along_base_mm). Null where the corners are not known. */
+export function cornerChange(replay: Replay, face: number, side: Side): CornerChange | null {
+  const [base, own] = [cornersOf(replay, 0), cornersOf(replay, face)];
+  if (!base || !own) return null;
+  const row = rowOf(replay, face);
+  const [from, to] = [farthestMm(base, side), farthestMm(own, side)];
+  const measured = row?.[`commissure_${letterOf[side]}_along_base_mm`];
+  const alongMm = isNumber(measured) ? measured : to;
+  const sameWay = Math.abs(to - alongMm) <= Math.max(0.25, 0.1 * to);
+  const [fromMm, toMm] = [roundedMm(from), roundedMm(to)];
+  const unchanged = sameWay && Math.abs(to - from) < sameMm;
+  const byMm = unchanged ? 0 : roundedMm((sameWay ? toMm : roundedMm(alongMm)) - fromMm);
+  const bandMm = changeBandMm(replay, face, side);
+  const weak = row?.weaker_sides;
+  return {
+    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, alongMm: roundedMm(alongMm), sameWay, bandMm,
+    weaker: Array.isArray(weak) && weak.includes(letterOf[side]),
+    undecided: bandMm !== null && Math.abs(sameWay ? to - from : byMm) < bandMm,
+  };
 }
 
 /** The value at time t between samples; null where unknown. */
@@ -73,21 +121,28 @@ export function valueAt(timeS: number[], values: (number | null)[], t: number): 
   return a === null || b === null ? null : a + share * (b - a);
 }
 
-const sides = ['right', 'left'] as const; // as one sees the face
+/** "is dragged 2.1 mm farther than in base": farther against its muscles, where these are weaker; less than others of
+ *  its tissue make it follow. */
+export function changeSentence({ byMm, alongMm, sameWay, weaker }: CornerChange): string {
+  if (byMm === 0) return 'goes as in base';
+  if (!sameWay && alongMm < 0) return `goes ${mm(-alongMm)} the other way`;
+  const how = byMm < 0 ? `${weaker ? 'moves' : 'follows'} ${mm(-byMm)} less` : `${weaker ? 'is dragged' : 'moves'} ${mm(byMm)} farther`;
+  return `${how} than in base${sameWay ? '' : ', along its way there'}`;
+}
 
-/** "5.4 ± 0.2 mm less than base" */
-function changeFigures(change: number, band: number | null): string {
-  if (Math.abs(change) < sameMm) return 'as base';
-  const size = Math.abs(change).toFixed(1);
-  const than = change < 0 ? 'less than base' : 'more than base';
-  if (band === null) return `${size} mm ${than}, ± not known`;
-  return `${size} ± ${band.toFixed(1)} mm ${than}${Math.abs(change) < band ? ', undecided' : ''}`;
+/** "is dragged 2.1 ± 0.4 mm farther than in base" */
+function changeFigures(change: CornerChange): string {
+  const { byMm, bandMm, undecided } = change;
+  if (byMm === 0) return 'as base';
+  if (undecided) return `undecided: ${Math.abs(byMm).toFixed(1)} ± ${bandMm!.toFixed(1)} mm ${byMm < 0 ? 'less' : 'more'} than base`;
+  return `${changeSentence(change)}, ±${bandMm === null ? ' not known' : ` ${mm(bandMm)}`}`;
 }
 
 /** "sides differ by 1.2 ± 0.4 mm" */
-function sidesFigures({ leftMm, rightMm, floorMm, undecided }: Corners): string {
+function sidesFigures(corners: Corners): string {
+  const { floorMm, undecided } = corners;
   const band = floorMm > 0 ? ` ± ${floorMm.toFixed(1)}` : '';
-  return `sides differ by ${Math.abs(leftMm - rightMm).toFixed(1)}${band} mm${undecided ? ', undecided' : ''}`;
+  return `sides differ by ${apartMm(corners).toFixed(1)}${band} mm${undecided ? ', undecided' : ''}`;
 }
 
 /** How far the corners of the mouth are from rest at the time shown, and at most in the whole motion, with what is
@@ -99,23 +154,23 @@ export function cornerFigures(replay: Replay, face: number, t: number): string[]
     const value = valueAt(own.timeS, own[side], t);
     return value === null ? [] : `${side} ${mm(value)}`;
   });
-  const base = face > 0 ? cornersOf(replay, 0) : null;
   const most = sides.map((side) => {
-    const of = (corners: Corners) => (side === 'left' ? corners.leftMm : corners.rightMm);
-    const change = base ? ` (${changeFigures(of(own) - of(base), changeBandMm(replay, face, side))})` : '';
-    return `${side} ${mm(of(own))}${change}`;
+    const change = face > 0 ? cornerChange(replay, face, side) : null;
+    return change ? `${side} ${mm(change.toMm)} (${changeFigures(change)})` : `${side} ${mm(farthestMm(own, side))}`;
   });
-  const apart = base ? '' : ` (${sidesFigures(own)})`;
+  const apart = face > 0 ? '' : ` (${sidesFigures(own)})`;
   return [
     ...(now.length > 0 ? [`Corners of the mouth at ${t.toFixed(3)} s: ${now.join(', ')}`] : []),
     `At most, whole motion: ${most.join(', ')}${apart}`,
   ];
 }
 
-/** "8.1 mm less on the right" */
-export function differenceWords({ leftMm, rightMm, floorMm, undecided }: Corners): string {
-  const apart = Math.abs(leftMm - rightMm);
-  if (undecided) return `${mm(apart)} apart: undecided (below ${mm(floorMm)})`;
-  if (apart < sameMm) return 'no difference';
-  return `${mm(apart)} less on the ${leftMm < rightMm ? 'left' : 'right'}`;
+/** Of the figures shown. */
+const apartMm = ({ leftMm, rightMm }: Corners): number => Math.abs(roundedMm(leftMm) - roundedMm(rightMm));
+
+/** "8.1 mm apart": which side is the healthy one the figures do not say. */
+export function differenceWords(corners: Corners): string {
+  const apart = apartMm(corners);
+  if (corners.undecided) return `${mm(apart)} apart: undecided (below ${mm(corners.floorMm)})`;
+  return apart < sameMm ? 'no difference' : `${mm(apart)} apart`;
 }

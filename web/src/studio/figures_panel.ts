@@ -5,7 +5,8 @@ import { TimeChart } from '../charts/time_chart';
 import { button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
 import { landmarkName, signed } from '../page/format';
-import { changeBandMm, cornersOf, mm, sameMm, valueAt, type Corners } from '../replay/corners';
+import { sides, type Side } from '../page/side_words';
+import { changeBandMm, cornerChange, cornersOf, farthestMm, mm, sameMm, valueAt, type CornerChange, type Corners } from '../replay/corners';
 import { cornerCurves } from '../replay/curves/corner_card';
 import { symmetryCurves } from '../replay/curves/symmetry_charts';
 import { chooseFace } from '../replay/face/face_chooser';
@@ -13,29 +14,32 @@ import { nearestVertex } from '../replay/face/deform';
 import { isNumber } from '../replay/tables/figure_table';
 import { variantsOf } from '../replay/variants';
 import { dark } from '../page/theme';
+import { remarksOf, sentenceOf } from './remarks';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
 /** Until error bands are known: changes below this are not made to look like findings, mm. */
 const unsureMm = 0.5;
 
-const sides = ['right', 'left'] as const; // as one sees the face
-type SideName = (typeof sides)[number];
+/** Remarks on what the figures rest on. */
+const restOn = /^(landmarks|recording|sides|skin|head|symmetry|forces)\./;
 
 const plus = (value: number): string => signed(`${value > 0 ? '+' : ''}${value.toFixed(1)} mm`);
 
 export class FiguresPanel {
   private readonly table = element('table', '', 'corner-table');
   private readonly remark = element('p', '', 'remark');
+  private readonly doubts = element('ul', '', 'doubts');
   private readonly charts = element('div', '', 'charts');
   private plots: { chart: TimeChart; made: () => Omit<Chart, 'title'>[] }[] = [];
   private corners: (Corners | null)[] = [];
-  private now: { cells: Record<SideName, HTMLElement>; corners: Corners; face: number }[] = [];
-  private live: { face: number; mm: Record<SideName, number> } | null = null;
-  private cornerVertex: Record<SideName, number> | null = null;
+  private now: { cells: Record<Side, HTMLElement>; corners: Corners; face: number }[] = [];
+  private live: { face: number; mm: Record<Side, number> } | null = null;
+  private cornerVertex: Record<Side, number> | null = null;
 
   constructor(private readonly state: StudioState, into: HTMLElement) {
-    into.append(this.table, this.remark, this.charts);
+    this.doubts.setAttribute('aria-label', words.doubts);
+    into.append(this.table, this.remark, this.doubts, this.charts);
     state.shown.onChange(() => this.change());
     dark.addEventListener('change', () => this.plots.forEach(({ chart }) => chart.draw()));
   }
@@ -72,6 +76,7 @@ export class FiguresPanel {
     this.live = null;
     this.corners = replay.faces.map((_, i) => cornersOf(replay, i));
     this.fill();
+    this.tellDoubts();
     this.change();
   }
 
@@ -98,7 +103,7 @@ export class FiguresPanel {
     this.mark();
   }
 
-  private findCorners(): Record<SideName, number> | null {
+  private findCorners(): Record<Side, number> | null {
     const { points, landmarks } = this.state.source.replay;
     const vertex = (...names: string[]): number => {
       const i = landmarks.names.findIndex((name) => names.includes(name));
@@ -148,8 +153,8 @@ export class FiguresPanel {
       choose.addEventListener('click', () => chooseFace(this.state.shown, i));
       title.append(choose);
       row.append(title);
-      const cells = {} as Record<SideName, HTMLElement>;
-      for (const side of sides) cells[side] = this.cell(row, own, base, side, i);
+      const cells = {} as Record<Side, HTMLElement>;
+      for (const side of sides) cells[side] = this.cell(row, own, side, i);
       this.now.push({ cells, corners: own, face: i });
       const differs = this.differsMost(i);
       if (!differs) return;
@@ -175,26 +180,28 @@ export class FiguresPanel {
   }
 
   /** The largest in large, what it is against base, and where the corner is now. */
-  private cell(row: HTMLTableRowElement, own: Corners, base: Corners, side: SideName, i: number): HTMLElement {
+  private cell(row: HTMLTableRowElement, own: Corners, side: Side, i: number): HTMLElement {
     const cell = row.insertCell();
-    const of = (corners: Corners) => (side === 'left' ? corners.leftMm : corners.rightMm);
-    cell.append(element('b', mm(of(own))));
+    const change = i > 0 ? cornerChange(this.state.source.replay, i, side) : null;
+    const most = farthestMm(own, side);
+    cell.append(element('b', mm(change?.toMm ?? most)));
     cell.dataset.side = side;
-    cell.dataset.mm = String(of(own));
-    if (i > 0) {
-      const change = of(own) - of(base);
-      const band = changeBandMm(this.state.source.replay, i, side);
-      const same = Math.abs(change) < sameMm;
-      const sure = Math.abs(change) >= (band ?? unsureMm);
-      const text = band === null ? words.againstBase(plus(change))
-        : sure ? words.againstBaseWithin(plus(change), band.toFixed(1)) : words.undecidedChange(plus(change), band.toFixed(1));
-      const small = element('small', same ? words.asBase : text, sure ? 'change' : 'same');
-      if (band !== null) small.title = words.bandHint;
-      cell.append(small);
-    }
+    cell.dataset.mm = String(most);
+    if (change) cell.append(this.against(change));
     const now = element('small', '', 'now-is');
     cell.append(now);
     return now;
+  }
+
+  private against(change: CornerChange): HTMLElement {
+    const { byMm, bandMm, sameWay, weaker, undecided } = change;
+    const sure = bandMm === null ? Math.abs(byMm) >= unsureMm : !undecided;
+    const text = bandMm === null ? words.againstBase(plus(byMm))
+      : sure ? words.againstBaseWithin(plus(byMm), bandMm.toFixed(1)) : words.undecidedChange(plus(byMm), bandMm.toFixed(1));
+    const how = !sameWay ? words.alongBase : sure && weaker && byMm > 0 ? words.dragged : '';
+    const small = element('small', byMm === 0 ? words.asBase : [text, how].filter(Boolean).join(', '), byMm !== 0 && sure ? 'change' : 'same');
+    if (bandMm !== null) small.title = words.bandHint;
+    return small;
   }
 
   private bandsKnown(): boolean {
@@ -209,6 +216,18 @@ export class FiguresPanel {
     const place = typeof near === 'string' && near ? ` ${words.nearPoint(landmarkName(near))}` : '';
     const when = words.atTime((replay.timeS[replay.faces[i].maxDifferenceFrame] ?? 0).toFixed(3));
     return `${words.most}: ${mm(most)}${place} ${when}`;
+  }
+
+  /** Of what the figures rest on: scan, landmarks, recording, the head's pose. */
+  private tellDoubts(): void {
+    const { summary } = this.state.source.replay;
+    const [shiftMm, turnDeg] = [summary.head_shift_uncertainty_mm, summary.head_turn_uncertainty_deg];
+    const floorMm = this.corners[0]?.floorMm ?? 0;
+    const head = isNumber(shiftMm) && isNumber(turnDeg) && shiftMm >= sameMm && shiftMm > floorMm
+      ? [words.headUncertain(mm(shiftMm), turnDeg.toFixed(1))] : [];
+    const inputs = remarksOf(summary).filter(({ severity, variant, id }) => severity === 'warning' && variant === '' && restOn.test(id));
+    this.doubts.replaceChildren(...[...inputs.map((remark) => sentenceOf(remark, words.remarks)), ...head].map((text) => element('li', text)));
+    this.doubts.hidden = this.doubts.children.length === 0;
   }
 
   private tellRemark(): void {

@@ -6,6 +6,7 @@ import { at, button, element, startPage } from '../page/dom';
 import { defineColours, type Palette } from '../page/face_colour';
 import type { Undo } from '../page/listeners';
 import { movingOf, replayOf, type MovingManifest } from '../replay/data';
+import { useSideWords } from '../page/side_words';
 import { frameAt } from '../replay/face/deform';
 import { Stage } from '../replay/face/stage';
 import { wireKeys, type Key } from '../replay/keys';
@@ -283,5 +284,6 @@ interface Greeting {
 
 startPage(() => {
   fillWords(document);
+  useSideWords({ letters: words.sideLetters, hints: { R: words.rightHint, L: words.leftHint } });
   new Studio();
 });

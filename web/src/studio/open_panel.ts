@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is open, and what to open instead: the embedded face, what the command named, files chosen or dropped.
-import { button, element } from '../page/dom';
+import { at, button, element } from '../page/dom';
 import { Refused, type Connection } from './connection';
+import { isZip, kindOf } from './file_kinds';
 import type { Places } from './messages';
 import type { StudioState } from './studio_state';
 import { words } from './words';
-
-const scans = /\.(ply|obj|stl|glb|gltf)$/i;
-const scenes = /\.toml$/i;
-const zips = /\.zip$/i;
 
 export class OpenPanel {
   private places: Places | null = null;
   /** What a scene without a title is called. */
   private opened = '';
+  /** The server has opened what was asked for: what comes next is of it. */
+  private answered = false;
   private readonly now = element('p', '', 'open-now');
   private readonly choices = element('div', '', 'choices');
   private readonly problem = element('p', '', 'problem');
@@ -33,6 +32,13 @@ export class OpenPanel {
     const drop = element('p', words.drop, 'drop');
     into.append(this.now, this.rescue, this.choices, this.problem, drop, this.picker);
     state.sceneChanged.add(() => (this.now.textContent = this.called()));
+    // Of the next face, or of the same one anew.
+    state.source.onChange(() => {
+      if (this.answered) this.showOpening(null);
+    });
+    connection.on('log', ({ level, text }) => {
+      if (level === 'error' && this.answered && !at('opening').hidden) at('opening').textContent = text;
+    });
     this.wireDrop();
   }
 
@@ -76,32 +82,58 @@ export class OpenPanel {
     return !this.state.scene?.can_undo || this.state.scene.saved || window.confirm(words.discard);
   }
 
-  private async open(what: string, recording?: string): Promise<void> {
+  /** `called`: what is opened, for people. */
+  private async open(what: string, recording?: string, called = ''): Promise<void> {
     this.report('');
     const before = this.opened;
+    const another = what !== 'current';
+    if (another) this.showOpening(called || (what === 'started' ? this.places?.started ?? what : what === 'embedded' ? words.embedded : what));
     try {
-      this.opened = what === 'started' ? this.places?.started ?? '' : what;
+      if (another) this.opened = what === 'started' ? this.places?.started ?? '' : called || what;
       await this.connection.request('open', { what, ...(recording && { recording }) });
+      this.answered = true;
+      if (what === 'autosave') this.rescue.hidden = true; // no longer lost
     } catch (error) {
       this.opened = before; // that is still open
+      this.showOpening(null);
       if (this.state.scene) this.now.textContent = this.called();
       if (error instanceof Refused) this.report(error.message);
     }
   }
 
+  /** Until the next face is there nobody else's may be taken for it; null: none is being opened. */
+  private showOpening(what: string | null): void {
+    this.answered = false;
+    document.documentElement.toggleAttribute('data-opening', what !== null);
+    at('figures').setAttribute('aria-busy', String(what !== null));
+    at('opening').textContent = what === null ? '' : words.openingNow(what);
+    at('opening').hidden = what === null;
+  }
+
   private async take(files: File[]): Promise<void> {
-    if (files.length === 0 || !this.maySkip()) return;
-    const scan = files.filter(({ name }) => scans.test(name));
-    const scene = files.filter(({ name }) => scenes.test(name));
-    const others = files.filter((file) => !scan.includes(file) && !scene.includes(file));
-    if (scene.length + scan.length > 1 && scene.length !== 1) {
-      this.report(words.tooManyScans);
-      return;
+    if (files.length === 0) return;
+    const kinds = new Map<File, Awaited<ReturnType<typeof kindOf>>>();
+    for (const file of files) kinds.set(file, await kindOf(file));
+    const of = (...wanted: string[]) => files.filter((file) => wanted.includes(kinds.get(file)!));
+    const names = (some: File[]) => some.map(({ name }) => name).join(', ');
+    const [scan, scene] = [of('scan'), of('scene')];
+    if (scene.length + scan.length > 1 && scene.length !== 1) return this.report(words.tooManyScans(names([...scene, ...scan])));
+    // A scene may name files of any kind.
+    for (const file of scene.length === 0 ? files : of('empty')) {
+      const kind = kinds.get(file)!;
+      if (kind === 'scan' || kind === 'scene' || kind === 'recording') continue;
+      return this.report(words.fileProblems[kind](file.name, words.expectedFiles));
     }
-    if (scan.length === 0 && scene.length === 0) {
-      this.report(words.recordingAlone);
-      return;
-    }
+    const recordings = of('recording');
+    if (scene.length === 0 && recordings.length > 1) return this.report(words.tooManyRecordings(names(recordings)));
+    const alone = scan.length + scene.length === 0;
+    if (alone && !this.state.scene) return this.report(words.recordingAlone(recordings[0].name));
+    if (!alone && !this.maySkip()) return;
+    await this.send(files, [...scene, ...scan][0] ?? null, scene.length === 0 ? recordings[0] : recordings.find(({ name }) => isZip(name)));
+  }
+
+  /** Hands the files over and opens them; without a scan or a scene the recording moves the face that is open. */
+  private async send(files: File[], main: File | null, recording: File | undefined): Promise<void> {
     this.report('');
     try {
       const names = new Map<File, string>();
@@ -109,11 +141,7 @@ export class OpenPanel {
         this.now.textContent = words.uploading(file.name);
         names.set(file, await this.connection.upload(file));
       }
-      const [main] = [...scene, ...scan];
-      // A scene names its files itself; of a zip the server must know that it is one.
-      const [other] = scene.length === 0 ? others : others.filter(({ name }) => zips.test(name));
-      const recording = other && names.get(other);
-      await this.open(names.get(main)!, recording);
+      await this.open(main ? names.get(main)! : 'current', recording && names.get(recording), main?.name);
     } catch (error) {
       this.report(error instanceof Error ? error.message : String(error));
     } finally {

@@ -37,7 +37,10 @@ export interface HelloAnswer {
 
 /** Opens a face and closes the open one. The answer comes once it is meshed; the event face follows. */
 export interface OpenRequest {
-  /** "embedded", "started" (the file of the command line), "autosave" or the name of an upload */
+  /**
+   * "embedded", "started" (the file of the command line), "autosave", "current" (the open face, with another
+   * recording: a change that undo takes back) or the name of an upload
+   */
   what: string;
   /** name of an upload: the recording of a scan, or, zipped, of a scene */
   recording?: string;
@@ -55,6 +58,8 @@ export interface SetRequest {
   face: number;
   /** while a slider is dragged */
   live: boolean;
+  /** of the variant from then on; not live */
+  name?: string;
   /** of the frame shown */
   time_s: number;
 }

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The view as a video: the motion once from its start, or what is live until it is ended. WebM, made by the browser.
+// The view as a video: the motion once from its start, a picture for each of its frames however long each takes to draw;
+// or what is live, as it comes, until it is ended. WebM, made by the browser.
 import { at } from '../page/dom';
 import { fileName, save, subject } from '../page/save';
+import { drawSideMarks } from '../replay/face/side_marks';
 import type { FaceViewer } from '../replay/face/viewer';
 import { theme } from '../page/theme';
 import { faceHue } from '../page/face_colour';
 import type { StudioState } from './studio_state';
+import { EncodedVideo, RecordedVideo, recordedType, type VideoSink } from './video_sinks';
 import { words } from './words';
 
-const types = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'];
 const framesPerS = 30;
 const bitsPerS = 6e6;
-
-/** What this browser can write; none: no video. */
-const supported = (): string | undefined =>
-  typeof MediaRecorder === 'undefined' ? undefined : types.find((type) => MediaRecorder.isTypeSupported(type));
 
 export class ViewVideo {
   private stop: (() => void) | null = null;
@@ -23,68 +21,89 @@ export class ViewVideo {
     private readonly state: StudioState, private readonly button: HTMLButtonElement,
     private readonly viewer: () => FaceViewer | null, private readonly live: () => boolean,
   ) {
-    button.hidden = !supported();
-    button.addEventListener('click', () => (this.stop ? this.stop() : this.start()));
+    button.hidden = !recordedType() && !EncodedVideo.possible();
+    button.addEventListener('click', () => {
+      if (this.stop) this.stop();
+      else if (this.live()) this.recordLive();
+      else void this.renderMotion();
+    });
     state.source.onChange((change) => {
       if (change === 'face') this.stop?.();
     });
   }
 
-  private start(): void {
+  /** Frame by frame: another clock than the computer's. */
+  private async renderMotion(): Promise<void> {
     const viewer = this.viewer();
-    const type = supported();
+    if (!viewer) return;
+    const { playback, source } = this.state;
+    const { timeS } = source.replay;
+    const before = { timeS: playback.timeS, playing: playback.playing };
+    let ended = false;
+    this.stop = () => (ended = true);
+    const canvas = this.canvas();
+    const sink: VideoSink = (await EncodedVideo.of(canvas, bitsPerS)) ?? new RecordedVideo(canvas, bitsPerS);
+    try {
+      for (let frame = 0; frame < timeS.length && !ended; ++frame) {
+        this.showState(words.videoFrames(frame + 1, timeS.length));
+        playback.seek(timeS[frame]);
+        this.draw(canvas, viewer.snapshot(1));
+        await sink.add((1e3 * (timeS[frame] - timeS[0])) / playback.speed);
+      }
+      this.keep(await sink.end());
+    } finally {
+      this.stop = null;
+      this.showState(null);
+      playback.seek(before.timeS);
+      if (before.playing) playback.play();
+    }
+  }
+
+  private recordLive(): void {
+    const viewer = this.viewer();
+    const type = recordedType();
     if (!viewer || !type) return;
-    const host = at('canvas-host');
-    const canvas = document.createElement('canvas');
-    // Codecs want even numbers.
-    [canvas.width, canvas.height] = [host.clientWidth & ~1, host.clientHeight & ~1];
-    const draw = () => this.draw(canvas);
-    const undraw = viewer.onDraw(draw);
+    const canvas = this.canvas();
+    const undraw = viewer.onDraw(() => this.draw(canvas, at<HTMLCanvasElement>('face')));
     const recorder = new MediaRecorder(canvas.captureStream(framesPerS), { mimeType: type, videoBitsPerSecond: bitsPerS });
     const parts: Blob[] = [];
     recorder.ondataavailable = ({ data }) => parts.push(data);
-    recorder.onstop = () => {
-      const { faces } = this.state.source.replay;
-      const named = faces.length > 1 ? this.state.shown.visible.flatMap((i) => faces[i]?.name ?? []) : [];
-      save(new Blob(parts, { type: 'video/webm' }), fileName(subject(), ...named, 'webm'));
-    };
-    const { playback } = this.state;
-    const { loop } = playback;
-    let unplay = () => {};
+    recorder.onstop = () => this.keep(new Blob(parts, { type: 'video/webm' }));
     this.stop = () => {
       this.stop = null;
       undraw();
-      unplay();
-      playback.loop = loop;
       recorder.stop();
-      this.showState(false);
+      this.showState(null);
     };
-    this.showState(true);
+    this.showState('');
     viewer.redraw();
     recorder.start();
-    if (this.live()) return;
-    const { timeS } = this.state.source.replay;
-    playback.seek(timeS[0] ?? 0);
-    playback.loop = false;
-    playback.play();
-    const last = timeS[timeS.length - 1] ?? 0;
-    unplay = playback.onChange(() => {
-      if (playback.playing) return;
-      // Paused before the end: so far. At the end the last picture is drawn first.
-      unplay();
-      window.setTimeout(() => this.stop?.(), playback.timeS >= last ? 200 : 0);
-    });
   }
 
-  /** The stage on the page's own background, with names and time. */
-  private draw(canvas: HTMLCanvasElement): void {
+  /** As large as the stage; codecs want even numbers. */
+  private canvas(): HTMLCanvasElement {
+    const host = at('canvas-host');
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [host.clientWidth & ~1, host.clientHeight & ~1];
+    return canvas;
+  }
+
+  private keep(video: Blob): void {
+    const { faces } = this.state.source.replay;
+    const named = faces.length > 1 ? this.state.shown.visible.flatMap((i) => faces[i]?.name ?? []) : [];
+    save(video, fileName(subject(), ...named, 'webm'));
+  }
+
+  /** The stage on the page's own background, with sides, names and time. */
+  private draw(canvas: HTMLCanvasElement, stage: HTMLCanvasElement): void {
     const on = canvas.getContext('2d')!;
     const { width, height } = canvas;
     const style = getComputedStyle(document.documentElement);
     const colour = (name: string) => style.getPropertyValue(name).trim();
     on.fillStyle = colour('--card');
     on.fillRect(0, 0, width, height);
-    on.drawImage(at<HTMLCanvasElement>('face'), 0, 0, width, height);
+    on.drawImage(stage, 0, 0, width, height);
+    drawSideMarks(on, this.viewer()!.sideMarks, colour('--ink'), colour('--card'));
     const { shown, source, playback } = this.state;
     on.font = "14px system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
     on.fillStyle = colour('--ink');
@@ -102,8 +121,9 @@ export class ViewVideo {
     });
   }
 
-  private showState(on: boolean): void {
-    this.button.textContent = on ? words.endVideo : words.saveVideo;
-    this.button.setAttribute('aria-pressed', String(on));
+  /** `progress`: null where none is being made. */
+  private showState(progress: string | null): void {
+    this.button.textContent = progress === null ? words.saveVideo : [words.endVideo, progress].filter(Boolean).join(' · ');
+    this.button.setAttribute('aria-pressed', String(progress !== null));
   }
 }

@@ -57,7 +57,8 @@ render::Image draw_scan_landmarks(const TriMesh& scan, const render::VertexColou
         render::framing(found.face_points, scan_from_face * side,
                         double(size.width_px) / size.height_px, scan_from_face.col(1), 0.1);
     sheet.pictures.push_back(
-        {render::render({{.mesh = scan, .colours = colours}}, camera, size, markers), caption});
+        {render::render({{.mesh = scan, .colours = colours}}, camera, size, markers), caption,
+         render::side_marks(camera, scan_from_face.col(0))});
   }
   return render::contact_sheet(sheet);
 }

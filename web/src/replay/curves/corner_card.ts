@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first figures of the page: both corners of the mouth in words and over time, and a line for each variant.
 import type { Chart } from '../../charts/chart_options';
-import { cornersOf, differenceWords, mm, sameMm, type Corners } from '../corners';
+import { changeSentence, cornerChange, cornersOf, differenceWords, farthestMm, mm, sameMm, type CornerChange, type Corners } from '../corners';
 import type { Replay } from '../data';
 import { button, element } from '../../page/dom';
 import type { Undo } from '../../page/listeners';
 import { faceColour, leftHue, rightHue } from '../../page/face_colour';
 import { faceWords, landmarkName } from '../../page/format';
+import { letterOf, sides, type Side } from '../../page/side_words';
 import { chooseFace } from '../face/face_chooser';
 import type { Shown } from '../shown';
 import { isNumber } from '../tables/figure_table';
@@ -17,10 +18,11 @@ function floorWords(replay: Replay, { floorMm, undecided }: Corners): string {
   const jitter = replay.symmetry?.jitter_mm ?? 0;
   const mesh = meshFloorWhy(replay);
   if (!(floorMm > 0)) return mesh || 'Largest distance from rest. No floor is known: the recording is exact.';
-  const verdict = undecided ? 'Undecided' : 'Decided';
   const made = jitter > 0 ? 'what jitter and the mesh make' : 'what the mesh makes';
   const why = jitter > 0 ? `Jitter of the recorded points: ${jitter.toFixed(2)} mm; the notes say where it comes from.` : 'No jitter of the recording was weighed: none is stated, and none shows.';
-  return `Largest distance from rest. ${verdict}: a difference below ${mm(floorMm)} cannot be told from ${made}. ${why}`;
+  const verdict = undecided ? `Undecided: a difference of the sides below ${mm(floorMm)} cannot be told from ${made}.`
+    : `The sides differ by more than ${made}, ${mm(floorMm)}. Repeated smiles of one person differ, too: by how much this floor does not say.`;
+  return `Largest distance from rest. ${verdict} ${why}`;
 }
 
 function meshFloorWhy(replay: Replay): string {
@@ -28,42 +30,57 @@ function meshFloorWhy(replay: Replay): string {
   return floor?.known === false && floor.why ? `Largest distance from rest. ${floor.why}` : '';
 }
 
-function sideWords(side: 'left' | 'right', valueMm: number): HTMLElement {
+function sideWords(side: Side, valueMm: number): HTMLElement {
   const words = element('span', '', side);
   words.append(element('i'), `${side} `, element('b', mm(valueMm)));
   return words;
 }
 
-function headline(corners: Corners): HTMLElement {
+/** Of the corner that a variant changes more. */
+function mostChanged(replay: Replay, face: number): CornerChange | null {
+  const changes = sides.flatMap((side) => cornerChange(replay, face, side) ?? []);
+  return changes.sort((a, b) => Math.abs(b.byMm) - Math.abs(a.byMm))[0] ?? null;
+}
+
+/** Of base what the sides differ by; of a variant what it changes, and where: a weak side that is dragged farther must
+ *  not make the other one look weak. */
+function verdictOf(replay: Replay, face: number, corners: Corners): { text: string; undecided: boolean } {
+  const change = face > 0 ? mostChanged(replay, face) : null;
+  if (!change) return { text: differenceWords(corners), undecided: corners.undecided };
+  if (change.byMm === 0) return { text: 'both corners go as in base', undecided: false };
+  const text = `${change.side} ${changeSentence(change)}`;
+  return { text: change.undecided ? `${text}: undecided (below ${mm(change.bandMm!)})` : text, undecided: change.undecided };
+}
+
+function headline(replay: Replay, face: number, corners: Corners): HTMLElement {
   const line = element('p', '', 'headline');
   line.id = 'headline';
-  const verdict = element('strong', differenceWords(corners));
-  verdict.classList.toggle('undecided', corners.undecided);
-  line.append(sideWords('left', corners.leftMm), ', ', sideWords('right', corners.rightMm), ': ', verdict);
+  const { text, undecided } = verdictOf(replay, face, corners);
+  const verdict = element('strong', text);
+  verdict.classList.toggle('undecided', undecided);
+  const [right, left] = sides.map((side) => sideWords(side, farthestMm(corners, side)));
+  line.append(right, ', ', left, ': ', verdict);
   return line;
 }
 
 /** "up to 3.7 mm from base at 1.93 s" of the side that lies farther: what greatest excursions may hide. */
 function onTheWay(row: VariantRow | undefined, changeMm: number): string {
-  const sides = (['L', 'R'] as const).map((side) => ({
-    side, mm: row?.[`commissure_${side}_from_base_mm`], s: row?.[`commissure_${side}_from_base_s`],
+  const [{ side, mm: far, s }] = sides.map((one) => ({
+    side: one, mm: row?.[`commissure_${letterOf[one]}_from_base_mm`], s: row?.[`commissure_${letterOf[one]}_from_base_s`],
   })).sort((a, b) => (Number(b.mm) || 0) - (Number(a.mm) || 0));
-  const [{ side, mm: far, s }] = sides;
   if (!isNumber(far) || !isNumber(s) || far < 0.3 || far < 1.5 * Math.abs(changeMm)) return '';
-  return `${side === 'L' ? 'left' : 'right'} corner up to ${mm(far)} from base at ${s.toFixed(2)} s`;
+  return `${side} corner up to ${mm(far)} from base at ${s.toFixed(2)} s`;
 }
 
-/** "0.8 mm less than base (± 0.2 mm)" of the side that changes more; empty where neither does. */
-function againstBase(own: Corners, base: Corners, row: VariantRow | undefined): string {
-  const change = { left: own.leftMm - base.leftMm, right: own.rightMm - base.rightMm };
-  const side = Math.abs(change.left) > Math.abs(change.right) ? 'left' : 'right';
-  const by = change[side];
-  const path = onTheWay(row, by);
-  if (Math.abs(by) < sameMm) return path && `greatest excursions as in base; ${path}`;
-  const band = row?.[side === 'left' ? 'commissure_L_band_mm' : 'commissure_R_band_mm'];
-  const width = isNumber(band) ? ` (± ${mm(band)})` : '';
-  const goes = side === 'left' ? own.leftMm : own.rightMm;
-  return `${side} corner ${mm(goes)}, ${mm(Math.abs(by))} ${by < 0 ? 'less' : 'more'} than base${width}${path && `; ${path}`}`;
+/** "right corner 8.9 mm, is dragged 2.2 mm farther than in base (± 0.7 mm)" of the side that changes more; empty where
+ *  neither does. */
+function againstBase(replay: Replay, face: number, row: VariantRow | undefined): string {
+  const change = mostChanged(replay, face);
+  if (!change) return '';
+  const path = onTheWay(row, change.byMm);
+  if (Math.abs(change.byMm) < sameMm) return path && `greatest excursions as in base; ${path}`;
+  const band = change.bandMm === null ? '' : ` (± ${mm(change.bandMm)}${change.undecided ? ', undecided' : ''})`;
+  return `${change.side} corner ${mm(change.toMm)}, ${changeSentence(change)}${band}${path && `; ${path}`}`;
 }
 
 /** Where the tissue shows when the corners are driven. */
@@ -76,9 +93,8 @@ function elsewhere(row: VariantRow): string {
 function variantLines(replay: Replay, shown: Shown, base: Corners): HTMLElement | null {
   const variants = variantsOf(replay);
   if (!variants) return null;
-  const all = replay.faces.map((_, i) => (i === 0 ? base : cornersOf(replay, i)));
   const rowOf = (name: string) => variants.table.find((r) => r.name === name);
-  const words = all.map((own, i) => (own && i > 0 ? againstBase(own, base, rowOf(replay.faces[i].name)) : ''));
+  const words = replay.faces.map(({ name }, i) => (i > 0 ? againstBase(replay, i, rowOf(name)) : ''));
   const list = element('ul', '', 'variant-lines');
   replay.faces.forEach(({ name }, i) => {
     if (i === 0) return;
@@ -111,8 +127,8 @@ export function cornerCurves(replay: Replay, shown: Shown): Omit<Chart, 'title'>
       const of = faces.length > 1 ? ` of ${faceWords(replay.faces, face)}` : '';
       const file = several ? ` of ${replay.faces[face].name} (mm)` : ' (mm)';
       return [
-        { label: `left${of}`, column: `left${file}`, values: own.left, hue: leftHue(), broken: k > 0 },
         { label: `right${of}`, column: `right${file}`, values: own.right, hue: rightHue(), broken: k > 0 },
+        { label: `left${of}`, column: `left${file}`, values: own.left, hue: leftHue(), broken: k > 0 },
       ];
     }),
   }];
@@ -126,7 +142,7 @@ export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement)
   const show = () => {
     const face = shown.visible[shown.visible.length - 1];
     const corners = cornersOf(replay, face)!;
-    line.replaceChildren(headline(corners));
+    line.replaceChildren(headline(replay, face, corners));
     const whose = replay.faces.length > 1 ? `Of ${faceWords(replay.faces, face)}. ` : '';
     floor.textContent = whose + floorWords(replay, corners);
   };

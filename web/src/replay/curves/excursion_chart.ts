@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far one corner of the mouth is from rest, in base and in each of its variants: what each of them takes away.
 import type { Chart } from '../../charts/chart_options';
-import { cornersOf, type Corners } from '../corners';
+import { cornersOf, farthestMm, type Corners } from '../corners';
 import type { Replay } from '../data';
 import { element } from '../../page/dom';
 import { faceHue } from '../../page/face_colour';
 import { faceWords } from '../../page/format';
+import { sides, type Side } from '../../page/side_words';
 import type { Shown } from '../shown';
 
-export type Side = 'left' | 'right';
-export const sides: Side[] = ['left', 'right'];
-const farthest = (corners: Corners, side: Side): number => (side === 'left' ? corners.leftMm : corners.rightMm);
 
 /** Begins with the side that variants change more. */
 export class ExcursionCurves {
   side: Side;
 
   private constructor(private readonly replay: Replay, private readonly shown: Shown, private readonly faces: Corners[]) {
-    const change = (side: Side) => Math.max(...faces.map((own) => Math.abs(farthest(own, side) - farthest(faces[0], side))));
-    this.side = change('right') > change('left') ? 'right' : 'left';
+    const change = (side: Side) => Math.max(...faces.map((own) => Math.abs(farthestMm(own, side) - farthestMm(faces[0], side))));
+    this.side = change('left') > change('right') ? 'left' : 'right';
   }
 
   /** Null without variants, and where the run has no points at the corners. */

@@ -31,7 +31,7 @@ export class MuscleCurves {
     const caption =
       'Sum over muscles that points on the skin can hardly tell apart; a muscle at 1 moves the skin by 10 mm where most, below 0 it relaxes. ' +
       (several ? `Of ${visible.map((face) => faceWords(this.faces, face)).join('; dashed: ')}: variants answer what was found in base, times what they change. ` : '') +
-      `Where it acts most in base, left ± ${sigmaLeft.toFixed(2)}, right ± ${sigmaRight.toFixed(2)} (one sigma, of the points and the prior alone). ` +
+      `Where it acts most in base, right ± ${sigmaRight.toFixed(2)}, left ± ${sigmaLeft.toFixed(2)} (one sigma, of the points and the prior alone). ` +
       (this.muscles.fewPoints ? 'With so few points this is a means of moving the face, not a measurement of muscles.' : '');
     return {
       caption: caption.trim(), unit: '', digits: 2, timeS: this.muscles.timeS, yLabel: 'activation', heightPx: 200,
@@ -40,8 +40,8 @@ export class MuscleCurves {
         const of = visible.length > 1 ? ` of ${faceWords(this.faces, face)}` : '';
         const file = several ? ` of ${this.faces[face].name} (1)` : ' (1)';
         return [
-          { label: `left${of}`, column: `${name}, left${file}`, values: left, hue: leftHue(), broken: k > 0 },
           { label: `right${of}`, column: `${name}, right${file}`, values: right, hue: rightHue(), broken: k > 0 },
+          { label: `left${of}`, column: `${name}, left${file}`, values: left, hue: leftHue(), broken: k > 0 },
         ];
       }),
     };
@@ -53,7 +53,7 @@ export function muscleChooser(curves: MuscleCurves, changed: () => void): HTMLEl
   const label = element('label', '', 'one-of-chooser');
   const select = document.createElement('select');
   curves.groups.forEach(({ name, left, right }, i) => {
-    const option = element('option', `${upper(name)} (left ${signed(strongest(left).toFixed(2))}, right ${signed(strongest(right).toFixed(2))})`);
+    const option = element('option', `${upper(name)} (right ${signed(strongest(right).toFixed(2))}, left ${signed(strongest(left).toFixed(2))})`);
     option.setAttribute('value', String(i));
     select.append(option);
   });

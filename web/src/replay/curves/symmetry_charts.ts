@@ -92,15 +92,15 @@ export function stretchCurves(replay: Replay, shown: Shown): Part[] {
   return [{
     caption:
       'Relative change of the distances from the mouth corner to eye, lid, nose and lip, summed. ' +
-      `The subject’s own left and right${one ? (several ? `, of ${faceWords(replay.faces, shown.first)}` : '') : `; solid: ${faceWords(replay.faces, shown.first)}, dashed: ${faceWords(replay.faces, shown.second)}`}.`,
+      `The subject’s own right and left${one ? (several ? `, of ${faceWords(replay.faces, shown.first)}` : '') : `; solid: ${faceWords(replay.faces, shown.first)}, dashed: ${faceWords(replay.faces, shown.second)}`}.`,
     unit: '', digits: 4, timeS: own.time_s, yLabel: 'ξ (relative change)', heightPx: 200,
     curves: faces.flatMap(({ i, curve }) => {
       const broken = !one && i !== shown.first;
       const of = one ? '' : ` of ${faceWords(replay.faces, i)}`;
       const file = several ? ` of ${replay.faces[i].name} (1)` : ' (1)';
       return [
-        { label: `ξL${of}`, column: `ξL${file}`, values: curve.xi_left, hue: leftHue(), broken },
         { label: `ξR${of}`, column: `ξR${file}`, values: curve.xi_right, hue: rightHue(), broken },
+        { label: `ξL${of}`, column: `ξL${file}`, values: curve.xi_left, hue: leftHue(), broken },
       ];
     }),
   }];

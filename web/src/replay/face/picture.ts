@@ -3,12 +3,15 @@
 // page's own background.
 import { rampStops } from './colour';
 import { ticksOf, type Scale } from './colouring';
+import { drawSideMarks, type SideMark } from './side_marks';
 import { linesOf } from '../../page/lines';
 
 export interface PictureParts {
   /** The faces as drawn, `scale` times the size of the stage. */
   stage: HTMLCanvasElement;
   scale: number;
+  /** Of the subject's own sides, in pixels of the stage. */
+  marks: SideMark[];
   title: string;
   time: string;
   /** One or two faces, left one first. */
@@ -137,6 +140,7 @@ export function drawPicture(parts: PictureParts): HTMLCanvasElement {
   pen.on.drawImage(stage, 0, headHeight, width, stageHeight);
 
   const ink = pen.colour('--ink');
+  drawSideMarks(pen.on, parts.marks.map((mark) => ({ ...mark, y: headHeight + mark.y })), ink, pen.colour('--card'));
   const soft = pen.colour('--ink-soft');
   pen.on.font = `400 14px ${family}`;
   const timeWidth = pen.on.measureText(parts.time).width;

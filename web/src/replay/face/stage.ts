@@ -17,6 +17,7 @@ import type { Shown } from '../shown';
 import { theme } from '../../page/theme';
 import { Readout } from './readout';
 import { changesOf } from '../variants';
+import { showSideMarks } from './side_marks';
 import type { View } from './view_camera';
 import { FaceViewer } from './viewer';
 import { WipeHandle } from './wipe_handle';
@@ -54,7 +55,7 @@ export class Stage {
     this.fillOverlays();
     this.wireWipe();
     this.wireReadout();
-    this.undoing.add(shown.onChange(() => {
+    this.undoing.add(showSideMarks(this.viewer, at('canvas-host')), shown.onChange(() => {
       this.paint();
       this.announce();
     }));
@@ -260,6 +261,7 @@ export class Stage {
     const picture = drawPicture({
       stage: this.viewer!.snapshot(pictureScale),
       scale: pictureScale,
+      marks: this.viewer!.sideMarks,
       title: subject(),
       time: `${timeS.toFixed(3)} s`,
       faces: named.map((i) => ({

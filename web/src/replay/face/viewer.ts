@@ -12,6 +12,7 @@ import type { Overlay, OverlayName } from './overlays';
 import { Picking, type Pass } from './picking';
 import { PicturePace } from './picture_pace';
 import type { Shown } from '../shown';
+import { sideMarks, type SideMark } from './side_marks';
 import { StageLights } from './stage_lights';
 import { ViewCamera } from './view_camera';
 import { Listeners, Undoing, type Undo } from '../../page/listeners';
@@ -187,6 +188,12 @@ export class FaceViewer {
   /** After each picture, while the canvas still holds it. */
   onDraw(drawn: () => void): Undo {
     return this.drawn.add(drawn);
+  }
+
+  /** Where the subject's own sides lie in the picture drawn last. */
+  get sideMarks(): SideMark[] {
+    const places = this.shown.mode === 'side-by-side' ? this.passes() : this.passes().slice(0, 1);
+    return places.flatMap(({ x, width }) => sideMarks(this.view.camera, x, width, this.host.clientHeight));
   }
 
   /** Of the faces shown, left one first. */

@@ -67,10 +67,10 @@ function headOf(table: HTMLTableElement): void {
     return th;
   };
   upper.append(cell('Point', 'col', [1, 2], ''));
-  upper.append(cell('Left | right', 'col', [1, 2], 'Excursion of either side, to one scale'));
+  upper.append(cell('Right | left', 'col', [1, 2], 'Excursion of either side, to one scale'));
   for (const group of groups) {
     upper.append(cell(`${group.head} (${group.unit})`, 'colgroup', [3, 1], group.says));
-    lower.append(cell('left', 'col', [1, 1], ''), cell('right', 'col', [1, 1], ''), cell(ratio.head, 'col', [1, 1], ratio.says));
+    lower.append(cell('right', 'col', [1, 1], ''), cell('left', 'col', [1, 1], ''), cell(ratio.head, 'col', [1, 1], ratio.says));
   }
   const last = headCell(correlation);
   last.rowSpan = 2;
@@ -82,7 +82,7 @@ function balance({ L, R }: Sides): HTMLElement {
   const cell = element('td');
   const bars = element('span', '', 'balance');
   bars.setAttribute('aria-hidden', 'true');
-  for (const side of [L, R]) {
+  for (const side of [R, L]) {
     const bar = element('i');
     bar.style.setProperty('--mm', String(side ?? 0));
     bars.append(bar);
@@ -113,7 +113,7 @@ function addRow(body: HTMLTableSectionElement, pair: Excursion): void {
   for (const { key, unit, head, digits, says } of groups) {
     const column = { key, head, unit, digits, says };
     const sides = pair[unitKey[key]];
-    row.append(figureCell(sides.L, column), figureCell(sides.R, column));
+    row.append(figureCell(sides.R, column), figureCell(sides.L, column));
     const over = figureCell(pair[`${key}_ratio_R_L`], { ...column, unit: '', digits: 3 });
     row.append(isUndecided(pair, key) ? undecidedCell(over, floorOf(pair, key), unit) : over);
   }
@@ -122,13 +122,13 @@ function addRow(body: HTMLTableSectionElement, pair: Excursion): void {
 }
 
 const csvRows = (pairs: Excursion[]): (string | number | null)[][] => [
-  ['point', ...groups.flatMap(({ head, unit }) => [`${head} left (${unit})`, `${head} right (${unit})`, `${head} R/L`]),
+  ['point', ...groups.flatMap(({ head, unit }) => [`${head} right (${unit})`, `${head} left (${unit})`, `${head} R/L`]),
     'correlation of speeds', 'undecided'],
   ...pairs.map((pair) => [
     pair.point,
     ...groups.flatMap(({ key }) => {
       const over = pair[`${key}_ratio_R_L`];
-      return [pair[unitKey[key]].L, pair[unitKey[key]].R, isNumber(over) ? over : null];
+      return [pair[unitKey[key]].R, pair[unitKey[key]].L, isNumber(over) ? over : null];
     }),
     pair.speed_correlation, pair.undecided ? 'yes' : 'no',
   ]),

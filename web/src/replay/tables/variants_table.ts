@@ -24,12 +24,12 @@ const columns: Column[] = [
     says: 'root mean square of that distance over the skin, in the frame of the peak.',
   },
   {
-    key: 'mean_displacement_L_mm', head: 'Left side', unit: 'mm, mean', digits: 2,
-    says: 'how far the face left of the middle has moved in that frame, on average over its area; the subject’s own left.',
+    key: 'mean_displacement_R_mm', head: 'Right side', unit: 'mm, mean', digits: 2,
+    says: 'how far the face right of the middle has moved in that frame, on average over its area; the subject’s own right.',
   },
   {
-    key: 'mean_displacement_R_mm', head: 'Right side', unit: 'mm, mean', digits: 2,
-    says: 'the same right of the middle.',
+    key: 'mean_displacement_L_mm', head: 'Left side', unit: 'mm, mean', digits: 2,
+    says: 'the same left of the middle.',
   },
   {
     key: 'asymmetry_rms_mm', head: 'Asymmetry', unit: 'mm, rms', digits: 2,

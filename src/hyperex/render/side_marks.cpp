@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/render/side_marks.hpp"
+
+namespace hyperex::render {
+
+SideMarks side_marks(const Camera& camera, const Vec3& subjects_left) {
+  // Of the breadth of the face as the picture shows it: a view within 20 degrees of the profile
+  // has no room for both sides.
+  constexpr double least_breadth = 0.35;
+  const Vec3 seen = camera.axes() * subjects_left.normalized();
+  if (seen.x() >= least_breadth) return {.at_left = "R", .at_right = "L"};
+  if (seen.x() <= -least_breadth) return {.at_left = "L", .at_right = "R"};
+  return {.in_middle = seen.z() > 0 ? "L" : "R"};
+}
+
+}  // namespace hyperex::render

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/run/corner_words.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace hyperex::run {
+namespace {
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Corner {
+  double from_mm, to_mm, along_mm, band_mm = 0.3;
+};
+
+Json summary_of(const Corner& right, const Corner& left, const Json& weaker) {
+  Json base{{"name", "base"}}, variant{{"name", "what if"}, {"weaker_sides", weaker}};
+  for (const auto& [side, corner] : {std::pair{"R", right}, std::pair{"L", left}}) {
+    const std::string key = std::string("commissure_") + side;
+    base[key + "_mm"] = corner.from_mm;
+    variant[key + "_mm"] = corner.to_mm;
+    variant[key + "_along_base_mm"] = corner.along_mm;
+    variant[key + "_band_mm"] = corner.band_mm;
+  }
+  return {{"symmetry",
+           {{"commissure",
+             {{"excursion_mm", {{"L", left.from_mm}, {"R", right.from_mm}}},
+              {"floor_mm", 0.1},
+              {"mesh_floor_mm", 0.1}}}}},
+          {"variants", {{"table", {base, variant}}}}};
+}
+
+const Corner same{6.7, 6.72, 6.72};
+
+// A mouth that opens: the weak corner goes farther, and the healthy one does not go less.
+TEST(CornerWords, AWeakCornerThatGoesFartherIsDragged) {
+  const std::string lines = variant_lines(summary_of({6.7, 8.9, 8.85}, same, {"R"}));
+  EXPECT_THAT(lines, HasSubstr("right 6.7 to 8.9 mm, is dragged 2.2 mm farther (+- 0.3)"));
+  EXPECT_THAT(lines, HasSubstr("; left 6.7 mm, unchanged\n"));
+  EXPECT_THAT(lines, Not(HasSubstr("less")));
+}
+
+TEST(CornerWords, AWeakCornerMovesLessAndOneInStiffTissueFollowsLess) {
+  const Corner less{9.6, 6.2, 6.15};
+  EXPECT_THAT(variant_lines(summary_of(less, same, {"R"})), HasSubstr("moves 3.4 mm less"));
+  EXPECT_THAT(variant_lines(summary_of(less, same, Json::array())),
+              HasSubstr("follows 3.4 mm less"));
+  EXPECT_THAT(variant_lines(summary_of({6.7, 7.5, 7.5}, same, Json::array())),
+              HasSubstr("moves 0.8 mm farther"));
+}
+
+// As far from rest as in base, but elsewhere.
+TEST(CornerWords, ComparesAlongTheWayThatTheCornerGoesInBase) {
+  EXPECT_THAT(variant_lines(summary_of({6.0, 6.4, 3.9}, same, {"R"})),
+              HasSubstr("right 6.0 to 6.4 mm, moves 2.1 mm less along its way in base (+- 0.3)"));
+  EXPECT_THAT(variant_lines(summary_of({6.0, 5.9, -5.2}, same, {"R"})),
+              HasSubstr("goes 5.2 mm the other way"));
+}
+
+// 9.64 and 9.66 are 9.6 and 9.7 where each is rounded by itself.
+TEST(CornerWords, RoundsOnceSoThatAdjacentFiguresAgree) {
+  const Json summary = summary_of({9.64, 9.66, 9.66}, {8.26, 6.24, 6.24}, Json::array());
+  EXPECT_THAT(corners_line(summary), HasSubstr("right 9.6 mm, left 8.3 mm, 1.3 mm apart"));
+  EXPECT_THAT(variant_lines(summary), HasSubstr("right 9.6 mm, unchanged"));
+  EXPECT_THAT(variant_lines(summary), HasSubstr("left 8.3 to 6.2 mm, follows 2.1 mm less"));
+}
+
+TEST(CornerWords, AChangeWithinItsBandIsUndecided) {
+  EXPECT_THAT(variant_lines(summary_of({6.7, 7.0, 7.0, 0.5}, same, {"R"})),
+              HasSubstr("right 6.7 to 7.0 mm, undecided (+- 0.5)"));
+}
+
+}  // namespace
+}  // namespace hyperex::run

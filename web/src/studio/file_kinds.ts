@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a file that is chosen or dropped is, by its ending and its first bytes, as far as the page can tell. The server
+// reads what is let through, and judges it. No DOM here.
+
+export type FileKind = 'scan' | 'scene' | 'recording' | 'empty' | 'picture' | 'json' | 'torn video' | 'unknown';
+
+const endings: [FileKind, RegExp][] = [
+  ['scan', /\.(ply|obj|stl|glb|gltf)$/i],
+  ['scene', /\.toml$/i],
+  ['picture', /\.(jpe?g|png|gif|bmp|tiff?|webp|heic|avif|svg)$/i],
+  ['json', /\.json$/i],
+  ['recording', /\.(csv|trc|zip|oni|mp4|m4v|mov|avi|mkv|webm|mpe?g)$/i],
+];
+
+export const isZip = (name: string): boolean => /\.zip$/i.test(name);
+
+/** Of what begins in one way only: where that way is to be found. */
+const beginnings: [RegExp, at: number, text: string[]][] = [
+  [/\.(mp4|m4v|mov)$/i, 4, ['ftyp', 'moov', 'mdat', 'wide', 'free', 'skip']],
+  [/\.avi$/i, 0, ['RIFF']],
+  [/\.(mkv|webm)$/i, 0, ['\x1a\x45\xdf\xa3']],
+];
+
+/** `file`: its name, its size, and its first bytes on demand. */
+export async function kindOf(file: Pick<File, 'name' | 'size' | 'slice'>): Promise<FileKind> {
+  const { name, size } = file;
+  const kind = endings.find(([, ending]) => ending.test(name))?.[0] ?? 'unknown';
+  if (size === 0) return 'empty';
+  const begins = beginnings.find(([ending]) => ending.test(name));
+  if (!begins) return kind;
+  const [, at, texts] = begins;
+  const first = new Uint8Array(await file.slice(at, at + 4).arrayBuffer());
+  return texts.includes(String.fromCharCode(...first)) ? kind : 'torn video';
+}

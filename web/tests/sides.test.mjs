@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The subject's own sides: marked in every view and picture, in one order in words and tables, and told so that a
+// weak side which is dragged does not make the healthy one look weak.
+//   SCREENSHOTS=/tmp/pictures node --test web/tests/sides.test.mjs
+import assert from 'node:assert/strict';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch, openPage } from './browser.mjs';
+import { fixture } from './fixtures.mjs';
+import { openMadeUp } from './made_up_studio.mjs';
+import { readPage, withData } from './page_data.mjs';
+import { decode } from './pixels.mjs';
+
+const pictures = process.env.SCREENSHOTS;
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser?.close());
+
+/** "R left, L right": where each mark stands in the view, or in its half of it. */
+const marks = async (page) => {
+  await page.waitForSelector('#face[data-at-rest="true"]');
+  return page.locator('.side-marks span').evaluateAll((all) => all.map((mark) => {
+    const [at, host] = [mark.getBoundingClientRect(), document.getElementById('canvas-host').getBoundingClientRect()];
+    const share = (at.left + at.width / 2 - host.left) / host.width;
+    return `${mark.textContent} ${share.toFixed(2)}`;
+  }));
+};
+
+for (const [name, open] of [
+  ['report', () => openPage(browser, fixture('variants.html'))],
+  ['studio', () => openMadeUp(browser, () => [])],
+])
+  test(`every view of the ${name} says where left and right are`, async () => {
+    const { page, close } = await open();
+    const near = (text, letter, share) => assert.ok(text.startsWith(letter) && Math.abs(Number(text.slice(2)) - share) < 0.05, `${text}, not ${letter} at ${share}`);
+    const at = async (...wanted) => {
+      const found = await marks(page);
+      assert.equal(found.length, wanted.length, found.join(', '));
+      wanted.forEach(([letter, share], i) => near(found[i], letter, share));
+    };
+    const view = (which) => page.locator(`#views [data-view="${which}"]`).click();
+    assert.deepEqual(await page.locator('#views button').evaluateAll((all) => all.map((b) => b.dataset.view)), ['front', 'three-quarter', 'right', 'left']);
+    await at(['R', 0.02], ['L', 0.98]);
+    await view('three-quarter');
+    await at(['R', 0.02], ['L', 0.98]);
+    await view('left');
+    await at(['L', 0.5]);
+    await view('right');
+    await at(['R', 0.5]);
+    // On to behind the head.
+    await page.locator('#face').focus();
+    for (let i = 0; i < 9; ++i) await page.keyboard.press('Shift+ArrowLeft');
+    await at(['R', 0.98], ['L', 0.02]);
+    await view('front');
+    if (name === 'report') {
+      await page.keyboard.press('s');
+      await at(['R', 0.02], ['L', 0.48], ['R', 0.52], ['L', 0.98]);
+    }
+    if (pictures) await page.screenshot({ path: join(pictures, `sides_${name}.png`) });
+    await close();
+  });
+
+test('a saved picture has the marks', async () => {
+  const { page, close } = await openPage(browser, fixture('plain.html'));
+  await page.waitForSelector('#face[data-at-rest="true"]');
+  const [width, height] = await page.locator('#canvas-host').evaluate((e) => [e.clientWidth, e.clientHeight]);
+  const [saved] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('e')]);
+  const png = await readFile(await saved.path());
+  if (pictures) await saved.saveAs(join(pictures, 'sides_saved.png'));
+  const picture = await decode(page, png);
+  // Twice the stage's pixels, below a title of 58.
+  const ink = (x) => picture.evaluate(({ width: w, data }, [cx, cy]) => {
+    let dark = 0;
+    for (let y = cy - 16; y < cy + 16; ++y)
+      for (let px = cx - 16; px < cx + 16; ++px) dark += data[4 * (y * w + px)] < 90;
+    return dark;
+  }, [2 * x, 2 * (58 + Math.round(height / 2))]);
+  assert.ok(await ink(16) > 40, 'R');
+  assert.ok(await ink(width - 16) > 40, 'L');
+  await close();
+});
+
+/** The made-up variants, the first of which opens its mouth with a weak right side. */
+async function dragged(change) {
+  const { html, data } = await readPage(fixture('variants.html'));
+  const [base, own] = data.summary.variants.table;
+  const sides = (right, left) => ({ R: right, L: left });
+  const pair = (right, left) => [{
+    point: 'cheilion', excursion_mm: sides(right, left), path_mm: sides(1, 1), peak_speed_mm_s: sides(1, 1), speed_correlation: 1, undecided: false, floor_mm: 0.1,
+  }];
+  data.summary.symmetry = { ...data.summary.symmetry, excursions: pair(6.74, 6.71) };
+  Object.assign(base, { commissure_R_mm: 6.74, commissure_L_mm: 6.71 });
+  const { right, left = 6.76, along = right, weaker = ['R'] } = change;
+  Object.assign(own, {
+    excursions: pair(right, left), commissure_R_mm: right, commissure_L_mm: left, commissure_R_band_mm: 0.7, commissure_L_band_mm: 0.2,
+    commissure_R_along_base_mm: along, commissure_L_along_base_mm: left, weaker_sides: weaker,
+  });
+  for (const key of ['R', 'L']) own[`commissure_${key}_from_base_mm`] = null;
+  const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'dragged.html');
+  await writeFile(file, withData(html, data));
+  const { page, close } = await openPage(browser, file);
+  await page.locator('#chips button').nth(1).click();
+  const [headline, line] = [await page.locator('#headline').textContent(), await page.locator('.variant-lines li').first().textContent()];
+  await close();
+  await rm(dirname(file), { recursive: true });
+  return { headline, line: line.split(': ').slice(1).join(': ') };
+}
+
+test('a weak corner that goes farther is dragged; the healthy one is not called less', async () => {
+  const { headline, line } = await dragged({ right: 8.91 });
+  assert.equal(headline, 'right 8.9 mm, left 6.8 mm: right is dragged 2.2 mm farther than in base');
+  assert.equal(line, 'right corner 8.9 mm, is dragged 2.2 mm farther than in base (± 0.7 mm)');
+});
+
+test('a weak corner moves less, one in stiff tissue follows less', async () => {
+  assert.match((await dragged({ right: 4.1 })).headline, /: right moves 2\.6 mm less than in base$/);
+  assert.match((await dragged({ right: 4.1, weaker: [] })).headline, /: right follows 2\.6 mm less than in base$/);
+});
+
+test('what is compared lies along the way of base', async () => {
+  assert.match((await dragged({ right: 7.0, along: 3.5 })).headline, /: right moves 3\.2 mm less than in base, along its way there$/);
+  assert.match((await dragged({ right: 5.9, along: -4.2 })).headline, /: right goes 4\.2 mm the other way$/);
+});
+
+test('a change within its band is undecided', async () => {
+  assert.match((await dragged({ right: 7.2 })).headline, /undecided \(below 0\.7 mm\)$/);
+});
