@@ -12,6 +12,8 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene.hpp"
 
@@ -51,6 +53,9 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   made.scan = seen_from(folder, scan);
   made.motion = seen_from(folder, motion);
   made.motion_key = motion == "embedded" ? "motion.file" : scene::recording_key(motion);
+  if (made.motion_key == "motion.file" && motion != "embedded")
+    if (const motion::Motion points = motion::read_motion(motion); !motion::has_pose_points(points))
+      made.rigid_points = motion::find_still_points(points);
   const std::string text = scene::new_scene_text(made);
   scene::read_scene_text(text, to);  // what is wrong is said now, and nothing is written
   write_file_atomically(to, [&](std::ostream& out) { out << text; });

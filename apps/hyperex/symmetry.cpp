@@ -39,6 +39,7 @@ struct SymmetryOptions {
   double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz;
   double end_s = std::numeric_limits<double>::infinity();
   std::string unit, jitter_mm = "auto";
+  std::vector<std::string> rigid_points;
   bool keep_head = false;
 };
 
@@ -91,13 +92,15 @@ void warn_of_unknown(const session::RecordedJitter& jitter) {
         jitter.how);
 }
 
-motion::Motion without_head(const motion::Motion& motion, bool keep_head) {
-  if (keep_head) return motion;
+motion::Motion without_head(const motion::Motion& motion, const SymmetryOptions& options) {
+  if (options.keep_head) return motion;
+  if (!options.rigid_points.empty())
+    return motion::stabilise(motion, {.rigid_points = options.rigid_points}).motion;
   try {
     return motion::stabilise(motion).motion;
   } catch (const motion::OptionError& error) {
     std::cerr << "head pose is not taken out, and excursions contain it: "
-              << error.sentence("motion." + error.option() + " of a scene") << '\n';
+              << error.sentence("--rigid-points") << '\n';
     return motion;
   } catch (const InputError& error) {
     std::cerr << "head pose is not taken out, and excursions contain it: " << error.what() << '\n';
@@ -217,7 +220,7 @@ void run(const SymmetryOptions& options) {
   const motion::Motion& motion = mended.motion;
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(motion, options.floor);  // throws where points are missing
-  const motion::Motion steady = without_head(motion, options.keep_head);
+  const motion::Motion steady = without_head(motion, options);
   if (!options.keep_head) motion::check_reach(steady);
   for (const auto& warning : {session::wild_samples_warning(mended),
                               session::exchanged_warning(motion, session::average_face()),
@@ -281,6 +284,12 @@ void add_symmetry(CLI::App& program) {
       ->check(CLI::PositiveNumber);
   command->add_flag("--keep-head", options->keep_head,
                     "Do not remove the head pose before measuring excursions");
+  command
+      ->add_option("--rigid-points", options->rigid_points,
+                   "Points that move with the skull, from which the head's pose is found, "
+                   "separated by commas (default: all landmarks of the face)")
+      ->delimiter(',')
+      ->excludes("--keep-head");
   command->add_option("--unit", options->unit, "Unit of the motion (default: guessed)")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command->footer(

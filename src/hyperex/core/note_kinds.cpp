@@ -37,8 +37,8 @@ constexpr NoteKind kKinds[] = {
     "The face comes nearer to rest later than it is at the start, where displacements are taken "
     "from."),
   warning("recording.fits_badly", "motion.unit",
-    "After alignment the common points are more than 10 mm rms apart, or the scale is outside 0.8 "
-    "to 1.25."),
+    "After alignment the common points are more than 10 mm rms apart, 5 mm where there are at least "
+    "20, or the scale is outside 0.8 to 1.25."),
   warning("sides.exchanged_pair", "motion.file",
     "Single pairs of points have left and right exchanged. Where most pairs do, the recording is "
     "refused."),

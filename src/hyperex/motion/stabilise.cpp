@@ -11,6 +11,7 @@
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/expressive_pose.hpp"
 #include "hyperex/motion/option_error.hpp"
+#include "hyperex/motion/still_points.hpp"
 
 namespace hyperex::motion {
 
@@ -36,8 +37,14 @@ Points rows_of(const Points& all, const std::vector<int>& rows) {
   return some;
 }
 
-/// "its names are a, b, c and 4 more": those that could be named as moving with the skull.
+/// Those that could be named as moving with the skull: those that were found to keep their
+/// distances, all of them; else "the motion's other points are a, b, c and 4 more".
 std::string other_names(const Motion& motion, const std::vector<int>& known) {
+  if (const auto still = find_still_points(motion); !still.empty())
+    return fmt::format(
+        "these keep their distances from each other, as points of the skull do: "
+        "[\"{}\"]",
+        fmt::join(still, "\", \""));
   constexpr std::size_t most = 6;
   std::vector<std::string> names;
   for (int i = 0; i < int(motion.names.size()); ++i)

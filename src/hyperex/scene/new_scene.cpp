@@ -80,6 +80,14 @@ std::string new_scene_text(const NewScene& of) {
                      toml_text(of.motion));
   if (of.motion_key == "motion.file" && of.motion != "embedded")
     out += "# The first sample is taken for the face at rest.\n";
+  if (!of.rigid_points.empty()) {
+    out +=
+        "# These keep their distances from each other, as points of the skull do.\nrigid_points = "
+        "[";
+    for (std::size_t i = 0; i < of.rigid_points.size(); ++i)
+      out += (i > 0 ? ", " : "") + toml_text(of.rigid_points[i]);
+    out += "]\n";
+  }
   if (of.motion_key == "motion.recording")
     out +=
         "# The face is tracked first; its first frames are taken for the face at rest.\n"

@@ -3,6 +3,7 @@
 // A scene to begin with, made of a scan and a recording.
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hyperex::scene {
 
@@ -18,10 +19,11 @@ std::string other_kind(const std::filesystem::path& file);
 struct NewScene {
   /// Paths as the scene shall name them; "embedded": the program's own.
   std::string scan, motion;
-  std::string motion_key;  ///< recording_key(), or "motion.file" for "embedded"
-  std::string unit;        ///< of the scan: "mm", "cm", "m"; empty: the file says it
-  std::string unit_note;   ///< how the unit was found, for a comment
-  std::string name;        ///< of the scene's file without its ending, for title and commands
+  std::string motion_key;                 ///< recording_key(), or "motion.file" for "embedded"
+  std::string unit;                       ///< of the scan: "mm", "cm", "m"; empty: the file says it
+  std::string unit_note;                  ///< how the unit was found, for a comment
+  std::vector<std::string> rigid_points;  ///< found in the recording; empty: none to be named
+  std::string name;  ///< of the scene's file without its ending, for title and commands
 };
 
 /// The scene as text, with comments that tell what to change next. It has one variant, so that a

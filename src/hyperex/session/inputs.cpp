@@ -105,7 +105,9 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   if (!scene.scan.landmarks.empty() || !scene.given.landmarks.empty())
     append(in.notes, anatomy::landmark_doubts(given, in.scan.mesh));
   add(in.notes, idle_law_warning(scene));
-  add(in.notes, misfit_warning(in.motion));
+  const scene::MotionOptions& recorded = scene.motion;
+  add(in.notes, misfit_warning(in.motion, !recorded.arkit.empty() || !recorded.openface.empty() ||
+                                              !recorded.candide.empty()));
   add(in.notes, start_warning(steady, at_rest));
   add(in.notes, exchanged_warning(steady, at_rest));
 }

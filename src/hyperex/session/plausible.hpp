@@ -28,8 +28,10 @@ FaceAtRest average_face();
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `recording.fits_badly`: the recording fits the scan badly, as one of another face, in another
-/// unit, or with points that only share their names.
-std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned);
+/// unit, or with points that only share their names: more than 5 mm rms where it has 20 common
+/// points or more, else 10 mm. `of_a_model`: the points are of an average face that expressions
+/// move; 10 mm.
+std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned, bool of_a_model);
 
 /// `recording.starts_in_expression`: the recording seems to begin in the middle of an expression
 /// (motion::started_in_expression).

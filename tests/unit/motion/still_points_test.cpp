@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/motion/still_points.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "hyperex/motion/stabilise.hpp"
+#include "unit/motion/motions.hpp"
+
+namespace hyperex::motion {
+namespace {
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr double kPlace_m[6][3] = {{0, 0.1, 0},     {0.05, 0.1, -0.01}, {-0.05, 0.1, -0.01},
+                                   {0, 0.05, 0.02}, {0.02, 0, 0.01},    {-0.02, 0, 0.01}};
+
+/// Four points of the skull, two of the face that move by 10 mm, on a head that turns by 10
+/// degrees.
+Motion nodding(double skull_m = 0) {
+  return testing::sampled(21, 0.05, {"top", "left", "right", "nose", "smile", "ibug68_57"},
+                          [&](double t, int p, int axis) {
+                            double at[3];
+                            for (int k = 0; k < 3; ++k) at[k] = kPlace_m[p][k];
+                            if (p >= 4) at[0] += 0.01 * t;
+                            if (p == 3) at[0] += skull_m * t;
+                            const double angle = t * 10 * std::numbers::pi / 180;
+                            const double turned[3] = {
+                                at[0], std::cos(angle) * at[1] - std::sin(angle) * at[2],
+                                std::sin(angle) * at[1] + std::cos(angle) * at[2]};
+                            return turned[axis];
+                          });
+}
+
+TEST(StillPoints, AreThoseThatKeepTheirDistances) {
+  EXPECT_THAT(find_still_points(nodding()), ElementsAre("top", "left", "right", "nose"));
+  EXPECT_THAT(find_still_points(nodding(0.5e-3)), ElementsAre("top", "left", "right", "nose"));
+}
+
+TEST(StillPoints, ThreeAreTooFewToBeSure) {
+  EXPECT_THAT(find_still_points(nodding(5e-3)), IsEmpty());
+}
+
+TEST(StillPoints, OnALineTheyGiveNoPose) {
+  const Motion motion = testing::sampled(5, 0.1, {"a", "b", "c", "d"}, [](double, int p, int axis) {
+    return axis == 0 ? 0.02 * p : 0;
+  });
+  EXPECT_THAT(find_still_points(motion), IsEmpty());
+}
+
+TEST(StillPoints, PointsOfTheMouthAreLeftOut) {
+  Motion motion = nodding();
+  motion.names = {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57", "a", "b"};
+  EXPECT_THAT(find_still_points(motion), IsEmpty());
+}
+
+TEST(StillPoints, AMissingPoseProposesThem) {
+  testing::expect_refused([] { stabilise(nodding()); },
+                          {"rigid_points", "[\"top\", \"left\", \"right\", \"nose\"]"});
+  EXPECT_FALSE(has_pose_points(nodding()));
+}
+
+}  // namespace
+}  // namespace hyperex::motion
