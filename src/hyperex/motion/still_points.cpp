@@ -10,9 +10,9 @@
 namespace hyperex::motion {
 namespace {
 
-constexpr std::size_t kMostSamples = 200;
-constexpr std::size_t kLeastPoints = 4;
-constexpr double kLeastSpread = 0.02;  // as stabilise() needs it
+constexpr std::size_t kMostStillSamples = 200;
+constexpr std::size_t kLeastStillPoints = 4;
+constexpr double kLeastStillSpread = 0.02;  // as stabilise() needs it
 
 std::vector<int> candidates(const Motion& motion) {
   std::vector<std::string> moves;
@@ -31,7 +31,7 @@ std::vector<int> candidates(const Motion& motion) {
 Eigen::MatrixXd distance_changes(const Motion& motion, const std::vector<int>& points) {
   const auto count = Eigen::Index(points.size());
   Eigen::MatrixXd most = Eigen::MatrixXd::Zero(count, count);
-  const std::size_t step = std::max<std::size_t>(1, motion.positions.size() / kMostSamples);
+  const std::size_t step = std::max<std::size_t>(1, motion.positions.size() / kMostStillSamples);
   for (std::size_t k = 0; k < motion.positions.size(); k += step)
     for (Eigen::Index i = 0; i < count; ++i)
       for (Eigen::Index j = i + 1; j < count; ++j) {
@@ -62,7 +62,7 @@ std::vector<std::string> find_still_points(const Motion& motion) {
         set.push_back(i);
     if (set.size() > best.size()) best = set;
   }
-  if (best.size() < kLeastPoints) return {};
+  if (best.size() < kLeastStillPoints) return {};
   std::ranges::sort(best);
   std::vector<std::string> names;
   Points at(Eigen::Index(best.size()), 3);
@@ -71,7 +71,7 @@ std::vector<std::string> find_still_points(const Motion& motion) {
     names.push_back(motion.names[std::size_t(row)]);
     at.row(Eigen::Index(i)) = motion.positions.front().row(row);
   }
-  return spread_off_line(at) < kLeastSpread ? std::vector<std::string>{} : names;
+  return spread_off_line(at) < kLeastStillSpread ? std::vector<std::string>{} : names;
 }
 
 bool has_pose_points(const Motion& motion) {
