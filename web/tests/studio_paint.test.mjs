@@ -136,7 +136,7 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
     await untilPatches(page, 1);
     await settled(page);
     assert.ok(await page.evaluate(() => Number(document.documentElement.dataset.shapes)) > 0, 'the frame shown follows before the motion');
-    assert.deepEqual(await page.locator('.tab-name').allInnerTexts(), ['Base', 'What if'], 'base stays what it is');
+    assert.deepEqual(await page.locator('.tab-name').allInnerTexts(), ['Base', 'painted patch 3 x'], 'base stays what it is');
     assert.ok(await camera(), 'drawn');
     const [first] = await patches(page);
     assert.equal(first.factor, 3);

@@ -64,9 +64,9 @@ export class StudioState {
     return changeWords(this.scene?.faces[face]?.changes ?? {}, nested(this.valuesOf(0)));
   }
 
-  /** A name that no face has yet. */
-  freeName(wanted: string): string {
-    const taken = new Set(this.scene?.faces.map(({ name }) => name));
+  /** A name that no face has yet, but for the one that is to get it. */
+  freeName(wanted: string, own = -1): string {
+    const taken = new Set(this.scene?.faces.filter((_, i) => i !== own).map(({ name }) => name));
     for (let n = 1; ; ++n) {
       const name = n === 1 ? wanted : `${wanted} ${n}`;
       if (!taken.has(name)) return name;
