@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/expressive_pose.hpp"
@@ -36,13 +37,17 @@ Points rows_of(const Points& all, const std::vector<int>& rows) {
   return some;
 }
 
-/// "its names are a, b, c and 4 more": those that could be named as moving with the skull.
+/// "its other points are a, b, c": those that could be named as moving with the skull. Of a face's
+/// own points the usual ones are known already, so that others, of a helmet say, come first.
 std::string other_names(const Motion& motion, const std::vector<int>& known) {
-  constexpr std::size_t most = 6;
+  constexpr std::size_t most = 30;
   std::vector<std::string> names;
   for (int i = 0; i < int(motion.names.size()); ++i)
     if (std::ranges::find(known, i) == known.end()) names.push_back(motion.names[std::size_t(i)]);
   if (names.empty()) return "it has no other points";
+  const auto& of_faces = face::canonical_face().landmarks;
+  std::ranges::stable_partition(names,
+                                [&](const std::string& name) { return !of_faces.contains(name); });
   const std::size_t more = names.size() - std::min(most, names.size());
   names.resize(names.size() - more);
   return fmt::format("the motion's other points are {}{}", fmt::join(names, ", "),
