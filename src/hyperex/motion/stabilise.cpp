@@ -40,7 +40,7 @@ Points rows_of(const Points& all, const std::vector<int>& rows) {
 /// "its other points are a, b, c": those that could be named as moving with the skull. Of a face's
 /// own points the usual ones are known already, so that others, of a helmet say, come first.
 std::string other_names(const Motion& motion, const std::vector<int>& known) {
-  constexpr std::size_t most = 30;
+  constexpr std::size_t most_letters = 240;  // so that the sentence is never cut
   std::vector<std::string> names;
   for (int i = 0; i < int(motion.names.size()); ++i)
     if (std::ranges::find(known, i) == known.end()) names.push_back(motion.names[std::size_t(i)]);
@@ -48,8 +48,11 @@ std::string other_names(const Motion& motion, const std::vector<int>& known) {
   const auto& of_faces = face::canonical_face().landmarks;
   std::ranges::stable_partition(names,
                                 [&](const std::string& name) { return !of_faces.contains(name); });
-  const std::size_t more = names.size() - std::min(most, names.size());
-  names.resize(names.size() - more);
+  std::size_t shown = 0, letters = 0;
+  while (shown < names.size() && (shown == 0 || letters + names[shown].size() <= most_letters))
+    letters += names[shown++].size() + 2;
+  const std::size_t more = names.size() - shown;
+  names.resize(shown);
   return fmt::format("the motion's other points are {}{}", fmt::join(names, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
