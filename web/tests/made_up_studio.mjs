@@ -87,6 +87,7 @@ const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => 
 class Session {
   faces = [{ name: 'base', values: defaults }];
   requests = [];
+  title = 'Made up';
   constructor(socket, remarksOf) {
     Object.assign(this, { socket, remarksOf });
     socket.onMessage((text) => this.answer(JSON.parse(text)));
@@ -96,7 +97,7 @@ class Session {
   }
   scene() {
     this.send({
-      event: 'scene', title: 'Made up', values: this.faces.map(({ values }) => values), faces: this.faces.map(({ name, values }, i) => ({ name, changes: i === 0 ? {} : Object.fromEntries(Object.entries(values).filter(([k, v]) => v !== defaults[k])) })),
+      event: 'scene', title: this.title, values: this.faces.map(({ values }) => values), faces: this.faces.map(({ name, values }, i) => ({ name, changes: i === 0 ? {} : Object.fromEntries(Object.entries(values).filter(([k, v]) => v !== defaults[k])) })),
       drive: 'muscles', drive_why: 'the scene says so', can_undo: false, can_redo: false, saved: true, text: JSON.stringify(this.faces),
     });
   }

@@ -219,6 +219,7 @@ const en = {
   // Open.
   open: 'Open',
   openNow: (title: string) => title || 'Untitled',
+  movedBy: (scan: string, recording: string) => `${scan}, moved by ${recording}`,
   embedded: 'Face that comes with Hyperex',
   startedWith: (name: string) => `Again ${name}`,
   chooseFiles: 'Choose files…',
