@@ -116,6 +116,14 @@ INSTANTIATE_TEST_SUITE_P(
             "Point", "drive = { points = [\"nobody\"] }\n",
             "drive.points = [\"nobody\"]: expected names of points in the recording embedded "
             "motion (nobody is none)"},
+        VariantFault{"MisspeltPoint", "drive = { points = [\"cheilon_R\"] }\n",
+                     "drive.points = [\"cheilon_R\"]: expected names of points in the recording "
+                     "embedded motion (cheilon_R is none); did you mean cheilion_R?"},
+        VariantFault{"MisspeltLandmarkOfAScar",
+                     "tissue = { region = [{ scar = [\"cheilion_R\", \"allare_R\"], width_mm = 8, "
+                     "young_factor = 5 }] }\n",
+                     "tissue.region[0].scar = [\"cheilion_R\", \"allare_R\"]: expected names of "
+                     "landmarks of the scan (allare_R is none); did you mean alare_R?"},
         VariantFault{
             "Region", "tissue = { region = [{ name = \"cheek_Q\", young_factor = 2 }] }\n",
             "tissue.region[0].name = \"cheek_Q\": expected the name of a region (hyperex presets "

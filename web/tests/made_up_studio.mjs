@@ -87,6 +87,7 @@ const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => 
 class Session {
   faces = [{ name: 'base', values: defaults }];
   requests = [];
+  title = 'Made up';
   constructor(socket, remarksOf) {
     Object.assign(this, { socket, remarksOf });
     socket.onMessage((text) => this.answer(JSON.parse(text)));
@@ -96,7 +97,7 @@ class Session {
   }
   scene() {
     this.send({
-      event: 'scene', title: 'Made up', values: this.faces.map(({ values }) => values), faces: this.faces.map(({ name }) => ({ name, changes: {} })),
+      event: 'scene', title: this.title, values: this.faces.map(({ values }) => values), faces: this.faces.map(({ name, values }, i) => ({ name, changes: i === 0 ? {} : Object.fromEntries(Object.entries(values).filter(([k, v]) => v !== defaults[k])) })),
       drive: 'muscles', drive_why: 'the scene says so', can_undo: false, can_redo: false, saved: true, text: JSON.stringify(this.faces),
     });
   }
@@ -115,7 +116,7 @@ class Session {
       add_variant: () => ({ face: this.faces.push({ name: fields.name, values: this.faces[fields.like].values }) - 1 }),
       set: () => {
         const face = this.faces[fields.face];
-        if (!fields.live) face.values = { ...face.values, ...fields.changes };
+        if (!fields.live) Object.assign(face, { values: { ...face.values, ...fields.changes }, name: fields.name ?? face.name });
         return { superseded: false };
       },
       paint: () => ({ file: `painted-${this.requests.length}.csv` }),
@@ -128,8 +129,8 @@ class Session {
 }
 
 /** Opens the page; ready once the face is drawn. */
-export async function openMadeUp(browser, remarksOf, { init } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce' });
+export async function openMadeUp(browser, remarksOf, { init, ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce', ...options });
   if (init) await context.addInitScript(init);
   const page = await context.newPage();
   page.setDefaultTimeout(90_000);

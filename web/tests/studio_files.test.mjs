@@ -74,9 +74,15 @@ test('while another face comes neither the one before nor its figures are seen',
   for (let tries = 0; tries < 100 && !session().requests.some(({ name }) => name === 'open'); ++tries) await page.waitForTimeout(50);
   await page.waitForTimeout(300);
   assert.deepEqual(await seen(), ['hidden', 'hidden', 'hidden'], 'until the next face is there');
+  // Without a title it is called by its files, in the panel, above, and in the names of what is saved.
+  session().title = '';
+  session().faces[0].values = { ...session().faces[0].values, 'scan.file': '/own/uploads/somebody.ply', 'motion.file': '/own/uploads/visit2.csv' };
+  session().scene();
   session().moved('face');
   await page.waitForSelector('html:not([data-opening])');
   assert.deepEqual(await seen(), ['visible', 'visible', 'visible']);
+  for (const place of ['.open-now', '#scene-title']) assert.equal(await page.locator(place).textContent(), 'somebody.ply, moved by visit2.csv');
+  assert.equal(await page.locator('html').getAttribute('data-subject'), 'somebody.ply, moved by visit2.csv');
   assert.deepEqual(complaints, []);
   await close();
 });

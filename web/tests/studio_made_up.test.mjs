@@ -38,6 +38,40 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await close();
   });
 
+  test('a face is called by what it changes, until somebody names it', async () => {
+    const { page, complaints, session, close } = await openMadeUp(browser, () => []);
+    const names = () => page.locator('#tabs .tab-name').allInnerTexts();
+    const named = (wanted) => page.waitForFunction((name) => document.querySelectorAll('#tabs .tab-name')[1]?.innerText === name, wanted);
+    const pull = async (gain, key) => {
+      await page.locator(`[data-gain=${gain}]`).focus();
+      await page.keyboard.press(key);
+      await page.locator('#face').focus(); // let go
+    };
+    // From 100 % down by a tenth of the slider's whole 200 %.
+    await pull('side_R', 'PageDown');
+    await named('right side 80 %');
+    await pull('side_R', 'PageDown');
+    await named('right side 60 %');
+    await pull('zygomatic_L', 'Home');
+    await named('right side 60 %; zygomatic, left 0 %');
+    assert.equal(session().requests.filter(({ name }) => name === 'rename_variant').length, 0, 'one step each, that undo takes back');
+    // Another one of the same change is numbered.
+    await page.evaluate(() => document.querySelector('[data-mode=single]').click());
+    await page.locator('#tabs .tab-name').first().click();
+    await pull('side_R', 'PageDown');
+    await page.waitForFunction(() => document.querySelectorAll('#tabs .tab-name')[2]?.innerText === 'right side 80 %');
+    // As somebody calls it.
+    session().faces[1].name = 'visit A';
+    session().scene();
+    await named('visit A');
+    await page.locator('#tabs .tab-name').nth(1).click();
+    await pull('side_R', 'PageDown');
+    await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('"side_R":0.4'));
+    assert.deepEqual(await names(), ['Base', 'visit A', 'right side 80 %']);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
   test('a stroke of the brush is painted, sent and shown as a patch', async () => {
     const { page, complaints, session, close } = await openMadeUp(browser, () => []);
     await page.locator('#tab-paint').dispatchEvent('click');

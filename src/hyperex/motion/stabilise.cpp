@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/expressive_pose.hpp"
@@ -38,20 +39,26 @@ Points rows_of(const Points& all, const std::vector<int>& rows) {
 }
 
 /// Those that could be named as moving with the skull: those that were found to keep their
-/// distances, all of them; else "the motion's other points are a, b, c and 4 more".
+/// distances; else the motion's other points. Of a face's own points the usual ones are known
+/// already, so that others, of a helmet say, come first.
 std::string other_names(const Motion& motion, const std::vector<int>& known) {
   if (const auto still = find_still_points(motion); !still.empty())
     return fmt::format(
-        "these keep their distances from each other, as points of the skull do: "
-        "[\"{}\"]",
+        "these keep their distances from each other, as points of the skull do: [\"{}\"]",
         fmt::join(still, "\", \""));
-  constexpr std::size_t most = 6;
+  constexpr std::size_t most_letters = 240;  // so that the sentence is never cut
   std::vector<std::string> names;
   for (int i = 0; i < int(motion.names.size()); ++i)
     if (std::ranges::find(known, i) == known.end()) names.push_back(motion.names[std::size_t(i)]);
   if (names.empty()) return "it has no other points";
-  const std::size_t more = names.size() - std::min(most, names.size());
-  names.resize(names.size() - more);
+  const auto& of_faces = face::canonical_face().landmarks;
+  std::ranges::stable_partition(names,
+                                [&](const std::string& name) { return !of_faces.contains(name); });
+  std::size_t shown = 0, letters = 0;
+  while (shown < names.size() && (shown == 0 || letters + names[shown].size() <= most_letters))
+    letters += names[shown++].size() + 2;
+  const std::size_t more = names.size() - shown;
+  names.resize(shown);
   return fmt::format("the motion's other points are {}{}", fmt::join(names, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }

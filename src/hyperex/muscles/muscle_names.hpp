@@ -12,4 +12,13 @@ namespace hyperex::muscles {
 std::vector<std::string> muscles_called(const std::string& name,
                                         const MuscleTable& among = muscle_template());
 
+/// What a wrong name of a gain may mean, best first: "right" the whole side, "zygomatic" the branch
+/// of the nerve on both, "zygomaticus_R" the muscles called so. Empty where that is nothing known.
+std::vector<std::string> gains_meant(const std::string& name,
+                                     const MuscleTable& among = muscle_template());
+
+/// "another name; did you mean side_R?"; of a name that resembles none what there is, the sides
+/// and branches by name.
+std::string gain_expected(const std::string& name, const MuscleTable& among = muscle_template());
+
 }  // namespace hyperex::muscles

@@ -52,7 +52,8 @@ bool in_the_face(const std::vector<int>& loop, const Points& points, const FaceC
 /// Infinite where the border is elsewhere, as on a whole head.
 double room_behind(const Opening& opening, const std::vector<int>& border, const Points& points,
                    const FaceCorners& corners) {
-  constexpr double moves_m = 0.01, clear_m = 0.004;
+  // Lips that smile or open take the pocket along, up, down and back.
+  constexpr double moves_m = 0.01, clear_m = 0.014, least_m = 0.004;
   const Vec3 centre = centre_of(opening.loop, points);
   const Vec3 up = opening.inward.cross(corners.outer[1] - corners.outer[0]).normalized();
   double half_m = 0;
@@ -64,7 +65,7 @@ double room_behind(const Opening& opening, const std::vector<int>& border, const
     if (std::abs(up.dot(off)) > 1.35 * half_m + moves_m) continue;
     room_m = std::min(room_m, off.dot(opening.inward) - clear_m);
   }
-  return std::max(room_m, clear_m);
+  return std::max(room_m, least_m);
 }
 
 std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners) {

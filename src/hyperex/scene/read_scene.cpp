@@ -11,6 +11,7 @@
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/override.hpp"
 #include "hyperex/scene/toml_values.hpp"
+#include "hyperex/scene/values.hpp"
 #include "hyperex/scene/variant_names.hpp"
 #include "hyperex/scene/variant_presets.hpp"
 
@@ -296,12 +297,8 @@ void Reader::check_gains() {
   const std::vector<std::string> names = muscles::gain_names(scene.muscles.table());
   for (const simulate::MuscleGain& gain : scene.muscles.gains) {
     if (std::find(names.begin(), names.end(), gain.muscle) != names.end()) continue;
-    const auto called = muscles::muscles_called(gain.muscle, scene.muscles.table());
     complain_part("muscles.gain", "." + gain.muscle, gain.gain,
-                  called.empty()
-                      ? one_of_names(gain.muscle, names)
-                      : fmt::format("another name; did you mean {}? (hyperex presets lists all)",
-                                    fmt::join(called, " or ")));
+                  expected_gain(gain.muscle, names, scene.muscles.table()));
   }
 }
 

@@ -218,6 +218,12 @@ Complaints check_choice(const Given& given, std::size_t& place) {
   return word == choices.end() ? wrong(given) : Complaints{};
 }
 
+std::string expected_gain(const std::string& name, const std::vector<std::string>& names,
+                          const muscles::MuscleTable& table) {
+  const bool misspelt = muscles::gains_meant(name, table).empty() && !nearest(name, names).empty();
+  return misspelt ? one_of_names(name, names) : muscles::gain_expected(name, table);
+}
+
 Complaints check_factors(const Given& given) {
   // A date comes as a table of this one name.
   if (!given.value.is_object() || given.value.contains("date or time")) return wrong(given);
@@ -227,7 +233,7 @@ Complaints check_factors(const Given& given) {
     // What has a side may be a muscle of the user's own, which is looked at with its table.
     const bool of_a_side = name.ends_with("_L") || name.ends_with("_R");
     if (!of_a_side && std::find(names.begin(), names.end(), name) == names.end())
-      complaints.push_back({"." + name, factor, one_of_names(name, names)});
+      complaints.push_back({"." + name, factor, expected_gain(name, names)});
     else if (!holds(given.key.range, factor))
       complaints.push_back({"." + name, factor, given.key.range.expected()});
   }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "hyperex/muscles/muscle_names.hpp"
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::scene {
@@ -44,6 +45,11 @@ nlohmann::json get_value(const KeyInfo& key, const std::vector<Place>& member);
 /// Of a list of tables, without their cells; of a table { name = number }; of a choice: the place
 /// of the word.
 Complaints check_rows(const Given& given);
+/// What is expected for a wrong name in muscles.gain, "another name; did you mean side_R?":
+/// `names`, all that there are, of which a misspelt one is found.
+std::string expected_gain(const std::string& name, const std::vector<std::string>& names,
+                          const muscles::MuscleTable& table = muscles::muscle_template());
+/// Factors of muscles, the only ones that scenes have.
 Complaints check_factors(const Given& given);
 Complaints check_choice(const Given& given, std::size_t& place);
 

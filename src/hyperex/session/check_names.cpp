@@ -14,6 +14,25 @@
 namespace hyperex::session {
 namespace {
 
+std::vector<std::string> landmarks_of(const Inputs& in) {
+  std::vector<std::string> names;
+  for (const auto& entry : in.landmarks) names.push_back(entry.first);
+  return names;
+}
+
+/// The name that a problem of the tissue's fields is about: in "names of landmarks of the scan (x
+/// is none)", or its value. Empty where it is about another thing.
+std::string unknown_landmark(const InputProblem& problem) {
+  const std::string before = "names of landmarks of the scan (", after = " is none)";
+  if (problem.expected.starts_with(before) && problem.expected.ends_with(after))
+    return problem.expected.substr(before.size(),
+                                   problem.expected.size() - before.size() - after.size());
+  if (!problem.expected.starts_with("the name of a landmark of the scan")) return "";
+  std::string name = problem.value;
+  std::erase(name, '"');
+  return name;
+}
+
 /// Those of `names` that are no points of the recording or no landmarks of the scan.
 std::vector<InputProblem> unknown_names(const scene::Scene& scene, const Inputs& in,
                                         const std::vector<std::string>& names, const char* key,
@@ -23,10 +42,11 @@ std::vector<InputProblem> unknown_names(const scene::Scene& scene, const Inputs&
     if (in_motion ? in.motion.motion.index_of(name) < 0 : !in.landmarks.count(name))
       problems.push_back(scene::problem_at(
           scene, key,
-          fmt::format("names of {} ({} is none)",
+          fmt::format("names of {} ({} is none){}",
                       in_motion ? "points in the recording " + in.motion.motion.source
                                 : "landmarks of the scan",
-                      name)));
+                      name,
+                      did_you_mean(name, in_motion ? in.motion.motion.names : landmarks_of(in)))));
   return problems;
 }
 
@@ -52,6 +72,8 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
         problem.key.starts_with("tissue.region[") && problem.key.ends_with("].name");
     if (const std::string near = of_region ? nearest_region(problem.value) : ""; !near.empty())
       problem.expected += "; did you mean " + near + "?";
+    if (problem.key.starts_with("tissue."))
+      problem.expected += did_you_mean(unknown_landmark(problem), landmarks_of(in));
     problem.key = owner + problem.key;
   }
   if (!all.empty()) throw InputError(all);

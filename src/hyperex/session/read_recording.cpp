@@ -15,6 +15,7 @@
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/track_recording.hpp"
+#include "hyperex/session/unknown_names.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -54,7 +55,9 @@ void check_point_gains(const scene::Scene& scene, const motion::Motion& m) {
   for (std::size_t i = 0; i < gains.size(); ++i) {
     const std::string key = fmt::format("motion.point_gain[{}].point", i);
     if (m.index_of(gains[i].point) < 0)
-      problems.push_back(scene::problem_at(scene, key, "the name of a point in the recording"));
+      problems.push_back(scene::problem_at(
+          scene, key,
+          "the name of a point in the recording" + did_you_mean(gains[i].point, m.names)));
     for (std::size_t j = 0; j < i; ++j)
       if (gains[j].point == gains[i].point) {
         problems.push_back(scene::problem_at(scene, key, "each point once"));

@@ -92,6 +92,21 @@ std::string nearest_landmark(const std::string& name) {
   return given.side.empty() && known.contains(near + "_L") ? near + "_L or " + near + "_R" : "";
 }
 
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& there_are) {
+  const auto is_there = [&](const std::string& one) {
+    return std::find(there_are.begin(), there_are.end(), one) != there_are.end();
+  };
+  std::string near = nearest_landmark(name);
+  if (!is_there(near)) near = scene::nearest(name, there_are);
+  if (name.empty() || near.empty() || near == name) return "";
+  const std::string side = sided(name).side;
+  if (sided(near).side == side) return fmt::format("; did you mean {}?", near);
+  const std::string part = sided(near).part;  // a side is never guessed
+  return side.empty() && is_there(part + "_R") && is_there(part + "_L")
+             ? fmt::format("; did you mean {0}_R or {0}_L?", part)
+             : "";
+}
+
 std::vector<Note> misspelt_landmarks(std::vector<std::string>& unknown) {
   constexpr std::size_t most = 5;
   std::vector<Note> warnings;

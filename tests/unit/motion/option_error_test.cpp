@@ -59,6 +59,21 @@ TEST(OptionError, OfAHeadWithoutRigidPointsNamesTheOption) {
   EXPECT_THAT(error.sentence("KEY"), HasSubstr("0 of them. KEY names others; "));
 }
 
+// A recording of seven points of the mouth that has its own still ones: those are the answer, so
+// they come first and none is cut off.
+TEST(OptionError, OfAHeadWithoutRigidPointsNamesThoseOfTheHeadFirst) {
+  Motion m;
+  m.source = "take.csv";
+  for (const char* name : {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57", "ibug68_8",
+                           "ibug68_58", "ibug68_56", "head_1", "head_2", "head_3"})
+    m.names.emplace_back(name);
+  m.time_s = {0, 0.1};
+  m.positions.assign(2, Points::Random(Eigen::Index(m.names.size()), 3));
+  EXPECT_THAT(thrown_by([&] { stabilise(m, {}); }).what(),
+              HasSubstr("other points are head_1, head_2, head_3, ibug68_48, ibug68_54, ibug68_51, "
+                        "ibug68_57, ibug68_8, ibug68_58, ibug68_56"));
+}
+
 TEST(OptionError, OfATableOfExpressionsSaysWhichItIs) {
   const auto file = std::filesystem::path(::testing::TempDir()) / "expressions.csv";
   std::ofstream(file) << "time_s,jawOpen,mouthSmileLeft\n0,0,0\n";

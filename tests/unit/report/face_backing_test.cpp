@@ -57,7 +57,13 @@ TEST(FaceBacking, APocketIsNoDeeperThanTheScan) {
   const FaceBacking backing = face_backing(mask, face.landmarks);
   ASSERT_GE(backing.openings.size(), 1u);
   for (const Opening& opening : backing.openings)
-    EXPECT_GT(pocket(opening, mask.points).points.col(2).minCoeff(), corner.z() - kept_m);
+    for (const double back_m : {0.0, 0.008}) {
+      // As the lips go in a smile; the mouth's pocket alone widens.
+      if (back_m > 0 && opening.rings[0].width < 1.2) continue;
+      Points points = mask.points;
+      for (const int v : opening.loop) points(v, 2) -= back_m;
+      EXPECT_GT(pocket(opening, points).points.col(2).minCoeff(), corner.z() - kept_m) << back_m;
+    }
 }
 
 TEST(FaceBacking, EyeballsLieBehindTheLidsAndAreSeenBetweenThem) {
@@ -102,8 +108,7 @@ TEST(FaceBacking, APocketIsClosedButForItsEdgeAndLiesBehindIt) {
   EXPECT_EQ(boundary_loops(mesh.triangles)[0].size(), opening.loop.size());
   for (Eigen::Index i = 0; i < n; ++i) {
     EXPECT_EQ(mesh.points.row(i), moved.row(opening.loop[std::size_t(i)])) << "hangs on the edge";
-    EXPECT_GT((mesh.points.row(n + i) - mesh.points.row(i)).dot(opening.inward),
-              0.1 * opening.depth_m);
+    EXPECT_GT((mesh.points.row(n + i) - mesh.points.row(i)).dot(opening.inward), 0);
   }
   landmarks.erase("cheilion_L");
   EXPECT_TRUE(face_backing(skin, landmarks).openings.empty());

@@ -15,6 +15,7 @@ using simulate::MuscleGain;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 const std::string by_muscles = std::string(smallest) + "[drive]\nby = \"muscles\"\n";
 
@@ -97,8 +98,26 @@ TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
             "--set: muscles.gain.side_l = 0.3: expected another name; did you mean side_L?");
   EXPECT_THAT(only_muscle_problem(by_muscles, {"muscles.gain={ zygomaticus_R = 0.3 }"}),
               HasSubstr("did you mean zyg_major_R or zyg_minor_R?"));
-  EXPECT_THAT(only_muscle_problem(by_muscles + "[muscles]\ngain = { weather = 1 }\n"),
-              HasSubstr("muscles.gain.weather = 1: expected one of buccal_L, buccal_R, "));
+  EXPECT_THAT(
+      only_muscle_problem(by_muscles + "[muscles]\ngain = { weather = 1 }\n"),
+      HasSubstr("muscles.gain.weather = 1: expected a side or a branch of the facial nerve, "
+                "one of side_R, side_L, "));
+}
+
+// Of a name in words, as of one in an inline table: what it means, and no list that is cut off.
+TEST(MuscleKeys, ANameInWordsIsToldWithWhatItMeans) {
+  const auto told = [](const std::string& name) {
+    return only_muscle_problem(by_muscles + "[muscles]\ngain = { " + name + " = 0.4 }\n");
+  };
+  for (const char* name : {"right", "right_side", "sideR", "side_right", "Right"})
+    EXPECT_THAT(told(name), HasSubstr("did you mean side_R?")) << name;
+  EXPECT_THAT(told("side"), HasSubstr("did you mean side_R or side_L?"));
+  EXPECT_THAT(told("zygomatic"), HasSubstr("did you mean zygomatic_R or zygomatic_L?"));
+  EXPECT_THAT(told("left_zygomatic_branch"), HasSubstr("did you mean zygomatic_L?"));
+  EXPECT_THAT(told("frontalis"), HasSubstr("did you mean frontal_med_R or frontal_med_L or "));
+  EXPECT_THAT(told("zyg_major"), HasSubstr("did you mean zyg_major_R or zyg_major_L?"));
+  EXPECT_THAT(told("nobody"), HasSubstr("cervical_L; or a muscle, such as "));
+  EXPECT_THAT(told("nobody"), Not(HasSubstr("...")));
 }
 
 const std::string own_muscles =

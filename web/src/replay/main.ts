@@ -12,7 +12,7 @@ import { Plots } from './curves/plots';
 import { Shown } from './shown';
 import { Stage } from './face/stage';
 import { transportKeys, wireTransport } from './transport';
-import { fillNotes, fillSummary } from './summary';
+import { fillNotes, fillSummary, fillWarnings } from './summary';
 import { fillTables } from './tables/tables';
 
 function fillPage(replay: Replay): void {
@@ -34,6 +34,7 @@ function fillPage(replay: Replay): void {
     at('facts').append('  ·  ', link);
   }
   at('summary').hidden = notes.length === 0 && Object.keys(summary).length === 0;
+  fillWarnings(summary.warnings, at('warning-list'));
   fillNotes(notes, summary.warnings, at('note-list'));
   fillSummary(summary, at('summary-tables'));
   at('foot').textContent =

@@ -164,6 +164,26 @@ function folded(title: string, tables: HTMLElement[]): HTMLElement {
   return details;
 }
 
+/** So many warnings are read before the figures that they bear on; the others are counted. */
+const mostAbove = 3;
+
+/** Above the face: no small link, as figures are not to be read without them. */
+export function fillWarnings(warnings: unknown, into: HTMLElement): void {
+  const all = Array.isArray(warnings) ? [...new Set(warnings.filter((w): w is string => typeof w === 'string'))] : [];
+  into.hidden = all.length === 0;
+  for (const warning of all.slice(0, mostAbove)) {
+    const item = element('li');
+    item.append(element('strong', 'Warning: '), /^\S+\.\w/.test(warning) ? warning : upper(warning));
+    into.append(item);
+  }
+  if (all.length <= mostAbove) return;
+  const more = element('li');
+  const link = element('a', all.length - mostAbove === 1 ? '1 more warning' : `${all.length - mostAbove} more warnings`);
+  link.setAttribute('href', '#note-list');
+  more.append(link);
+  into.append(more);
+}
+
 /** Warnings first, each once. */
 export function fillNotes(notes: string[], warnings: unknown, into: HTMLElement): void {
   const first = Array.isArray(warnings) ? warnings.filter((w): w is string => typeof w === 'string') : [];

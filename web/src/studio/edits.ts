@@ -2,6 +2,7 @@
 // Changes on their way to the server: while something is pulled one request at a time, of those that wait the
 // last; then the change itself, a step that can be undone. What is changed while base is shown changes another
 // face beside it, made at the first change.
+import { briefName, isBriefName } from './brief_name';
 import { Refused, type Connection } from './connection';
 import type { Values } from './messages';
 import type { StudioState } from './studio_state';
@@ -65,7 +66,7 @@ export class Edits {
     try {
       const face = await this.face();
       if (frameFirst) await this.send(face, changes, true).catch(() => {}); // the change itself reports errors
-      await this.send(face, changes, false);
+      await this.send(face, changes, false, this.nameFor(face, changes));
     } catch (error) {
       this.drop(error);
     } finally {
@@ -94,8 +95,19 @@ export class Edits {
     }
   }
 
-  private send(face: number, changes: Values, live: boolean): Promise<unknown> {
-    return this.connection.request('set', { changes, face, live, time_s: this.state.playback.timeS });
+  private send(face: number, changes: Values, live: boolean, name?: string): Promise<unknown> {
+    return this.connection.request('set', { changes, face, live, time_s: this.state.playback.timeS, ...(name && { name }) });
+  }
+
+  /** What the face is called once it has these changes, too; undefined: as it is, or as a person called it. */
+  private nameFor(face: number, changes: Values): string | undefined {
+    const { state } = this;
+    const own = state.scene?.faces[face];
+    const base = state.valuesOf(0);
+    if (face === 0 || !own || !isBriefName(own.name, own.changes, base, state.muscles)) return undefined;
+    const wanted = briefName({ ...own.changes, ...changes }, base, state.muscles) || words.newVariant;
+    const name = state.freeName(wanted, face);
+    return name === own.name ? undefined : name;
   }
 
   private face(): Promise<number> {

@@ -88,7 +88,8 @@ class Studio {
     const { connection, state } = this;
     connection.on('scene', (scene) => {
       state.setScene(scene as unknown as SceneNow);
-      const { title, can_undo, can_redo, saved } = state.scene!;
+      const { can_undo, can_redo, saved } = state.scene!;
+      const title = state.called;
       at('scene-title').textContent = title;
       // Pictures and files are of the scene, not of the program.
       document.documentElement.dataset.subject = title || words.title;
@@ -105,6 +106,8 @@ class Studio {
       this.withOptions(manifest.summary);
       state.muscles = isRecord(muscles) ? (muscles.muscles as MuscleInfo[]) : [];
       this.muscles.curves.take(activations as Activations | null, block);
+      // What was said of the face before is not of this one.
+      if (document.documentElement.hasAttribute('data-opening')) this.messages.clear();
       state.source.setFace(replayOf(manifest, block));
       this.showRemarks(manifest.summary);
       this.landmarks.build(landmarks as LandmarkInfo[]);

@@ -9,8 +9,6 @@ import { words } from './words';
 
 export class OpenPanel {
   private places: Places | null = null;
-  /** What a scene without a title is called. */
-  private opened = '';
   /** The server has opened what was asked for: what comes next is of it. */
   private answered = false;
   private readonly now = element('p', '', 'open-now');
@@ -71,7 +69,7 @@ export class OpenPanel {
   }
 
   private called(): string {
-    return words.openNow(this.state.scene?.title || this.opened);
+    return words.openNow(this.state.called);
   }
 
   private choose(what: string): void {
@@ -85,17 +83,14 @@ export class OpenPanel {
   /** `called`: what is opened, for people. */
   private async open(what: string, recording?: string, called = ''): Promise<void> {
     this.report('');
-    const before = this.opened;
     const another = what !== 'current';
     if (another) this.showOpening(called || (what === 'started' ? this.places?.started ?? what : what === 'embedded' ? words.embedded : what));
     try {
-      if (another) this.opened = what === 'started' ? this.places?.started ?? '' : called || what;
       await this.connection.request('open', { what, ...(recording && { recording }) });
       this.answered = true;
       if (what === 'autosave') this.rescue.hidden = true; // no longer lost
     } catch (error) {
-      this.opened = before; // that is still open
-      this.showOpening(null);
+      this.showOpening(null); // what was is still open
       if (this.state.scene) this.now.textContent = this.called();
       if (error instanceof Refused) this.report(error.message);
     }

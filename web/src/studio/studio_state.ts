@@ -6,6 +6,7 @@ import type { Face } from '../replay/data';
 import { Playback } from '../replay/playback';
 import { Shown } from '../replay/shown';
 import { changeWords } from '../replay/change_words';
+import { words } from './words';
 import { isRecord, type MuscleInfo, type Region, type SceneKey, type SceneNow, type Values } from './messages';
 
 /** {"tissue.young_kpa": 150} as a report's summary has it: {"tissue": {"young_kpa": 150}}. */
@@ -55,6 +56,16 @@ export class StudioState {
     return variant === '' ? 0 : Math.max(faces.findIndex(({ name }, i) => i > 0 && name === variant), 0);
   }
 
+  /** The scene's title, or what is moved by what; "" where nothing is known. */
+  get called(): string {
+    if (this.scene?.title) return this.scene.title;
+    const values = this.valuesOf(0);
+    const file = (key: string) => (typeof values[key] === 'string' ? (values[key] as string).replace(/^.*[\\/]/, '') : '');
+    const scan = file('scan.file') === 'embedded' ? words.embedded : file('scan.file');
+    const recording = ['file', 'recording', 'arkit', 'openface'].map((key) => file(`motion.${key}`)).find((name) => name !== '');
+    return scan && recording ? words.movedBy(scan, recording) : scan;
+  }
+
   nameOf(face: number): string {
     return this.scene?.faces[face]?.name ?? '';
   }
@@ -64,9 +75,9 @@ export class StudioState {
     return changeWords(this.scene?.faces[face]?.changes ?? {}, nested(this.valuesOf(0)));
   }
 
-  /** A name that no face has yet. */
-  freeName(wanted: string): string {
-    const taken = new Set(this.scene?.faces.map(({ name }) => name));
+  /** A name that no face has yet, but for the one that is to get it. */
+  freeName(wanted: string, own = -1): string {
+    const taken = new Set(this.scene?.faces.filter((_, i) => i !== own).map(({ name }) => name));
     for (let n = 1; ; ++n) {
       const name = n === 1 ? wanted : `${wanted} ${n}`;
       if (!taken.has(name)) return name;

@@ -4,6 +4,7 @@ import { at, button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
 import { upper } from '../page/format';
 import { chooseFace } from '../replay/face/face_chooser';
+import { briefName } from './brief_name';
 import { Refused, type Connection } from './connection';
 import type { Edits } from './edits';
 import { menuOf, type Menu } from './menu';
@@ -166,12 +167,13 @@ export class Tabs {
       close();
       const gain = what.value;
       const percent = Number(to.value);
-      const called = what.selectedOptions[0].dataset.brief!;
       this.try(async () => {
-        const face = await this.edits.addFace(words.weakerName(called, percent), 0);
+        const values = this.state.valuesOf(0);
+        const base = values['muscles.gain'];
+        const changes = { 'muscles.gain': { ...(isRecord(base) ? base : {}), [gain]: Number((percent / 100).toFixed(3)) } };
+        const face = await this.edits.addFace(briefName(changes, values, this.state.muscles) || words.newVariant, 0);
         this.focus(face);
-        const base = this.state.valuesOf(0)['muscles.gain'];
-        await this.edits.change(face, { 'muscles.gain': { ...(isRecord(base) ? base : {}), [gain]: Number((percent / 100).toFixed(3)) } });
+        await this.edits.change(face, changes);
       });
     });
     return form;
@@ -181,21 +183,17 @@ export class Tabs {
   private muscleChooser(): HTMLSelectElement {
     const { muscles } = this.state;
     const select = element('select');
-    const group = (title: string, names: [stem: string, called: (side: string) => string, brief?: string][]) => {
+    const group = (title: string, names: [stem: string, called: (side: string) => string][]) => {
       const made = element('optgroup');
       made.label = title;
-      for (const [stem, called, brief] of names)
-        for (const side of ['R', 'L'] as const) {
-          const option = new Option(upper(called(words.sideNames[side])), `${stem}_${side}`);
-          option.dataset.brief = brief ? words.ofSide(brief, words.sideNames[side]) : option.text;
-          made.append(option);
-        }
+      for (const [stem, called] of names)
+        for (const side of ['R', 'L'] as const) made.append(new Option(upper(called(words.sideNames[side])), `${stem}_${side}`));
       select.append(made);
     };
     group(words.wholeSide, [['side', words.weakerSide]]);
     group(words.branches, [...new Set(muscles.map(({ branch }) => branch))].map((branch) => {
       const brief = words.branchNames[branch] ?? upper(branch);
-      return [branch, (side) => words.ofSide(words.weakerBranch(brief), side), brief];
+      return [branch, (side) => words.ofSide(words.weakerBranch(brief), side)];
     }));
     group(words.weakerMuscles, muscles.map(({ name, latin }) => [name, (side) => words.ofSide(latin, side)]));
     return select;

@@ -44,7 +44,6 @@ const en = {
   weakerTo: 'Strength',
   weakerToHint: 'What remains of the strength that the motion needs; 100 %: as in base, 0 %: complete palsy',
   weakerAdd: 'Show it',
-  weakerName: (what: string, percent: number) => `${what} at ${percent} %`,
   sideNames: { R: 'Right', L: 'Left' } as Record<'L' | 'R', string>,
   /** Over views of the face. */
   sideLetters: { R: 'R', L: 'L' } as Record<'L' | 'R', string>,
@@ -54,6 +53,13 @@ const en = {
   emptyTitle: 'Something else',
   emptyAdd: 'A copy of the face shown, to change',
   newVariant: 'What if',
+  /** Faces are called by what they change: in letters a to z, digits, and a few signs. */
+  briefNames: {
+    'tissue.young_kpa': 'stiffness', 'tissue.viscosity_pa_s': 'viscosity', 'tissue.poisson': 'Poisson', 'tissue.density_kg_m3': 'density',
+  } as Record<string, string>,
+  nameUnits: { 'tissue.young_kpa': 'kPa', 'tissue.viscosity_pa_s': 'Pa s', 'tissue.density_kg_m3': 'kg per m3' } as Record<string, string>,
+  nameOfPatch: 'painted patch',
+  nameMore: (count: number) => `+ ${count} more`,
 
   // The stage.
   stage: 'The face in motion',
@@ -91,7 +97,7 @@ const en = {
   whose: (name: string) => `Changes ${name}.`,
   whoseSoFar: (name: string, changes: string) => `Changes ${name}. It keeps what it has: ${changes}.`,
   whoseMore: (count: number) => `${count} more`,
-  whoseBase: 'The first change makes a “What if” beside the base, moved by the same muscle forces.',
+  whoseBase: 'The first change makes another face beside the base, moved by the same muscle forces and called by what is changed.',
   whoseBaseItself: 'Changes the base itself: its forces are found anew, so that it meets the recording again.',
   changeBase: 'Change the base itself',
   reset: (name: string) => `Reset ${name}`,
@@ -213,6 +219,7 @@ const en = {
   // Open.
   open: 'Open',
   openNow: (title: string) => title || 'Untitled',
+  movedBy: (scan: string, recording: string) => `${scan}, moved by ${recording}`,
   embedded: 'Face that comes with Hyperex',
   startedWith: (name: string) => `Again ${name}`,
   chooseFiles: 'Choose files…',

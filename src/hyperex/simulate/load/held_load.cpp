@@ -64,12 +64,8 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
       found = true;
     }
     if (found) continue;
-    const auto called = muscles::muscles_called(gain.muscle, table);
-    if (!called.empty())
-      throw InputError("muscles.gain", fmt::format("{} is no muscle; did you mean {}?", gain.muscle,
-                                                   fmt::join(called, " or ")));
-    throw InputError("muscles.gain", fmt::format("{} is no muscle; there are {}", gain.muscle,
-                                                 fmt::join(muscles::gain_names(table), ", ")));
+    throw InputError("muscles.gain", fmt::format("{} is no muscle; expected {}", gain.muscle,
+                                                 muscles::gain_expected(gain.muscle, table)));
   }
   return factor;
 }

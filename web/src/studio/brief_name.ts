@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a face is called by what it changes, in a few words: {"muscles.gain": {"side_R": 0.4}} is "right side 40 %". Faces
+// that were named by a person are not named anew. No DOM here.
+import { isRecord, type MuscleInfo, type Values } from './messages';
+import { words } from './words';
+
+/** So many changes are named. */
+const mostParts = 2;
+const longest = 56; // a number may follow
+
+const percent = (share: unknown): string => `${Number((100 * Number(share)).toPrecision(3))} %`;
+const times = (factor: unknown): string => `${Number(Number(factor).toPrecision(3))} x`;
+const lower = (text: string): string => text.charAt(0).toLowerCase() + text.slice(1);
+
+/** "side_R" is "right side". */
+function gainName(name: string, muscles: MuscleInfo[]): string {
+  const [, stem, side] = /^(\w+)_([LR])$/.exec(name) ?? [null, name, ''];
+  if (!side) return stem.replaceAll('_', ' ');
+  const sideName = words.sideNames[side as 'L' | 'R'];
+  if (stem === 'side') return lower(words.weakerSide(sideName));
+  const latin = muscles.find((muscle) => muscle.name === stem)?.latin;
+  return lower(words.ofSide(latin ?? words.branchNames[stem] ?? stem.replaceAll('_', ' '), sideName));
+}
+
+/** A part of the face whose tissue differs. */
+function regionName(row: Record<string, unknown>): string {
+  const [, stem, side] = /^(\w+?)(?:_([LR]))?$/.exec(String(row.name ?? '')) ?? [null, '', ''];
+  const part = stem.replaceAll('_', ' ');
+  const place = row.scar ? words.paintScar
+    : row.painted ? words.nameOfPatch
+      : side ? words.ofSide(part, words.sideNames[side as 'L' | 'R']) : part;
+  const factor = row.young_factor ?? row.viscosity_factor;
+  return [lower(place), factor === undefined ? '' : times(factor)].filter(Boolean).join(' ');
+}
+
+function parts(key: string, value: unknown, base: unknown, muscles: MuscleInfo[]): string[] {
+  if (value === null || value === undefined || JSON.stringify(value) === JSON.stringify(base)) return [];
+  if (key === 'muscles.gain' && isRecord(value))
+    return Object.entries(value)
+      .filter(([name, gain]) => gain !== (isRecord(base) ? (base[name] ?? 1) : 1))
+      .map(([name, gain]) => `${gainName(name, muscles)} ${percent(gain)}`);
+  if (key === 'tissue.region' && Array.isArray(value)) return value.filter(isRecord).map(regionName);
+  if (key === 'motion.gain') return [`${lower(words.keyNames[key])} ${percent(value)}`];
+  if (typeof value === 'object') return [key.replace(/^.*\./, '').replaceAll('_', ' ')];
+  const unit = words.nameUnits[key] ?? '';
+  const shown = typeof value === 'number' ? String(Number(value.toPrecision(4))) : String(value);
+  return [[words.briefNames[key] ?? key.replace(/^.*\./, '').replaceAll('_', ' '), shown, unit].filter(Boolean).join(' ')];
+}
+
+/** Of the characters that a face's name may have; empty where nothing is changed. */
+export function briefName(changes: Values, base: Values, muscles: MuscleInfo[]): string {
+  const all = Object.entries(changes).flatMap(([key, value]) => parts(key, value, base[key], muscles));
+  const more = all.length - mostParts;
+  const name = [...all.slice(0, mostParts), ...(more > 0 ? [words.nameMore(more)] : [])].join('; ');
+  return name.normalize('NFD').replace(/[^A-Za-z0-9 \-_.,;:+=%&'()[\]]/g, '').slice(0, longest).trim();
+}
+
+/** Whether a face was named by what it changes, or not yet: "What if 2", "right side 40 % 2". */
+export function isBriefName(name: string, changes: Values, base: Values, muscles: MuscleInfo[]): boolean {
+  const own = briefName(changes, base, muscles) || words.newVariant;
+  return [own, words.newVariant].some((one) => name === one || (name.startsWith(`${one} `) && /^\d+$/.test(name.slice(one.length + 1))));
+}
