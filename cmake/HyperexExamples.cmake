@@ -17,7 +17,7 @@ if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
           DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex COMPONENT program)
 endif()
 install(DIRECTORY ${examples}/cpp DESTINATION ${examples_folder} COMPONENT dev
-        FILES_MATCHING PATTERN *.cpp PATTERN CMakeLists.txt)
+        FILES_MATCHING PATTERN *.cpp PATTERN *.hpp PATTERN CMakeLists.txt)
 hx_debian_documents(libhyperex-dev dev)
 if(TARGET hyperex_python)
   install(DIRECTORY ${examples}/python DESTINATION ${examples_folder}

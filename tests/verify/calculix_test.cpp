@@ -85,7 +85,8 @@ CalculixModel face_model(const Resolution& resolution) {
 System assembled(const CalculixModel& model, double viscosity_pa_s) {
   return assemble(model.nodes, model.tets,
                   test::uniform_material(model.tets.rows(), model.young_pa, model.poisson,
-                                         viscosity_pa_s, model.density_kg_m3));
+                                         viscosity_pa_s, model.density_kg_m3),
+                  ElementKind::tet4);
 }
 
 DrivenTerms rayleigh(const SparseMatrix& stiffness, const SparseMatrix& mass, double alpha_per_s,

@@ -21,7 +21,8 @@ double creep_error(ViscousForm form, double viscosity_share) {
   // Next to no inertia: the slowest elastic wave is a thousand times quicker than the creep.
   const System s =
       assemble(box.nodes, box.tets,
-               test::uniform_material(box.tets.rows(), kYoung_pa, kPoissonRatio, kEta, 1e-3, form));
+               test::uniform_material(box.tets.rows(), kYoung_pa, kPoissonRatio, kEta, 1e-3, form),
+               ElementKind::tet4);
   std::vector<int> rollers;
   for (int axis = 0; axis < 3; ++axis)
     for (const int u :

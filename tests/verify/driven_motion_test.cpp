@@ -12,7 +12,8 @@ namespace {
 
 TEST(DrivenMotion, EqualsADenseReference) {
   const auto box = test::box_mesh({4, 2, 2}, Vec3(0.04, 0.02, 0.02), 0.15);
-  const System s = assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()));
+  const System s =
+      assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()), ElementKind::tet4);
   const auto prescribed = test::unknowns_where(
       box.nodes, [](const Vec3& p) { return p.x() < 1e-9 || p.x() > 0.04 - 1e-9; });
   const double dt_s = 2e-3;
@@ -50,7 +51,8 @@ TEST(DrivenMotion, EqualsADenseReference) {
 
 TEST(DrivenMotion, CarriesThePredictedStatesOfASetStart) {
   const auto box = test::box_mesh({3, 2, 1}, Vec3(0.03, 0.02, 0.01), 0);
-  const System s = assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()));
+  const System s =
+      assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()), ElementKind::tet4);
   const auto prescribed =
       test::unknowns_where(box.nodes, [](const Vec3& p) { return p.x() < 1e-9; });
   Newmark newmark(s, prescribed, {1e-3});

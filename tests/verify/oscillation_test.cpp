@@ -21,7 +21,7 @@ struct Bar {
   Bar(std::array<int, 3> cells, double viscosity_pa_s)
       : box(test::box_mesh(cells, Vec3(0.08, 0.02, 0.02), 0.1)),
         material(test::uniform_material(box.tets.rows(), 192.4e3, 0.45, viscosity_pa_s, 1100)),
-        system(assemble(box.nodes, box.tets, material)),
+        system(assemble(box.nodes, box.tets, material, ElementKind::tet4)),
         held(test::unknowns_where(box.nodes, [](const Vec3& p) { return p.x() < 1e-9; })) {}
 
   Eigen::VectorXd still() const {

@@ -28,7 +28,8 @@ struct Layer {
       : box(test::box_mesh({cells / 2, cells / 2, cells}, Vec3(0.01, 0.01, kHeight), 0.1)),
         system(assemble(box.nodes, box.tets,
                         test::uniform_material(box.tets.rows(), kLayerYoung, kLayerPoisson,
-                                               viscosity_pa_s, kDensity))) {
+                                               viscosity_pa_s, kDensity),
+                        ElementKind::tet4)) {
     for (Eigen::Index n = 0; n < box.nodes.rows(); ++n) {
       const int u = static_cast<int>(3 * n);
       if (box.nodes(n, 2) < 1e-9 || (driven && is_top(u))) prescribed.push_back(u);

@@ -26,7 +26,8 @@ struct Cantilever {
   explicit Cantilever(std::array<int, 3> cells)
       : box(test::box_mesh(cells, Vec3(kLength, kWidth, kDepth))),
         system(assemble(box.nodes, box.tets,
-                        test::uniform_material(box.tets.rows(), kBarYoung, 0, 0, kBarDensity))),
+                        test::uniform_material(box.tets.rows(), kBarYoung, 0, 0, kBarDensity),
+                        ElementKind::tet4)),
         held(test::unknowns_where(box.nodes, [](const Vec3& p) { return p.x() < 1e-9; })),
         free(test::complement(system.mass.cols(), held)) {}
 

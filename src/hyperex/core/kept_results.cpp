@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/core/kept_results.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
-#include <fstream>
 #include <system_error>
 #include <vector>
 
@@ -19,10 +22,67 @@ namespace fs = std::filesystem;
 constexpr const char* kExtension = ".kept";
 constexpr std::size_t kDigits = 64;
 
-std::string checksum(const std::string& bytes) {
+/// Of the bytes under this key: no entry can stand for another.
+std::string checksum(const std::string& key, const std::string& bytes) {
   Sha256 hash;
+  hash.add_text(key);
   hash.add(bytes.data(), bytes.size());
   return hash.hex();
+}
+
+struct Descriptor {
+  explicit Descriptor(int opened) : file(opened) {}
+  ~Descriptor() {
+    if (file >= 0) ::close(file);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  const int file;
+};
+
+bool is_own(const struct stat& status) {
+  return status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+/// The user's own folder, which no other user can put anything into.
+bool is_private(const fs::path& folder) {
+  struct stat status {};
+  return ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && is_own(status);
+}
+
+bool make_private(const fs::path& folder) {
+  fs::path way;
+  for (const fs::path& part : folder) {
+    way /= part;
+    if (::mkdir(way.c_str(), S_IRWXU) != 0 && errno != EEXIST && errno != EISDIR &&
+        !fs::is_directory(way))
+      return false;
+  }
+  // One of the user's that others may enter, as earlier versions made it, is closed to them.
+  struct stat status {};
+  return ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
+         status.st_uid == ::geteuid() &&
+         ((status.st_mode & (S_IRWXG | S_IRWXO)) == 0 || ::chmod(folder.c_str(), S_IRWXU) == 0);
+}
+
+bool read_all(int file, std::string& bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const ssize_t got = ::read(file, bytes.data() + at, bytes.size() - at);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    at += std::size_t(got);
+  }
+  return true;
+}
+
+bool write_all(int file, const std::string& bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const ssize_t put = ::write(file, bytes.data() + at, bytes.size() - at);
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return false;
+    at += std::size_t(put);
+  }
+  return true;
 }
 
 fs::path absolute_from(const char* variable) {
@@ -34,31 +94,32 @@ fs::path absolute_from(const char* variable) {
 }  // namespace
 
 std::optional<std::string> KeptResults::find(const std::string& key) const {
-  if (!in_use()) return std::nullopt;
+  if (!in_use() || !is_private(folder_)) return std::nullopt;
   const fs::path file = folder_ / (key + kExtension);
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return std::nullopt;
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error || size < kDigits || size > most_bytes_) return std::nullopt;
+  // Not through a link, and without waiting for a pipe.
+  const Descriptor entry(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (entry.file < 0 || ::fstat(entry.file, &status) != 0) return std::nullopt;
+  if (!S_ISREG(status.st_mode) || !is_own(status)) return std::nullopt;
+  const auto size = std::uintmax_t(status.st_size);
+  if (size < kDigits || size > most_bytes_) return std::nullopt;
   std::string all(std::size_t(size), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream.read(all.data(), std::streamsize(all.size()))) return std::nullopt;
+  if (!read_all(entry.file, all)) return std::nullopt;
   std::string bytes = all.substr(kDigits);
-  if (checksum(bytes) != all.substr(0, kDigits)) return std::nullopt;
-  fs::last_write_time(file, fs::file_time_type::clock::now(), error);  // in use: not the oldest
+  if (checksum(key, bytes) != all.substr(0, kDigits)) return std::nullopt;
+  ::futimens(entry.file, nullptr);  // in use: not the oldest
   return bytes;
 }
 
 void KeptResults::keep(const std::string& key, const std::string& bytes) const {
-  if (!in_use() || bytes.size() + kDigits > most_bytes_) return;
+  if (!in_use() || bytes.size() + kDigits > most_bytes_ || !make_private(folder_)) return;
   std::error_code error;
-  fs::create_directories(folder_, error);
   const fs::path file = folder_ / (key + kExtension), whole = temporary_beside(file);
   {
-    std::ofstream stream(whole, std::ios::binary);
-    stream << checksum(bytes) << bytes;
-    stream.close();
-    if (!stream) {
+    const Descriptor entry(
+        ::open(whole.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
+    if (entry.file < 0) return;
+    if (!write_all(entry.file, checksum(key, bytes)) || !write_all(entry.file, bytes)) {
       fs::remove(whole, error);
       return;
     }

@@ -11,6 +11,9 @@ namespace hyperex {
 /// never causes an error: where the folder cannot be made, read or written there is no cache, and a
 /// torn or changed entry counts as absent. Several processes may share it. The oldest entries are
 /// removed when all together exceed a bound.
+///
+/// What is kept shows faces: folders are made for their owner alone (0700), entries too (0600). A
+/// folder or an entry that belongs to another user, or that others may write to, is passed over.
 class KeptResults {
  public:
   /// No folder: nothing is kept or found.

@@ -208,7 +208,11 @@ std::optional<RecordedFace> recorded_from(const std::string& bytes) {
       std::memcpy(of.matrix().data(), pose.get_binary().data(), sizeof(double) * 16);
     }
     recorded.notes = notes_in(from.at("notes"));
-    if (m.positions.size() != m.time_s.size()) throw std::runtime_error("of another size");
+    const bool points_named =
+        m.triangles.size() == 0 || (m.triangles.minCoeff() >= 0 && m.triangles.maxCoeff() < points);
+    if (m.positions.size() != m.time_s.size() || !points_named ||
+        (!m.head_pose.empty() && m.head_pose.size() != m.time_s.size()))
+      throw std::runtime_error("of another size");
     return recorded;
   });
 }

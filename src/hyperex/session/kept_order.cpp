@@ -22,6 +22,18 @@ std::string order_key(const scene::Scene& scene, const Inputs& inputs,
   return kept_key("order", of.bytes());
 }
 
+/// Each of `free` exactly once, and of all unknowns those that are not free, rising.
+bool is_order(const std::vector<int>& prescribed, const std::vector<int>& free) {
+  std::vector<char> named(free.size(), 0);
+  for (const int k : free) {
+    if (k < 0 || std::size_t(k) >= free.size() || named[std::size_t(k)]) return false;
+    named[std::size_t(k)] = 1;
+  }
+  for (std::size_t i = 0; i < prescribed.size(); ++i)
+    if (prescribed[i] < (i > 0 ? prescribed[i - 1] + 1 : 0)) return false;
+  return prescribed.empty() || std::size_t(prescribed.back()) < prescribed.size() + free.size();
+}
+
 }  // namespace
 
 std::string bytes_of(const simulate::EliminationOrder& order) {
@@ -36,7 +48,7 @@ std::shared_ptr<const simulate::EliminationOrder> order_from(const std::string& 
     auto nodes = std::make_shared<fem::NodeOrder>();
     auto order = std::make_shared<simulate::EliminationOrder>();
     unpacker(order->prescribed, nodes->unknowns, nodes->entries, nodes->flops);
-    if (!unpacker.at_end()) return nullptr;
+    if (!unpacker.at_end() || !is_order(order->prescribed, nodes->unknowns)) return nullptr;
     order->nodes = std::move(nodes);
     return order;
   } catch (const std::exception&) {

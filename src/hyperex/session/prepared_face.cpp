@@ -3,6 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <concepts>
 #include <utility>
 
@@ -131,6 +132,85 @@ PreparedFace made(const scene::Scene& scene, Inputs& inputs, const std::vector<c
 
 }  // namespace
 
+namespace {
+
+bool below(int i, Eigen::Index bound) {
+  return i >= 0 && i < bound;
+}
+/// A list of indices, or of three each.
+bool below(const auto& list, Eigen::Index bound) {
+  return std::all_of(std::begin(list), std::end(list),
+                     [&](const auto& i) { return below(i, bound); });
+}
+template <class Int, int... of>
+bool below(const Eigen::Matrix<Int, of...>& all, Eigen::Index bound) {
+  return all.size() == 0 || (all.minCoeff() >= 0 && all.maxCoeff() < bound);
+}
+bool below(const TriMesh& mesh) {
+  return below(mesh.triangles, mesh.points.rows());
+}
+bool as_many(const auto& list, Eigen::Index count) {
+  return Eigen::Index(list.size()) == count;
+}
+
+/// The parts of `skin` that say where it lies on a scan.
+bool lies_on(const auto& on, const TriMesh& scan) {
+  return on.scan_vertices == scan.points.rows() && below(on.skin) &&
+         as_many(on.appended, on.skin.points.rows() - on.scan_vertices) &&
+         as_many(on.source_triangle, on.skin.triangles.rows()) &&
+         below(on.source_triangle, scan.triangles.rows()) &&
+         std::all_of(on.appended.begin(), on.appended.end(), [&](const EdgePoint& e) {
+           return below(e.a, on.scan_vertices) && below(e.b, on.scan_vertices);
+         });
+}
+
+bool is_sound(const tissue::FullSkin& full, const TriMesh& thinned) {
+  const Eigen::Index all = full.skin.points.rows();
+  return as_many(full.kept, thinned.points.rows()) && below(full.kept, all) &&
+         as_many(full.kept_triangle, thinned.triangles.rows()) &&
+         below(full.kept_triangle, full.skin.triangles.rows()) && as_many(full.places, all) &&
+         std::all_of(full.places.begin(), full.places.end(), [&](const MeshPlace& place) {
+           return below(place.vertex, thinned.points.rows());
+         });
+}
+
+bool is_sound(const tissue::VolumeMesh& volume) {
+  return volume.tets.rows() > 0 && below(volume.tets, volume.nodes.rows()) && below(volume.outer) &&
+         volume.layers >= 1 &&
+         volume.nodes.rows() == (volume.layers + 1) * volume.surface_nodes() &&
+         as_many(volume.thickness_m, volume.surface_nodes());
+}
+
+bool is_sound(const tissue::TissueMesh& mesh) {
+  const Eigen::Index skin = mesh.skin.points.rows(), outer = mesh.volume.surface_nodes();
+  return is_sound(mesh.volume) && as_many(mesh.anchors, skin) && as_many(mesh.on_border, outer) &&
+         as_many(mesh.upper_margin, outer) && as_many(mesh.skin_upper_margin, skin) &&
+         std::all_of(mesh.anchors.begin(), mesh.anchors.end(),
+                     [&](const tissue::Anchor& a) { return below(a.node, outer); }) &&
+         std::all_of(mesh.rim.begin(), mesh.rim.end(), [&](const tissue::RimVertex& r) {
+           return below(r.vertex, skin) && below(r.node, outer) && r.weight.size() == r.node.size();
+         });
+}
+
+bool is_sound(const metrics::RestAsymmetry& at_rest, Eigen::Index skin) {
+  const metrics::Counterparts& pairs = at_rest.pairs;
+  return as_many(pairs.vertices, skin) && as_many(pairs.weights, skin) &&
+         as_many(pairs.distance_m, skin) && as_many(pairs.found, skin) &&
+         below(at_rest.face, skin) && below(at_rest.mouth, skin) &&
+         std::all_of(pairs.vertices.begin(), pairs.vertices.end(),
+                     [&](const auto& vertices) { return below(vertices, skin); });
+}
+
+}  // namespace
+
+bool fits(const PreparedFace& face, const TriMesh& scan) {
+  const tissue::TissueMesh& mesh = *face.mesh;
+  const bool on_scan = mesh.full ? lies_on(*mesh.full, scan) && is_sound(*mesh.full, mesh.skin) &&
+                                       lies_on(mesh, mesh.skin)
+                                 : lies_on(mesh, scan);
+  return on_scan && is_sound(mesh) && is_sound(face.at_rest, mesh.skin.points.rows());
+}
+
 std::string bytes_of(const PreparedFace& face) {
   Packer packer;
   packer(*face.mesh, face.at_rest, face.mesh->full != nullptr);
@@ -164,7 +244,7 @@ PreparedFace prepare_face(const scene::Scene& scene, Inputs& inputs,
   if (!scene.kept.in_use()) return made(scene, inputs, held, skin_known);
   const std::string key = mesh_key(scene, inputs, held);
   if (const auto bytes = scene.kept.find(key))
-    if (auto face = prepared_face_from(*bytes)) {
+    if (auto face = prepared_face_from(*bytes); face && fits(*face, inputs.scan.mesh)) {
       spdlog::info("the mesh that an earlier run made of this scan (--no-cache: anew)");
       if (const auto& full = face->mesh->full)
         inputs.scan = thinned_scan(inputs.scan, *full, face->mesh->skin);

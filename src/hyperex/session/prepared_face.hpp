@@ -31,5 +31,7 @@ PreparedFace prepare_face(const scene::Scene& scene, Inputs& inputs,
 /// As bytes and back, bit for bit; nothing where the bytes are not of this.
 std::string bytes_of(const PreparedFace& face);
 std::optional<PreparedFace> prepared_face_from(const std::string& bytes);
+/// Whether every index in it is one of what it counts, and its sizes are those of this scan.
+bool fits(const PreparedFace& face, const TriMesh& scan);
 
 }  // namespace hyperex::session

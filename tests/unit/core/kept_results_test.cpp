@@ -2,6 +2,8 @@
 #include "hyperex/core/kept_results.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -48,6 +50,60 @@ TEST_F(Kept, WhatIsTornOrChangedCountsAsAbsentAndIsReplaced) {
   EXPECT_FALSE(kept.find("one"));
   kept.keep("one", "others");
   EXPECT_EQ(kept.find("one"), "others");
+}
+
+TEST_F(Kept, IsForItsOwnerAloneFromCreationOn) {
+  const mode_t before = ::umask(0);  // what the user's shell would allow everybody
+  const KeptResults kept(folder / "cache" / "deeper");
+  kept.keep("one", "a face");
+  ::umask(before);
+  const auto mode = [](const fs::path& path) {
+    return fs::status(path).permissions() & fs::perms::all;
+  };
+  EXPECT_EQ(mode(folder / "cache"), fs::perms::owner_all);
+  EXPECT_EQ(mode(folder / "cache" / "deeper"), fs::perms::owner_all);
+  EXPECT_EQ(mode(folder / "cache" / "deeper" / "one.kept"),
+            fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(Kept, AFolderThatOthersMayEnterIsClosedToThem) {
+  fs::create_directories(folder);
+  fs::permissions(folder, fs::perms::all);
+  KeptResults(folder).keep("one", "a face");
+  EXPECT_EQ(fs::status(folder).permissions() & fs::perms::all, fs::perms::owner_all);
+  EXPECT_TRUE(KeptResults(folder).find("one"));
+}
+
+TEST_F(Kept, WhatOthersMayWriteIsPassedOver) {
+  const KeptResults kept(folder);
+  const fs::path file = folder / "one.kept";
+  kept.keep("one", "a face");
+  ASSERT_TRUE(kept.find("one"));
+  for (const fs::path& path : {file, folder}) {
+    const fs::perms good = fs::status(path).permissions();
+    for (const fs::perms wrong : {fs::perms::group_write, fs::perms::others_write}) {
+      fs::permissions(path, wrong, fs::perm_options::add);
+      EXPECT_FALSE(kept.find("one")) << path;
+      fs::permissions(path, good);
+    }
+  }
+  EXPECT_TRUE(kept.find("one"));
+  if (::geteuid() != 0) return;  // only root can give files away
+  for (const fs::path& path : {file, folder}) {
+    ASSERT_EQ(::chown(path.c_str(), 65534, 65534), 0);
+    EXPECT_FALSE(kept.find("one")) << path;
+    ASSERT_EQ(::chown(path.c_str(), 0, 0), 0);
+  }
+}
+
+TEST_F(Kept, AnEntryStandsForNoOtherAndIsNoLink) {
+  const KeptResults kept(folder);
+  kept.keep("one", "a face");
+  fs::copy_file(folder / "one.kept", folder / "two.kept");
+  EXPECT_FALSE(kept.find("two"));
+  fs::rename(folder / "one.kept", folder / "elsewhere");
+  fs::create_symlink(folder / "elsewhere", folder / "one.kept");
+  EXPECT_FALSE(kept.find("one"));
 }
 
 TEST_F(Kept, TheOldestGoWhereTheBoundIsPassed) {

@@ -187,7 +187,7 @@ TEST(Cholesky, SeesABodyThatNothingHolds) {
   nodes << box.nodes, box.nodes.rowwise() + Eigen::RowVector3d(1, 0, 0);
   Tetrahedra tets(2 * box.tets.rows(), 4);
   tets << box.tets, box.tets.array() + shared;
-  const System s = assemble(nodes, tets, test::varied_material(tets.rows()));
+  const System s = assemble(nodes, tets, test::varied_material(tets.rows()), ElementKind::tet4);
   // The first is held, the second is not.
   const Partition p(6 * shared,
                     test::unknowns_where(nodes, [](const Vec3& x) { return x.x() < 1e-9; }));

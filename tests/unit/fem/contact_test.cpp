@@ -65,7 +65,8 @@ struct Layer {
 
   Layer(std::array<int, 3> cells, const Vec3& size) : box(test::box_mesh(cells, size)) {
     stiffness = assemble(box.nodes, box.tets,
-                         test::uniform_material(box.tets.rows(), kYoung, kPoisson, 0, 1000))
+                         test::uniform_material(box.tets.rows(), kYoung, kPoisson, 0, 1000),
+                         ElementKind::tet4)
                     .stiffness;
     for (Eigen::Index n = 0; n < box.nodes.rows(); ++n) {
       prescribed.push_back(int(3 * n));

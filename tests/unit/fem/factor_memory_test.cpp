@@ -48,7 +48,8 @@ TEST(FactorMemory, RefusesMoreEntriesThanCanBeCountedHoweverMuchMemoryThereIs) {
 TEST(FactorMemory, IsCheckedBeforeAFactorIsMade) {
   const test::BoxMesh box = test::box_mesh({2, 2, 2}, Vec3(0.02, 0.02, 0.02), 0);
   const System system = assemble(
-      box.nodes, box.tets, test::uniform_material(box.tets.rows(), 192.4e3, 0.495, 476.8, 1100));
+      box.nodes, box.tets, test::uniform_material(box.tets.rows(), 192.4e3, 0.495, 476.8, 1100),
+      ElementKind::tet4);
   const std::vector<int> held =
       test::unknowns_where(box.nodes, [](const Vec3& p) { return p.z() < 1e-9; });
   const PartitionedFactor factor(system.stiffness, held, "test");

@@ -7,6 +7,7 @@
 #include "hyperex/fem/form/inverted.hpp"
 #include "hyperex/fem/solve/partition.hpp"
 #include "hyperex/fem/solve/static_solve.hpp"
+#include "hyperex/fem/time/finite_newton_impl.hpp"
 #include "support/fem_support.hpp"
 #include "support/laws.hpp"
 
@@ -195,6 +196,48 @@ TEST(FiniteNewton, TheEstimatedErrorIsTheTrueOneOrMore) {
     else
       EXPECT_LT((newton.displacement() - truth).cwiseAbs().maxCoeff(),
                 2 * tolerance * truth.cwiseAbs().maxCoeff());
+  }
+}
+
+// A step of 1e-7 s leaves a velocity by which the next one starts some 1e5 edges off: of the force
+// there, what 2e-5 of an edge takes is less than 1e-9.
+TEST(FiniteNewton, AStartFarOffDoesNotExcuseWhatIsLeft) {
+  test::BoxMesh box = test::box_mesh({2, 2, 2}, {2, 2, 2}, 0);
+  constexpr int kInner = 13;
+  ASSERT_LT((box.nodes.row(kInner) - Eigen::RowVector3d(1, 1, 1)).norm(), 1e-12);
+  box.nodes.row(kInner) += Eigen::RowVector3d(0.1, -0.08, 0.05);
+  std::vector<int> outer;
+  VectorXd sheared = VectorXd::Zero(box.nodes.size()), to;
+  for (int n = 0; n < box.nodes.rows(); ++n) {
+    sheared[3 * n] = 0.5 * box.nodes(n, 1);
+    for (int axis = 0; axis < 3 && n != kInner; ++axis) outer.push_back(3 * n + axis);
+  }
+  to = sheared(outer);
+  const Assembler mesh(box.nodes, box.tets, ElementKind::tet4);
+  Hyperelastic law;
+  law.branches = {{0.5, 0.1}, {1.2, 1.0}};
+  for (const double first_s : {1e-7, 1e-3}) {
+    for (const bool full : {false, true}) {
+      for (const double tolerance : {1e-3, 1e-6, 1e-10}) {
+        FiniteStrain form(mesh, test::uniform_material(box.tets.rows(), 1e5, 0.49, 0, 1000), law);
+        FiniteNewtonOptions options;
+        options.tolerance = tolerance;
+        options.inertia = false;
+        options.full_newton = full;
+        FiniteNewton newton(form, outer, options);
+        newton.start();
+        double worst = newton.step(first_s, to).error;
+        for (int hold = 0; hold < 3; ++hold) {
+          const FiniteStepReport report = newton.step(0.05, to);
+          const double off = (newton.displacement() - sheared).segment<3>(3 * kInner).norm() /
+                             greatest_motion(sheared);
+          worst = std::max(worst, report.error);  // branches remember what was missing before
+          EXPECT_LE(off, std::max(2 * worst, 1e-10))
+              << first_s << " s, full " << full << ", tolerance " << tolerance << ", " << hold;
+          EXPECT_LE(report.error, std::max(tolerance, 1e-7));
+        }
+      }
+    }
   }
 }
 

@@ -43,7 +43,8 @@ TEST(InertiaRows, MultipliesAsTheSparseMatricesDoAndTakesOtherValues) {
 
 TEST(InertiaRows, GivesTheSameNumbersOnAnyNumberOfThreads) {
   const auto box = test::box_mesh({15, 15, 5}, Vec3(0.15, 0.15, 0.05), 0.1);
-  const System s = assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()));
+  const System s =
+      assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()), ElementKind::tet4);
   const InertiaRows rows(s);
   const Eigen::VectorXd u = test::random_vector(s.mass.cols(), 1);
   Eigen::VectorXd first(u.size()), again(u.size());

@@ -69,12 +69,5 @@ TEST(ViscousTensor, PureVolumeRateGivesNoStress) {
     EXPECT_LT((viscous_tensor(476.8, form) * swelling).norm(), 1e-10);
 }
 
-// In every build: a value that no material has is a bug of the caller.
-TEST(MaterialDeathTest, RefusesValuesThatNoMaterialHas) {
-  EXPECT_DEATH(elastic_tensor(0, 0.4), "young_pa > 0");
-  EXPECT_DEATH(elastic_tensor(1000, 0.5), "poisson < 0.5");
-  EXPECT_DEATH(viscous_tensor(-1, ViscousForm::isotropic), "viscosity_pa_s >= 0");
-}
-
 }  // namespace
 }  // namespace hyperex::fem

@@ -83,7 +83,8 @@ TEST(Basis, TellsWhatItLeavesOut) {
 
 TEST(ReducedNewmark, EqualsADenseReference) {
   const auto box = test::box_mesh({1, 1, 1}, Vec3(0.01, 0.01, 0.01));
-  System s = assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()));
+  System s =
+      assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()), ElementKind::tet4);
   for (int u = 0; u < s.stiffness.cols(); ++u) s.stiffness.coeffRef(u, u) += 100;
   Eigen::MatrixXd force(s.mass.cols(), 41);
   for (int t = 0; t <= 40; ++t)

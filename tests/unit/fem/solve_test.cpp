@@ -12,7 +12,8 @@ namespace {
 
 struct Fixture : testing::Test {
   test::BoxMesh box = test::box_mesh({6, 3, 2}, Vec3(0.06, 0.03, 0.02), 0.1);
-  System system = assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()));
+  System system =
+      assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()), ElementKind::tet4);
   std::vector<int> held =
       test::unknowns_where(box.nodes, [](const Vec3& p) { return p.x() < 1e-9; });
 };
@@ -57,14 +58,16 @@ TEST_F(StaticSolve, RefusesANodeThatNoElementUses) {
   Points nodes = box.nodes;
   nodes.conservativeResize(nodes.rows() + 1, 3);
   nodes.bottomRows(1).setZero();
-  const System s = assemble(nodes, box.tets, test::varied_material(box.tets.rows()));
+  const System s =
+      assemble(nodes, box.tets, test::varied_material(box.tets.rows()), ElementKind::tet4);
   EXPECT_THROW(StaticSolver(s.stiffness, held), NumericalError);
 }
 
 TEST(StaticSolveScale, TakesALongSlenderBar) {
   const auto box = test::box_mesh({150, 1, 1}, Vec3(1.5, 0.01, 0.01));
-  const System s = assemble(box.nodes, box.tets,
-                            test::uniform_material(box.tets.rows(), 192.4e3, 0.495, 0, 1100));
+  const System s =
+      assemble(box.nodes, box.tets,
+               test::uniform_material(box.tets.rows(), 192.4e3, 0.495, 0, 1100), ElementKind::tet4);
   EXPECT_NO_THROW(StaticSolver(
       s.stiffness, test::unknowns_where(box.nodes, [](const Vec3& p) { return p.x() < 1e-9; })));
 }
@@ -110,7 +113,8 @@ TEST_F(NewmarkSteps, RefusesANodeThatNoElementUses) {
   Points nodes = box.nodes;
   nodes.conservativeResize(nodes.rows() + 1, 3);
   nodes.bottomRows(1).setZero();
-  const System s = assemble(nodes, box.tets, test::varied_material(box.tets.rows()));
+  const System s =
+      assemble(nodes, box.tets, test::varied_material(box.tets.rows()), ElementKind::tet4);
   EXPECT_THROW(Newmark(s, held, {2e-3}), NumericalError);
 }
 

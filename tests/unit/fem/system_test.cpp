@@ -17,7 +17,8 @@ using testing::HasSubstr;
 
 TEST(Assemble, TheThreeMatricesShareOnePatternAndAreSymmetric) {
   const auto box = test::box_mesh({3, 2, 2}, Vec3(0.03, 0.02, 0.02), 0.1);
-  const System s = assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()));
+  const System s =
+      assemble(box.nodes, box.tets, test::varied_material(box.tets.rows()), ElementKind::tet4);
   const auto count = s.stiffness.nonZeros();
   for (const SparseMatrix* m : {&s.stiffness, &s.damping, &s.mass}) {
     ASSERT_EQ(m->nonZeros(), count);
@@ -52,7 +53,7 @@ TEST(Assemble, EqualsTheSumOfElementMatrices) {
         for (int j = i % 3; j < 12; j += 3)
           m(at[i], at[j]) += mass_entry(tet, material.density_kg_m3[t], i / 3, j / 3);
     }
-    const System s = assemble(box.nodes, box.tets, material);
+    const System s = assemble(box.nodes, box.tets, material, ElementKind::tet4);
     EXPECT_LT((Eigen::MatrixXd(s.stiffness) - k).norm(), 1e-14 * k.norm());
     EXPECT_LT((Eigen::MatrixXd(s.damping) - c).norm(), 1e-14 * c.norm());
     EXPECT_LT((Eigen::MatrixXd(s.mass) - m).norm(), 1e-14 * m.norm());
@@ -115,13 +116,13 @@ TEST(Assemble, NamesTheFirstElementWithoutPositiveVolume) {
   const Material material = test::uniform_material(box.tets.rows(), 1e5, 0.4, 0, 1000);
   std::swap(box.tets(7, 0), box.tets(7, 1));
   try {
-    assemble(box.nodes, box.tets, material);
+    assemble(box.nodes, box.tets, material, ElementKind::tet4);
     FAIL() << "an inverted element was taken";
   } catch (const NumericalError& e) {
     EXPECT_THAT(e.what(), AllOf(HasSubstr("tetrahedron 7 "), HasSubstr("positive")));
   }
   box.tets(7, 0) = box.tets(7, 1);
-  EXPECT_THROW(assemble(box.nodes, box.tets, material), NumericalError);
+  EXPECT_THROW(assemble(box.nodes, box.tets, material, ElementKind::tet4), NumericalError);
 }
 
 TEST(VonMises, IsTheStressOfUniaxialTensionAndRootThreeTimesShear) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/session/kept_order.hpp"
 #include "hyperex/session/simulation_options.hpp"
 
@@ -57,6 +58,40 @@ TEST_F(PreparedFaces, AreTakenFromAnEarlierRunBitForBit) {
   EXPECT_GE(fs::last_write_time(kept().front()), time);
   scene_.kept = {};
   EXPECT_EQ(bytes_of(prepared()), made) << "made anew";
+}
+
+// What somebody else may have changed is not used: each of these would be read out of bounds.
+TEST_F(PreparedFaces, IndicesThatCountNothingAreRefused) {
+  const PreparedFace face = prepared();
+  const TriMesh scan = read_inputs(scene_).scan.mesh;
+  ASSERT_TRUE(fits(face, scan));
+  const auto fits_with = [&](const auto& change) {
+    PreparedFace changed = face;
+    auto mesh = std::make_shared<tissue::TissueMesh>(*face.mesh);
+    change(*mesh, changed.at_rest);
+    changed.mesh = mesh;
+    return fits(changed, scan);
+  };
+  using Mesh = tissue::TissueMesh;
+  using AtRest = metrics::RestAsymmetry;
+  ASSERT_TRUE(fits_with([](Mesh&, AtRest&) {}));
+  for (const int wrong : {-1, 1 << 28}) {
+    EXPECT_FALSE(fits_with([&](Mesh& m, AtRest&) { m.volume.tets(5, 2) = wrong; }));
+    EXPECT_FALSE(fits_with([&](Mesh& m, AtRest&) { m.volume.outer.triangles(0, 1) = wrong; }));
+    EXPECT_FALSE(fits_with([&](Mesh& m, AtRest&) { m.skin.triangles(7, 0) = wrong; }));
+    EXPECT_FALSE(fits_with([&](Mesh& m, AtRest&) { m.source_triangle[3] = wrong; }));
+    EXPECT_FALSE(fits_with([&](Mesh& m, AtRest&) { m.anchors[3].node[1] = wrong; }));
+    EXPECT_FALSE(fits_with([&](Mesh& m, AtRest&) { m.rim.at(0).node.at(0) = wrong; }));
+    EXPECT_FALSE(fits_with([&](Mesh&, AtRest& r) { r.pairs.vertices[9][2] = wrong; }));
+    EXPECT_FALSE(fits_with([&](Mesh&, AtRest& r) { r.mouth.at(0) = wrong; }));
+  }
+  EXPECT_FALSE(fits_with([](Mesh& m, AtRest&) { m.volume.layers = 7; }));
+  EXPECT_FALSE(fits_with([](Mesh& m, AtRest&) { m.anchors.pop_back(); }));
+  EXPECT_FALSE(fits_with([](Mesh& m, AtRest&) { m.on_border.clear(); }));
+  EXPECT_FALSE(order_from(bytes_of(simulate::EliminationOrder{
+      {0, 1}, std::make_shared<fem::NodeOrder>(fem::NodeOrder{{0, 2, 2}, 1, 1})})));
+  EXPECT_FALSE(order_from(bytes_of(simulate::EliminationOrder{
+      {1, 0}, std::make_shared<fem::NodeOrder>(fem::NodeOrder{{0, 2, 1}, 1, 1})})));
 }
 
 TEST_F(PreparedFaces, OfOtherOptionsAreMadeAnew) {

@@ -33,8 +33,9 @@ class BoundaryTest : public testing::Test {
     material.poisson.assign(tets, 0);
     material.viscosity_pa_s.assign(tets, 0);
     material.density_kg_m3.assign(tets, 1);
-    fem::SparseMatrix k =
-        fem::assemble(face_.mesh.volume.nodes, face_.mesh.volume.tets, material).stiffness;
+    fem::SparseMatrix k = fem::assemble(face_.mesh.volume.nodes, face_.mesh.volume.tets, material,
+                                        fem::ElementKind::tet4)
+                              .stiffness;
     const fem::SparseMatrix bare = k;
     const auto before = k.nonZeros();
     boundary.add_springs(k);

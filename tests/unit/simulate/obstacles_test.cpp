@@ -38,7 +38,8 @@ class PressedBlock {
     mesh_.volume.outer.points = box.nodes.topRows(level);
     stiffness_ =
         fem::assemble(box.nodes, box.tets,
-                      hyperex::test::uniform_material(box.tets.rows(), kYoung, kPoisson, 0, 1000))
+                      hyperex::test::uniform_material(box.tets.rows(), kYoung, kPoisson, 0, 1000),
+                      fem::ElementKind::tet4)
             .stiffness;
     for (int n = 0; n < int(box.nodes.rows()); ++n)
       for (int axis = 0; axis < 3; ++axis) {

@@ -5,14 +5,16 @@
 
 #include <limits>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/form/for_each_index.hpp"
+#include "hyperex/fem/form/mesh_entry.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 namespace {
 
 std::vector<Tet4> shapes_of(const Points& nodes, const Tetrahedra& tets) {
+  check_mesh(nodes, tets);
   std::vector<Tet4> shapes(tets.rows());
   for_each_index(tets.rows(),
                  [&](Eigen::Index t) { shapes[t] = make_tet4(corners_of(nodes, tets, t)); });
@@ -36,7 +38,7 @@ Assembler::Assembler(const Points& nodes, const Tetrahedra& tets, ElementKind ki
 
 Assembler::Assembler(const Points& nodes, const Tetrahedra& tets, const DilatationGroups& groups)
     : nodes_(nodes), shapes_(shapes_of(nodes, tets)), corners_(tets.rows()) {
-  HX_ASSERT(tets.rows() == 0 || (tets.minCoeff() >= 0 && tets.maxCoeff() < nodes.rows()));
+  check_groups(groups, tets.rows());
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
     for (int a = 0; a < 4; ++a) corners_[t][a] = tets(t, a);
   const Lists corner = corner_lists(tets);
@@ -229,9 +231,7 @@ void Assembler::add_groups(int n, const std::vector<double>& stiffness,
 }
 
 void Assembler::assemble(const Material& material, System& system) const {
-  [[maybe_unused]] const auto count = static_cast<std::size_t>(element_count());
-  HX_ASSERT(material.young_pa.size() == count && material.poisson.size() == count);
-  HX_ASSERT(material.viscosity_pa_s.size() == count && material.density_kg_m3.size() == count);
+  check_material(material, element_count());
   const Lists& wide = stiffness_neighbours();
   const auto fits = [&](const SparseMatrix& m, const Lists& neighbours) {
     return m.cols() == 3 * node_count() && m.isCompressed() &&

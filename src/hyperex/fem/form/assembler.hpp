@@ -16,7 +16,8 @@ namespace hyperex::fem {
 /// several threads.
 class Assembler {
  public:
-  /// Throws NumericalError naming the first tetrahedron whose volume is not positive.
+  /// Throws InputError where there is no tetrahedron or one has a corner that is no node,
+  /// NumericalError naming the first tetrahedron whose volume is not positive.
   Assembler(const Points& nodes, const Tetrahedra& tets, ElementKind kind);
   Assembler(const Points& nodes, const Tetrahedra& tets, const DilatationGroups& groups);
 
@@ -43,9 +44,9 @@ class Assembler {
   /// Zeros on the pattern of System::stiffness.
   SparseMatrix stiffness_pattern() const;
 
-  /// Values that no material may have (E <= 0 ...) must have been refused before: asserted. A
-  /// `system` that this assembler filled before keeps its patterns: values are overwritten, no
-  /// matrix is allocated. Parallel; the sums' order does not depend on the number of threads.
+  /// Throws InputError naming the first tetrahedron with a value that no material has (E <= 0
+  /// ...). A `system` that this assembler filled before keeps its patterns: values are overwritten,
+  /// no matrix is allocated. Parallel; the sums' order does not depend on the number of threads.
   void assemble(const Material& material, System& system) const;
 
   /// Per element at displacement `d` (|nodes| x 3). The stress is the one that does the work: the

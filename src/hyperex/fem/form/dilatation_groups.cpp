@@ -5,6 +5,8 @@
 #include <array>
 #include <queue>
 
+#include "hyperex/fem/form/mesh_entry.hpp"
+
 namespace hyperex::fem {
 namespace {
 
@@ -91,6 +93,7 @@ Lists corner_lists(const Tetrahedra& tets) {
 }
 
 DilatationGroups disjoint_stars(Eigen::Index node_count, const Tetrahedra& tets) {
+  check_corners(node_count, tets);
   const Lists corners = corner_lists(tets);
   const Lists around = transposed(corners, static_cast<int>(node_count));
   std::vector<int> patch = pack_stars(around, joined(around, corners), tets.rows());

@@ -6,18 +6,21 @@
 
 #include "hyperex/fem/form/finite_kinematics.hpp"
 #include "hyperex/fem/form/for_each_index.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 
 using Eigen::Matrix3d;
 
 std::vector<Matrix3d> FiniteStrain::deformation_gradient(const Eigen::VectorXd& d) const {
+  check_size("the displacement", d.size(), 3 * mesh_.node_count());
   std::vector<Matrix3d> f(static_cast<std::size_t>(mesh_.element_count()));
   for_each_index(mesh_.element_count(), [&](Eigen::Index t) { f[t] = gradient_at(d, t); });
   return f;
 }
 
 Eigen::VectorXd FiniteStrain::volume_ratio(const Eigen::VectorXd& d) const {
+  check_size("the displacement", d.size(), 3 * mesh_.node_count());
   Eigen::VectorXd ratio(mesh_.element_count());
   for_each_index(ratio.size(), [&](Eigen::Index t) { ratio[t] = determinant(gradient_at(d, t)); });
   return ratio;
@@ -32,6 +35,7 @@ void set_voigt(const Matrix3d& m, double shear, Eigen::Index row, VoigtRows& out
 }  // namespace
 
 VoigtRows FiniteStrain::green_lagrange(const Eigen::VectorXd& d) const {
+  check_size("the displacement", d.size(), 3 * mesh_.node_count());
   VoigtRows strain(mesh_.element_count(), 6);
   for_each_index(strain.rows(), [&](Eigen::Index t) {
     const Matrix3d f = gradient_at(d, t);
@@ -66,6 +70,7 @@ Eigen::VectorXd von_mises_of(const VoigtRows& stress) {
 }
 
 Points FiniteStrain::principal_stretches(const Eigen::VectorXd& d) const {
+  check_size("the displacement", d.size(), 3 * mesh_.node_count());
   Points stretch(mesh_.element_count(), 3);
   for_each_index(stretch.rows(), [&](Eigen::Index t) {
     const Matrix3d f = gradient_at(d, t);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/fem/form/finite_kinematics.hpp"
 #include "hyperex/fem/form/for_each_index.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 
@@ -66,8 +66,10 @@ void FiniteStrain::set_viscous_step(Eigen::Index t, const RateRule& rule, double
 
 void FiniteStrain::begin_step(const RateRule& rule, const Eigen::VectorXd& last,
                               const Eigen::VectorXd& before) {
-  HX_ASSERT(last.size() == 3 * mesh_.node_count() && before.size() == last.size());
-  HX_ASSERT(rule.now >= 0 && rule.step_s >= 0);
+  check_size("the last displacement", last.size(), 3 * mesh_.node_count());
+  check_size("the displacement before", before.size(), last.size());
+  require(rule.now >= 0 && rule.step_s >= 0, "RateRule: now = {}, step_s = {}: expected 0 or more",
+          rule.now, rule.step_s);
   branch_share_ = 0;
   for (std::size_t i = 0; i < fade_.size(); ++i) {
     const MaxwellBranch& branch = law_.branches[i];
@@ -94,6 +96,7 @@ void FiniteStrain::begin_step(const RateRule& rule, const Eigen::VectorXd& last,
 }
 
 void FiniteStrain::accept(const Eigen::VectorXd& d) {
+  check_size("the displacement", d.size(), 3 * mesh_.node_count());
   if (branch_.empty()) return;
   for_each_index(mesh_.element_count(), [&](Eigen::Index t) {
     const Matrix3d now = law_stress(gradient_at(d, t), moduli_[t].shear);
@@ -104,6 +107,7 @@ void FiniteStrain::accept(const Eigen::VectorXd& d) {
 }
 
 void FiniteStrain::rest_at(const Eigen::VectorXd& d) {
+  check_size("the displacement", d.size(), 3 * mesh_.node_count());
   branch_share_ = 0;
   for_each_index(mesh_.element_count(), [&](Eigen::Index t) {
     step_[t] = {Matrix3d::Identity(), Matrix3d::Zero(), Matrix3d::Zero(), 0};

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/fem/form/finite_kinematics.hpp"
 #include "hyperex/fem/form/for_each_index.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 
@@ -14,7 +14,7 @@ using Eigen::Matrix3d;
 
 FiniteStrain::FiniteStrain(const Assembler& mesh, const Material& material, const Hyperelastic& law)
     : mesh_(mesh), law_(law) {
-  HX_ASSERT(is_admissible(law));
+  check_law(law);
   const auto elements = static_cast<std::size_t>(mesh.element_count());
   mass_.resize(mesh.mass_neighbours().item.size());
   step_.resize(elements);
@@ -47,10 +47,10 @@ FiniteStrain::FiniteStrain(const Assembler& mesh, const Material& material, cons
 }
 
 void FiniteStrain::set_material(const Material& material) {
-  HX_ASSERT(material.viscous_form == ViscousForm::isotropic);
+  require(material.viscous_form == ViscousForm::isotropic,
+          "Material::viscous_form is printed: expected isotropic, which finite strain needs");
+  check_material(material, mesh_.element_count());
   const auto count = static_cast<std::size_t>(mesh_.element_count());
-  HX_ASSERT(material.young_pa.size() == count && material.poisson.size() == count);
-  HX_ASSERT(material.viscosity_pa_s.size() == count && material.density_kg_m3.size() == count);
   moduli_ = mesh_.moduli(material);
   group_stiffness_ = mesh_.group_stiffness(moduli_);
   energy_rounding_ = 0;
@@ -77,7 +77,7 @@ void FiniteStrain::set_material(const Material& material) {
 }
 
 void FiniteStrain::find_kinematics(const Eigen::VectorXd& d) {
-  HX_ASSERT(d.size() == 3 * mesh_.node_count());
+  check_size("the displacement", d.size(), 3 * mesh_.node_count());
   for_each_index(mesh_.element_count(), [&](Eigen::Index t) {
     f_[t] = gradient_at(d, t);
     ratio_[t] = ratio_of(f_[t]);
@@ -173,6 +173,7 @@ double FiniteStrain::elastic_energy(const Eigen::VectorXd& d) {
 }
 
 void FiniteStrain::mass_product(const Eigen::VectorXd& u, Eigen::VectorXd& out) const {
+  check_size("the vector", u.size(), 3 * mesh_.node_count());
   const Lists& neighbours = mesh_.mass_neighbours();
   out.resize(u.size());
   for_each_index(mesh_.node_count(), [&](Eigen::Index n) {

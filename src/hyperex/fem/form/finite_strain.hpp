@@ -26,8 +26,8 @@ struct RateRule {
 /// made; one caller at a time.
 class FiniteStrain {
  public:
-  /// `mesh` must outlive this. The material's viscous form must be isotropic, and the law
-  /// admissible: asserted.
+  /// `mesh` must outlive this. Throws InputError where the material's viscous form is not
+  /// isotropic, the law is not admissible or a tetrahedron has values that no material has.
   FiniteStrain(const Assembler& mesh, const Material& material, const Hyperelastic& law);
 
   const Assembler& mesh() const { return mesh_; }

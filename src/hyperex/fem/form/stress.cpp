@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/fem/form/assembler.hpp"
+#include "hyperex/fem/form/mesh_entry.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 
@@ -15,7 +16,7 @@ Eigen::Matrix<double, 4, 3> Assembler::corner_values(const Points& d, Eigen::Ind
 }
 
 VoigtRows Assembler::strain(const Points& d) const {
-  HX_ASSERT(d.rows() == node_count());
+  check_rows("the displacement", d.rows(), node_count());
   VoigtRows strain(element_count(), 6);
   tbb::parallel_for(Eigen::Index{0}, element_count(), [&](Eigen::Index t) {
     strain.row(t) = strain_of(shapes_[t].gradient, corner_values(d, t)).transpose();
@@ -53,12 +54,13 @@ Eigen::VectorXd Assembler::own_dilatation(const Points& d) const {
 }
 
 Eigen::VectorXd Assembler::dilatation(const Points& d) const {
-  HX_ASSERT(d.rows() == node_count());
+  check_rows("the displacement", d.rows(), node_count());
   return groups_.size() > 0 ? spread(group_dilatation(d)) : own_dilatation(d);
 }
 
 Eigen::VectorXd Assembler::pressure_pa(const Material& material, const Points& d) const {
-  HX_ASSERT(d.rows() == node_count());
+  check_rows("the displacement", d.rows(), node_count());
+  check_material(material, element_count());
   const std::vector<Moduli> of_element = moduli(material);
   Eigen::VectorXd pressure = own_dilatation(d);
   for (Eigen::Index t = 0; t < pressure.size(); ++t)
@@ -108,13 +110,14 @@ System assemble(const Points& nodes, const Tetrahedra& tets, const Material& mat
 
 ElementStrain::ElementStrain(const Points& nodes, const Tetrahedra& tets)
     : nodes_(nodes.rows()), tets_(tets) {
+  check_corners(nodes_, tets);
   gradient_.reserve(static_cast<std::size_t>(tets.rows()));
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
     gradient_.push_back(make_tet4(corners_of(nodes, tets, t)).gradient);
 }
 
 VoigtRows ElementStrain::at(const Points& d) const {
-  HX_ASSERT(d.rows() == nodes_);
+  check_rows("the displacement", d.rows(), nodes_);
   VoigtRows strain(tets_.rows(), 6);
   for (Eigen::Index t = 0; t < tets_.rows(); ++t)
     strain.row(t) =
@@ -123,6 +126,7 @@ VoigtRows ElementStrain::at(const Points& d) const {
 }
 
 Eigen::VectorXd von_mises_pa(const VoigtRows& strain, const Material& material) {
+  check_material(material, strain.rows());
   Eigen::VectorXd out(strain.rows());
   for (Eigen::Index t = 0; t < out.size(); ++t)
     out[t] =

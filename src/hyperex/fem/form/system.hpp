@@ -43,7 +43,7 @@ struct System {
 
 /// An Assembler used once (form/assembler.hpp, where its errors stand).
 System assemble(const Points& nodes, const Tetrahedra& tets, const Material& material,
-                ElementKind kind = ElementKind::tet4);
+                ElementKind kind = ElementKind::tet4_star);
 
 /// |T| x 6 in the order of Voigt: strains (engineering shear) or stresses (Pa).
 using VoigtRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/core/check_options.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -42,7 +42,7 @@ LawResponse respond(const Hyperelastic& law, double shear_pa, double i1, double 
     r.djj = shear_pa / 3;
     return r;
   }
-  HX_ASSERT(law.law != HyperelasticLaw::linear);
+  require(law.law != HyperelasticLaw::linear, "respond(): the linear law has no invariants");
   const bool yeoh = law.law == HyperelasticLaw::yeoh;
   const double c01 = law.law == HyperelasticLaw::mooney_rivlin ? law.c01 : 0;
   const double c10 = shear_pa / (2 * (1 + c01));

@@ -67,7 +67,7 @@ struct Hyperelastic {
   /// Its first two derivatives vanish at J = 1; below kLeastRatio its Taylor polynomial of second
   /// order goes on, so that it is finite for any F. `linear` has none.
   bool barrier = true;
-  std::vector<MaxwellBranch> branches;  ///< besides the Material's viscosity
+  std::vector<MaxwellBranch> branches = {};  ///< besides the Material's viscosity
   bool operator==(const Hyperelastic&) const = default;
 
   static constexpr const char* about = "The hyperelastic law at finite strain.";

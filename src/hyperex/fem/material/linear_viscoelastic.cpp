@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/material/linear_viscoelastic.hpp"
 
-#include "hyperex/core/assert.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 
 Voigt elastic_tensor(double young_pa, double poisson) {
-  HX_ASSERT(young_pa > 0 && poisson > -1 && poisson < 0.5);
+  if (!(young_pa > 0 && poisson > -1 && poisson < 0.5)) refuse_modulus(young_pa, poisson);
   const double lambda = young_pa * poisson / ((1 + poisson) * (1 - 2 * poisson));
   const double shear = young_pa / (2 * (1 + poisson));
   Voigt d = Voigt::Zero();
@@ -17,7 +17,8 @@ Voigt elastic_tensor(double young_pa, double poisson) {
 }
 
 Voigt viscous_tensor(double viscosity_pa_s, ViscousForm form) {
-  HX_ASSERT(viscosity_pa_s >= 0);
+  require(viscosity_pa_s >= 0, "viscosity_pa_s = {}: expected 0 or a number above it",
+          viscosity_pa_s);
   // Engineering shear rates are twice the tensor's, so s' = 2 eta dev(e') has eta on the shear
   // diagonal and 2 eta (1 - 1/3) on the normal one; the printed form halves the normal block only.
   const double off = (form == ViscousForm::isotropic ? -2.0 : -1.0) * viscosity_pa_s / 3;

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/core/describe.hpp"
 
 namespace hyperex::fem {
@@ -22,18 +21,21 @@ struct Material {
   std::vector<double> young_pa;        ///< > 0
   std::vector<double> poisson;         ///< in (-1, 0.5)
   std::vector<double> viscosity_pa_s;  ///< >= 0
-  std::vector<double> density_kg_m3;   ///< > 0
+  std::vector<double> density_kg_m3;   ///< >= 0
   ViscousForm viscous_form = ViscousForm::isotropic;
 };
 
+/// Throws the InputError of a modulus or ratio that no material has.
+[[noreturn, gnu::cold]] void refuse_modulus(double young_pa, double poisson);
+
 /// E / (2 (1 + nu))
 inline double shear_modulus_pa(double young_pa, double poisson) {
-  HX_ASSERT(young_pa > 0 && poisson > -1);
+  if (!(young_pa > 0 && poisson > -1)) refuse_modulus(young_pa, poisson);
   return young_pa / (2 * (1 + poisson));
 }
 /// E / (3 (1 - 2 nu))
 inline double bulk_modulus_pa(double young_pa, double poisson) {
-  HX_ASSERT(young_pa > 0 && poisson < 0.5);
+  if (!(young_pa > 0 && poisson < 0.5)) refuse_modulus(young_pa, poisson);
   return young_pa / (3 * (1 - 2 * poisson));
 }
 

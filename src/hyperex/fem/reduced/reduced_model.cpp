@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/core/assert.hpp"
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/reduced/basis.hpp"
 #include "hyperex/fem/reduced/reduced_newmark.hpp"
 
@@ -219,11 +219,39 @@ class Growth {
   double greatest_ = 0;
 };
 
+/// `a` has the size, and finite numbers alone.
+void check_course(std::string_view what, const Eigen::MatrixXd& a, Eigen::Index rows,
+                  Eigen::Index columns) {
+  require(a.rows() == rows && a.cols() == columns, "Drive::{} is {} x {}: expected {} x {}", what,
+          a.rows(), a.cols(), rows, columns);
+  if (a.allFinite()) return;
+  for (Eigen::Index c = 0; c < columns; ++c)
+    for (Eigen::Index r = 0; r < rows; ++r)
+      require(std::isfinite(a(r, c)), "Drive::{} has {} at ({}, {}): expected finite numbers", what,
+              a(r, c), r, c);
+}
+
+/// `moving`: its rates are read, too.
+void check_drive(const Drive& drive, const Partition& partition, bool moving) {
+  const Eigen::Index shapes = drive.shapes();
+  check_course("prescribed", drive.prescribed, Eigen::Index(partition.prescribed.size()), shapes);
+  if (drive.force.rows() > 0) check_course("force", drive.force, partition.unknowns(), shapes);
+  const Eigen::Index times = drive.s.cols();
+  check_course("s", drive.s, shapes, times);
+  require(times >= (moving ? 2 : 1), "Drive::s has {} instants: expected at least {}", times,
+          moving ? 2 : 1);
+  if (!moving) return;
+  check_course("rate", drive.rate, shapes, times);
+  check_course("second", drive.second, shapes, times);
+}
+
 /// Columns at times in steps, linear between them.
 Eigen::MatrixXd columns_at(const Eigen::MatrixXd& course,
                            const std::vector<double>& times_in_steps) {
   Eigen::MatrixXd at(course.rows(), static_cast<Eigen::Index>(times_in_steps.size()));
   for (std::size_t i = 0; i < times_in_steps.size(); ++i) {
+    require(std::isfinite(times_in_steps[i]), "time {} is {}: expected a finite number (steps)", i,
+            times_in_steps[i]);
     const double t = std::clamp(times_in_steps[i], 0.0, static_cast<double>(course.cols() - 1));
     const auto before = std::min(static_cast<Eigen::Index>(t), course.cols() - 1);
     const auto after = std::min(before + 1, course.cols() - 1);
@@ -243,7 +271,9 @@ Eigen::MatrixXd Response::displacement(const std::vector<double>& times_in_steps
 }
 
 Response sum_of(const Response& a, const Response& b, double factor) {
-  HX_ASSERT(a.shapes.rows() == b.shapes.rows() && a.course.cols() == b.course.cols());
+  require(a.shapes.rows() == b.shapes.rows() && a.course.cols() == b.course.cols(),
+          "sum_of(): responses of {} and {} unknowns, {} and {} instants: expected as many each",
+          a.shapes.rows(), b.shapes.rows(), a.course.cols(), b.course.cols());
   Response out;
   out.shapes.resize(a.shapes.rows(), a.shapes.cols() + b.shapes.cols());
   out.shapes << a.shapes, b.shapes;
@@ -267,12 +297,14 @@ ReducedModel::ReducedModel(System system, std::vector<int> prescribed,
       factor_(system_.stiffness, std::move(prescribed), "reduced model", std::move(order)) {}
 
 void ReducedModel::refill(System system) {
+  check_system(system);
   system_ = std::move(system);
   factor_.refactor(system_.stiffness);
 }
 
 Eigen::MatrixXd ReducedModel::at_rest(const Drive& drive,
                                       const std::vector<double>& times_in_steps) {
+  check_drive(drive, factor_.partition(), false);
   const Eigen::MatrixXd s = columns_at(drive.s, times_in_steps);
   Eigen::MatrixXd d = with_zeros(drive.prescribed * s, factor_.prescribed(), system_.mass.rows());
   Eigen::MatrixXd force = -symmetric_product(system_.stiffness, d);
@@ -284,14 +316,17 @@ Eigen::MatrixXd ReducedModel::at_rest(const Drive& drive,
 }
 
 Eigen::MatrixXd ReducedModel::at_rest(const Eigen::MatrixXd& force) {
+  check_rows("the force", force.rows(), factor_.partition().unknowns());
   Eigen::MatrixXd x = rows_of_free_nodes(force, factor_.partition());
   factor_.solve(x);
   return with_zeros(x, factor_.free(), force.rows());
 }
 
 Response ReducedModel::run(const Drive& drive, const ReducedOptions& options) {
-  HX_ASSERT(drive.steps() >= 1 && options.tolerance > 0);
-  HX_ASSERT(drive.prescribed.rows() == static_cast<Eigen::Index>(factor_.prescribed().size()));
+  check_drive(drive, factor_.partition(), true);
+  check_positive("ReducedOptions::tolerance", options.tolerance);
+  check_positive("ReducedOptions::most_vectors", options.most_vectors);
+  check_positive("NewmarkOptions::dt_s", options.time.dt_s, " (s)");
   Growth growth(system_, factor_, drive, options);
   growth.begin();
   double error = 0;

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/one_thread.hpp"
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
 #include "hyperex/fem/solve/metis_turn.hpp"
 #include "hyperex/fem/solve/multifrontal.hpp"
@@ -122,13 +122,15 @@ struct Cholesky::Impl {
 
 Cholesky::Cholesky(const SparseMatrix& lower, std::string purpose, std::vector<int> order)
     : impl_(std::make_unique<Impl>()) {
-  HX_ASSERT(lower.rows() == lower.cols() && lower.isCompressed());
+  require(lower.rows() == lower.cols() && lower.isCompressed(),
+          "{}: the lower triangle is {} x {}: expected a square, compressed matrix", purpose,
+          lower.rows(), lower.cols());
   impl_->purpose = std::move(purpose);
   impl_->permuted.resize(static_cast<std::size_t>(lower.cols()));
   if (lower.cols() == 0) return;
   cholmod_sparse view = cholmod_view(lower);
   if (!order.empty()) {
-    HX_ASSERT(static_cast<Eigen::Index>(order.size()) == lower.cols());
+    check_size("the order of elimination", static_cast<Eigen::Index>(order.size()), lower.cols());
     impl_->common.method[0].ordering = CHOLMOD_GIVEN;
   }
   const auto turn = metis_turn();
@@ -145,7 +147,7 @@ Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 
 int Cholesky::factorize(const SparseMatrix& lower) {
   Impl& m = *impl_;
-  HX_ASSERT(lower.cols() == size());
+  check_size("the lower triangle", lower.cols(), size());
   if (size() == 0) return -1;
   if (!m.prepared) m.prepare(lower);
   const int lost =
@@ -156,7 +158,7 @@ int Cholesky::factorize(const SparseMatrix& lower) {
 
 void Cholesky::solve(Eigen::VectorXd& x) {
   Impl& m = *impl_;
-  HX_ASSERT(x.size() == size());
+  check_size("the right-hand side", x.size(), size());
   if (size() == 0) return;
   const auto* perm = static_cast<const int*>(m.factor->Perm);
   for (int i = 0; i < size(); ++i) m.permuted[i] = x[perm[i]];
@@ -166,7 +168,7 @@ void Cholesky::solve(Eigen::VectorXd& x) {
 
 void Cholesky::solve(Eigen::MatrixXd& x) {
   Impl& m = *impl_;
-  HX_ASSERT(x.rows() == size());
+  check_rows("the right-hand side", x.rows(), size());
   if (size() == 0 || x.cols() == 0) return;
   // In two parts, whatever the number of threads, so that the numbers never change.
   const auto half = static_cast<std::size_t>(x.cols() / 2);
@@ -180,7 +182,7 @@ void Cholesky::solve(Eigen::MatrixXd& x) {
 Eigen::MatrixXd Cholesky::inverse_of_last(const std::vector<int>& columns) const {
   const Impl& m = *impl_;
   const int n = static_cast<int>(columns.size()), before = size() - n;
-  HX_ASSERT(n <= size());
+  require(n <= size(), "{} columns of {} were asked for", n, size());
   if (n == 0) return {};
   const auto* perm = static_cast<const int*>(m.factor->Perm);
   std::vector<int> last(perm + before, perm + size());

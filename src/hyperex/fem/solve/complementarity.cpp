@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hyperex/core/assert.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -16,8 +16,15 @@ constexpr int kMostNewton = 20;
 Complementarity solve_complementarity(const Eigen::MatrixXd& a, const Eigen::VectorXd& q,
                                       double tolerance, int most_sweeps, Eigen::VectorXd& z) {
   const Eigen::Index n = q.size();
-  HX_ASSERT(a.rows() == n && a.cols() == n && z.size() == n);
-  HX_ASSERT(n == 0 || a.diagonal().minCoeff() > 0);
+  require(a.rows() == n && a.cols() == n && z.size() == n,
+          "complementarity: A is {} x {}, q has {} entries and z {}: expected as many each",
+          a.rows(), a.cols(), n, z.size());
+  for (Eigen::Index i = 0; i < n; ++i)
+    require(
+        a(i, i) > 0 && std::isfinite(q[i]) && std::isfinite(z[i]),
+        "complementarity: row {} has the diagonal {}, q = {} and z = {}: expected finite numbers, "
+        "the diagonal above 0",
+        i, a(i, i), q[i], z[i]);
   z = z.cwiseMax(0);
   Eigen::VectorXd w = q + a * z;
   const auto relax = [&](Eigen::Index i) {

@@ -3,15 +3,21 @@
 
 #include <algorithm>
 
-#include "hyperex/core/assert.hpp"
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/solve/partition.hpp"
 
 namespace hyperex::fem {
 namespace {
 constexpr Eigen::Index kColumnsTogether = 96;  // columns solved at a time
+
+void check_nodes(const std::vector<int>& nodes, int unknowns) {
+  for (const int node : nodes)
+    require(node >= 0 && node < unknowns / 3, "node {}: expected 0 to {}", node, unknowns / 3 - 1);
 }
+}  // namespace
 
 Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<int>& nodes) {
+  check_nodes(nodes, factor.partition().unknowns());
   const std::vector<int>& free = factor.free();
   std::vector<Eigen::Index> row, place;  // among the free unknowns; in the result
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -55,7 +61,10 @@ NodeOrder order_with_last(const NodeOrder& known, const std::vector<int>& known_
                           const std::vector<int>& prescribed, int unknowns,
                           const std::vector<int>& nodes) {
   const Partition before(unknowns, known_prescribed), now(unknowns, prescribed);
-  HX_ASSERT(known.unknowns.size() == before.free.size());
+  require(known.unknowns.size() == before.free.size(),
+          "the order of elimination has {} unknowns: expected the {} free ones",
+          known.unknowns.size(), before.free.size());
+  check_nodes(nodes, unknowns);
   enum : char { in_place, late, last };
   std::vector<char> when(std::size_t(unknowns), in_place);
   for (const int unknown : before.prescribed) when[std::size_t(unknown)] = late;

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 extern "C" void dpotrf_(const char* part, const int* n, double* a, const int* stride, int* info);
 
@@ -193,7 +194,10 @@ struct Multifrontal::Run {
 };
 
 int Multifrontal::factorize(const Supernodes& pattern, const SparseMatrix& lower, double* value) {
-  HX_ASSERT(static_cast<std::size_t>(lower.nonZeros()) == entries_.from.size());
+  require(
+      static_cast<std::size_t>(lower.nonZeros()) == entries_.from.size(),
+      "the matrix has {} entries in its lower triangle: expected the {} of the pattern analysed",
+      lower.nonZeros(), entries_.from.size());
   const Run run{*this, pattern, lower.valuePtr(), value};
   std::array<int, 2> lost{-1, -1};
   tbb::parallel_invoke([&] { lost[0] = run.eliminate_all(by_half_[0], false); },

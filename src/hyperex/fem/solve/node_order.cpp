@@ -3,8 +3,8 @@
 
 #include <cholmod.h>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/solve/cholmod_view.hpp"
 #include "hyperex/fem/solve/metis_turn.hpp"
 #include "hyperex/fem/solve/partition.hpp"
@@ -28,7 +28,8 @@ struct Common : cholmod_common {
 }  // namespace
 
 NodeOrder order_by_nodes(const SparseMatrix& lower, const std::vector<int>& node_of) {
-  HX_ASSERT(static_cast<Eigen::Index>(node_of.size()) == lower.cols());
+  require(static_cast<Eigen::Index>(node_of.size()) == lower.cols(),
+          "order of elimination: {} nodes of columns for {} columns", node_of.size(), lower.cols());
   NodeOrder out;
   if (node_of.empty()) return out;
   std::vector<int> first, group(node_of.size());  // nodes numbered without gaps
@@ -72,14 +73,18 @@ NodeOrder order_by_nodes(const SparseMatrix& lower, const std::vector<int>& node
 NodeOrder restricted(const NodeOrder& order, int unknowns, const std::vector<int>& prescribed,
                      const std::vector<int>& more) {
   const Partition whole(unknowns, prescribed), part(unknowns, more);
-  HX_ASSERT(order.unknowns.size() == whole.free.size());
+  require(order.unknowns.size() == whole.free.size(),
+          "the order of elimination has {} unknowns: expected the {} free ones",
+          order.unknowns.size(), whole.free.size());
   NodeOrder out;
   out.entries = order.entries;
   out.flops = order.flops;
   out.unknowns.reserve(part.free.size());
   for (const int k : order.unknowns)
     if (const int at = part.free_index[whole.free[k]]; at >= 0) out.unknowns.push_back(at);
-  HX_ASSERT(out.unknowns.size() == part.free.size());
+  require(
+      out.unknowns.size() == part.free.size(),
+      "restricted(): an unknown that was prescribed is free now: expected more of them prescribed");
   return out;
 }
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 
@@ -28,6 +28,8 @@ PartitionedFactor::PartitionedFactor(SparseMatrix&& a, std::vector<int> prescrib
 }
 
 void PartitionedFactor::make(const SparseMatrix& a, SparseMatrix* spare) {
+  require(a.rows() == a.cols(), "{}: the matrix is {} x {}: expected a square one", purpose_,
+          a.rows(), a.cols());
   Stopwatch watch;
   const SparseMatrix lower = free_lower(a, partition_);
   constexpr double entry_bytes = sizeof(double) + sizeof(int);
@@ -41,13 +43,16 @@ void PartitionedFactor::analyse(const SparseMatrix& lower, double spare_bytes) {
   std::vector<int> node_of(free().size());
   for (std::size_t i = 0; i < node_of.size(); ++i) node_of[i] = free()[i] / 3;
   if (!order_) order_ = std::make_shared<const NodeOrder>(order_by_nodes(lower, node_of));
-  HX_ASSERT(order_->unknowns.size() == free().size());
+  require(order_->unknowns.size() == free().size(),
+          "{}: the order of elimination has {} unknowns: expected the {} free ones", purpose_,
+          order_->unknowns.size(), free().size());
   forecast_ = {order_->entries, order_->flops, static_cast<double>(lower.nonZeros())};
   check_factor_fits(forecast_, available_memory_bytes() + spare_bytes, purpose_);
   cholesky_.emplace(lower, purpose_, order_->unknowns);
 }
 
 void PartitionedFactor::refactor(const SparseMatrix& a) {
+  require_same_size(a);
   Stopwatch watch;
   const SparseMatrix lower = free_lower(a, partition_);
   const double extract_s = watch.lap();
@@ -55,7 +60,14 @@ void PartitionedFactor::refactor(const SparseMatrix& a) {
   factor_s_ += extract_s;
 }
 
+void PartitionedFactor::require_same_size(const SparseMatrix& a) const {
+  require(a.cols() == partition_.unknowns() && a.rows() == a.cols(),
+          "{}: the matrix is {} x {}: expected {} unknowns as before", purpose_, a.rows(), a.cols(),
+          partition_.unknowns());
+}
+
 int PartitionedFactor::try_refactor(const SparseMatrix& a) {
+  require_same_size(a);
   Stopwatch watch;
   if (lower_.cols() == 0)
     lower_ = free_lower(a, partition_);

@@ -57,6 +57,7 @@ class PartitionedFactor {
   void make(const SparseMatrix& a, SparseMatrix* spare);
   void analyse(const SparseMatrix& lower, double spare_bytes);
   void factor(const SparseMatrix& lower);
+  void require_same_size(const SparseMatrix& a) const;
   int try_factor(const SparseMatrix& lower);
 
   Partition partition_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/solve/static_solve.hpp"
 
-#include "hyperex/core/assert.hpp"
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 
 namespace hyperex::fem {
@@ -12,6 +12,7 @@ struct StaticSolver::Impl {
 };
 
 StaticSolver::StaticSolver(const SparseMatrix& stiffness, std::vector<int> prescribed) {
+  check_matrix("the stiffness", stiffness);
   PartitionedFactor factor(stiffness, std::move(prescribed), "static solution");
   SparseMatrix oc = coupling(stiffness, factor.partition());
   impl_ = std::make_unique<Impl>(Impl{std::move(factor), std::move(oc)});
@@ -25,7 +26,8 @@ Eigen::VectorXd StaticSolver::solve(const Eigen::VectorXd& prescribed_values,
   const auto& free = impl_->factor.free();
   const auto& prescribed = impl_->factor.prescribed();
   Eigen::VectorXd all(static_cast<Eigen::Index>(free.size() + prescribed.size()));
-  HX_ASSERT(force.size() == 0 || force.size() == all.size());
+  check_values("the prescribed displacement", prescribed_values, prescribed, "m");
+  check_optional("the force", force, all.size(), "N");
   Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
   if (force.size() > 0) x = force(free);
   x.noalias() -= impl_->oc * prescribed_values;

@@ -15,7 +15,8 @@ class StaticSolver {
   StaticSolver(const SparseMatrix& stiffness, std::vector<int> prescribed);
   ~StaticSolver();
   StaticSolver(StaticSolver&&) noexcept;
-  /// All unknowns; `force` may be empty.
+  /// All unknowns; `force` may be empty. Throws InputError naming an entry that is no finite
+  /// number.
   Eigen::VectorXd solve(const Eigen::VectorXd& prescribed_values,
                         const Eigen::VectorXd& force = {}) const;
 

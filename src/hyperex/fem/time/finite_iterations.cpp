@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/time/finite_newton_impl.hpp"
 
 namespace hyperex::fem {
@@ -14,8 +15,11 @@ using Eigen::VectorXd;
 /// BDF2 on unequal steps keeps its stability while a step is less than 2.41 times the one before
 /// (Grigorieff, Numer. Math. 42, 1983).
 constexpr double kMostGrowth = 2.0 + 1e-9;
-/// The residual that counts as none, of the first one.
+/// The residual that counts as none, as a share of what the last correction answered.
 constexpr double kNoResidual = 1e-9;
+/// Where rounding hides what is left, corrections of this share of the motion are small enough
+/// whatever the tolerance.
+constexpr double kRounding = 1e-7;
 /// Share of the rounding in the terms of an energy.
 constexpr double kEnergyNoise = 1e-11;
 /// If a correction is not smaller than the previous one, the matrix is factored again. Corrections
@@ -35,7 +39,7 @@ RateRule rule_for(double h, double last_h) {
 double greatest_motion(const VectorXd& d) {
   double most = 0;
   for (Eigen::Index n = 0; n < d.size(); n += 3)
-    most = std::max(most, d.segment<3>(n).squaredNorm());
+    if (const double square = d.segment<3>(n).squaredNorm(); !(square <= most)) most = square;
   return std::sqrt(most);
 }
 
@@ -52,7 +56,10 @@ bool FiniteNewton::Impl::converge(double h, const VectorXd* guess, const FiniteN
   Iterations now;
   now.energy = potential(x, gradient);
   const auto follow = [&] {
-    if (hooks.before_iteration) hooks.before_iteration(x, time + h, external);
+    if (hooks.before_iteration) {
+      hooks.before_iteration(x, time + h, external);
+      check_vector("the force of before_iteration", external, x.size(), "N");
+    }
     find_residual();
   };
   follow();
@@ -81,7 +88,7 @@ bool FiniteNewton::Impl::converge(double h, const VectorXd* guess, const FiniteN
     follow();
     const double scale = std::max(greatest_motion(x), options.least_motion_m);
     report.error = missing_m(now, k, scale) / scale;
-    if (report.error <= options.tolerance) {
+    if (report.error <= options.tolerance || (now.at_rounding && report.error <= kRounding)) {
       age.count_part(began_afresh,
                      corrections + kFactorInCorrections * (report.factorisations - factorisations));
       return true;
@@ -108,7 +115,7 @@ FiniteNewton::Impl::Move FiniteNewton::Impl::jump(Iterations& now) {
 
 /// A correction by which the potential falls.
 FiniteNewton::Impl::Move FiniteNewton::Impl::descend(Iterations& now, FiniteStepReport& report) {
-  if (!(now.size > 0)) {
+  if (now.size == 0) {
     trial = x;
     trial_gradient = gradient;
     return Move::made;
@@ -122,9 +129,8 @@ FiniteNewton::Impl::Move FiniteNewton::Impl::descend(Iterations& now, FiniteStep
   }
   // At an iterate as good as found there may be no descent that rounding does not hide.
   report.error = now.size / std::max(greatest_motion(x), options.least_motion_m);
-  return residual_is_rounding(now.first_residual) || report.error <= options.tolerance
-             ? Move::converged
-             : Move::failed;
+  const bool rounding = residual_is_rounding(now.first_residual) && report.error <= kRounding;
+  return rounding || report.error <= options.tolerance ? Move::converged : Move::failed;
 }
 
 void FiniteNewton::Impl::accept_trial(bool jumped) {
@@ -139,11 +145,17 @@ void FiniteNewton::Impl::accept_trial(bool jumped) {
 }
 
 /// How far x may still be from the solution (m), estimated from the last two corrections; decides
-/// on a new factor. `scale`: what the tolerance is relative to, m.
+/// on a new factor. `scale`: what the tolerance is relative to, m. The residual alone says nothing:
+/// the first one may be that of a start far off, of which what is left is a small share.
 double FiniteNewton::Impl::missing_m(Iterations& now, int iteration, double scale) {
   double missing = now.size;
-  if (q.norm() <= kNoResidual * now.first_residual) {
-    missing = 0;
+  const double left = q.norm();
+  now.at_rounding = now.fresh && !(now.size < now.last_size) && iteration > 0 &&
+                    left <= kNoResidual * now.first_residual;
+  if (left <= kNoResidual * right_side && now.size <= 2 * scale) {
+    // The matrix answered for all but this share of the force, as where the law is linear. Not so
+    // after a correction from far off, where tissue was stiffer by any factor.
+    missing = right_side > 0 ? 10 * left / right_side * now.size : 0;
   } else if (iteration > 0 && now.share == 1 && now.size < now.last_size) {
     const double rate = now.size / now.last_size;
     missing = rate / (1 - rate) * now.size;

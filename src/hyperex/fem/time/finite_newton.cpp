@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/time/finite_newton_impl.hpp"
 
 namespace hyperex::fem {
@@ -27,7 +27,9 @@ FiniteNewton::Impl::Impl(FiniteStrain& f, std::vector<int> prescribed, const Fin
     : form(f), options(o), potentials(std::move(given_potentials)) {
   springs.swap(given_springs);
   const Eigen::Index n = 3 * form.mesh().node_count();
-  HX_ASSERT(springs.cols() == 0 || (springs.cols() == n && springs.rows() == n));
+  check_matrix("the springs' matrix", springs);
+  require(springs.cols() == 0 || springs.cols() == n,
+          "the springs' matrix is {0} x {0}: expected {1} x {1}", springs.cols(), n);
   matrix = form.mesh().stiffness_pattern();
   place_springs();
   for (VectorXd* v :
@@ -84,9 +86,9 @@ void FiniteNewton::Impl::fail(double h) {
 FiniteStepReport FiniteNewton::Impl::advance(double dt, const VectorXd& prescribed,
                                              const VectorXd& force, const FiniteNewtonHooks& hooks,
                                              const VectorXd* guess) {
-  HX_ASSERT(prescribed.size() == target.size());
-  HX_ASSERT(force.size() == 0 || force.size() == state.d.size());
-  HX_ASSERT(!guess || guess->size() == state.d.size());
+  check_values("the prescribed displacement", prescribed, factor->prescribed(), "m");
+  check_optional("the force", force, state.d.size(), "N");
+  if (guess) check_vector("the guess", *guess, state.d.size(), "m");
   FiniteStepReport report;
   for (std::size_t i = 0; i < factor->prescribed().size(); ++i)
     start_prescribed[i] = state.d[factor->prescribed()[i]];
@@ -129,8 +131,13 @@ FiniteNewton::FiniteNewton(FiniteStrain& form, std::vector<int> prescribed,
                            const FiniteNewtonOptions& options, SparseMatrix springs,
                            std::vector<const NodalPotential*> potentials,
                            std::shared_ptr<const NodeOrder> order) {
-  HX_ASSERT(options.tolerance > 0 && options.least_motion_m > 0 && options.most_iterations > 0);
-  HX_ASSERT(options.most_halvings >= 0 && options.most_halvings < 30);
+  check_positive("FiniteNewtonOptions::tolerance", options.tolerance);
+  check_positive("FiniteNewtonOptions::least_motion_m", options.least_motion_m, " (m)");
+  check_positive("FiniteNewtonOptions::most_iterations", options.most_iterations);
+  require(options.most_halvings >= 0 && options.most_halvings < 30,
+          "FiniteNewtonOptions::most_halvings = {}: expected 0 to 29", options.most_halvings);
+  for (const NodalPotential* p : potentials)
+    require(p != nullptr, "FiniteNewton: a potential is null: expected the address of one");
   impl_ = std::make_unique<Impl>(form, std::move(prescribed), options, std::move(springs),
                                  std::move(potentials), std::move(order));
 }
@@ -139,8 +146,9 @@ FiniteNewton::FiniteNewton(FiniteNewton&&) noexcept = default;
 
 void FiniteNewton::start(const VectorXd& d, const VectorXd& v, const VectorXd& force) {
   Impl& m = *impl_;
-  HX_ASSERT(d.size() == m.state.d.size() && v.size() == d.size());
-  HX_ASSERT(force.size() == 0 || force.size() == d.size());
+  check_vector("the displacement", d, m.state.d.size(), "m");
+  check_vector("the velocity", v, d.size(), "m/s");
+  check_optional("the force", force, d.size(), "N");
   m.state.d = m.d_before = d;
   m.state.v = m.v_before = v;
   m.state.a.setZero();
@@ -160,7 +168,7 @@ void FiniteNewton::start() {
 
 FiniteStepReport FiniteNewton::step(double dt_s, const VectorXd& prescribed, const VectorXd& force,
                                     const FiniteNewtonHooks& hooks, const VectorXd* guess) {
-  HX_ASSERT(dt_s > 0);
+  check_positive("the step dt_s", dt_s, " (s)");
   return impl_->advance(dt_s, prescribed, force, hooks, guess);
 }
 
@@ -196,7 +204,7 @@ const std::shared_ptr<const NodeOrder>& FiniteNewton::order() const {
 
 void FiniteNewton::solve(VectorXd& x) {
   Impl& m = *impl_;
-  HX_ASSERT(x.size() == m.state.d.size());
+  check_vector("the force", x, m.state.d.size(), "N");
   const auto& free = m.factor->free();
   for (std::size_t i = 0; i < free.size(); ++i) m.y[i] = x[free[i]];
   m.factor->solve(m.y);

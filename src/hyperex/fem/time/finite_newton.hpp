@@ -40,7 +40,9 @@ struct FiniteNewtonHooks {
 struct FiniteStepReport {
   int parts = 0;  ///< 1: the step as it was given
   int iterations = 0, factorisations = 0, projections = 0;
-  double error = 0;  ///< estimated, as a share of the greatest displacement
+  /// Estimated, as a share of the greatest displacement. Above the tolerance only where rounding
+  /// hides what is left, at tolerances below 1e-7.
+  double error = 0;
 };
 
 /// Motion of a body at finite strain: M d'' + dPsi/dd(d, d') = f with some unknowns prescribed, by
@@ -58,7 +60,9 @@ class FiniteNewton {
   /// unknowns 3 n + axis. `springs`: constant, symmetric, on the pattern of System::stiffness (of
   /// nodes to the ground: blocks on the diagonal); no columns: none. Their force is -springs d:
   /// where they pull to elsewhere, springs * target belongs to the external force. Throws
-  /// NumericalError where the matrix at rest is not positive definite. `order`: PartitionedFactor.
+  /// NumericalError where the matrix at rest is not positive definite, InputError naming an entry
+  /// where one that was handed in is out of range or no finite number; so do start(), step() and
+  /// equilibrium(). `order`: PartitionedFactor.
   FiniteNewton(FiniteStrain& form, std::vector<int> prescribed, const FiniteNewtonOptions& options,
                SparseMatrix springs = {}, std::vector<const NodalPotential*> potentials = {},
                std::shared_ptr<const NodeOrder> order = nullptr);

@@ -58,7 +58,8 @@ struct FiniteNewton::Impl {
     double energy = 0, first_residual = 0;
     double size = 0, share = 1, last_size = 0;  // of corrections; m
     bool refactor = false, fresh = false;
-    bool jumped = false;  // what is prescribed has reached its target
+    bool jumped = false;       // what is prescribed has reached its target
+    bool at_rounding = false;  // corrections with a fresh factor shrink no more
     int forgiven = 0;
   };
   enum class Move { made, again, converged, failed };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/core/assert.hpp"
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/time/finite_newton_impl.hpp"
 
 namespace hyperex::fem {
@@ -17,7 +17,9 @@ void FiniteNewton::Impl::place_springs() {
       const int *from = matrix.innerIndexPtr() + matrix.outerIndexPtr()[c],
                 *to = matrix.innerIndexPtr() + matrix.outerIndexPtr()[c + 1];
       const int* at = std::lower_bound(from, to, static_cast<int>(it.row()));
-      HX_ASSERT(at != to && *at == it.row());
+      require(at != to && *at == it.row(),
+              "the springs have an entry ({}, {}): expected the pattern of System::stiffness",
+              it.row(), c);
       spring_places.push_back(static_cast<int>(at - matrix.innerIndexPtr()));
     }
 }

@@ -4,13 +4,15 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "hyperex/core/assert.hpp"
+#include "hyperex/fem/material/entry.hpp"
 
 namespace hyperex::fem {
 
 InertiaRows::InertiaRows(const System& system) {
   const SparseMatrix& c = system.damping;
-  HX_ASSERT(c.cols() % 3 == 0 && c.nonZeros() % 9 == 0);
+  require(c.cols() % 3 == 0 && c.nonZeros() % 9 == 0,
+          "System::damping has {} columns and {} entries: expected whole blocks of 3 x 3", c.cols(),
+          c.nonZeros());
   start_.assign(1, 0);
   for (Eigen::Index n = 0; n < c.cols() / 3; ++n)
     start_.push_back(start_.back() + (c.outerIndexPtr()[3 * n + 1] - c.outerIndexPtr()[3 * n]) / 3);
@@ -20,7 +22,9 @@ InertiaRows::InertiaRows(const System& system) {
 
 void InertiaRows::refill(const System& system) {
   const SparseMatrix &c = system.damping, &m = system.mass;
-  HX_ASSERT(c.nonZeros() == m.nonZeros() && c.nonZeros() == 9 * static_cast<int>(pair_.size()));
+  require(c.nonZeros() == m.nonZeros() && c.nonZeros() == 9 * static_cast<int>(pair_.size()),
+          "System: damping has {} entries and mass {}: expected {} each, in blocks of 3 x 3",
+          c.nonZeros(), m.nonZeros(), 9 * pair_.size());
   tbb::parallel_for(std::size_t{0}, start_.size() - 1, [&](std::size_t n) {
     for (int axis = 0; axis < 3; ++axis) {
       // Both are symmetric: column r is row r.
@@ -29,7 +33,11 @@ void InertiaRows::refill(const System& system) {
         pair_[k].node = c.innerIndexPtr()[at] / 3;
         for (int j = 0; j < 3; ++j) {
           pair_[k].damping[3 * axis + j] = c.valuePtr()[at + j];
-          HX_ASSERT(axis == j || m.valuePtr()[at + j] == 0);
+          require(
+              axis == j || m.valuePtr()[at + j] == 0,
+              "System::mass couples the axes of nodes {} and {}: expected the same mass on each "
+              "axis alone",
+              n, pair_[k].node);
         }
         pair_[k].mass = m.valuePtr()[at + axis];
       }

@@ -2,9 +2,10 @@
 #include "hyperex/fem/time/newmark.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
+#include <cmath>
 
-#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 #include "hyperex/fem/time/inertia.hpp"
 
@@ -126,7 +127,11 @@ struct Newmark::Impl {
 
 Newmark::Newmark(System system, std::vector<int> prescribed, const NewmarkOptions& options,
                  std::shared_ptr<const NodeOrder> order) {
-  HX_ASSERT(options.dt_s > 0 && options.gamma >= 0.5 && 2 * options.beta >= options.gamma);
+  check_positive("NewmarkOptions::dt_s", options.dt_s, " (s)");
+  require(options.gamma >= 0.5 && 2 * options.beta >= options.gamma && std::isfinite(options.beta),
+          "NewmarkOptions: beta = {}, gamma = {}: expected 2 beta >= gamma >= 1/2", options.beta,
+          options.gamma);
+  check_system(system);
   impl_ =
       std::make_unique<Impl>(std::move(system), std::move(prescribed), options, std::move(order));
 }
@@ -134,6 +139,7 @@ Newmark::~Newmark() = default;
 Newmark::Newmark(Newmark&&) noexcept = default;
 
 void Newmark::refill(System system) {
+  check_system(system);
   impl_->factor.refactor(combined(system, impl_->by.c_d, impl_->by.m_d));
   impl_->stiffness_oc = coupling(system.stiffness, impl_->factor.partition());
   impl_->inertia.refill(system);
@@ -145,7 +151,11 @@ void Newmark::refill(System system) {
 void Newmark::start(const Eigen::VectorXd& d, const Eigen::VectorXd& v,
                     const Eigen::VectorXd& prescribed_acceleration, const Eigen::VectorXd& force) {
   Kinematics& state = impl_->state;
-  HX_ASSERT(d.size() == state.d.size() && v.size() == d.size());
+  check_vector("the displacement", d, state.d.size(), "m");
+  check_vector("the velocity", v, state.d.size(), "m/s");
+  check_values("the prescribed acceleration", prescribed_acceleration, impl_->factor.prescribed(),
+               "m/s^2");
+  check_optional("the force", force, state.d.size(), "N");
   state.d = d;
   state.v = v;
   state.a(impl_->factor.prescribed()) = prescribed_acceleration;
@@ -153,9 +163,11 @@ void Newmark::start(const Eigen::VectorXd& d, const Eigen::VectorXd& v,
 }
 
 void Newmark::step(const Kinematics& next, const Eigen::VectorXd& force) {
-  HX_ASSERT(next.d.size() == static_cast<Eigen::Index>(impl_->factor.prescribed().size()));
-  HX_ASSERT(next.v.size() == next.d.size() && next.a.size() == next.d.size());
-  HX_ASSERT(force.size() == 0 || force.size() == impl_->state.d.size());
+  const std::vector<int>& prescribed = impl_->factor.prescribed();
+  check_values("the prescribed displacement", next.d, prescribed, "m");
+  check_values("the prescribed velocity", next.v, prescribed, "m/s");
+  check_values("the prescribed acceleration", next.a, prescribed, "m/s^2");
+  check_optional("the force", force, impl_->state.d.size(), "N");
   impl_->advance(next, force);
 }
 
@@ -164,7 +176,7 @@ void Newmark::step(const Eigen::VectorXd& prescribed_next, const Eigen::VectorXd
   const Kinematics& state = impl_->state;
   const auto& prescribed = impl_->factor.prescribed();
   Kinematics& next = impl_->own;
-  HX_ASSERT(prescribed_next.size() == next.d.size());
+  check_values("the prescribed displacement", prescribed_next, prescribed, "m");
   for (std::size_t i = 0; i < prescribed.size(); ++i) {
     const int n = prescribed[i];
     next.d[i] = prescribed_next[i];
@@ -177,7 +189,9 @@ void Newmark::step(const Eigen::VectorXd& prescribed_next, const Eigen::VectorXd
 void Newmark::set_state(const Eigen::VectorXd& d, const Eigen::VectorXd& v,
                         const Eigen::VectorXd& a) {
   Kinematics& state = impl_->state;
-  HX_ASSERT(d.size() == state.d.size() && v.size() == d.size() && a.size() == d.size());
+  check_vector("the displacement", d, state.d.size(), "m");
+  check_vector("the velocity", v, state.d.size(), "m/s");
+  check_vector("the acceleration", a, state.d.size(), "m/s^2");
   state = {d, v, a};
 }
 
