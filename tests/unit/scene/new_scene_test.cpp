@@ -32,7 +32,8 @@ TEST(RecordingKey, IsToldByTheEndingAndTheColumns) {
 
 TEST(NewScene, SaysWhatItIsOfWhateverTheNames) {
   const std::string odd = "my \"face\"\n# [scan] 'x'";
-  const NewScene of{odd + ".ply", odd + ".csv", "motion.arkit", "cm", "guessed\nby its size", odd};
+  const NewScene of{odd + ".ply", odd + ".csv", "motion.arkit", "cm", "guessed\nby its size",
+                    {},           odd};
   const std::string text = new_scene_text(of);
   const nlohmann::json root = parse_toml(text).root;
   EXPECT_EQ(root.at("title"), odd);
@@ -42,8 +43,16 @@ TEST(NewScene, SaysWhatItIsOfWhateverTheNames) {
   EXPECT_THAT(text, HasSubstr("# guessed?by its size\n"));
 }
 
+TEST(NewScene, NamesThePointsOfTheSkull) {
+  const std::string text =
+      new_scene_text({"a.ply", "a.csv", "motion.file", "mm", "stated", {"head_1", "a \"b\""}, "a"});
+  EXPECT_EQ(parse_toml(text).root.at("motion").at("rigid_points"),
+            nlohmann::json({"head_1", "a \"b\""}));
+}
+
 TEST(NewScene, WhatIsCommentedOutIsSoundToo) {
-  std::string text = new_scene_text({"a.ply", "film.mp4", "motion.recording", "mm", "stated", "a"});
+  std::string text =
+      new_scene_text({"a.ply", "film.mp4", "motion.recording", "mm", "stated", {}, "a"});
   EXPECT_THAT(text, HasSubstr("#   hyperex run a.toml --out out/a\n"));
   // Lines of comments that are keys or tables, uncommented.
   std::string used;

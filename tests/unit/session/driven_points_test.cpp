@@ -52,7 +52,8 @@ TEST(DrivenPoints, PartsThatMoveJoin) {
   EXPECT_THAT(brows, Contains("ibug68_26"));
   EXPECT_THAT(brows, Not(Contains("ibug68_36")));
   EXPECT_EQ(points_of(scene, moving(37, 3e-3)).size(), scene.drive.points.size() + 12);
-  EXPECT_EQ(points_of(scene, moving(31, 3e-3)).size(), scene.drive.points.size() + 5);
+  EXPECT_EQ(points_of(scene, moving(31, 2.9e-3)), scene.drive.points) << "carried by the lip";
+  EXPECT_EQ(points_of(scene, moving(31, 3.1e-3)).size(), scene.drive.points.size() + 5);
   EXPECT_THAT(ids(scene, moving(37, 3e-3)), testing::ElementsAre("drive.parts_joined"));
 }
 
