@@ -279,15 +279,13 @@ void add_symmetry(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--end-s", options->end_s,
-                   "For points: leave out the samples after this time (s), as where one recording "
-                   "holds several movements")
+                   "For points: leave out the samples after this time (s)")
       ->check(CLI::PositiveNumber);
   command->add_flag("--keep-head", options->keep_head,
                     "Do not remove the head pose before measuring excursions");
   command
       ->add_option("--rigid-points", options->rigid_points,
-                   "Points that move with the skull, from which the head's pose is found, "
-                   "separated by commas (default: all landmarks of the face)")
+                   "Points that carry the head's pose, with commas (default: all landmarks)")
       ->delimiter(',')
       ->excludes("--keep-head");
   command->add_option("--unit", options->unit, "Unit of the motion (default: guessed)")

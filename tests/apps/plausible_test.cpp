@@ -167,7 +167,7 @@ TEST_F(Plausible, PointsThatMayMoveWithTheSkullAreAskedForByName) {
   EXPECT_EQ(checked.status, 2);
   EXPECT_THAT(checked.err,
               AllOf(HasSubstr("the motion has 0 of them. motion.rigid_points names others"),
-                    HasSubstr("the motion's other points are marker_"), HasSubstr(" more")));
+                    HasSubstr("as points of the skull do: marker_"), HasSubstr(" more")));
 }
 
 TEST_F(Plausible, AFileWithoutPaintFailsInCheckAsInRun) {

@@ -38,15 +38,25 @@ Points rows_of(const Points& all, const std::vector<int>& rows) {
   return some;
 }
 
+/// "a, b, c and 4 more": as many as a sentence has room for that is never cut.
+std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t most_letters = 240;
+  std::size_t shown = 0, letters = 0;
+  while (shown < names.size() && (shown == 0 || letters + names[shown].size() <= most_letters))
+    letters += names[shown++].size() + 2;
+  const std::size_t more = names.size() - shown;
+  names.resize(shown);
+  return fmt::format("{}{}", fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 /// Those that could be named as moving with the skull: those that were found to keep their
 /// distances; else the motion's other points. Of a face's own points the usual ones are known
 /// already, so that others, of a helmet say, come first.
 std::string other_names(const Motion& motion, const std::vector<int>& known) {
   if (const auto still = find_still_points(motion); !still.empty())
-    return fmt::format(
-        "these keep their distances from each other, as points of the skull do: [\"{}\"]",
-        fmt::join(still, "\", \""));
-  constexpr std::size_t most_letters = 240;  // so that the sentence is never cut
+    return "these keep their distances from each other, as points of the skull do: " +
+           listed(still);
   std::vector<std::string> names;
   for (int i = 0; i < int(motion.names.size()); ++i)
     if (std::ranges::find(known, i) == known.end()) names.push_back(motion.names[std::size_t(i)]);
@@ -54,13 +64,7 @@ std::string other_names(const Motion& motion, const std::vector<int>& known) {
   const auto& of_faces = face::canonical_face().landmarks;
   std::ranges::stable_partition(names,
                                 [&](const std::string& name) { return !of_faces.contains(name); });
-  std::size_t shown = 0, letters = 0;
-  while (shown < names.size() && (shown == 0 || letters + names[shown].size() <= most_letters))
-    letters += names[shown++].size() + 2;
-  const std::size_t more = names.size() - shown;
-  names.resize(shown);
-  return fmt::format("the motion's other points are {}{}", fmt::join(names, ", "),
-                     more > 0 ? fmt::format(" and {} more", more) : "");
+  return "the motion's other points are " + listed(std::move(names));
 }
 
 std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::string>& stated) {

@@ -102,10 +102,9 @@ void note_left_out_points(const scene::Scene& scene, const motion::Motion& motio
         .push_back(fmt::format("{} ({:.1f} mm)", part.name, 1e3 * far_m));
   }
   if (!joined.empty())
-    notes.push_back(
-        make_note("drive.parts_joined",
-                  fmt::format("driven besides the mouth, as they move: {}",
-                              fmt::join(joined, ", "))));
+    notes.push_back(make_note(
+        "drive.parts_joined",
+        fmt::format("driven besides the mouth, as they move: {}", fmt::join(joined, ", "))));
   if (!left_out.empty())
     notes.push_back(
         make_note("drive.measured_not_driven",

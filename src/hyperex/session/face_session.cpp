@@ -140,13 +140,10 @@ void FaceSession::Impl::take(scene::Scene next) {
   const bool same_base = simulator && simulator->options() == options;
   if (!simulator) {
     simulator.emplace(face.mesh, inputs.landmarks, inputs.motion, options);
-  } else if (next_base && next_base->options() == options) {
-    simulator = std::move(next_base);
   } else if (!same_base) {
     simulator->set_options(options);
     next_variant.reset();
   }
-  next_base.reset();
   stale = stale || !same_base;
   std::vector<VariantRun> before = std::exchange(runs, std::move(next_runs));
   keep_variants(std::move(before), options_of_runs, same_base);

@@ -45,9 +45,7 @@ struct FaceSession::Impl {
   metrics::SymmetryMeasures symmetry;
   mutable std::optional<metrics::PeakTissue> tissue_at_peak;  // none: not asked for yet
   std::optional<MirroredTwin> twin;                           // of base as it is; none: not run
-  // Of prepare_variant(): base as it is once there is a variant, none where it stays as it is; and
-  // that variant's.
-  std::optional<simulate::Simulator> next_base, next_variant;
+  std::optional<simulate::Simulator> next_variant;  // of prepare_variant()
 
   // Of the variants: their results, and what each rests on.
   std::vector<VariantRun> runs;

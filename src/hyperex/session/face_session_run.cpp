@@ -186,17 +186,7 @@ FaceResult FaceSession::Impl::result(std::size_t number) const {
 void FaceSession::Impl::prepare_variant() {
   // At finite strain the run of base itself completes what a variant keeps.
   if (!runs.empty() || next_variant || scene.model.strain == simulate::Strain::finite) return;
-  scene::Scene next = source.with_variant("next", {{"motion.gain", scene.drive.gain}}).scene();
-  next.drive.by = drive_choice(next).by;
-  Inputs its_inputs = inputs;
-  its_inputs.driven = driven_points(next, inputs.motion.motion);
-  simulate::SimulationOptions options = options_of(next, its_inputs, field);
-  if (!(options == simulator->options())) {
-    next_base = *simulator;
-    next_base->set_options(std::move(options));
-    next_base->still(0);
-  }
-  next_variant = next_base ? *next_base : *simulator;
+  next_variant = *simulator;
   next_variant->hold_load();
   next_variant->still(0);
 }

@@ -80,8 +80,7 @@ std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned, bool 
   const double scale = aligned.scan_from_motion.scale;
   const double most_mm =
       of_a_model || aligned.common.size() < kManyCommon ? kMisfit_mm : kMisfitOfPeople_mm;
-  if (aligned.rms_mm <= most_mm && scale >= kLeastScale && scale <= kMostScale)
-    return std::nullopt;
+  if (aligned.rms_mm <= most_mm && scale >= kLeastScale && scale <= kMostScale) return std::nullopt;
   return make_warning(
       "recording.fits_badly",
       fmt::format(

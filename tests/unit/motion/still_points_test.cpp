@@ -56,7 +56,7 @@ TEST(StillPoints, PointsOfTheMouthAreLeftOut) {
 
 TEST(StillPoints, AMissingPoseProposesThem) {
   testing::expect_refused([] { stabilise(nodding()); },
-                          {"rigid_points", "[\"top\", \"left\", \"right\", \"nose\"]"});
+                          {"rigid_points", "as points of the skull do: top, left, right, nose"});
   EXPECT_FALSE(has_pose_points(nodding()));
 }
 

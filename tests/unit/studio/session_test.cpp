@@ -204,12 +204,11 @@ TEST_F(StudioSession, MusclesMoveASceneThatSaysDisplacementAgainAndAgain) {
 }
 
 TEST_F(StudioSession, WhatAFirstVariantNeedsIsMadeAheadAndChangesNoNumber) {
-  // Points drive base here, muscles both once there is a variant.
   std::ofstream(folder_.path() / "own" / "uploads" / "mouth.toml")
       << "[scan]\nfile = \"embedded\"\n[motion]\nfile = \"embedded\"\n";
   const auto first_shape = [&](bool ahead) {
     EXPECT_FALSE(ask("open", {{"what", "mouth.toml"}}).contains("error"));
-    EXPECT_EQ(event("scene")->head["drive"], "displacement");
+    EXPECT_EQ(event("scene")->head["drive"], "muscles");
     session_->work([] { return false; });  // the motion
     EXPECT_TRUE(session_->has_work()) << "what a variant needs";
     if (ahead) work();
