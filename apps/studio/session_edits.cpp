@@ -76,8 +76,7 @@ std::string Session::text_with_changes(const json& wanted, int face) {
     if (!scene::find_key(key)) throw InputError(key + ": no key of a scene");
     changes[key] = with_uploads(key, value, uploads(), known);
   }
-  if (changes_muscles(changes) &&
-      session::drive_choice(committed).by != simulate::DriveBy::muscles)
+  if (changes_muscles(changes) && session::drive_choice(committed).by != simulate::DriveBy::muscles)
     text = scene::with_value(text, "drive.by", "muscles");
   if (face == 0) {
     for (const auto& [key, value] : changes.items()) text = scene::with_value(text, key, value);

@@ -57,9 +57,8 @@ void hold_still(const fs::path& folder) {
 }
 
 void let_a_marker_jump(const fs::path& folder) {
-  write_opening(folder, 0, 16, [](motion::Motion& m) {
-    m.positions[8](m.index_of("cheilion_L"), 2) += 0.3;
-  });
+  write_opening(folder, 0, 16,
+                [](motion::Motion& m) { m.positions[8](m.index_of("cheilion_L"), 2) += 0.3; });
 }
 
 void start_with_the_mouth_open(const fs::path& folder) {

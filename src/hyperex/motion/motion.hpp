@@ -19,8 +19,8 @@ struct Motion {
   /// in the face's frame); empty where it has not.
   std::vector<Eigen::Isometry3d> head_pose;
   std::vector<int> lines;  ///< of `source`, of each sample, for errors; empty where not known
-  std::string source;     ///< what to name in errors: the file, or empty
-  std::string unit_note;  ///< which length unit was read and why, for the log
+  std::string source;      ///< what to name in errors: the file, or empty
+  std::string unit_note;   ///< which length unit was read and why, for the log
 
   int index_of(const std::string& name) const;  ///< -1 where there is none
   /// All points at time t: linear between samples, the first and last sample held outside.

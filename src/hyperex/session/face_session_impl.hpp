@@ -45,7 +45,7 @@ struct FaceSession::Impl {
   metrics::SymmetryMeasures symmetry;
   mutable std::optional<metrics::PeakTissue> tissue_at_peak;  // none: not asked for yet
   std::optional<MirroredTwin> twin;                           // of base as it is; none: not run
-  std::optional<simulate::Simulator> next_variant;  // of prepare_variant()
+  std::optional<simulate::Simulator> next_variant;            // of prepare_variant()
 
   // Of the variants: their results, and what each rests on.
   std::vector<VariantRun> runs;

@@ -154,11 +154,12 @@ struct DriveOptions {
   static constexpr const char* about = "What moves it.";
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.one_or_all(HX_MEMBER(points), HX_MEMBER(all_points),
-                 "Points of the recording that drive the skin; \"all\": all but motion.rigid_points "
-                 "and stomion, which lies between the lips. Where none are named, brows and lids "
-                 "join the default where one of their points moves by 2 mm, nostrils by 3, and of "
-                 "motion.candide those of the default are driven that the model has.");
+    v.one_or_all(
+        HX_MEMBER(points), HX_MEMBER(all_points),
+        "Points of the recording that drive the skin; \"all\": all but motion.rigid_points "
+        "and stomion, which lies between the lips. Where none are named, brows and lids "
+        "join the default where one of their points moves by 2 mm, nostrils by 3, and of "
+        "motion.candide those of the default are driven that the model has.");
     v.option(HX_MEMBER(by),
              "What the points are: places that the skin is carried to, whatever the tissue; or "
              "what muscles, the jaw and forces at the points are found from (docs/muscles.md), or "
