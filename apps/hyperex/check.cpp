@@ -28,13 +28,15 @@ void add_check(CLI::App& program) {
       ->allow_extra_args(false);
   command->footer("Example: hyperex check examples/demo.toml");
   command->callback([options] {
+    std::string cost;
     const std::vector<Note> found =
-        session::check(scene::read_scene(options->scene, options->overrides));
+        session::check(scene::read_scene(options->scene, options->overrides), &cost);
     const std::vector<std::string> warnings = texts_of(found, Severity::warning);
     for (const auto& note : texts_of(found, Severity::note)) std::cout << printable(note) << '\n';
     for (const auto& warning : warnings) std::cout << "warning: " << printable(warning) << '\n';
+    if (!cost.empty()) std::cout << cost << '\n';
     const auto count = warnings.size();
-    std::cout << options->scene.string() << ": no problems found in what was checked"
+    std::cout << printable(options->scene.string()) << ": no problems found in what was checked"
               << (count == 0   ? ""
                   : count == 1 ? ", but one warning"
                                : ", but " + std::to_string(count) + " warnings")

@@ -15,6 +15,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/metrics/baseline.hpp"
@@ -117,7 +118,7 @@ void write_picture(const CompareOptions& options, const ComparedSurfaces& surfac
                              face ? "over the face" : "over the surface", s.mean_mm, s.p95_mm);
   picture.top_mm = s.p95_mm;
   render::write_png(options.picture, draw(picture));
-  std::cerr << "picture: " << options.picture.string() << '\n';
+  std::cerr << "picture: " << printable(options.picture.string()) << '\n';
 }
 
 void run(const CompareOptions& options) {

@@ -14,6 +14,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/output_file.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
@@ -42,7 +43,8 @@ void run(const LandmarksOptions& options) {
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
   if (scan.unit_guessed)
-    std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
+    std::cerr << fmt::format("{}: unit {}\n", printable(options.scan.string()),
+                             io::unit_note(scan));
   const auto colours = tracking::picture_colours(scan);
   const auto found = tracking::find_scan_landmarks(scan.mesh, colours, options.scan.string());
   if (!options.picture.empty())
@@ -62,9 +64,9 @@ void run(const LandmarksOptions& options) {
       "the face looks along {}, its top is along {}\n"
       "written to {}; {}\n",
       found.landmarks.size(), found.views, 1e3 * found.spread_m, text(scan_from_face.col(2)),
-      text(scan_from_face.col(1)), options.out.string(),
+      text(scan_from_face.col(1)), printable(options.out.string()),
       options.picture.empty() ? "--picture FILE.png draws them"
-                              : "look at " + options.picture.string());
+                              : "look at " + printable(options.picture.string()));
 }
 
 }  // namespace

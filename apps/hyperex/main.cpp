@@ -15,6 +15,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
@@ -146,6 +147,11 @@ int status_of(CLI::App& program, int argc, char** argv) {
     return 2;
   } catch (const std::bad_alloc&) {
     print_error("there is not enough memory for this");
+    return 1;
+  } catch (const std::system_error& error) {
+    const bool thread = error.code() == std::errc::resource_unavailable_try_again;
+    print_error(thread ? "there is not enough memory for this: no thread could be started"
+                       : error.what());
     return 1;
   } catch (const std::exception& error) {
     print_error(error.what());

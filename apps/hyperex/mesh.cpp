@@ -13,6 +13,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/output_file.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/io/vtu.hpp"
 #include "hyperex/scene/scene.hpp"
@@ -65,7 +66,7 @@ void print(const tissue::TissueMesh& mesh, const std::filesystem::path& out) {
                              tissue::dihedral_bounds_deg[b + 1], 100 * q.least_dihedral_shares[b]);
   std::cout << fmt::format(
       "\nscan to the outer surface: mean {:.3f} mm, greatest {:.2f} mm\nwritten to {}\n",
-      mesh.mean_distance_mm, mesh.max_distance_mm, out.string());
+      mesh.mean_distance_mm, mesh.max_distance_mm, printable(out.string()));
 }
 
 void run(const MeshOptions& options) {
@@ -76,7 +77,8 @@ void run(const MeshOptions& options) {
   const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
   const io::Scan scan = io::read_scan(options.scan, unit);
   if (scan.unit_guessed)
-    std::cerr << fmt::format("{}: unit {}\n", options.scan.string(), io::unit_note(scan));
+    std::cerr << fmt::format("{}: unit {}\n", printable(options.scan.string()),
+                             io::unit_note(scan));
   const io::Landmarks given = landmarks_of(scan, file);
   if (const auto unknown = anatomy::unknown_landmarks(given); !unknown.empty())
     std::cerr << anatomy::unknown_landmarks_note(unknown).text << '\n';

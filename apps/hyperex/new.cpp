@@ -30,12 +30,21 @@ std::string seen_from(const fs::path& folder, const std::string& path) {
   return near.starts_with("../../..") ? whole.generic_string() : near;
 }
 
+/// A scene is TOML, which holds UTF-8 alone.
+void refuse_other_encoding(const std::string& name) {
+  if (!is_utf8(name))
+    throw InputError(printable(name) +
+                     ": the name is not in UTF-8, and a scene cannot hold it; expected a file of "
+                     "another name");
+}
+
 void write_scene(const std::string& scan, const std::string& motion, fs::path to) {
   const auto refuse_missing = [](const char* what, const std::string& path) {
     if (path != "embedded" && !fs::exists(path))
       throw InputError(
           fmt::format("{}: there is no such file; expected {}, or embedded", path, what));
   };
+  for (const std::string& name : {scan, motion, to.string()}) refuse_other_encoding(name);
   refuse_missing("a scan", scan);
   refuse_missing("a recording", motion);
   if (fs::is_directory(motion)) capture::open_tum_folder(motion);  // says what is missing in it

@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/run/corner_words.hpp"
 #include "hyperex/run/run_scene.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 struct RunOptions {
   std::filesystem::path scene, out;
   std::vector<std::string> overrides;
-  bool verify = false, no_cache = false;
+  bool verify = false, no_cache = false, no_variants = false;
 };
 
 std::string solver_line(const nlohmann::ordered_json& summary) {
@@ -39,6 +40,7 @@ void run(const RunOptions& options) {
   auto overrides = options.overrides;
   if (options.verify) overrides.push_back("solver.verify=true");
   scene::Scene scene = scene::read_scene(options.scene, overrides);
+  if (options.no_variants) scene.variants.clear();
   if (!options.no_cache) scene.kept = KeptResults(user_cache_folder());
   const auto summary = run::run_scene(scene, options.out);
   std::cout << fmt::format(
@@ -48,7 +50,7 @@ void run(const RunOptions& options) {
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
-      run::variant_lines(summary), options.out.string());
+      run::variant_lines(summary), printable(options.out.string()));
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},
@@ -89,6 +91,8 @@ void add_run(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_flag("--verify", options->verify,
                     "Run the full model too and report the true error of the reduced one");
+  command->add_flag("--no-variants", options->no_variants,
+                    "Run the scene without its variants, which take as long as it does each");
   command->add_flag("--no-cache", options->no_cache,
                     "Compute landmarks, tracked motion and meshes again. Without this option, "
                     "earlier results of the same program on the same files are taken from "

@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "commands.hpp"
 #include "hyperex/core/interrupt.hpp"
@@ -95,12 +97,32 @@ study::Called called(const SweepOptions& options, const study::Study& study) {
   return {fs::read_symlink("/proc/self/exe"), whole(options.study), whole(study.out)};
 }
 
+/// Waits for cases that other processes run. Those that did not finish, as lines for the end.
+std::vector<std::string> wait_for_others(const study::Study& study,
+                                         const std::vector<study::PlannedCase>& planned,
+                                         const std::vector<std::size_t>& cases,
+                                         const StopOnRequest& stop) {
+  std::vector<std::string> unfinished;
+  for (const std::size_t i : cases) {
+    State state = study::state_of(planned[i].files);
+    for (; state == State::running && !stop.requested(); state = study::state_of(planned[i].files))
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const std::string& name = study.cases[i].name;
+    if (state == State::finished)
+      say("finished  " + name + ", by another process");
+    else
+      unfinished.push_back(name + " was begun by another process and did not finish");
+  }
+  return unfinished;
+}
+
 /// Runs them with a line each; what failed, as lines for the end.
 std::vector<std::string> run_all(const study::Study& study,
                                  const std::vector<study::PlannedCase>& planned,
                                  const std::vector<std::size_t>& cases, int jobs,
                                  const StopOnRequest& stop) {
   std::vector<std::string> wrong;
+  std::vector<std::size_t> elsewhere;
   std::size_t done = 0;
   Progress progress("running the cases", long(cases.size()));
   study::RunOptions run;
@@ -119,11 +141,13 @@ std::vector<std::string> run_all(const study::Study& study,
           fmt::format("{} failed: {} ({})", name, outcome.message, planned[i].files.log.string()));
       say("failed    " + name + ": " + outcome.message);
     } else if (outcome.state == State::running) {
-      wrong.push_back(name + " is being run by another process");
+      elsewhere.push_back(i);
       say("running   " + name + ", by another process");
     }
   };
   study::run_cases(study, planned, cases, run);
+  const std::vector<std::string> unfinished = wait_for_others(study, planned, elsewhere, stop);
+  wrong.insert(wrong.end(), unfinished.begin(), unfinished.end());
   return wrong;
 }
 
@@ -145,7 +169,7 @@ void print_end(const study::Study& study, const std::vector<State>& states, std:
       "\nwritten to {}:\n  {:<12} one row per case: changed keys, measures\n"
       "  {:<12} one folder per case, as hyperex run writes it\n"
       "  {:<12} the command and the messages of each case\n",
-      study.out.string(), "study.csv", "cases/", "logs/");
+      printable(study.out.string()), "study.csv", "cases/", "logs/");
 }
 
 /// Driven points follow the recording in every case, whatever its tissue: a flat line that may be

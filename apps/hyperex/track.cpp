@@ -17,6 +17,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/memory.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/report/tracking_page.hpp"
 #include "hyperex/tracking/fit/score.hpp"
 #include "track_live.hpp"
@@ -214,7 +215,8 @@ void run(const TrackOptions& options) {
     report::write_tracking_page(
         options.plots, {model, tracking, options.device.empty() ? recording : options.device,
                         options.eye_distance_mm, source->notes()});
-    if (!options.json) std::cout << fmt::format("written: {} (plots)\n", options.plots.string());
+    if (!options.json)
+      std::cout << fmt::format("written: {} (plots)\n", printable(options.plots.string()));
   }
   if (truth) print_score(tracking::score(model, tracking.frames, *truth), options.json);
 }

@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "hyperex/core/printable.hpp"
 #include "hyperex/io/trc.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/report/tracked_glb.hpp"
@@ -97,9 +98,9 @@ void write_outputs(const TrackOutputs& outputs, const expression::FaceModel& mod
   if (!outputs.motion.empty())
     std::cout << fmt::format(
         "written: {} (points, mm), and beside it .pose.csv, .units.csv and .arkit.csv\n",
-        outputs.motion.string());
+        printable(outputs.motion.string()));
   for (const auto& file : {outputs.trc, outputs.preview, outputs.glb, outputs.live_link})
-    if (!file.empty()) std::cout << fmt::format("written: {}\n", file.string());
+    if (!file.empty()) std::cout << fmt::format("written: {}\n", printable(file.string()));
 }
 
 }  // namespace hyperex::cli

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "hyperex/capture/tum_folder.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/zip.hpp"
@@ -149,29 +150,40 @@ fs::path unpacked_recording(const fs::path& zip, const fs::path& uploads) {
   const fs::path all = uploads / (".unpacked-" + zip.filename().string());
   io::UnzipLimits limits;
   limits.most_bytes = kMost - std::min(kMost, used);
-  io::unzip(zip, all, limits);
   const auto remove_all = [](const fs::path& path) {
     std::error_code ignored;
     fs::remove_all(path, ignored);
   };
+  // Whatever comes of it: what was taken out goes into a folder of its own, or is of no use.
+  struct Removed {
+    const std::function<void(const fs::path&)> remove;
+    const fs::path &all, &zip;
+    ~Removed() {
+      remove(all);
+      remove(zip);
+    }
+  } const removed{remove_all, all, zip};
+  io::unzip(zip, all, limits);
   std::vector<fs::path> found;
   if (fs::exists(all / "rgb.txt")) found.push_back(all);
   for (fs::recursive_directory_iterator it(all), end; it != end && found.empty(); ++it) {
     if (it.depth() >= kDeepest) it.disable_recursion_pending();
     if (it->is_directory() && fs::exists(it->path() / "rgb.txt")) found.push_back(it->path());
   }
-  if (found.empty()) {
-    remove_all(all);
+  if (found.empty())
     throw InputError(zip.filename(),
                      "holds no recording: expected a folder with rgb.txt and its pictures");
-  }
   const std::string own = found[0].filename().string();
   const std::string name = found[0] != all && is_upload_name(own) ? own : zip.stem().string();
   fs::path folder = uploads / name;
   for (int i = 2; fs::exists(folder); ++i) folder = uploads / fmt::format("{}-{}", name, i);
   fs::rename(found[0], folder);
-  remove_all(all);
-  remove_all(zip);
+  try {
+    capture::open_tum_folder(folder);  // says what is missing in it
+  } catch (...) {
+    remove_all(folder);
+    throw;
+  }
   return folder;
 }
 

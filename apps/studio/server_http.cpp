@@ -5,7 +5,9 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <cerrno>
 #include <chrono>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -32,6 +34,28 @@ constexpr std::string_view kUploadPath = "/upload/";
 
 std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
+}
+
+/// Bytes of the files that were uploaded and are still there.
+std::uintmax_t bytes_of_uploads(const std::filesystem::path& folder) {
+  std::uintmax_t all = 0;
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    std::error_code gone;
+    const bool whole = at->path().filename().string().front() != '.';
+    if (whole && at->is_regular_file(gone))
+      if (const auto bytes = at->file_size(gone); !gone) all += bytes;
+  }
+  return all;
+}
+
+/// The disk has taken no more of a file; otherwise it is the connection that failed.
+bool is_of_disk(const beast::error_code& error) {
+  const bool of_system = error.category() == boost::system::generic_category() ||
+                         error.category() == boost::system::system_category();
+  return of_system && (error.value() == ENOSPC || error.value() == EDQUOT ||
+                       error.value() == EFBIG || error.value() == EIO);
 }
 
 /// One HTTP request and its answer. An upgrade hands the connection over to the WebSocket.
@@ -92,12 +116,13 @@ class Connection : public std::enable_shared_from_this<Connection>, public Peer 
       return answer(http::status::bad_request, "expected a plain file name\n");
     const auto length = head_->content_length();
     if (!length || *length > server_.options.longest_upload ||
-        server_.uploaded + *length > 2 * server_.options.longest_upload)
+        bytes_of_uploads(server_.options.uploads) + server_.uploading + *length >
+            2 * server_.options.longest_upload)
       return answer(http::status::payload_too_large,
                     fmt::format("expected at most {} MB a file, {} MB in all\n",
                                 server_.options.longest_upload >> 20U,
                                 server_.options.longest_upload >> 19U));
-    server_.uploaded += *length;
+    server_.uploading += *length;
     charged_ = *length;
     name_ = unused_name(server_.options.uploads, *name);
     upload_.emplace(std::move(*head_));
@@ -107,17 +132,21 @@ class Connection : public std::enable_shared_from_this<Connection>, public Peer 
     const std::string part =
         (server_.options.uploads / fmt::format(".part-{}-{}", ++server_.parts, name_)).string();
     upload_->get().body().open(part.c_str(), beast::file_mode::write, error);
-    if (error) server_.uploaded -= charged_;
+    if (error) server_.uploading -= charged_;
     if (error) return answer(http::status::insufficient_storage, "the file cannot be written\n");
     stream_.expires_after(kUploadWithin);
     http::async_read(
         stream_, buffer_, *upload_,
         [self = shared_from_this(), part](beast::error_code failed, std::size_t) {
           self->upload_->get().body().close();
+          self->server_.uploading -= self->charged_;
           std::error_code ignored;
           if (failed) {
             std::filesystem::remove(part, ignored);
-            self->server_.uploaded -= self->charged_;
+            if (is_of_disk(failed))
+              self->answer(
+                  http::status::insufficient_storage,
+                  fmt::format("{}: cannot be written ({})\n", self->name_, failed.message()));
             return;
           }
           self->name_ = unused_name(self->server_.options.uploads, self->name_);

@@ -45,7 +45,7 @@ struct Server::Impl {
   std::shared_ptr<PageSocket> client;  ///< null: no page has shown the token
   int connections = 0;
   std::list<std::weak_ptr<Peer>> peers;  ///< oldest first
-  std::size_t uploaded = 0;              ///< bytes in all
+  std::size_t uploading = 0;             ///< bytes that uploads on their way will take
   int parts = 0;                         ///< uploads begun
   boost::asio::steady_timer retry{io};
 

@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/memory.hpp"
 #include "hyperex/scene/toml_values.hpp"
 
 namespace hyperex::studio {
@@ -67,6 +70,10 @@ void Session::answer(const Request& request) {
     report_progress("");
     out = {{"error", without_folder(error.what(), options_.folder)}};
   }
+  // Faces that went with it may have been most of what the session holds.
+  constexpr std::string_view kShrink[] = {"open", "undo", "redo", "remove_variant"};
+  if (std::find(std::begin(kShrink), std::end(kShrink), request.name) != std::end(kShrink))
+    give_back_freed_memory();
   out["answer"] = request.id;
   send_(out.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
   if (request.name != "hello") return;

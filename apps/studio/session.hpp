@@ -32,6 +32,7 @@ struct SessionOptions {
   bool mirrored = false;            ///< the camera's pictures are mirrored
   bool bands = true;                ///< error bands are computed while the session is idle
   KeptResults kept;
+  std::function<bool()> ending = {};  ///< the studio ends: a run that is being saved is given up
 };
 
 /// One user's work: the scene's text, its history and the open face. Answers requests in their

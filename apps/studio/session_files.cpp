@@ -25,6 +25,8 @@ void Session::check_save_name(const std::string& name) {
 }
 
 bool Session::is_foreign(const fs::path& path) const {
+  // The studio writes no links: somebody has put one in the place of what it wrote.
+  if (fs::is_symlink(fs::symlink_status(path))) return true;
   return fs::exists(fs::symlink_status(path)) &&
          std::find(written_.begin(), written_.end(), path) == written_.end();
 }
@@ -99,7 +101,7 @@ fs::path Session::save_run(const fs::path& folder) {
   scene::Scene scene = scene::read_scene_text(now_.text, now_.file);
   scene.kept = options_.kept;
   report_progress("running and writing");
-  run::run_scene(scene, folder);
+  run::run_scene(scene, folder, options_.ending);
   report_progress("");
   return folder;
 }
@@ -110,7 +112,7 @@ fs::path Session::save_report(const fs::path& file) {
   scene.output.vtu = scene.output.glb = false;
   report_progress("running for the report");
   const fs::path folder = options_.folder / "report";
-  run::run_scene(scene, folder);
+  run::run_scene(scene, folder, options_.ending);
   write_file_atomically(file, [&](std::ostream& out) { out << read_file(folder / "report.html"); });
   report_progress("");
   return file;

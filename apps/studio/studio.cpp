@@ -99,7 +99,8 @@ void receive(const std::string& text, RequestQueue& queue, Session& session, Ser
   }
 }
 
-SessionOptions session_options(const StudioOptions& options, const SessionFolder& folder) {
+SessionOptions session_options(const StudioOptions& options, const SessionFolder& folder,
+                               const RequestQueue& queue) {
   return {.started = options.started.empty() ? fs::path() : fs::absolute(options.started),
           .save_into = fs::absolute(options.save_into).lexically_normal(),
           .folder = folder.path(),
@@ -107,7 +108,8 @@ SessionOptions session_options(const StudioOptions& options, const SessionFolder
           .program = "Hyperex " + options.version,
           .device = options.device,
           .mirrored = options.mirrored,
-          .kept = options.kept};
+          .kept = options.kept,
+          .ending = [&queue] { return queue.closed(); }};
 }
 
 /// Keeps the session's folder where it holds unsaved work, and the rescued one likewise.
@@ -144,7 +146,7 @@ void run_studio(const StudioOptions& options) {
   events.uploaded = [](const std::string& name) { spdlog::info("uploaded: {}", name); };
   server = std::make_unique<Server>(std::move(how), std::move(events));
   session =
-      std::make_unique<Session>(session_options(options, folder),
+      std::make_unique<Session>(session_options(options, folder, queue),
                                 [&](std::string message, bool binary, const std::string& replaces) {
                                   server->send(std::move(message), binary, replaces);
                                 });

@@ -35,6 +35,24 @@ TEST_F(NewCommand, NamesFilesAsSeenFromTheScenesFolder) {
   EXPECT_EQ(call("check scenes/me.toml").status, 0);
 }
 
+TEST_F(NewCommand, RefusesANameThatASceneCannotHoldInOneLine) {
+  std::filesystem::copy_file(in("face.ply"), in("caf\xe9.ply"));
+  const Outcome made = call("new 'caf\xe9.ply' motion.csv --out a.toml");
+  EXPECT_EQ(made.status, 2);
+  EXPECT_THAT(made.err, HasSubstr("caf\\xe9.ply: the name is not in UTF-8"));
+  EXPECT_EQ(std::count(made.err.begin(), made.err.end(), '\n'), 1) << made.err;
+  EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
+}
+
+TEST_F(NewCommand, PrintsNoControlCharacters) {
+  std::filesystem::rename(in("face.ply"), in("a\x1b[31m.ply"));
+  const Outcome made = call("new 'a\x1b[31m.ply' motion.csv");
+  EXPECT_EQ(made.status, 0) << made.err;
+  const Outcome checked = call("check 'a\x1b[31m.toml'");
+  EXPECT_EQ((made.out + made.err + checked.out + checked.err).find('\x1b'), std::string::npos)
+      << checked.out;
+}
+
 TEST_F(NewCommand, OverwritesNothingAndRefusesWhatIsNotThere) {
   put(in("face.toml"), "mine");
   const Outcome again = call("new face.ply motion.csv");

@@ -94,5 +94,40 @@ TEST_F(RunOutputs, FramesOpenAfterTheFolderWasMoved) {
   }
 }
 
+/// What a run will take is said before, and too much is not begun.
+TEST_F(RunOutputs, AreStatedBeforeAndBounded) {
+  put(in("x.toml"),
+      "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\" }\n"
+      "mesh = { element_size_mm = 9 }\noutput = { report = false, glb = false }\n"
+      "[[variant]]\nname = \"stiff\"\ntissue.young_kpa = 300\n");
+  const Outcome checked = call("check x.toml");
+  ASSERT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, testing::ContainsRegex("a run: 81 frames, about [0-9]+ MB on disk"));
+  EXPECT_THAT(checked.out, testing::HasSubstr("without its variant, "));
+  for (const char* command : {"check x.toml", "run x.toml --out o"}) {
+    const Outcome refused =
+        call(std::string(command) + " --set output.most_gb=0.1 --set time.frame_rate_hz=1000");
+    EXPECT_EQ(refused.status, 2) << command;
+    EXPECT_THAT(refused.err, testing::HasSubstr("output.most_gb = 0.1: expected "));
+    EXPECT_FALSE(fs::exists(in("o")));
+  }
+  const Outcome run = call("run x.toml --out o --no-variants --set time.start_s=1");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_FALSE(fs::exists(in("o/variants")));
+  const auto summary = nlohmann::json::parse(read_file(in("o/summary.json")));
+  EXPECT_EQ(summary["frames"], 66) << "2.7 s less 1 s, and half a second from rest into it";
+  // The estimate is right by half.
+  std::uintmax_t bytes = 0;
+  for (const fs::path& file : files_in(in("o"))) bytes += fs::file_size(file);
+  put(in("y.toml"),
+      "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\" }\ntime.start_s = 1\n"
+      "mesh = { element_size_mm = 9 }\noutput = { report = false, glb = false }\n");
+  const Outcome again = call("check y.toml");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(again.out, found, std::regex("about ([0-9]+) MB on disk")))
+      << again.out << again.err;
+  EXPECT_NEAR(std::stod(found[1]) * 1e6 / double(bytes), 1, 0.5);
+}
+
 }  // namespace
 }  // namespace hyperex

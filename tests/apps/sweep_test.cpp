@@ -125,6 +125,17 @@ TEST_F(Sweep, OneThatFailsIsToldAndTheOthersRun) {
   EXPECT_THAT(column("state"), ElementsAre("finished", "finished"));
 }
 
+TEST_F(Sweep, TwoAtOnceIntoOneFolderBothEndWell) {
+  write_study("[grid]\ntissue.viscosity_pa_s = [0, 5000]\n");
+  EXPECT_EQ(shell("{ $HYPEREX sweep study.toml --jobs 1 > ../one.txt 2>&1 & } ; "
+                  "$HYPEREX sweep study.toml --jobs 1 > ../two.txt 2>&1; two=$?; wait $!; "
+                  "echo $? $two > ../both.txt"),
+            0);
+  EXPECT_EQ(read_file(in("../both.txt")), "0 0\n")
+      << read_file(in("../one.txt")) << read_file(in("../two.txt"));
+  EXPECT_THAT(column("state"), ElementsAre("finished", "finished"));
+}
+
 TEST_F(Sweep, SingleCasesAndTheirTable) {
   write_study("[grid]\ntissue.viscosity_pa_s = [0, 5000]\n");
   const Outcome one = call("sweep study.toml --case 2");

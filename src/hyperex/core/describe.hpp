@@ -50,6 +50,7 @@ inline constexpr Unit kMillimetres{"mm", "_mm", "m", "_m", 1, 1000};
 inline constexpr Unit kSeconds{"s", "_s", "s", "_s"};
 inline constexpr Unit kHertz{"Hz", "_hz", "Hz", "_hz"};
 inline constexpr Unit kMegabytes{"MB", "_mb", "MB", "_mb"};
+inline constexpr Unit kGigabytes{"GB", "_gb", "GB", "_gb"};
 inline constexpr Unit kKilopascals{"kPa", "_kpa", "Pa", "_pa", 1000, 1};
 inline constexpr Unit kKilopascalsPerMillimetre{"kPa/mm",    "_kpa_per_mm", "Pa/m",
                                                 "_pa_per_m", 1000000,       1};

@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -29,6 +31,8 @@ std::vector<fs::path>& list() {
 
 int wake[2] = {-1, -1};  // a pipe: a handler may write to it, and hardly anything else
 std::atomic<bool> interrupted{false};
+
+constexpr std::size_t kReserve = 1 << 20;
 
 enum class Request { not_awaited, awaited, made };
 std::atomic<Request> request{Request::not_awaited};
@@ -64,11 +68,15 @@ void remove_at_exit() {
 }
 
 void wait_for_signal() {
+  // Where memory has run out, removing what is half written still takes some: this.
+  auto reserve = std::make_unique<std::array<char, kReserve>>();
+  reserve->fill(1);  // by pages that this thread has
   unsigned char signal = 0;
   ssize_t got = 0;
   do got = ::read(wake[0], &signal, 1);
   while (got < 0 && errno == EINTR);
   if (got != 1) return;
+  reserve.reset();
   const auto lock = hold_off_interruption();
   const bool unfinished = !list().empty();
   remove_all_on_list();

@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <stdexcept>
 #include <vector>
 
@@ -28,6 +32,12 @@ void require_memory() {
 }
 
 }  // namespace
+
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
 
 void take_library_memory() {
   require_memory();

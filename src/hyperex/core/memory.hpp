@@ -9,4 +9,8 @@ namespace hyperex {
 /// coarse face: libraries that find no memory while they work wait for ever or end the program.
 void take_library_memory();
 
+/// Gives back to the system what was freed: after large results have gone that will not be computed
+/// again at once. Some milliseconds a GiB; does nothing where the C library has no such call.
+void give_back_freed_memory();
+
 }  // namespace hyperex

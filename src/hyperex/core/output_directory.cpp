@@ -197,6 +197,10 @@ std::string OutputDirectory::with_own_name(std::string text) const {
 
 void OutputDirectory::commit() {
   const auto together = hold_off_interruption();
+  if (!in_use_.front().is_at(path()))
+    throw InputError(target_,
+                     "cannot be written: somebody has put something else in the place of "
+                     "the folder that was being filled");
   std::error_code error;
   if (!fs::exists(target_, error)) {
     fs::rename(path(), target_, error);

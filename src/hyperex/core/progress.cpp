@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <system_error>
 
 namespace hyperex {
 namespace {
@@ -27,7 +28,10 @@ Progress::Progress(std::string label, long total)
   if (silenced) return;
   // On a terminal the label stands at once: some work is one long call that cannot report.
   if (::isatty(2)) draw(false);
-  redrawer_ = std::thread([this] { redraw_periodically(); });
+  try {
+    redrawer_ = std::thread([this] { redraw_periodically(); });
+  } catch (const std::system_error&) {  // little memory: drawn where the work reports
+  }
 }
 
 Progress::~Progress() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -10,5 +11,9 @@ namespace hyperex {
 /// the others: a cancelled parallel loop returns as if it were done, and the code after it would
 /// use results that were never computed.
 void run_together(const std::vector<std::function<void()>>& all);
+
+/// The same for body(0) to body(count - 1), as a parallel loop: those that have begun when another
+/// throws are run to their end, those that have not are left out.
+void run_each(std::size_t count, const std::function<void(std::size_t)>& body);
 
 }  // namespace hyperex

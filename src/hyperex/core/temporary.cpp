@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -108,6 +109,14 @@ InUse::InUse(InUse&& other) noexcept
 
 InUse::~InUse() {
   if (file_ >= 0) ::close(file_);
+}
+
+bool InUse::is_at(const fs::path& path) const {
+  struct stat marked {
+  }, there{};
+  if (file_ < 0 || ::fstat(file_, &marked) != 0) return true;  // nothing is known of it
+  return ::lstat(path.c_str(), &there) == 0 && there.st_dev == marked.st_dev &&
+         there.st_ino == marked.st_ino;
 }
 
 void remove_leftovers(const fs::path& target, const fs::path& folder) {

@@ -32,6 +32,8 @@ class InUse {
   bool held() const { return held_; }
   /// Another process uses it.
   bool taken() const { return taken_; }
+  /// Whether `path` still leads to what was marked, and not to something put in its place.
+  bool is_at(const std::filesystem::path& path) const;
 
  private:
   int file_ = -1;

@@ -143,6 +143,7 @@ SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) 
   impl_->slack = 1e-6 * std::max((high - low).norm(), 1e-12);
   const RTCDevice device = embree_device();
   impl_->scene = rtcNewScene(device);
+  if (!impl_->scene) throw std::bad_alloc();
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   // Meshes of few triangles usually get few queries: a tree made fast serves better than a fast
   // one.
@@ -157,8 +158,6 @@ SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) 
   rtcAttachGeometry(impl_->scene, geometry);
   rtcReleaseGeometry(geometry);
   commit_whole(impl_->scene);
-  if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
-    throw std::runtime_error("closest point: Embree cannot build its tree");
 }
 SurfaceTree::~SurfaceTree() = default;
 SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
+#include <new>
 #include <stdexcept>
 
 #include "hyperex/geometry/types.hpp"
@@ -17,6 +18,32 @@ inline RTCDevice embree_device() {
   return device;
 }
 
+/// Throws what Embree has reported in this thread: it goes on without memory, and a tree that was
+/// not built crashes the queries.
+inline void throw_embree_error() {
+  const RTCError error = rtcGetDeviceError(embree_device());
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build its tree");
+}
+
+/// A scene that is released with this, also where filling it fails.
+class EmbreeScene {
+ public:
+  EmbreeScene() : scene_(rtcNewScene(embree_device())) {
+    if (!scene_) throw_embree_error();
+    if (!scene_) throw std::bad_alloc();
+  }
+  ~EmbreeScene() {
+    if (scene_) rtcReleaseScene(scene_);
+  }
+  EmbreeScene(EmbreeScene&& other) noexcept : scene_(other.scene_) { other.scene_ = nullptr; }
+  EmbreeScene& operator=(EmbreeScene&&) = delete;
+  operator RTCScene() const { return scene_; }
+
+ private:
+  RTCScene scene_;
+};
+
 /// Adds a mesh to a scene, for rays; hits name it by `id`.
 inline void add_triangles(RTCScene scene, const Points& points, const Triangles& triangles,
                           unsigned id) {
@@ -27,6 +54,11 @@ inline void add_triangles(RTCScene scene, const Points& points, const Triangles&
   auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
                                                            RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
                                                            std::size_t(triangles.rows())));
+  if (!v || !t) {
+    rtcReleaseGeometry(geometry);
+    throw_embree_error();
+    throw std::bad_alloc();
+  }
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     for (int k = 0; k < 3; ++k) v[3 * i + k] = float(points(i, k));
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
@@ -38,11 +70,16 @@ inline void add_triangles(RTCScene scene, const Points& points, const Triangles&
 
 /// Builds a scene's tree. Embree shares this work through TBB, and in a group of tasks that an
 /// exception has cancelled would leave the tree half built, for queries to crash in: it is given a
-/// group of its own.
+/// group of its own. Throws std::bad_alloc where memory runs out.
 inline void commit_whole(RTCScene scene) {
   tbb::task_group_context alone(tbb::task_group_context::isolated);
   tbb::parallel_for(
-      0, 1, [scene](int) { rtcCommitScene(scene); }, alone);
+      0, 1,
+      [scene](int) {
+        rtcCommitScene(scene);
+        throw_embree_error();  // of the thread that has built it
+      },
+      alone);
 }
 
 }  // namespace hyperex

@@ -12,14 +12,11 @@ constexpr float kFrom_m = 2e-4f;  // of its beginning: nearer hits are the verte
 
 class RayTree {
  public:
-  explicit RayTree(const TriMesh& mesh) : scene_(rtcNewScene(embree_device())) {
+  explicit RayTree(const TriMesh& mesh) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     add_triangles(scene_, mesh.points, mesh.triangles, 0);
     commit_whole(scene_);
   }
-  ~RayTree() { rtcReleaseScene(scene_); }
-  RayTree(const RayTree&) = delete;
-  RayTree& operator=(const RayTree&) = delete;
 
   bool blocked(const Vec3& from, const Vec3& towards, double reach_m) const {
     RTCRay ray{};
@@ -35,7 +32,7 @@ class RayTree {
   }
 
  private:
-  RTCScene scene_;
+  EmbreeScene scene_;
 };
 
 }  // namespace

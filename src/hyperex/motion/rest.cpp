@@ -100,13 +100,29 @@ Common common_of(const Motion& motion, const io::Landmarks& at_rest) {
   return common;
 }
 
+/// The samples from `start_s` after the first one on.
+Motion from_time(const Motion& motion, double start_s) {
+  const auto& t = motion.time_s;
+  const auto first = std::lower_bound(t.begin(), t.end(), t.front() + start_s - 1e-9) - t.begin();
+  if (std::size_t(first) + 2 > t.size())
+    refuse(motion, fmt::format("the recording lasts {:.3f} s: it holds nothing from {:g} s on, "
+                               "where the run is to begin (time.start_s)",
+                               t.back() - t.front(), start_s));
+  Motion rest_of = motion;
+  rest_of.time_s.erase(rest_of.time_s.begin(), rest_of.time_s.begin() + first);
+  rest_of.positions.erase(rest_of.positions.begin(), rest_of.positions.begin() + first);
+  if (!rest_of.head_pose.empty())
+    rest_of.head_pose.erase(rest_of.head_pose.begin(), rest_of.head_pose.begin() + first);
+  return rest_of;
+}
+
 Points laid_on(const Points& shape, const Points& onto) {
   return fit_similarity(shape, onto).apply(shape);
 }
 
 }  // namespace
 
-RestedMotion with_rest(const Motion& motion, const RestStretch& stretch) {
+RestedMotion with_rest(const Motion& motion, const RestStretch& stretch, double start_s) {
   const double length_s = motion.time_s.back() - motion.time_s.front();
   if (stretch.from_s > length_s || stretch.to_s > length_s + 1e-9)
     refuse(motion, fmt::format("the recording lasts {:.3f} s: the rest stretch from {:g} s to {:g} "
@@ -119,9 +135,9 @@ RestedMotion with_rest(const Motion& motion, const RestStretch& stretch) {
       refuse(motion, fmt::format("point {} is not measured between {:g} s and {:g} s, where the "
                                  "face is said to be at rest",
                                  motion.names[std::size_t(p)], stretch.from_s, stretch.to_s));
-  RestedMotion rested{motion, 0};
-  const double farthest = (motion.positions.front() - rest).rowwise().norm().maxCoeff();
-  if (motion.time_s.size() < 2 || farthest <= kAtRest_m) {
+  RestedMotion rested{start_s > 0 ? from_time(motion, start_s) : motion, 0};
+  const double farthest = (rested.motion.positions.front() - rest).rowwise().norm().maxCoeff();
+  if (rested.motion.time_s.size() < 2 || farthest <= kAtRest_m) {
     rested.motion.positions.front() = rest;
     return rested;
   }

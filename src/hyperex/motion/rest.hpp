@@ -26,8 +26,10 @@ struct RestedMotion {
   double lead_s = 0;  ///< by how much it now starts earlier; 0 where nothing was put before it
 };
 inline constexpr double rest_lead_s = 0.5;
-/// Throws InputError where the stretch lies outside the motion or a point is never measured in it.
-RestedMotion with_rest(const Motion& motion, const RestStretch& stretch);
+/// `start_s`: samples before that time, from the first one, are left out. Throws InputError where
+/// the stretch lies outside the motion, a point is never measured in it, or fewer than two samples
+/// are left.
+RestedMotion with_rest(const Motion& motion, const RestStretch& stretch, double start_s = 0);
 
 /// A stretch of the motion that is nearer to the face at rest than its first sample.
 struct StartedInExpression {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "hyperex/geometry/embree_device.hpp"
-
 namespace hyperex::render {
 namespace {
 
@@ -24,7 +22,6 @@ RTCRay downward_ray(float x, float y, float z_from, float z_to) {
 }  // namespace
 
 RayScene::RayScene(const std::vector<Surface>& surfaces, const Camera& camera) {
-  scene_ = rtcNewScene(embree_device());
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   const Eigen::Matrix3d camera_from_world = camera.axes();
   for (const Surface& surface : surfaces) {
@@ -40,10 +37,6 @@ RayScene::RayScene(const std::vector<Surface>& surfaces, const Camera& camera) {
   }
   commit_whole(scene_);
   above_ *= 1.01f;
-}
-
-RayScene::~RayScene() {
-  rtcReleaseScene(scene_);
 }
 
 std::optional<Hit> RayScene::look_at(float x, float y) const {

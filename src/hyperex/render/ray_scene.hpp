@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Inside the room: Embree's scene of some surfaces as one camera sees it.
-#include <embree3/rtcore.h>
-
 #include <optional>
 #include <vector>
 
+#include "hyperex/geometry/embree_device.hpp"
 #include "hyperex/render/camera.hpp"
 #include "hyperex/render/render.hpp"
 
@@ -23,7 +22,6 @@ struct Hit {
 class RayScene {
  public:
   RayScene(const std::vector<Surface>& surfaces, const Camera& camera);
-  ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
@@ -32,7 +30,7 @@ class RayScene {
   bool hides(const Eigen::Vector3f& point, float bias) const;
 
  private:
-  RTCScene scene_ = nullptr;
+  EmbreeScene scene_;
   float above_ = 1;  // z above everything
 };
 

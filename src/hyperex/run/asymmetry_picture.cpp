@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/run/asymmetry_picture.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
@@ -49,7 +48,7 @@ render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm
                          std::pair{render::front_view(), "front"},
                          std::pair{render::three_quarter_view(), "left side"}};
   sheet.pictures.resize(views.size());
-  tbb::parallel_for(std::size_t(0), views.size(), [&](std::size_t i) {
+  run_each(views.size(), [&](std::size_t i) {
     const auto& [view, caption] = views[i];
     const render::Camera camera =
         render::framing(framed, scan_from_face * view, aspect, scan_from_face.col(1));

@@ -2,8 +2,8 @@
 #include "hyperex/run/frames.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/fem/form/inverted.hpp"
 #include "hyperex/fem/form/system.hpp"
 
@@ -85,7 +85,7 @@ void write_frames(const Performance& p, const std::filesystem::path& directory, 
                         std::filesystem::path("frames") / fmt::format("frame_{:04}.vtu", f));
   const io::VtuMesh mesh(p.nodes, p.tets);
   const FrameCells tissue(p, with_strain);
-  tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t i) {
+  run_each(frames.size(), [&](std::size_t i) {
     const Points d = p.node_displacement_m[i * step].cast<double>();
     std::vector<io::VtuArray> cells = tissue.at(d);
     cells.insert(cells.end(), more.begin(), more.end());

@@ -2,7 +2,6 @@
 #include "hyperex/run/muscle_picture.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
@@ -140,7 +140,7 @@ render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& 
       peak.time_s());
   sheet.columns = 4;
   sheet.pictures.resize(views.size());
-  tbb::parallel_for(std::size_t(0), views.size(), [&](std::size_t i) {
+  run_each(views.size(), [&](std::size_t i) {
     sheet.pictures[i] = view_of(views[i], skin, framed, lines, frame, peak, table);
   });
   const int height_px = sheet.pictures.front().image.height;

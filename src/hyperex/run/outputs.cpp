@@ -2,7 +2,6 @@
 #include "hyperex/run/outputs.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -201,7 +200,7 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   };
   const std::size_t columns = stills.size() + 1;
   sheet.pictures.resize(cameras.size() * columns);
-  tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t i) {
+  run_each(sheet.pictures.size(), [&](std::size_t i) {
     const std::size_t column = i % columns;
     sheet.pictures[i] = draw(cameras[i / columns], column > 0 ? &stills[column - 1] : nullptr);
   });

@@ -2,11 +2,11 @@
 #include "hyperex/run/report_page.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
 #include "hyperex/core/printable.hpp"
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/simulate/load/held_load.hpp"
@@ -124,7 +124,7 @@ ReplayPage::ReplayPage(const Results& r, const std::vector<VariantRun>& variants
   auto tissue = tissue_maps(r, variants);
   input_.tissue = std::move(tissue.front());
   std::vector<report::DisplacementModes> differences(variants.size());
-  tbb::parallel_for(std::size_t(0), variants.size(), [&](std::size_t i) {
+  run_each(variants.size(), [&](std::size_t i) {
     differences[i] = difference_of(variants[i].simulation.performance, p);
   });
   for (std::size_t i = 0; i < variants.size(); ++i)

@@ -18,6 +18,7 @@
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/log_note.hpp"
 #include "hyperex/session/remarks_json.hpp"
+#include "hyperex/session/run_cost.hpp"
 #include "hyperex/session/variants.hpp"
 
 namespace hyperex::run {
@@ -45,7 +46,8 @@ struct Written {
   Json variants;
 };
 Written write_files(session::FaceSession& session, Results& results,
-                    const std::filesystem::path& directory) {
+                    const std::filesystem::path& directory,
+                    const std::function<bool()>& cancelled) {
   Written out;
   run_together({[&] { out.glb = write_outputs(results, directory); },
                 [&] {
@@ -54,7 +56,7 @@ Written write_files(session::FaceSession& session, Results& results,
                         results.simulation.performance.skin_displacement_m);
                 },
                 [&] {
-                  session.run_variants();
+                  session.run_variants({.progress = {}, .cancelled = cancelled});
                   if (!session.variants().empty())
                     out.variants =
                         write_variants(results, session.variants(), session.mesh(), directory);
@@ -74,13 +76,18 @@ void write_summary(Json& summary, const std::filesystem::path& directory) {
 }
 
 Json write_into(session::FaceSession& session, Stopwatch& total,
-                const std::filesystem::path& directory) {
-  session.run_base();
+                const std::filesystem::path& directory, const std::function<bool()>& cancelled) {
+  const auto stop_here = [&] {
+    if (cancelled && cancelled()) throw simulate::Cancelled();
+  };
+  stop_here();
+  session.run_base({.progress = {}, .cancelled = cancelled});
   Stopwatch stage;
   Results results = results_of(session);
   Json summary = summary_of(session, results);
-  const Written written = write_files(session, results, directory);
-  session.find_certainty();
+  const Written written = write_files(session, results, directory, cancelled);
+  stop_here();
+  session.find_certainty(cancelled);
   results.notes = session.notes();
   if (!written.variants.is_null()) summary["variants"] = written.variants;
   if (written.glb) {
@@ -111,15 +118,21 @@ Json write_into(session::FaceSession& session, Stopwatch& total,
 
 }  // namespace
 
-Json run_scene(const scene::Scene& scene, const std::filesystem::path& directory) {
+Json run_scene(const scene::Scene& scene, const std::filesystem::path& directory,
+               const std::function<bool()>& cancelled) {
   OutputDirectory out(directory, files_of_earlier_run, files_named_by(scene));
   try {
     Stopwatch total;
     session::FaceSession session(scene, {.note = session::log_note});
     const tissue::TissueMesh& mesh = session.mesh();
+    if (const auto cost =
+            session::expected_cost(scene, session.inputs(), session::Extent::full, &mesh.volume)) {
+      session::check_disk(scene, *cost);
+      spdlog::info("{}", session::sentence_of(*cost));
+    }
     spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
                  mesh.volume.tets.rows(), mesh.skin.points.rows());
-    Json summary = write_into(session, total, out.path());
+    Json summary = write_into(session, total, out.path(), cancelled);
     out.commit();
     return summary;
   } catch (const InputError& error) {

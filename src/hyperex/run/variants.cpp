@@ -2,7 +2,6 @@
 #include "hyperex/run/variants.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <memory>
 #include <mutex>
@@ -66,7 +65,7 @@ Compared compared_with(const Results& base, const std::vector<VariantRun>& runs)
   out.pair = metrics::response_pair(base.simulation.performance, base.inputs.motion.motion,
                                     2 * base.scene.drive.patch_radius_m);
   out.variants.resize(runs.size());
-  tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
+  run_each(runs.size(), [&](std::size_t i) {
     out.variants[i] = metrics::compare_variant(runs[i].scene.title, own_run,
                                                {runs[i].simulation.performance, runs[i].symmetry},
                                                inputs, out.pair);
@@ -106,7 +105,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
        [&] { draw_variant_symmetry(base, runs, directory / "variants_symmetry.png"); },
        [&] { write_tables(base, runs, compared.own, compared.variants, compared.pair, directory); },
        [&] {
-         tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
+         run_each(runs.size(), [&](std::size_t i) {
            const VariantRun& run = runs[i];
            const Results results{run.scene,    run.inputs, mesh, run.simulation,
                                  run.symmetry, {},         {},   run.field ? &*run.field : nullptr,

@@ -2,12 +2,12 @@
 #include "hyperex/run/variants_picture.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
 #include "hyperex/render/camera.hpp"
@@ -129,7 +129,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   constexpr std::array from = {"from the right", "from in front", "from the left"};
   const std::size_t columns = runs.size() + 1;
   sheet.pictures.resize(cameras.size() * columns);
-  tbb::parallel_for(std::size_t(0), sheet.pictures.size(), [&](std::size_t at) {
+  run_each(sheet.pictures.size(), [&](std::size_t at) {
     const std::size_t view = at / columns, face = at % columns;
     const auto caption = [&](const std::string& name) {
       return fmt::format("{}, {}", name, from[view]);

@@ -179,6 +179,7 @@ struct OutputOptions {
   bool variants_vtu = false;      ///< frames of each variant too
   double glb_tolerance_m = 1e-4;  ///< of any vertex in any frame
   double glb_max_mb = 20;         ///< of performance.glb
+  double most_gb = 2;             ///< of all outputs; a run that would write more does not begin
   bool full_paths = false;        ///< of input files, in summary.json and report.html
   double symmetry_floor = 1e-6;
   double lowpass_hz = 6;    ///< cut-off for speeds and paths; 0: none
@@ -231,6 +232,10 @@ struct OutputOptions {
              "keys are left out and a warning states the remaining error.",
              {.unit = kMegabytes, .bounds = {0.1, 10000}});
     v.option(HX_MEMBER(report), "Write report.html.");
+    v.option(HX_MEMBER(most_gb),
+             "The most that a run may write, by an estimate: one that would write more does not "
+             "begin. hyperex check states the estimate.",
+             {.unit = kGigabytes, .bounds = {0.01, 1e6}});
   }
 };
 

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <utility>
 
 #include "hyperex/core/progress.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
+#include "hyperex/session/run_cost.hpp"
 
 namespace hyperex::session {
 
-std::vector<Note> check(const scene::Scene& scene) {
+std::vector<Note> check(const scene::Scene& scene, std::string* cost) {
   Progress progress("reading scan and recording", 0);
-  std::vector<Note> notes = read_inputs(scene, Extent::quick).notes;
+  Inputs inputs = read_inputs(scene, Extent::quick);
+  if (const auto expected = expected_cost(scene, inputs, Extent::quick)) {
+    check_disk(scene, *expected);
+    if (cost) *cost = sentence_of(*expected);
+  }
+  std::vector<Note> notes = std::move(inputs.notes);
   const auto has_regions = [](const scene::Scene& s) { return !s.tissue.regions.empty(); };
   if (has_regions(scene) ||
       std::any_of(scene.variants.begin(), scene.variants.end(),

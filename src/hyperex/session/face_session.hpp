@@ -190,7 +190,8 @@ class FaceSession {
 
 /// Reads what a scene names, what takes long only in part, and simulates nothing: what is assumed,
 /// doubtful and was not checked. Throws InputError with every problem found.
-std::vector<Note> check(const scene::Scene& scene);
+/// `cost`: what a run would take, in a sentence; empty where that is not known.
+std::vector<Note> check(const scene::Scene& scene, std::string* cost = nullptr);
 
 }  // namespace hyperex::session
 

@@ -81,7 +81,8 @@ struct FaceSession::Impl {
 
   void run_base(const simulate::RunCallbacks& callbacks);
   void run_variants(const simulate::RunCallbacks& callbacks);
-  void run_variants_together(const std::vector<std::size_t>& which);
+  void run_variants_together(const std::vector<std::size_t>& which,
+                             const std::function<bool()>& cancelled);
   void run_variant(std::size_t i, const simulate::RunCallbacks& callbacks);
   void find_bands(const std::function<bool()>& cancelled);
   void prepare_variant();

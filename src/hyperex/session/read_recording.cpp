@@ -37,14 +37,17 @@ motion::Motion read_expressions(const scene::MotionOptions& options, Inputs& in)
 /// Rest is where the scene says; `m` has its head pose taken out.
 void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
   const auto stretch = rest_stretch(scene.motion);
-  if (!stretch) return;
-  auto rested = motion::with_rest(m, *stretch);
+  const double start_s = scene.time.start_s;
+  if (!stretch && start_s == 0) return;
+  // Where nothing is said, the recording's first sample shows rest.
+  auto rested = motion::with_rest(m, stretch.value_or(motion::RestStretch{}), start_s);
   m = std::move(rested.motion);
   if (rested.lead_s > 0)
     in.notes.push_back(make_note(
         "recording.lead_in",
-        fmt::format("the recording does not start at rest: the run leads the face from rest into "
+        fmt::format("the recording does not start at rest{}: the run leads the face from rest into "
                     "it and so begins {:g} s before it",
+                    start_s > 0 ? fmt::format(" at time.start_s = {:g}", start_s) : "",
                     rested.lead_s * scene.motion.time_scale)));
 }
 

@@ -10,7 +10,7 @@ namespace {
 bool makes_the_face(const std::string& key) {
   const std::string section = scene::section_of(key);
   return section == "scan" || section == "mesh" || section == "alignment" || section == "teeth" ||
-         (section == "motion" && key != "motion.gain");
+         (section == "motion" && key != "motion.gain") || key == "time.start_s";
 }
 
 }  // namespace

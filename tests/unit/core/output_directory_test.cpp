@@ -219,5 +219,18 @@ TEST_F(OutputFolder, ANameOfAnyLengthWillDo) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
+TEST_F(OutputFolder, IsNotWhatSomebodyPutInItsPlace) {
+  const fs::path elsewhere = folder_ / "elsewhere";
+  fs::create_directories(elsewhere);
+  {
+    OutputDirectory out(folder_ / "out", [](const fs::path&) { return std::set<std::string>(); });
+    fs::rename(out.path(), folder_ / "aside");
+    fs::create_directory_symlink(elsewhere, out.path());
+    EXPECT_THROW(out.commit(), InputError);
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_TRUE(fs::is_empty(elsewhere));
+}
+
 }  // namespace
 }  // namespace hyperex

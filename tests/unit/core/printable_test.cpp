@@ -12,6 +12,19 @@ TEST(Printable, ShowsControlCharactersAndKeepsTheRest) {
   EXPECT_EQ(printable("Käse,\n\"naïve\""), "Käse,\n\"naïve\"");
 }
 
+TEST(Printable, ShowsWhatIsNoUtf8AndTheControlsOfC1) {
+  EXPECT_EQ(printable("caf\xe9.ply"), "caf\\xe9.ply");
+  EXPECT_EQ(printable("a\xc2\x9b"
+                      "31m"),
+            "a\\xc2\\x9b31m");
+  EXPECT_EQ(printable("\xed\xa0\x80\xf5"), "\\xed\\xa0\\x80\\xf5");
+  EXPECT_TRUE(is_utf8("Käse \xf0\x9f\x98\x80"));
+  EXPECT_TRUE(is_utf8(""));
+  for (const char* wrong :
+       {"\xe9", "\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "a\x80"})
+    EXPECT_FALSE(is_utf8(wrong)) << printable(wrong);
+}
+
 TEST(Printable, CutsEachLineBetweenCharacters) {
   EXPECT_EQ(printable("abcdef\nghi", 4), "abcd...\nghi");
   EXPECT_EQ(printable("äöüß", 3), "äöü...");

@@ -55,5 +55,32 @@ TEST(RunTogether, TheFirstOnesExceptionIsTold) {
   EXPECT_EQ(thrown_by([] {}, [] {}), "");
 }
 
+TEST(RunEach, AnExceptionInOneCutsNoLoopOfAnotherShort) {
+  std::atomic<int> begun{0}, whole{0};
+  const auto body = [&](std::size_t i) {
+    if (i == 0) {
+      for (int tries = 0; tries < 200 && begun == 0; ++tries)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      throw std::runtime_error("no memory is left");
+    }
+    ++begun;
+    std::atomic<int> done{0};
+    tbb::parallel_for(0, 100, [&](int) {
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+      ++done;
+    });
+    if (done == 100) ++whole;
+  };
+  EXPECT_THROW(run_each(8, body), std::runtime_error);
+  EXPECT_EQ(whole, begun);
+}
+
+TEST(RunEach, RunsAllAndThrowsTheFirst) {
+  std::vector<int> seen(100, 0);
+  run_each(100, [&](std::size_t i) { ++seen[i]; });
+  EXPECT_EQ(seen, std::vector<int>(100, 1));
+  run_each(0, [](std::size_t) { throw std::runtime_error("never"); });
+}
+
 }  // namespace
 }  // namespace hyperex

@@ -2,6 +2,11 @@
 #include "hyperex/geometry/sight.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <new>
 
 #include "support/sheet_mesh.hpp"
 
@@ -27,6 +32,37 @@ TEST(BlockedShares, CountTheDirectionsInWhichSomethingStandsInTheWay) {
   EXPECT_EQ(blocked_shares(both, vertices, up_and_aside.topRows(1), 0.004),
             (std::vector<double>{0, 0, 0}))
       << "5 mm are out of reach";
+}
+
+/// Leaves this process `more` bytes of address space beyond what it has.
+void allow_no_more_than(std::size_t more) {
+  std::size_t pages = 0;
+  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%zu", &pages) != 1) pages = 0;
+    std::fclose(file);
+  }
+  const rlim_t most = pages * std::size_t(sysconf(_SC_PAGESIZE)) + more;
+  const struct rlimit limit { most, most };
+  if (pages == 0 || ::setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(9);
+}
+
+// Embree goes on where it finds no memory: for a mesh without buffers, or a tree that is not there.
+TEST(BlockedSharesDeathTest, SayThatMemoryHasRunOut) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto blocked_within = [](std::size_t more) {
+    const test::Sheet sheet = test::sheet_mesh({900, 900}, {0.2, 0.2});
+    const Points up = Points::Constant(1, 3, 1);
+    blocked_shares(test::sheet_mesh({8, 8}, {0.2, 0.2}).mesh, {0}, up, 0.1);  // Embree is there
+    allow_no_more_than(more);
+    try {
+      blocked_shares(sheet.mesh, {0}, up, 0.1);
+    } catch (const std::bad_alloc&) {
+      std::_Exit(3);
+    }
+    std::_Exit(0);
+  };
+  for (const std::size_t more : {4u << 20, 16u << 20, 32u << 20})
+    EXPECT_EXIT(blocked_within(more), testing::ExitedWithCode(3), "") << more;
 }
 
 }  // namespace

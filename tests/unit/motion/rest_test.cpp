@@ -45,6 +45,21 @@ io::Landmarks at_rest(double off_m) {
   return landmarks;
 }
 
+TEST(WithRest, BeginsLaterAndIsLedThereFromRest) {
+  const Motion whole = smile(rises_and_falls);
+  const RestedMotion later = with_rest(whole, {0, 0}, 0.5);
+  EXPECT_EQ(later.lead_s, rest_lead_s);
+  EXPECT_NEAR(later.motion.time_s.front(), 0.5 - rest_lead_s, 1e-9);
+  EXPECT_EQ(later.motion.time_s.back(), whole.time_s.back());
+  EXPECT_LT((later.motion.positions.front() - whole.positions.front()).norm(), 1e-12);
+  const auto at =
+      std::size_t(std::find(whole.time_s.begin(), whole.time_s.end(), 0.5) - whole.time_s.begin());
+  EXPECT_EQ(later.motion.positions[later.motion.positions.size() - whole.positions.size() + at],
+            whole.positions[at]);
+  EXPECT_EQ(with_rest(whole, {0, 0}, 0).motion.time_s, whole.time_s);
+  expect_refused([&] { with_rest(whole, {0, 0}, 2); }, {"time.start_s"});
+}
+
 TEST(StartedInExpression, IsSeenWhereTheEndIsNearerToRest) {
   for (const double off_m : {0.0, 0.002}) {
     const auto started = started_in_expression(smile(falls), at_rest(off_m));

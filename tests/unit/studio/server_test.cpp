@@ -3,12 +3,14 @@
 #include "server.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <csignal>
 #include <thread>
 
 #include "hyperex/core/files.hpp"
@@ -234,6 +236,29 @@ TEST_F(StudioServer, SilentConnectionsGiveWayToWhoComesAndTheUsersPageStays) {
   EXPECT_THAT(get("/", own()), HasSubstr("200 OK"));
   say(next, "two");
   EXPECT_EQ(heard(next), "echo two");
+}
+
+TEST_F(StudioServer, WhatIsGoneOfTheUploadsMakesRoom) {
+  const std::string most(1U << 20U, 'x');
+  EXPECT_THAT(post("a.ply", most, bearer()), HasSubstr("200"));
+  EXPECT_THAT(post("b.ply", most, bearer()), HasSubstr("200"));
+  EXPECT_THAT(post("c.ply", "x", bearer()), HasSubstr("413"));
+  std::filesystem::remove(folder_.path() / "a.ply");
+  EXPECT_THAT(post("c.ply", "x", bearer()), HasSubstr("200"));
+}
+
+TEST_F(StudioServer, SaysThatTheDiskTakesNoMore) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  struct rlimit before {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const struct rlimit little { 4096, before.rlim_max };
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
+  const std::string answer = post("a.ply", std::string(300000, 'x'), bearer());
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_THAT(answer, HasSubstr("507"));
+  EXPECT_THAT(answer, HasSubstr("a.ply: cannot be written (File too large)"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+  EXPECT_THAT(post("a.ply", "x", bearer()), HasSubstr("200"));
 }
 
 TEST_F(StudioServer, TakesUploadsOfItsPageAlone) {

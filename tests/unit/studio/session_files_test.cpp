@@ -27,13 +27,18 @@ TEST_F(StudioSession, OpensTheRecordingInAZipAndNothingElse) {
     return out;
   };
   EXPECT_THAT(opened({{"a.txt", "1"}}), HasSubstr("holds no recording"));
-  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec.zip"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply")) << "what is of no use is gone";
+  EXPECT_THAT(opened({{"talk/rgb.txt", "0 rgb/0.png\n"}}), HasSubstr("camera.toml: missing"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply"));
   EXPECT_THAT(opened({{"../../scene.toml", "1"}, {"rgb.txt", ""}}), HasSubstr("leads elsewhere"));
-  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec.zip"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply"));
   EXPECT_FALSE(fs::exists(folder_.path() / "own" / "scene.toml"));
-  EXPECT_THAT(opened({{"talk/rgb.txt", ""}}), HasSubstr("me.ply")) << "the scan is no scan";
+  const std::string lists = "0 rgb/0.png\n",
+                    camera = "width = 64\nheight = 48\nfx = 60\nfy = 60\ncx = 31.5\ncy = 23.5\n";
+  EXPECT_THAT(opened({{"talk/rgb.txt", lists}, {"talk/camera.toml", camera}}), HasSubstr("me.ply"))
+      << "the scan is no scan";
   EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "talk"));
-  EXPECT_THAT(opened({{"rgb.txt", ""}}), HasSubstr("me.ply"));
+  EXPECT_THAT(opened({{"rgb.txt", lists}, {"camera.toml", camera}}), HasSubstr("me.ply"));
   EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply", "rec"));
 }
 
@@ -65,6 +70,24 @@ TEST_F(StudioSession, WritesOverNothingThatItDidNotWrite) {
   EXPECT_EQ(ask("free_name", {{"name", "ours"}})["name"], "ours") << "which may be written again";
   EXPECT_FALSE(ask("save", {{"what", "landmarks"}, {"name", "marks"}}).contains("error"));
   EXPECT_TRUE(fs::exists(folder_.path() / "mine" / "marks.mrk.json"));
+}
+
+TEST_F(StudioSession, ALinkInThePlaceOfWhatItWroteIsNotFollowed) {
+  open();
+  const fs::path ours = folder_.path() / "mine" / "ours.toml", other = folder_.path() / "other";
+  ASSERT_FALSE(ask("save", {{"what", "scene"}, {"name", "ours"}}).contains("error"));
+  fs::remove(ours);
+  std::ofstream(other) << "somebody's";
+  fs::create_symlink(other, ours);
+  EXPECT_TRUE(ask("save", {{"what", "scene"}, {"name", "ours"}}).contains("error"));
+  EXPECT_EQ(read_file(other), "somebody's");
+}
+
+TEST_F(StudioSession, ARunThatIsSavedIsGivenUpWhereTheStudioEnds) {
+  open();
+  ending_ = true;
+  EXPECT_TRUE(ask("save", {{"what", "run"}, {"name", "whole"}}).contains("error"));
+  EXPECT_TRUE(fs::is_empty(folder_.path() / "mine"));
 }
 
 TEST(StudioSessionLeftovers, AreDeletedWhenAskedButNotWhileTheyAreOpen) {

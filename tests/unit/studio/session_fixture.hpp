@@ -28,6 +28,7 @@ class StudioSession : public testing::Test {
     options.folder = folder_.path() / "own";
     options.program = "Hyperex test";
     options.bands = bands;
+    options.ending = [this] { return ending_; };
     fs::create_directory(options.save_into);
     fs::create_directories(options.folder / "uploads");
     session_ = std::make_unique<Session>(
@@ -94,6 +95,7 @@ class StudioSession : public testing::Test {
 
   const test::OwnFolder folder_;
   std::vector<Message> messages_;
+  bool ending_ = false;
   std::unique_ptr<Session> session_;
   std::int64_t id_ = 0;
   double peak_s_ = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/simulate/run/run_progress.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <thread>
+
+#include "hyperex/core/run_together.hpp"
 
 namespace hyperex::simulate {
 
@@ -26,7 +26,7 @@ void RunProgress::for_frames(std::size_t count, const std::function<void(std::si
   const auto caller = std::this_thread::get_id();  // on which callbacks are called
   const double from = done_, step = 0.5 * (1 - from) / static_cast<double>(count);
   std::atomic<std::size_t> done{0};
-  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+  run_each(count, [&](std::size_t i) {
     body(i);
     const std::size_t now = ++done;
     if (std::this_thread::get_id() == caller) report(from + step * static_cast<double>(now));

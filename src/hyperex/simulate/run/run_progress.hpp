@@ -17,6 +17,10 @@ class RunProgress {
   void report(double share);
   /// The share of the remaining run that is done, likewise.
   void report_of_rest(double share) { report(done_ + share * (1 - done_)); }
+  /// A part of work whose length is not known is done: a little of the way to `share`, likewise.
+  void report_towards(double share) {
+    report(share > done_ ? done_ + 0.03 * (share - done_) : done_);
+  }
   double done() const { return done_; }
   /// Calls `body` for 0 to count - 1, in parallel. It takes half of the remaining progress.
   void for_frames(std::size_t count, const std::function<void(std::size_t)>& body);

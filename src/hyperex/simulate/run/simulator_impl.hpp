@@ -20,7 +20,7 @@
 namespace hyperex::simulate {
 
 /// Share of a run's progress at which the motion of the tissue is known.
-constexpr double kReducedDone = 0.2, kDirectDone = 0.9;
+constexpr double kLoadDone = 0.3, kReducedDone = 0.6, kDirectDone = 0.9;
 
 struct Simulator::Impl {
   Impl() = default;

@@ -74,7 +74,7 @@ Solution Simulator::Impl::solve_linear(const std::vector<double>& times) {
   progress.throw_if_cancelled();
   Stopwatch watch;
   fem::ReducedOptions how{newmark(), options.solver.tolerance};
-  how.between_growths = [this] { progress.throw_if_cancelled(); };
+  how.between_growths = [this] { progress.report_towards(kReducedDone); };
   ensure_response(how);
   report.basis_s = watch.lap();
   Solution out = run_reduced(stages.factor->model, stages.response.value(), times);

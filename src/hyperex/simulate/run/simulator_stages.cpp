@@ -154,7 +154,7 @@ void Simulator::Impl::ensure_muscle_model() {
     stages.pattern->assemble(material(), system);
     return std::make_shared<const MuscleModel>(
         muscle_model(*mesh, *landmarks, options, system.stiffness, known_order(),
-                     [this] { progress.throw_if_cancelled(); }));
+                     [this] { progress.report_towards(kReducedDone); }));
   });
   keep_order(stages.muscle_model->order());
 }
@@ -181,12 +181,16 @@ void Simulator::Impl::ensure_load(const PointCurve& points) {
                      "(region.measured): expected drive.by = \"displacement\"");
   const bool muscles = options.drive.by == DriveBy::muscles;
   if (muscles) ensure_muscle_model();
+  const auto samples = double(motion->motion.time_s.size());
+  double fitted = 0;
+  const auto sample_fitted = [&] {
+    progress.report(std::max(progress.done(), kLoadDone * std::min(1.0, ++fitted / samples)));
+  };
   stages.load.ensure([&] {
     return std::make_shared<const HeldLoad>(
-        muscles
-            ? muscle_load(*mesh, *landmarks, *motion, stages.measured.value(), options,
-                          stages.muscle_model.value(), [this] { progress.throw_if_cancelled(); })
-            : reaction_load(points));
+        muscles ? muscle_load(*mesh, *landmarks, *motion, stages.measured.value(), options,
+                              stages.muscle_model.value(), sample_fitted)
+                : reaction_load(points));
   });
   if (stages.answered.has_value()) {
     report.forces_found_anew = true;

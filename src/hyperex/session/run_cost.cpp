@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/run_cost.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperex::session {
+namespace {
+
+// Measured on runs of the canonical face, 30 to 1200 frames, elements of 3 and 3.3 mm.
+
+/// Nodes of the skin side over area / (element size)^2; triangles over nodes; the elements grow
+/// away from the mouth.
+constexpr double kNodesOfArea = 0.51, kTrianglesOfNodes = 1.93;
+/// Bytes of a compressed frame for ParaView: for each node; for each tetrahedron its corners and
+/// stress; its strain; at finite strain stress and stretches besides.
+constexpr double kNodeBytes = 12.5, kTetBytes = 13.2, kStrainBytes = 24, kFiniteBytes = 60;
+/// What else each face's folder holds, and each frame of it.
+constexpr double kFaceBytes = 4e6, kMotionBytes = 5.4e3;
+constexpr double kOwnMemory = 0.25e9, kNodeMemory = 95e3;
+constexpr double kNodeSeconds = 6e-4, kFrameNodeSeconds = 8e-7, kWriteNodeSeconds = 6e-7;
+
+double area_of(const TriMesh& mesh) {
+  double area = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    const Vec3 a = mesh.points.row(mesh.triangles(f, 0)), b = mesh.points.row(mesh.triangles(f, 1)),
+               c = mesh.points.row(mesh.triangles(f, 2));
+    area += 0.5 * (b - a).cross(c - a).norm();
+  }
+  return area;
+}
+
+struct MeshSize {
+  double nodes = 0, tets = 0, skin = 0;
+};
+
+MeshSize size_of(const scene::Scene& scene, const Inputs& inputs,
+                 const tissue::VolumeMesh* volume) {
+  const auto vertices = double(inputs.scan.mesh.points.rows());
+  const double skin = std::min(vertices, double(tissue::thinned_above_vertices));
+  if (volume) return {double(volume->nodes.rows()), double(volume->tets.rows()), skin};
+  const tissue::TissueMeshOptions& mesh = scene.mesh;
+  const double surface =
+      kNodesOfArea * area_of(inputs.scan.mesh) / (mesh.element_size_m * mesh.element_size_m);
+  return {surface * (mesh.layers + 1), 3 * mesh.layers * kTrianglesOfNodes * surface, skin};
+}
+
+std::string size_text(double bytes) {
+  if (bytes < 1e8) return fmt::format("{:.0f} MB", std::max(1.0, bytes / 1e6));
+  return bytes < 1e10 ? fmt::format("{:.2f} GB", bytes / 1e9)
+                      : fmt::format("{:.0f} GB", bytes / 1e9);
+}
+
+std::string time_text(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+  return seconds < 6000 ? fmt::format("{:.1f} min", seconds / 60)
+                        : fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& inputs, Extent extent,
+                                     const tissue::VolumeMesh* volume) {
+  const auto& times = inputs.motion.motion.time_s;
+  const bool whole = scene.motion.recording.empty() || extent == Extent::full;
+  if (scene.time.end_s <= 0 && (!whole || times.size() < 2)) return std::nullopt;
+  const double end_s = scene.time.end_s > 0 ? scene.time.end_s : times.back() - times.front();
+  const MeshSize mesh = size_of(scene, inputs, volume);
+  const scene::OutputOptions& output = scene.output;
+  const bool finite = scene.model.strain == simulate::Strain::finite;
+
+  RunCost cost;
+  cost.frames = std::max(1.0, std::ceil(end_s * scene.time.frame_rate_hz - 1e-6));
+  cost.variants = double(scene.variants.size());
+  const double faces = 1 + cost.variants;
+  if (output.vtu) {
+    const double strain = output.vtu_strain ? finite ? kFiniteBytes : kStrainBytes : 0;
+    const double each = kNodeBytes * mesh.nodes + (kTetBytes + strain) * mesh.tets;
+    cost.frames_bytes =
+        each * std::ceil(cost.frames / output.vtu_every) * (output.variants_vtu ? faces : 1);
+  }
+  cost.disk_bytes = cost.frames_bytes + faces * (kFaceBytes + kMotionBytes * cost.frames);
+  // In single precision, of skin and nodes; twins keep the skin alone.
+  cost.memory_bytes =
+      kOwnMemory + kNodeMemory * mesh.nodes + 12 * faces * cost.frames * (mesh.skin + mesh.nodes);
+  if (finite || scene.contact.any()) return cost;
+  const double each_s = kFrameNodeSeconds * cost.frames * mesh.nodes;
+  cost.variants_seconds = cost.variants * (0.3 * kNodeSeconds * mesh.nodes + each_s);
+  cost.seconds = 1 + kNodeSeconds * mesh.nodes + each_s + cost.variants_seconds +
+                 (output.vtu ? kWriteNodeSeconds * cost.frames * mesh.nodes / output.vtu_every : 0);
+  return cost;
+}
+
+std::string sentence_of(const RunCost& cost) {
+  std::string text = fmt::format("a run: {:.0f} frames, about {} on disk", cost.frames,
+                                 size_text(cost.disk_bytes));
+  if (cost.frames_bytes > 0.5 * cost.disk_bytes)
+    text += fmt::format(" (frames/, for ParaView: {})", size_text(cost.frames_bytes));
+  text += fmt::format(", {} of memory", size_text(cost.memory_bytes));
+  if (cost.seconds == 0) return text + "; its time is not known beforehand";
+  text += fmt::format(", {} on two idle processors", time_text(cost.seconds));
+  if (cost.variants > 0)
+    text += fmt::format("; without {}, {} less (--no-variants)",
+                        cost.variants == 1 ? "its variant" : "its variants",
+                        time_text(cost.variants_seconds));
+  return text;
+}
+
+void check_disk(const scene::Scene& scene, const RunCost& cost) {
+  const double most = 1e9 * scene.output.most_gb;
+  if (cost.disk_bytes <= most) return;
+  throw InputError(scene::problem_at(
+      scene, "output.most_gb",
+      fmt::format("{:.3g} or more, as the run would write about {}, of them {} for ParaView "
+                  "(output.vtu = false leaves these out, output.vtu_every = 10 takes a tenth; "
+                  "time.start_s and time.end_s shorten the run)",
+                  std::ceil(1.2e-8 * cost.disk_bytes) / 10, size_text(cost.disk_bytes),
+                  size_text(cost.frames_bytes))));
+}
+
+}  // namespace hyperex::session

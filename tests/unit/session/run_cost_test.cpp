@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/run_cost.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hyperex/session/prepared_face.hpp"
+
+namespace hyperex::session {
+namespace {
+
+scene::Scene embedded() {
+  scene::Scene scene;
+  scene.scan.source.embedded = scene.motion.source.embedded = true;
+  scene.mesh.element_size_m = 0.006;
+  return scene;
+}
+
+TEST(RunCost, OfTheScanAloneIsThatOfItsMeshRoughly) {
+  const scene::Scene scene = embedded();
+  Inputs inputs = read_inputs(scene);
+  const auto before = expected_cost(scene, inputs, Extent::quick);
+  const PreparedFace face = prepare_face(scene, inputs, [] {});
+  const auto after = expected_cost(scene, inputs, Extent::full, &face.mesh->volume);
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(before->frames, after->frames);
+  EXPECT_NEAR(before->frames_bytes / after->frames_bytes, 1, 0.3);
+  EXPECT_NEAR(before->memory_bytes / after->memory_bytes, 1, 0.3);
+}
+
+TEST(RunCost, GrowsWithWhatARunWrites) {
+  scene::Scene scene = embedded();
+  const Inputs inputs = read_inputs(scene);
+  const auto cost = [&] { return *expected_cost(scene, inputs, Extent::full); };
+  const RunCost whole = cost();
+  EXPECT_EQ(whole.frames, 81);
+  EXPECT_EQ(whole.variants_seconds, 0);
+  scene.output.vtu_strain = false;
+  EXPECT_LT(cost().frames_bytes, 0.6 * whole.frames_bytes);
+  scene.output.vtu_every = 3;
+  EXPECT_NEAR(cost().frames_bytes, 0.4 * whole.frames_bytes / 3, 0.04 * whole.frames_bytes);
+  scene.output.vtu = false;
+  EXPECT_EQ(cost().frames_bytes, 0);
+  EXPECT_GT(cost().disk_bytes, 1e6);
+  scene.time.frame_rate_hz = 60;
+  EXPECT_GT(cost().memory_bytes, whole.memory_bytes);
+  scene.variants.resize(2);
+  EXPECT_GT(cost().variants_seconds, 0);
+  EXPECT_THAT(sentence_of(cost()), testing::HasSubstr("without its variants"));
+  scene.model.strain = simulate::Strain::finite;
+  EXPECT_EQ(cost().seconds, 0);
+  EXPECT_THAT(sentence_of(cost()), testing::HasSubstr("not known beforehand"));
+}
+
+TEST(RunCost, OfACamerasRecordingIsNotKnownBeforeItIsRead) {
+  scene::Scene scene = embedded();
+  const Inputs inputs = read_inputs(scene);
+  scene.motion.recording = "talk";
+  EXPECT_FALSE(expected_cost(scene, inputs, Extent::quick));
+  EXPECT_TRUE(expected_cost(scene, inputs, Extent::full));
+  scene.time.end_s = 1;
+  EXPECT_TRUE(expected_cost(scene, inputs, Extent::quick));
+}
+
+TEST(RunCost, AboveTheBoundIsRefusedByTheKeyThatRaisesIt) {
+  scene::Scene scene = embedded();
+  RunCost cost;
+  cost.disk_bytes = 3.1e9;
+  cost.frames_bytes = 3e9;
+  try {
+    check_disk(scene, cost);
+    FAIL() << "was not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("output.most_gb"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("3.8 or more"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("3.00 GB for ParaView"));
+  }
+  scene.output.most_gb = 3.8;
+  EXPECT_NO_THROW(check_disk(scene, cost));
+}
+
+}  // namespace
+}  // namespace hyperex::session
