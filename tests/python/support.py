@@ -7,7 +7,7 @@ import pathlib
 import hyperex
 
 SOURCE = pathlib.Path(os.environ["HYPEREX_SOURCE"])
-DEMO = pathlib.Path(os.environ["HYPEREX_DEMO"])  # what `hyperex run examples/mouth_open.toml` wrote
+DEMO = pathlib.Path(os.environ["HYPEREX_DEMO"])  # what the golden run of examples/mouth_open.toml wrote
 
 
 @functools.cache

@@ -22,7 +22,8 @@ class Scenes(unittest.TestCase):
     def test_run_scene_writes_what_the_program_does(self):
         summary = hyperex.run_scene(EXAMPLES / "mouth_open.toml", self.folder / "out",
                                     {"output.vtu": False, "output.glb": False,
-                                     "output.report": False})
+                                     "output.report": False,
+                                     "drive.by": "displacement"})
         for name in ("motion.csv", "symmetry.csv", "excursions.csv", "skin_peak.ply"):
             self.assertEqual((self.folder / "out" / name).read_bytes(),
                              (DEMO / name).read_bytes(), name)
