@@ -11,10 +11,8 @@ namespace hyperex::fem {
 namespace {
 constexpr int kPolishEvery = 10;  // sweeps
 constexpr int kMostNewton = 20;
-}  // namespace
 
-Complementarity solve_complementarity(const Eigen::MatrixXd& a, const Eigen::VectorXd& q,
-                                      double tolerance, int most_sweeps, Eigen::VectorXd& z) {
+void check_problem(const Eigen::MatrixXd& a, const Eigen::VectorXd& q, const Eigen::VectorXd& z) {
   const Eigen::Index n = q.size();
   require(a.rows() == n && a.cols() == n && z.size() == n,
           "complementarity: A is {} x {}, q has {} entries and z {}: expected as many each",
@@ -25,6 +23,13 @@ Complementarity solve_complementarity(const Eigen::MatrixXd& a, const Eigen::Vec
         "complementarity: row {} has the diagonal {}, q = {} and z = {}: expected finite numbers, "
         "the diagonal above 0",
         i, a(i, i), q[i], z[i]);
+}
+}  // namespace
+
+Complementarity solve_complementarity(const Eigen::MatrixXd& a, const Eigen::VectorXd& q,
+                                      double tolerance, int most_sweeps, Eigen::VectorXd& z) {
+  const Eigen::Index n = q.size();
+  check_problem(a, q, z);
   z = z.cwiseMax(0);
   Eigen::VectorXd w = q + a * z;
   const auto relax = [&](Eigen::Index i) {
