@@ -46,7 +46,7 @@ TEST(Keys, AreNamedOnceInKnownSectionsInOrder) {
 /// "patch_radius_mm" and "patch_radius_m" without their units.
 std::string without_unit(std::string name) {
   for (const char* ending : {"_kpa_per_mm", "_pa_per_m", "_pa_s", "_kg_m3", "_kpa", "_pa", "_mm",
-                             "_hz", "_mb", "_m", "_s"})
+                             "_hz", "_mb", "_gb", "_m", "_s"})
     if (name.ends_with(ending)) return name.substr(0, name.size() - std::string(ending).size());
   return name;
 }
@@ -78,6 +78,7 @@ const std::map<std::string, std::string> kOtherMembers = {
     {"muscles.gain", "muscles.gains"},
     {"muscles.file", "muscles_file"},
     {"muscles.without", "muscles_without"},
+    {"time.start_s", "motion.start_s"},
     {"output.peak_time_s", "time.peak_time_s"},
     {"output.picture_times_s", "time.still_times_s"}};
 
