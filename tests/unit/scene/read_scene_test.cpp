@@ -111,8 +111,7 @@ TEST(ReadScene, UnknownKeysAndSections) {
             "scene.toml:1: titel = \"x\": expected a known key (did you mean title?)");
   EXPECT_EQ(only_problem("mesh = 4\n" + base),
             "scene.toml:1: mesh = 4: expected a section, [mesh]");
-  EXPECT_THAT(only_problem(base + "[time]\nweather = 1\n"),
-              HasSubstr("[time] has"));
+  EXPECT_THAT(only_problem(base + "[time]\nweather = 1\n"), HasSubstr("[time] has"));
   EXPECT_EQ(only_problem(base, {"tissue.young_pa=5"}),
             "--set: tissue.young_pa = 5: expected a known key (did you mean tissue.young_kpa?)");
   EXPECT_THAT(
