@@ -67,6 +67,7 @@ struct MotionOptions {
   /// Seconds from the start at which the face is at rest: none (the first sample), one time, or
   /// from and to.
   std::vector<double> rest_s;
+  double start_s = 0;                          ///< where the run begins in the recording
   double max_gap_s = 0.2;                      ///< longest gap that is interpolated
   std::vector<motion::PointGain> point_gains;  ///< besides, on single points
   double time_scale = 1;                       ///< 2: twice as slow
@@ -90,6 +91,12 @@ struct MotionOptions {
              "starts in an expression the run begins half a second earlier, at rest, and is led "
              "into it. Empty: the recording's first sample is at rest.",
              {.unit = kSeconds, .bounds = {0, 3600}, .most = 2});
+    v.option(HX_MEMBER(start_s),
+             "Where in the recording the run begins, in the recording's own seconds; what comes "
+             "before is left out, but rest is still where motion.rest_s says. The run leads the "
+             "face from rest into it within half a second. time.end_s and all times of outputs "
+             "count from the run's beginning.",
+             {.unit = kSeconds, .bounds = {0, 36000}, .key = "time.start_s"});
     v.option(HX_MEMBER(max_gap_s),
              "The longest gap in a point's track that is interpolated; a longer one is refused.",
              {.unit = kSeconds, .bounds = {0, 10}});

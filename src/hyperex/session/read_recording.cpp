@@ -37,7 +37,7 @@ motion::Motion read_expressions(const scene::MotionOptions& options, Inputs& in)
 /// Rest is where the scene says; `m` has its head pose taken out.
 void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
   const auto stretch = rest_stretch(scene.motion);
-  const double start_s = scene.time.start_s;
+  const double start_s = scene.motion.start_s;
   if (!stretch && start_s == 0) return;
   // Where nothing is said, the recording's first sample shows rest.
   auto rested = motion::with_rest(m, stretch.value_or(motion::RestStretch{}), start_s);

@@ -387,9 +387,6 @@ struct ContactOptions {
 
 struct TimeOptions {
   double step_s = 0.002;
-  /// Where the run begins in the recording. Of a scene alone: a Simulator begins where its motion
-  /// does (motion::with_rest).
-  double start_s = 0;
   double end_s = 0;  ///< 0: the end of the motion; past it, its last sample is held
   double frame_rate_hz = 30;
   double peak_time_s = -1;            ///< below 0: where the driven points moved most in the mean
@@ -400,12 +397,6 @@ struct TimeOptions {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.option(HX_MEMBER(step_s), "The time step.", {.unit = kSeconds, .bounds = {1e-6, 0.1}});
-    v.option(HX_MEMBER(start_s),
-             "Where in the recording the run begins, in the recording's own seconds; what comes "
-             "before is left out, but rest is still where motion.rest_s says. The run leads the "
-             "face from rest into it within half a second. time.end_s and all times of outputs "
-             "count from the run's beginning.",
-             {.unit = kSeconds, .bounds = {0, 36000}});
     v.option(HX_MEMBER(end_s),
              "When the simulation ends; after the recording its last sample is kept. 0: at the end "
              "of the recording.",

@@ -78,6 +78,7 @@ const std::map<std::string, std::string> kOtherMembers = {
     {"muscles.gain", "muscles.gains"},
     {"muscles.file", "muscles_file"},
     {"muscles.without", "muscles_without"},
+    {"time.start_s", "motion.start_s"},
     {"output.peak_time_s", "time.peak_time_s"},
     {"output.picture_times_s", "time.still_times_s"}};
 
