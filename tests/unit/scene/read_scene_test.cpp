@@ -112,7 +112,7 @@ TEST(ReadScene, UnknownKeysAndSections) {
   EXPECT_EQ(only_problem("mesh = 4\n" + base),
             "scene.toml:1: mesh = 4: expected a section, [mesh]");
   EXPECT_THAT(only_problem(base + "[time]\nweather = 1\n"),
-              HasSubstr("[time] has step_s, start_s, end_s, frame_rate_hz"));
+              HasSubstr("[time] has start_s, step_s, end_s, frame_rate_hz"));
   EXPECT_EQ(only_problem(base, {"tissue.young_pa=5"}),
             "--set: tissue.young_pa = 5: expected a known key (did you mean tissue.young_kpa?)");
   EXPECT_THAT(

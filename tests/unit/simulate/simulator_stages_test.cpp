@@ -302,8 +302,7 @@ const std::vector<OptionCase>& time_cases() {
       {"time.end_s", {"time", "time.end_s"}, [](Options& o) { o.time.end_s = 0.1; }},
       {"time.frame_rate_hz", {"time"}, [](Options& o) { o.time.frame_rate_hz = 60; }},
       {"time.peak_time_s", {"time"}, [](Options& o) { o.time.peak_time_s = 0.05; }, false},
-      {"time.still_times_s", {"time"}, [](Options& o) { o.time.still_times_s = {0.07}; }},
-      {"time.start_s", {"time"}, [](Options& o) { o.time.start_s = 0.05; }, false}};
+      {"time.still_times_s", {"time"}, [](Options& o) { o.time.still_times_s = {0.07}; }}};
   return cases;
 }
 
