@@ -14,7 +14,6 @@ import struct
 import sys
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 EXPRESSIONS = {
     "oneSmile": {"mouthSmile_L": 0.9},
@@ -139,6 +138,8 @@ def places(rig, scan, opened):
         for corner in triangle:
             around[corner].append(t)
     jaw = rig.moved({"jawOpen": 0.75})
+    from scipy.spatial import cKDTree  # the rig itself needs none
+
     _, near = cKDTree(rig.points[vertices]).query(scan, 8)
     found, weights, farthest = np.zeros(len(scan), int), np.zeros((len(scan), 3)), 0
     for v in range(len(scan)):
@@ -233,4 +234,5 @@ def main():
         stream.write("\n".join(lines) + "\n")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -46,11 +46,13 @@ TissueValues completed(TissueValues values, std::size_t tets) {
   return values;
 }
 
-/// As a UserWarning at the line that called run(), once a line unless Python's filters say other.
-void warn_of_forces_found_anew(const simulate::SimulationReport& report) {
-  if (report.forces_found_anew &&
-      PyErr_WarnEx(PyExc_UserWarning, simulate::kForcesFoundAnew, 1) != 0)
-    throw py::error_already_set();  // the user's filters turn warnings into errors
+/// As a UserWarning at the line that called run(), once a line unless Python's filters say other:
+/// what makes a result other than the caller expects.
+void warn_of_changes(const simulate::SimulationReport& report) {
+  for (const Note& note : report.notes)
+    if ((note.id == "forces.found_anew" || note.id == "muscles.gain_hardly_used") &&
+        PyErr_WarnEx(PyExc_UserWarning, note.text.c_str(), 1) != 0)
+      throw py::error_already_set();  // the user's filters turn warnings into errors
 }
 
 class PythonSimulator {
@@ -96,7 +98,7 @@ class PythonSimulator {
       throw;
     }
     callbacks.rethrow_if_any();
-    warn_of_forces_found_anew(run->result.report);
+    warn_of_changes(run->result.report);
     return run;
   }
 

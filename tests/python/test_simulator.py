@@ -176,6 +176,14 @@ class Forces(unittest.TestCase):
             simulator.set_tissue(hyperex.Tissue(young_pa=70e3))
             self.assertFalse(simulator.run().report.forces_found_anew)
 
+    def test_a_gain_on_an_idle_muscle_is_warned_of(self):
+        simulator = small_simulator()
+        weak = hyperex.MuscleOptions(gains={"corrugator_L": 0.3})
+        simulator.set_options(simulator.options.replace(
+            drive=simulator.options.drive.replace(by="muscles"), muscles=weak))
+        with self.assertWarnsRegex(UserWarning, "corrugator_L is active by at most"):
+            simulator.run()
+
     def test_refused(self):
         simulator = small_simulator()
         weak = hyperex.MuscleOptions(gains={"side_R": 0.5})

@@ -124,6 +124,7 @@ const std::vector<NotedScene>& noted_scenes() {
        "drive.by=\"displacement\"\nmotion.gain=0.05\ntime.end_s=0.5\n"
        "variant=[{name=\"more\", motion={gain=5}}]",
        press_the_lips},
+      {"muscles.gain_hardly_used", false, "muscles.gain={corrugator_L=0.3}", nullptr},
       {"variant.muscle_hardly_used", false,
        "variant=[{name=\"weak\", muscles={gain={corrugator_L=0.3}}}]", nullptr},
   };

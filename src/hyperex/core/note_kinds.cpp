@@ -64,13 +64,15 @@ constexpr NoteKind kKinds[] = {
     "The midsagittal plane is that of the landmarks alone, as the surface could not refine it."),
   warning("output.glb_coarse", "output.glb_max_mb",
     "performance.glb reaches output.glb_max_mb before output.glb_tolerance_mm."),
+  warning("muscles.gain_hardly_used", "muscles.gain",
+    "A gain changes the strength of muscles that the recording uses by less than their uncertainty "
+    "(1 sigma)."),
   warning("variant.no_effect", "variant",
     "A variant moves as base does, to 0.001 mm: probably a mistake."),
   warning("variant.lips_pass_through", "contact.lips",
     "A variant's lips pass through each other by more than 0.5 mm and farther than base's."),
   warning("variant.muscle_hardly_used", "muscles.gain",
-    "A variant changes the strength of muscles that the recording uses by less than their "
-    "uncertainty (1 sigma)."),
+    "The same of a variant."),
 
   note("scan.unit_guessed", "scan.unit", "The scan's unit was guessed from its size."),
   note("scan.mended", "scan.file", "Faults of the scan's mesh were mended in a working copy."),

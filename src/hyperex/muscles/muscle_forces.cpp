@@ -38,6 +38,7 @@ Eigen::VectorXd muscle_force(const MuscleLine& line, const TemplateMuscle& muscl
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * volume.nodes.rows());
   const double reach =
       (muscle.band > 0 ? muscle.band : shape.band) * 1e-3 * muscle.width_mm * line.scale;
+  const double ramp = muscle.ramp > 0 ? muscle.ramp : shape.ramp;
   const double farthest = reach * std::sqrt(-std::log(kLeastWeight));
   const Vec3 low = line.line.colwise().minCoeff().transpose().array() - farthest;
   const Vec3 high = line.line.colwise().maxCoeff().transpose().array() + farthest;
@@ -55,7 +56,7 @@ Eigen::VectorXd muscle_force(const MuscleLine& line, const TemplateMuscle& muscl
     for (int a = 0; a < 4; ++a) {
       const Vec3 at_node =
           muscle.kind == MuscleKind::pull
-              ? Vec3(-0.25 * std::pow(near.share, shape.ramp) * near.tangent)
+              ? Vec3(-0.25 * std::pow(near.share, ramp) * near.tangent)
               : Vec3(-near.tangent * near.tangent.dot(tet.gradient.row(a).transpose()));
       const Vec3 n = normals.row(volume.tets(t, a) % volume.surface_nodes());
       force.segment<3>(3 * volume.tets(t, a)) +=

@@ -39,7 +39,9 @@ class Laying {
       for (int k = i == 0 ? 0 : 1; k <= pieces; ++k) {
         const double t = static_cast<double>(k) / pieces;
         line.push_back(
-            sunk((1 - t) * at[i] + t * at[i + 1], (1 - t) * depth[i] + t * depth[i + 1]));
+            muscle.straight
+                ? Vec3((1 - t) * sunk(at[i], depth[i]) + t * sunk(at[i + 1], depth[i + 1]))
+                : sunk((1 - t) * at[i] + t * at[i + 1], (1 - t) * depth[i] + t * depth[i + 1]));
       }
     }
     out.line.resize(static_cast<Eigen::Index>(line.size()), 3);

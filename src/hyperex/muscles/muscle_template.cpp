@@ -108,12 +108,16 @@ class MuscleReader {
     m.path = path();
     m.width_mm = positive("width_mm", m.width_mm);
     if (table_.contains("band")) m.band = positive("band", 1);
+    if (table_.contains("ramp")) m.ramp = positive("ramp", 1);
     m.kind = one_of("kind", {"pull", "ring"}) == 1 ? MuscleKind::ring : MuscleKind::pull;
     m.lip = static_cast<MuscleLip>(one_of("lip", {"both", "upper", "lower"}));
+    m.straight = value("straight", false, "true or false");
     m.jaw = value("jaw", false, "true or false");
     m.tone = value("tone", false, "true or false");
     m.cheek = value("cheek", false, "true or false");
     m.readiness = positive("readiness", m.readiness);
+    if (table_.contains("yields")) m.yields = positive("yields", 1);
+    m.together = together();
     return m;
   }
 
@@ -144,6 +148,20 @@ class MuscleReader {
       }
     if (path.size() < 2 || path.front().depth < 0 || path.back().depth < 0) fail("path", kExpected);
     return path;
+  }
+  std::vector<std::pair<std::string, double>> together() const {
+    constexpr const char* kExpected =
+        "muscles with correlations between -1 and 1, like { malaris = 0.4 }";
+    std::vector<std::pair<std::string, double>> out;
+    if (!table_.contains("together")) return out;
+    const toml::table* others = table_["together"].as_table();
+    if (!others) fail("together", kExpected);
+    for (const auto& [key, entry] : *others) {
+      const double value = entry.value<double>().value_or(1);
+      if (!(std::abs(value) < 1) || key.str() == name_) fail("together", kExpected);
+      out.emplace_back(std::string(key.str()), value);
+    }
+    return out;
   }
   double positive(const char* key, double otherwise) const {
     if (!table_.contains(key)) return otherwise;
@@ -206,6 +224,13 @@ MuscleTable changed_table(MuscleTable table, const MuscleTable& own,
     else
       *same = muscle;
   }
+  for (const TemplateMuscle& muscle : own)
+    for (const auto& [other, value] : muscle.together)
+      if (!find_muscle(other, table))
+        throw InputError("muscle " + muscle.name,
+                         fmt::format("together: expected names of muscles, without side; {} is "
+                                     "none",
+                                     other));
   std::erase_if(table, [&](const TemplateMuscle& muscle) {
     return std::find(without.begin(), without.end(), muscle.name) != without.end();
   });

@@ -30,12 +30,17 @@ struct TemplateMuscle {
   std::vector<TemplatePlace> path;  ///< origin first, insertion last; two or more
   double width_mm = 5;
   double band = 0;  ///< reach of its force beside the line over the width; 0: as for all muscles
+  double ramp = 0;  ///< a pull grows as the way from the origin to this power; 0: as for all
   MuscleKind kind = MuscleKind::pull;
   MuscleLip lip = MuscleLip::both;
-  bool jaw = false;      ///< its origin rides on the mandible
-  bool tone = false;     ///< may relax below rest
-  bool cheek = false;    ///< moves the cheek as far as the lips: an elevator or a retractor
-  double readiness = 1;  ///< how far it is expected to act, over what is expected of others
+  bool straight = false;  ///< runs straight between its places, under what bulges over it
+  bool jaw = false;       ///< its origin rides on the mandible
+  bool tone = false;      ///< may relax below rest
+  bool cheek = false;     ///< moves the cheek as far as the lips: an elevator or a retractor
+  double readiness = 1;   ///< how far it is expected to act, over what is expected of others
+  double yields = 0;  ///< per rad of the jaw's opening: by how much readiness is divided, less 1
+  /// Correlations of its activation with those of other muscles of its side before a point is seen.
+  std::vector<std::pair<std::string, double>> together = {};
   bool operator==(const TemplateMuscle&) const = default;
 };
 using MuscleTable = std::vector<TemplateMuscle>;

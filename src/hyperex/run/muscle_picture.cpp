@@ -30,19 +30,30 @@ render::Colour colour_of(const std::string& branch) {
   return render::face_colour(std::size_t(at - kBranches.begin()));
 }
 
+/// Of a muscle that the recording does not tell from one at rest.
+render::Colour pale(const render::Colour& colour) {
+  const auto towards_white = [](double part) { return part + 0.7 * (1 - part); };
+  return {towards_white(colour.r), towards_white(colour.g), towards_white(colour.b)};
+}
+
 /// Of the muscles of one sample.
 class AtPeak {
  public:
   explicit AtPeak(const simulate::MuscleCourse& course)
       : course_(course), sample_(most_active_sample(course)) {}
   double time_s() const { return course_.time_s[std::size_t(sample_)]; }
-  double activation(const std::string& name) const {
-    const auto at = std::find(course_.names.begin(), course_.names.end(), name);
-    return at == course_.names.end() ? std::nan("")
-                                     : course_.activation(at - course_.names.begin(), sample_);
+  double activation(const std::string& name) const { return at(course_.activation, name); }
+  /// Whether its 95 % interval leaves 0 out.
+  bool known(const std::string& name) const {
+    constexpr double kWithin95 = 1.96;
+    return std::abs(activation(name)) > kWithin95 * at(course_.sigma, name);
   }
 
  private:
+  double at(const Eigen::MatrixXd& course, const std::string& name) const {
+    const auto row = std::find(course_.names.begin(), course_.names.end(), name);
+    return row == course_.names.end() ? std::nan("") : course(row - course_.names.begin(), sample_);
+  }
   const simulate::MuscleCourse& course_;
   Eigen::Index sample_;
 };
@@ -73,7 +84,8 @@ render::SheetPicture view_of(const View& view, const TriMesh& skin, const Points
   for (const muscles::MuscleLine& line : lines) {
     if (!(line.left ? view.left : view.right)) continue;
     const double activation = peak.activation(line.name);
-    drawn.push_back({frame.local_points(line.line), colour_of(table[std::size_t(line.row)].branch),
+    const render::Colour colour = colour_of(table[std::size_t(line.row)].branch);
+    drawn.push_back({frame.local_points(line.line), peak.known(line.name) ? colour : pale(colour),
                      1.5 + (activation > 0 ? 6 * std::min(activation, 1.0) : 0)});
   }
   render::Canvas canvas(render::render({{.mesh = skin}}, camera, options, {}, drawn));
@@ -100,15 +112,18 @@ render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int he
   render::Canvas canvas(wide, height_px);
   const render::TextStyle head{
       .size_px = 11, .colour = render::palette::faint_ink, .align = render::Align::right},
-      right{.size_px = 12, .align = render::Align::right};
+      known{.size_px = 12, .align = render::Align::right, .bold = true},
+      unknown{.size_px = 12, .colour = render::palette::faint_ink, .align = render::Align::right};
   canvas.text(wide - 60, 14, "right", head);
   canvas.text(wide - 10, 14, "left", head);
   for (std::size_t m = 0; m < all.size(); ++m) {
     const double y = 30 + step * double(m);
     draw_mark(canvas, left, y - 4, m, all);
     canvas.text(left + 14, y, all[m].latin, {.size_px = 12});
-    canvas.text(wide - 60, y, shown(peak.activation(all[m].name + "_R")), right);
-    canvas.text(wide - 10, y, shown(peak.activation(all[m].name + "_L")), right);
+    for (const auto& [side, x] : {std::pair("_R", wide - 60), std::pair("_L", wide - 10)}) {
+      const std::string name = all[m].name + side;
+      canvas.text(x, y, shown(peak.activation(name)), peak.known(name) ? known : unknown);
+    }
   }
   double x = left - 6;
   for (const char* branch : kBranches) {
@@ -136,7 +151,9 @@ render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& 
   sheet.title = "Muscles";
   sheet.note = fmt::format(
       "from origin (disc; of a ring its middle) to insertion; colour: branch of the facial nerve; "
-      "numbers and breadth: activation at {:.2f} s; right and left are the subject's own",
+      "numbers and breadth: activation at {:.2f} s, pale where its 95 % interval holds 0; right "
+      "and "
+      "left are the subject's own",
       peak.time_s());
   sheet.columns = 4;
   sheet.pictures.resize(views.size());

@@ -273,15 +273,16 @@ void Reader::complain_given(const std::string& key, const std::string& expected)
 /// Empty: the program's own.
 muscles::MuscleTable Reader::muscles_of_scene() {
   if (scene.muscles_file.empty() && scene.muscles_without.empty()) return {};
-  muscles::MuscleTable own;
+  muscles::MuscleTable all;
   try {
+    muscles::MuscleTable own;
     if (const fs::path& file = scene.muscles_file; !file.empty())
       own = muscles::read_muscles(read_file(file), file.string());
+    all = muscles::changed_table(muscles::muscle_template(), own, {});
   } catch (const InputError& error) {
     complain_given("muscles.file", fmt::format("sound tables of muscles ({})", error.what()));
     return {};
   }
-  const muscles::MuscleTable all = muscles::changed_table(muscles::muscle_template(), own, {});
   std::vector<std::string> names;
   for (const muscles::TemplateMuscle& muscle : all) names.push_back(muscle.name);
   for (const std::string& name : scene.muscles_without)

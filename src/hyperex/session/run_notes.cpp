@@ -125,31 +125,16 @@ std::vector<Note> lips_that_pass(const std::vector<VariantRun>& runs, double bas
   return notes;
 }
 
-std::vector<Note> gains_hardly_known(const simulate::MuscleCourse& base,
+std::vector<Note> gains_hardly_known(const std::vector<Note>& base,
                                      const std::vector<VariantRun>& runs) {
+  const auto of_gain = [](const Note& note) { return note.id == "muscles.gain_hardly_used"; };
   std::vector<Note> notes;
-  for (const VariantRun& run : runs) {
-    const simulate::MuscleCourse& own = run.simulation.performance.muscles;
-    if (own.names != base.names || own.activation.cols() != base.activation.cols()) continue;
-    bool known = false;
-    Eigen::Index most = -1, when = 0;
-    for (Eigen::Index m = 0; m < base.activation.rows(); ++m) {
-      if (own.activation.row(m) == base.activation.row(m)) continue;
-      Eigen::Index at = 0;
-      const double greatest = base.activation.row(m).cwiseAbs().maxCoeff(&at);
-      known = known || greatest > base.sigma(m, at);
-      if (most < 0 || greatest > std::abs(base.activation(most, when))) most = m, when = at;
-    }
-    if (most >= 0 && !known)
-      warn("variant.muscle_hardly_used",
-           fmt::format("variant {}: in this recording {} is active by at most {:.2f} +- {:.2f} (1 "
-                       "sigma), less than its uncertainty, so that what its strength changes is "
-                       "hardly known; a recording that uses it more, such as a broad smile, or the "
-                       "whole branch of the nerve tells more",
-                       run.scene.title, base.names[std::size_t(most)], base.activation(most, when),
-                       base.sigma(most, when)),
-           notes, run.scene.title);
-  }
+  if (std::ranges::any_of(base, of_gain)) return notes;
+  for (const VariantRun& run : runs)
+    for (const Note& note : run.simulation.report.notes)
+      if (of_gain(note))
+        warn("variant.muscle_hardly_used",
+             fmt::format("variant {}: {}", run.scene.title, note.text), notes, run.scene.title);
   return notes;
 }
 
@@ -157,7 +142,7 @@ std::vector<Note> variant_warnings(const simulate::SimulationResult& base,
                                    const std::vector<VariantRun>& runs) {
   std::vector<Note> all = idle_variants(base.performance, runs);
   append(all, lips_that_pass(runs, base.report.lip_overlap_mm));
-  append(all, gains_hardly_known(base.performance.muscles, runs));
+  append(all, gains_hardly_known(base.report.notes, runs));
   return all;
 }
 

@@ -40,9 +40,8 @@ std::vector<Note> idle_variants(const simulate::Performance& base,
 /// than base's, which run_warnings() reports.
 std::vector<Note> lips_that_pass(const std::vector<VariantRun>& runs, double base_mm);
 
-/// `variant.muscle_hardly_used`: a variant changes the strength of muscles, none of which the
-/// recording uses by more than its own uncertainty (1 sigma), so that its effect is hardly known.
-std::vector<Note> gains_hardly_known(const simulate::MuscleCourse& base,
+/// `variant.muscle_hardly_used`: a variant's `muscles.gain_hardly_used`, unless base has it too.
+std::vector<Note> gains_hardly_known(const std::vector<Note>& base,
                                      const std::vector<VariantRun>& runs);
 
 /// All of the last three.

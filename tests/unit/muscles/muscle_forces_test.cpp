@@ -77,7 +77,8 @@ TEST_F(MuscleForces, OfAPullSumToItsIntegral) {
     for (Eigen::Index t = 0; t < face_.mesh.volume.tets.rows(); ++t) {
       const OnLine on = nearest_on_line(line(name), centre(t));
       const double r = on.distance_m / reach_m, weight = std::exp(-r * r);
-      if (weight >= 1e-3) integral -= weight * std::pow(on.share, 6) * volume(t) * on.tangent;
+      const double ramp = m.ramp > 0 ? m.ramp : 6;
+      if (weight >= 1e-3) integral -= weight * std::pow(on.share, ramp) * volume(t) * on.tangent;
     }
     const Vec3 sum = force(name, plain_).colwise().sum();
     EXPECT_LT((sum - integral).norm(), 1e-9 * integral.norm()) << name;
@@ -99,18 +100,22 @@ TEST_F(MuscleForces, OfAPullPointToItsOrigin) {
 TEST_F(MuscleForces, GrowTowardsTheInsertion) {
   ForceShape even = plain_, late = plain_;
   even.ramp = 0, late.ramp = 12;
+  TemplateMuscle own = muscle("risorius_L");
+  own.ramp = 0;
   const auto share = [&](const ForceShape& shape) {
-    const Points f = force("zyg_major_L", shape);
+    const Points f = force("risorius_L", own, shape);
     double of = 0, all = 0;
     for (Eigen::Index n = 0; n < f.rows(); ++n) {
       const double size = f.row(n).norm();
       all += size;
-      of += size * nearest_on_line(line("zyg_major_L"), face_.mesh.volume.nodes.row(n)).share;
+      of += size * nearest_on_line(line("risorius_L"), face_.mesh.volume.nodes.row(n)).share;
     }
     return of / all;
   };
   EXPECT_LT(share(even), share(plain_));
   EXPECT_LT(share(plain_), share(late));
+  own.ramp = 12;
+  EXPECT_EQ(share(plain_), share(late)) << "a muscle's own goes before all muscles'";
 }
 
 TEST_F(MuscleForces, OfARingSumToNothingAndTurnNothing) {

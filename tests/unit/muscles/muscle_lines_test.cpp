@@ -109,6 +109,21 @@ TEST(MuscleLines, LieOnTheSkinAtDepth0AndOnTheBoneAt1) {
               1e-9);
 }
 
+/// A strap under the cheek does not follow the skin that bulges over it.
+TEST(MuscleLines, AStraightMuscleRunsStraightBetweenItsPlaces) {
+  const std::string path = R"(["45 (9, -30) d1", "54 (1, 1) d0.4"])";
+  const auto along = lines_of(with_path(path));
+  const auto straight = lines_of(with_path(path + "\nstraight = true"));
+  for (std::size_t m = 0; m < 2; ++m) {
+    const Points &a = along[m].line, &s = straight[m].line;
+    const Eigen::Index last = s.rows() - 1;
+    EXPECT_LT((s.row(0) - a.row(0)).norm(), 1e-12);
+    EXPECT_LT((s.row(last) - a.row(a.rows() - 1)).norm(), 1e-12);
+    EXPECT_NEAR(straight[m].arc.back(), (s.row(last) - s.row(0)).norm(), 1e-12);
+    EXPECT_GT(along[m].arc.back(), 1.001 * straight[m].arc.back());
+  }
+}
+
 TEST(MuscleLines, ADepthThatIsNotGivenIsInterpolatedByTheWay) {
   const auto open = lines_of(with_path(R"(["45 (9, -30) d1", "0.5*45 + 0.5*54", "54 d0"])"));
   const SurfaceTree skin(test::a_face().mesh.volume.outer);

@@ -52,25 +52,47 @@ TEST(MuscleTemplate, ReadsTheOtherKeysAndHasDefaults) {
   EXPECT_EQ(plain.band, 0);
   EXPECT_EQ(plain.kind, MuscleKind::pull);
   EXPECT_EQ(plain.lip, MuscleLip::both);
+  EXPECT_FALSE(plain.straight);
   EXPECT_FALSE(plain.jaw);
   EXPECT_FALSE(plain.tone);
   EXPECT_FALSE(plain.cheek);
   EXPECT_EQ(plain.readiness, 1);
+  EXPECT_EQ(plain.ramp, 0);
+  EXPECT_EQ(plain.yields, 0);
+  EXPECT_TRUE(plain.together.empty());
   const TemplateMuscle full =
       muscle(two,
              "latin = \"l\"\ngroup = \"g\"\nbranch = \"b\"\nwidth_mm = 7\nband = 2.5\n"
-             "kind = \"ring\"\nlip = \"lower\"\njaw = true\ntone = true\n"
-             "cheek = true\nreadiness = 1.5\n");
+             "kind = \"ring\"\nlip = \"lower\"\nstraight = true\njaw = true\ntone = true\n"
+             "cheek = true\nreadiness = 1.5\nramp = 0.5\nyields = 8\n"
+             "together = { graft = 0.4, other = -0.2 }\n");
+  EXPECT_EQ(full.ramp, 0.5);
+  EXPECT_EQ(full.yields, 8);
+  const std::vector<std::pair<std::string, double>> together = {{"graft", 0.4}, {"other", -0.2}};
+  EXPECT_EQ(full.together, together);
   EXPECT_EQ(full.readiness, 1.5);
   EXPECT_EQ(full.latin + full.group + full.branch, "lgb");
   EXPECT_EQ(full.width_mm, 7);
   EXPECT_EQ(full.band, 2.5);
   EXPECT_EQ(full.kind, MuscleKind::ring);
   EXPECT_EQ(full.lip, MuscleLip::lower);
+  EXPECT_TRUE(full.straight);
   EXPECT_TRUE(full.jaw);
   EXPECT_TRUE(full.tone);
   EXPECT_TRUE(full.cheek);
   EXPECT_EQ(muscle(two, "lip = \"upper\"\n").lip, MuscleLip::upper);
+}
+
+TEST(MuscleTemplate, ActsTogetherWithMusclesThatThereAre) {
+  const MuscleTable own = {muscle(two, "together = { zyg_major = 0.4 }\n")};
+  EXPECT_EQ(changed_table(muscle_template(), own, {}).back(), own[0]);
+  const MuscleTable unknown = {muscle(two, "together = { zyg_mayor = 0.4 }\n")};
+  try {
+    changed_table(muscle_template(), unknown, {});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("muscle own: together"), HasSubstr("zyg_mayor")));
+  }
 }
 
 TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
@@ -111,6 +133,13 @@ TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
       {"width_mm", "width_mm = nan"},
       {"width_mm", "width_mm = \"wide\""},
       {"readiness", "readiness = 0"},
+      {"ramp", "ramp = 0"},
+      {"ramp", "ramp = \"steep\""},
+      {"yields", "yields = -1"},
+      {"together", "together = 0.4"},
+      {"together", "together = { malaris = 1 }"},
+      {"together", "together = { malaris = \"often\" }"},
+      {"together", "together = { own = 0.4 }"},
       {"band", "band = 0"},
       {"band", "band = inf"},
       {"band", "band = [2]"},
@@ -118,6 +147,7 @@ TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
       {"kind", "kind = 1"},
       {"lip", "lip = \"left\""},
       {"lip", "lip = true"},
+      {"straight", "straight = 1"},
       {"jaw", "jaw = \"yes\""},
       {"tone", "tone = 1"},
       {"cheek", "cheek = 1"},

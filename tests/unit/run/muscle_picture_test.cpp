@@ -14,12 +14,13 @@ namespace hyperex::run {
 namespace {
 
 /// Two samples; the second is the one of most activation.
-simulate::MuscleCourse course(double left, double right) {
+simulate::MuscleCourse course(double left, double right, double sigma = 0.02) {
   simulate::MuscleCourse course;
   course.names = {"zyg_major_L", "zyg_major_R"};
   course.time_s = {0, 0.1};
   course.activation.resize(2, 2);
   course.activation << 0, left, 0, right;
+  course.sigma.setConstant(2, 2, sigma);
   return course;
 }
 
@@ -52,6 +53,18 @@ TEST(MusclePicture, AMuscleIsAsBroadAsItIsActiveOnItsOwnSide) {
   EXPECT_EQ(added(0, 0.9 * cell), 0) << "the right side draws no left muscle";
   EXPECT_GT(added(cell, 2 * cell), 200);
   EXPECT_GT(added(2.2 * cell, 3.1 * cell), 200);
+}
+
+TEST(MusclePicture, AMuscleThatMayBeAtRestIsPale) {
+  const muscles::test::AFace& face = muscles::test::a_face();
+  const render::Colour zygomatic = render::face_colour(1);
+  const auto full = [&](double sigma) {
+    const auto image = draw_muscles(face.mesh, face.landmarks, course(0.9, 0.9, sigma));
+    return pixels_of(image, zygomatic, 0, 1);
+  };
+  const int known = full(0.4), unknown = full(0.5);  // 0.9 is 2.2 and 1.8 standard deviations
+  EXPECT_GT(known, unknown + 400);
+  EXPECT_EQ(full(0.02), known) << "it is one or the other";
 }
 
 TEST(MusclePicture, HasADiscForEachMuscle) {

@@ -254,5 +254,25 @@ TEST(ReactionsOf, MoveItAsWhatWasPrescribed) {
   }
 }
 
+TEST(HardlyUsedText, NamesAMuscleThatTheRecordingUsesLessThanItIsKnown) {
+  MuscleCourse recorded;
+  recorded.names = {"zyg_major_L", "zyg_major_R"};
+  recorded.activation = Eigen::MatrixXd{{0, 0.9}, {0.1, 0.2}};
+  recorded.sigma = Eigen::MatrixXd{{0.3, 0.3}, {0.4, 0.42}};
+  const auto text = [&](const std::vector<MuscleGain>& gains) {
+    MuscleOptions options;
+    options.gains = gains;
+    return hardly_used_text(recorded, options);
+  };
+  EXPECT_THAT(text({{"zyg_major_R", 0.3}}), testing::AllOf(testing::HasSubstr("zyg_major_R is"),
+                                                           testing::HasSubstr("0.20 +- 0.42")));
+  EXPECT_EQ(text({{"zyg_major_L", 0.3}}), "") << "it is known";
+  EXPECT_EQ(text({{"zyg_major_L", 0.3}, {"zyg_major_R", 0.3}}), "") << "one of them is known";
+  EXPECT_EQ(text({{"zyg_major_R", 1}}), "") << "nothing changes";
+  EXPECT_EQ(text({}), "");
+  recorded = {};
+  EXPECT_EQ(text({{"zyg_major_R", 0.3}}), "") << "no muscles drive";
+}
+
 }  // namespace
 }  // namespace hyperex::simulate

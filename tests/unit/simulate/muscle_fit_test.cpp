@@ -181,8 +181,7 @@ TEST_F(FitOfPoints, BothSidesAreExpectedToActAlikeUnlessPointsTellThemApart) {
   const Eigen::Vector3d way(0.004, -0.003, 0.012), other(0.002, 0.011, 0.001);
   FitPriors priors;
   priors.activation = 0.3, priors.ring = 0.15;
-  priors.counterpart = {1, 0};
-  priors.side_correlation = 0.6;
+  priors.correlation = Eigen::Matrix2d{{1, 0.6}, {0.6, 1}};
   const Eigen::MatrixXd no_jaw = Eigen::MatrixXd::Zero(3, 12);
   Eigen::MatrixXd left_alone(3, 2), both(3, 2);
   left_alone << way, Vec3::Zero();
@@ -203,6 +202,59 @@ TEST_F(FitOfPoints, BothSidesAreExpectedToActAlikeUnlessPointsTellThemApart) {
   const FitResult apart = found(both, 1e-6, 0);
   EXPECT_NEAR(apart.activation[0], 0.5, 1e-6);
   EXPECT_NEAR(apart.activation[1], 0, 1e-6) << "a one-sided motion stays one";
+}
+
+/// Muscles that act together: the mean and the covariance are those of a Gaussian with that prior
+/// given the points, in the form that inverts the points' covariance instead of the prior's.
+TEST_F(FitOfPoints, CorrelatedMusclesAreAsAGaussianGivenThePoints) {
+  constexpr int kMuscles = 4, kPoints = 2;
+  const PointResponse r{
+      matrix(3 * kPoints, kMuscles, 0.006), Eigen::MatrixXd::Zero(3 * kPoints, 12), {}};
+  FitPriors priors;
+  priors.activation = priors.tone = 0.3;
+  priors.readiness = Eigen::Vector4d(1, 0.5, 2, 1);
+  priors.correlation =
+      Eigen::Matrix4d{{1, 0.5, -0.3, 0}, {0.5, 1, 0.2, 0.1}, {-0.3, 0.2, 1, 0.4}, {0, 0.1, 0.4, 1}};
+  const double sigma_m = 0.002;
+  MuscleFit fit(r, jaw_, priors, sigma_m, all(kMuscles), none(kMuscles));
+  const Eigen::VectorXd observed = matrix(3 * kPoints, 1, 0.004);
+  const FitResult found = fit.fit(observed);
+
+  const Eigen::VectorXd sigma = 0.3 * priors.readiness;
+  const Eigen::MatrixXd before = sigma.asDiagonal() * priors.correlation * sigma.asDiagonal();
+  const Eigen::MatrixXd of_points =
+      r.of_muscles * before * r.of_muscles.transpose() +
+      sigma_m * sigma_m * Eigen::MatrixXd::Identity(3 * kPoints, 3 * kPoints);
+  const Eigen::MatrixXd gain = before * r.of_muscles.transpose() * of_points.inverse();
+  EXPECT_LT((found.activation - gain * observed).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT((found.covariance - (before - gain * r.of_muscles * before)).cwiseAbs().maxCoeff(),
+            1e-10);
+  priors.correlation = Eigen::Matrix4d::Identity();
+  MuscleFit alone(r, jaw_, priors, sigma_m, all(kMuscles), none(kMuscles));
+  EXPECT_GT((alone.fit(observed).activation - found.activation).norm(), 0.02);
+}
+
+/// One point moves with the muscle alone and one with the jaw alone: the wider the jaw is open, the
+/// less the muscle is expected to act.
+TEST_F(FitOfPoints, AMuscleYieldsToTheOpeningJaw) {
+  const Eigen::Vector3d way(0.004, -0.003, 0.012);
+  PointResponse r{Eigen::MatrixXd::Zero(6, 1), Eigen::MatrixXd::Zero(6, 12), {}};
+  r.of_muscles.topRows<3>() = way;
+  r.of_jaw.bottomRows<3>() = response(1, 1).of_jaw;
+  FitPriors priors;
+  priors.activation = 0.3;
+  priors.yields = Eigen::VectorXd::Constant(1, 8);
+  const double sigma_m = 0.002;
+  for (const double opening : {-0.1, 0.0, 0.15, 0.3}) {
+    JawPose pose = JawPose::Zero();
+    pose[0] = opening;
+    MuscleFit fit(r, jaw_, priors, sigma_m, {0}, {0});
+    const FitResult found = fit.fit(moved(r, jaw_, Eigen::VectorXd::Constant(1, 0.5), pose));
+    const double of_points = way.squaredNorm() / (sigma_m * sigma_m);
+    const double sigma = 0.3 / (1 + 8 * std::max(0.0, found.jaw[0]));
+    EXPECT_NEAR(found.activation[0], 0.5 * of_points / (of_points + 1 / (sigma * sigma)), 1e-5)
+        << opening;
+  }
 }
 
 /// Of activations drawn from the prior and points with noise, sigma is what the fit is wrong by.

@@ -88,6 +88,26 @@ MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& o
   return out;
 }
 
+std::string hardly_used_text(const MuscleCourse& recorded, const MuscleOptions& options) {
+  if (recorded.names.empty() || recorded.activation.cols() == 0) return {};
+  const Eigen::VectorXd factor = muscle_gains(recorded.names, options.gains, options.table());
+  Eigen::Index most = -1, when = 0;
+  for (Eigen::Index m = 0; m < factor.size(); ++m) {
+    if (factor[m] == 1) continue;
+    Eigen::Index at = 0;
+    const double greatest = recorded.activation.row(m).cwiseAbs().maxCoeff(&at);
+    if (greatest > recorded.sigma(m, at)) return {};
+    if (most < 0 || greatest > std::abs(recorded.activation(most, when))) most = m, when = at;
+  }
+  if (most < 0) return {};
+  return fmt::format(
+      "in this recording {} is active by at most {:.2f} +- {:.2f} (1 sigma), less than its "
+      "uncertainty, so that what its strength changes is hardly known; a recording that uses it "
+      "more, such as a broad smile, or the whole branch of the nerve tells more",
+      recorded.names[std::size_t(most)], recorded.activation(most, when),
+      recorded.sigma(most, when));
+}
+
 Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,
                            const muscles::MuscleTable& table) {
   Eigen::MatrixXd sums =

@@ -37,6 +37,11 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
 /// The activations after mirroring and gains.
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);
 
+/// What to say of gains, none of which changes a muscle that the recording uses by more than its
+/// own uncertainty (1 sigma): which of these muscles acts most, and how far. Empty where one is
+/// known, or no gain changes anything.
+std::string hardly_used_text(const MuscleCourse& recorded, const MuscleOptions& options);
+
 /// Sums of activations over the groups that are named as in MuscleCourse::groups: |groups| x
 /// samples.
 Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/simulate/load/muscle_fit.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "hyperex/face/face_frame.hpp"
@@ -33,6 +34,7 @@ MuscleFit::MuscleFit(PointResponse response, const JawKinematics& jaw, const Fit
       tone_(std::move(tone)),
       ring_(std::move(ring)) {
   last_.activation = Eigen::VectorXd::Zero(response_.of_muscles.cols());
+  if (priors_.correlation.size() > 0) precision_ = priors_.correlation.inverse();
 }
 
 /// The columns at the activations of the last answer.
@@ -43,24 +45,28 @@ Eigen::MatrixXd MuscleFit::blend(const Eigen::MatrixXd& narrow, const Eigen::Mat
   return narrow + (wide - narrow) * share.asDiagonal();
 }
 
-double MuscleFit::sigma_of(Eigen::Index m) const {
-  const double sigma = tone_[m] && last_.activation[m] < 0 ? priors_.tone
-                       : ring_[m]                          ? priors_.ring
-                                                           : priors_.activation;
-  return priors_.readiness.size() > 0 ? priors_.readiness[m] * sigma : sigma;
+/// Before a point is seen, at the signs and the jaw's opening of the last answer.
+Eigen::VectorXd MuscleFit::sigmas() const {
+  Eigen::VectorXd out(response_.of_muscles.cols());
+  const double opening = std::max(0.0, last_.jaw[0]);
+  for (Eigen::Index m = 0; m < out.size(); ++m) {
+    out[m] = tone_[m] && last_.activation[m] < 0 ? priors_.tone
+             : ring_[m]                          ? priors_.ring
+                                                 : priors_.activation;
+    if (priors_.readiness.size() > 0) out[m] *= priors_.readiness[m];
+    if (priors_.yields.size() > 0) out[m] /= 1 + priors_.yields[m] * opening;
+  }
+  return out;
 }
 
 /// The inverse of the activations' covariance before a point is seen.
 void MuscleFit::add_priors(Eigen::MatrixXd& h) const {
-  for (Eigen::Index m = 0; m < Eigen::Index(tone_.size()); ++m) {
-    const double own = sigma_of(m);
-    const Eigen::Index other =
-        priors_.counterpart.empty() ? -1 : priors_.counterpart[std::size_t(m)];
-    const double along = other < 0 ? 0 : priors_.side_correlation;
-    const double left = 1 - along * along;
-    h(m, m) += 1 / (own * own * left);
-    if (other >= 0) h(m, other) -= along / (own * sigma_of(other) * left);
-  }
+  const Eigen::VectorXd one_over = sigmas().cwiseInverse();
+  const Eigen::Index n = one_over.size();
+  if (precision_.size() == 0)
+    h.topLeftCorner(n, n).diagonal() += one_over.cwiseAbs2();
+  else
+    h.topLeftCorner(n, n) += one_over.asDiagonal() * precision_ * one_over.asDiagonal();
 }
 
 FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {

@@ -31,9 +31,11 @@ struct FitPriors {
   double ring = 0.2;  ///< muscles that act as rings
   double tone = 0.1;  ///< below rest, of muscles that may relax
   double opening_rad = 0.35, turn_rad = 0.03, tilt_rad = 0.02, slide_m = 0.002;
-  Eigen::VectorXd readiness = {};     ///< per muscle: a factor on these three; empty: all 1
-  std::vector<int> counterpart = {};  ///< per muscle: that of the other side; -1 or empty: none
-  double side_correlation = 0;        ///< between the activations of both: 0 to below 1
+  Eigen::VectorXd readiness = {};  ///< per muscle: a factor on these three; empty: all 1
+  /// Per muscle: the factor becomes 1 / (1 + yields x opening) of it where the jaw is open by so
+  /// many rad, since an open jaw explains the motion by itself; empty: all 0.
+  Eigen::VectorXd yields = {};
+  Eigen::MatrixXd correlation = {};  ///< between the activations; empty: none
 };
 
 /// How points move with activations and with the jaw: 3 P x M and 3 P x 12, m. With wide bands a
@@ -68,8 +70,9 @@ class MuscleFit {
   FitPriors priors_;
   double sigma_m_;
   std::vector<char> tone_, ring_;
+  Eigen::MatrixXd precision_;  ///< the inverse of the correlations
   Eigen::MatrixXd blend(const Eigen::MatrixXd& narrow, const Eigen::MatrixXd& wide) const;
-  double sigma_of(Eigen::Index muscle) const;
+  Eigen::VectorXd sigmas() const;
   void add_priors(Eigen::MatrixXd& h) const;
   FitResult last_;
 };

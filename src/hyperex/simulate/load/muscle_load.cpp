@@ -16,6 +16,7 @@
 #include "hyperex/simulate/drive/support.hpp"
 #include "hyperex/simulate/load/muscle_fit.hpp"
 #include "hyperex/simulate/load/muscle_model.hpp"
+#include "hyperex/simulate/load/muscle_prior.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -67,35 +68,20 @@ struct Driven {
   Eigen::Index below_nose_ = 0;
 };
 
-int counterpart_of(const std::vector<muscles::MuscleLine>& lines, const std::string& name) {
-  const std::string other = muscles::other_side(name);
-  for (std::size_t m = 0; m < lines.size(); ++m)
-    if (lines[m].name == other) return int(m);
-  return -1;
-}
-
 MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const Driven& driven,
                  const MuscleOptions& options) {
   const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
-  FitPriors priors;
-  priors.activation = options.activation_sigma;
-  priors.ring = options.ring_sigma;
-  priors.tone = options.tone_sigma;
-  priors.slide_m = options.slide_sigma_m;
-  priors.side_correlation = options.side_correlation;
   std::vector<char> tone, ring;
-  priors.readiness.resize(Eigen::Index(model.lines().size()));
   for (const muscles::MuscleLine& line : model.lines()) {
-    priors.counterpart.push_back(counterpart_of(model.lines(), line.name));
     const muscles::TemplateMuscle& muscle = options.table()[std::size_t(line.row)];
-    priors.readiness[Eigen::Index(tone.size())] = muscle.readiness;
     tone.push_back(muscle.tone);
     ring.push_back(muscle.kind == muscles::MuscleKind::ring);
   }
   return MuscleFit(
       {at_points(driven.carrier, model.response()), at_points(driven.carrier, model.jaw_response()),
        at_points(driven.carrier, model.wide_response()), options.half},
-      JawKinematics(landmarks), priors, sigma, std::move(tone), std::move(ring));
+      JawKinematics(landmarks), muscle_prior(model.lines(), options), sigma, std::move(tone),
+      std::move(ring));
 }
 
 /// Displacements of the patches' nodes (3 |patch nodes| x n) as the field between the driven points

@@ -70,7 +70,12 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
   p.landmarks = readout.landmark_tracks(p.frame_time_s, p.skin_displacement_m);
   p.driven_names = driven.names;
   p.driven_points_rest = driven.rest;
-  if (stages.load.has_value()) p.muscles = changed_muscles(stages.load->muscles, options.muscles);
+  if (stages.load.has_value()) {
+    const MuscleCourse& recorded = stages.load->muscles;
+    p.muscles = changed_muscles(recorded, options.muscles);
+    if (std::string text = hardly_used_text(recorded, options.muscles); !text.empty())
+      warn("muscles.gain_hardly_used", "muscles.gain", std::move(text));
+  }
   p.peak_frame = peak_frame(p.frame_time_s, options.time.peak_time_s, driven.rows, points);
   if (progress.skin_alone()) return;
   const Readout::Lips lips = readout.lips(

@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which muscle makes which shape: facs.py PROGRAM FOLDER_OF_THE_DATA_SET OUT [--check] [SUBJECT ...]
+
+Each expression shape of a rig that the Facial Action Coding System (Ekman, Friesen and Hager 2002) gives to known
+muscles, at weight 0.9, is fitted by the program with seven points of the mouth, with the points that drive by default
+and with all 68 (subjects A, D and E unless named). One recording holds them all, a second apart, since each of its
+samples is fitted by itself. Prints the tables of docs/muscles.md. --check: exit status 1 where fewer are right than
+BOUNDS say, 77 where the data are absent."""
+import csv
+import json
+import os
+import subprocess
+import sys
+
+from rig_cases import HEADS, MOUTH, SUBJECTS, Rig, heads
+
+RINGS = ("oo_up_marg", "oo_lo_marg", "oo_up_per", "oo_lo_per")
+UPPER = ("lev_lab_sup", "lev_alaeque", "zyg_minor")
+# Action unit, shape, the muscles that make it.
+ROWS = (
+    ("1", "browInnerUp", ("frontal_med",)),
+    ("2", "browOuterUp", ("frontal_lat",)),
+    ("4", "browDown", ("corrugator", "procerus")),
+    ("6", "cheekSquint", ("orb_oculi_lo", "orb_oculi_up", "orb_palpebral", "malaris")),
+    ("9", "noseSneer", ("lev_alaeque", "procerus", "nasalis")),
+    ("10", "mouthUpperUp", UPPER),
+    ("12", "mouthSmile", ("zyg_major",)),
+    ("14", "mouthDimple", ("buccinator",)),
+    ("15", "mouthFrown", ("dep_anguli",)),
+    ("16", "mouthLowerDown", ("dep_lab_inf",)),
+    ("17", "mouthShrugLower", ("mentalis",)),
+    ("18", "mouthPucker", ("incis_sup", "incis_inf") + RINGS),
+    ("20", "mouthStretch", ("risorius", "platysma")),
+    ("22", "mouthFunnel", RINGS),
+    ("24", "mouthPress", RINGS),
+    ("12", "mouthSmile_L", ("zyg_major_L",)),
+    ("15", "mouthFrown_L", ("dep_anguli_L",)),
+    ("10", "mouthUpperUp_L", tuple(m + "_L" for m in UPPER)),
+    ("12", "mouthSmile_R", ("zyg_major_R",)),
+    ("15", "mouthFrown_R", ("dep_anguli_R",)),
+    ("10", "mouthUpperUp_R", tuple(m + "_R" for m in UPPER)),
+    ("26", "jawOpen", ()),
+)
+WEIGHT = 0.9
+# Least number of right ones among the 21 shapes, greatest activation while the jaw opens.
+POINTS = ("7", "default", "all")
+BOUNDS = {"7": (0, 1.0), "default": (0, 1.0), "all": (0, 1.0)}
+
+
+def write_scene(data, out, subject, points):
+    """A recording that visits every shape, and its scene."""
+    rig = Rig(f"{data}/ict", subject)
+    still = heads(rig)
+    names = [f"ibug68_{k}" for k in range(68)]
+    fixed = [f"head_{k + 1}" for k in range(HEADS)]
+    rows = list(rig.landmarks) + list(still)
+    places = [rig.points[rows]]
+    for _, shape, _ in ROWS:
+        moved = rig.moved({shape: WEIGHT})
+        moved[still] = 0
+        places += [rig.points[rows] + moved[rows], rig.points[rows]]
+    base = f"{out}/{subject}_facs"
+    with open(f"{base}_mm.csv", "w") as stream:
+        stream.write(",".join(["time_s"] + [f"{n}_{axis}_mm" for n in names + fixed for axis in "xyz"]) + "\n")
+        for k, at in enumerate(places):
+            stream.write(",".join([str(k)] + [f"{x:.5f}" for x in at.ravel()]) + "\n")
+    scan = f"{data}/ict/subject_{subject}"
+    driven = {"7": [f"ibug68_{k}" for k in MOUTH], "default": [], "all": names}[points]
+    driven = f", points = {json.dumps(driven)}" if driven else ""
+    rigid = ", ".join(f'"{n}"' for n in fixed)
+    scene = f"{base}_{points}.toml"
+    with open(scene, "w") as stream:
+        stream.write(
+            f'scan = {{ file = "{scan}_neutral_scan.ply", unit = "mm", landmarks = "{scan}_landmarks.json" }}\n'
+            f'motion = {{ file = "{subject}_facs_mm.csv", rigid_points = [{rigid}] }}\n'
+            f'drive = {{ by = "muscles"{driven} }}\ntime = {{ end_s = 0.1 }}\n'
+            "output = { vtu = false, glb = false, report = false }\n"
+        )
+    return scene
+
+
+def activations(program, scene):
+    """Of each shape: muscle -> activation."""
+    out = scene[: -len(".toml")]
+    subprocess.run([program, "run", scene, "--out", out], check=True, stdout=subprocess.DEVNULL)
+    with open(f"{out}/activations.csv") as stream:
+        lines = [row for row in csv.reader(line for line in stream if not line.startswith("#"))]
+    by_time = {round(float(row[0])): row for row in lines[1:]}
+    named = [(i, n) for i, n in enumerate(lines[0]) if n[-2:] in ("_L", "_R")]
+    return [{n: float(by_time[2 * k + 1][i]) for i, n in named} for k in range(len(ROWS))]
+
+
+def judged(found, expected):
+    """Whether the strongest muscle is expected; the share of the expected in the sum; the strongest and its value."""
+    act = {n: max(a, 0.0) for n, a in found.items()}
+    right = [n for n in act if n in expected or n[:-2] in expected]
+    strongest = max(act, key=act.get)
+    return strongest in right, sum(act[n] for n in right) / max(sum(act.values()), 1e-9), strongest, act[strongest]
+
+
+def main():
+    arguments = [a for a in sys.argv[1:] if a != "--check"]
+    program, data, out = (os.path.abspath(path) for path in arguments[:3])
+    if not os.path.exists(f"{data}/ict/subject_A_rig.glb"):
+        sys.exit(77)
+    os.makedirs(out, exist_ok=True)
+    wrong = False
+    subjects = arguments[3:] or SUBJECTS
+    results = {
+        (subject, points): activations(program, write_scene(data, out, subject, points))
+        for subject in subjects
+        for points in POINTS
+    }
+    columns = [(subject, points) for points in POINTS for subject in subjects]
+    print("| action unit, shape | " + " | ".join(f"{s}, {p}" for s, p in columns) + " |")
+    print("|---" * (1 + len(columns)) + "|")
+    for k, (unit, shape, expected) in enumerate(ROWS):
+        cells = []
+        for column in columns:
+            is_right, share, name, value = judged(results[column][k], expected)
+            mark = "**" if is_right else ""
+            cells.append(f"{mark}{name} {value:.2f}{mark}" + (f" ({share:.2f})" if expected else ""))
+        print(f"| {unit} {shape} | " + " | ".join(cells) + " |")
+    for subject, points in columns:
+        of_muscles = [judged(r, e) for r, (_, _, e) in zip(results[subject, points], ROWS) if e]
+        right, share = sum(j[0] for j in of_muscles), sum(j[1] for j in of_muscles) / len(of_muscles)
+        jaw = judged(results[subject, points][-1], ())[3]
+        print(f"{subject}, {points} points: {right} of {len(of_muscles)} right, mean share {share:.2f}, jaw {jaw:.2f}")
+        wrong |= right < BOUNDS[points][0] or jaw > BOUNDS[points][1]
+    if "--check" in sys.argv and wrong:
+        sys.exit(f"expected at least and at most {BOUNDS}")
+
+
+if __name__ == "__main__":
+    main()
