@@ -63,8 +63,7 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   made.motion = seen_from(folder, motion);
   made.motion_key = motion == "embedded" ? "motion.file" : scene::recording_key(motion);
   if (made.motion_key == "motion.file" && motion != "embedded")
-    if (const motion::Motion points = motion::read_motion(motion); !motion::has_pose_points(points))
-      made.rigid_points = motion::find_still_points(points);
+    made.rigid_points = motion::proposed_rigid_points(motion::read_motion(motion));
   const std::string text = scene::new_scene_text(made);
   scene::read_scene_text(text, to);  // what is wrong is said now, and nothing is written
   write_file_atomically(to, [&](std::ostream& out) { out << text; });

@@ -12,6 +12,8 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/zip.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene_text.hpp"
@@ -104,6 +106,14 @@ std::string_view embedded_smile() {
   return {hyperex_studio_smile_begin, hyperex_studio_smile_end};
 }
 
+std::string moved_by(const std::string& text, const fs::path& recording) {
+  const std::string key = scene::recording_key(recording);
+  const std::string moved = scene::with_value(text, key, fs::absolute(recording).string());
+  if (key != "motion.file") return moved;
+  const auto rigid = motion::proposed_rigid_points(motion::read_motion(recording));
+  return rigid.empty() ? moved : scene::with_value(moved, "motion.rigid_points", rigid);
+}
+
 std::string with_recording(const std::string& text, const fs::path& recording) {
   const json root = scene::parse_toml(text).root;
   std::string out = text;
@@ -113,7 +123,7 @@ std::string with_recording(const std::string& text, const fs::path& recording) {
   // The built-in smile gives its scene its title.
   if (root.value("title", "") == scene::parse_toml(embedded_scene()).root["title"])
     out = scene::with_value(out, "title", nullptr);
-  return scene::with_value(out, scene::recording_key(recording), fs::absolute(recording).string());
+  return moved_by(out, recording);
 }
 
 json with_uploads(const std::string& key, json value, const fs::path& uploads,

@@ -14,6 +14,10 @@ std::string embedded_scene();
 /// The contents of "smile_arkit.csv".
 std::string_view embedded_smile();
 
+/// A scene moved by a recording, which it does not name yet. A recording of points without those
+/// that the head's pose is usually found from names the ones that were found to be still
+/// (motion::proposed_rigid_points). Throws InputError where such a recording cannot be read.
+std::string moved_by(const std::string& text, const std::filesystem::path& recording);
 /// A scene moved by another recording. What it says of the one before goes with it; the face and
 /// what is asked of it stay.
 std::string with_recording(const std::string& text, const std::filesystem::path& recording);

@@ -75,6 +75,7 @@ void Session::send_scene() {
                       {"title", scene.title},
                       {"values", values},
                       {"faces", faces},
+                      {"points", face_->session().inputs().motion.motion.names},
                       {"drive", values[0]["drive.by"]},
                       {"drive_why", face_->session().drive_reason()},
                       {"can_undo", !undo_.empty()},

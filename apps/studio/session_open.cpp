@@ -73,7 +73,7 @@ std::string Session::scan_scene(const fs::path& scan, const fs::path& recording)
     text = scene::with_value(text, "motion.arkit", "smile_arkit.csv");
     return scene::with_value(text, "drive.by", "muscles");
   }
-  return scene::with_value(text, scene::recording_key(recording), fs::absolute(recording).string());
+  return moved_by(text, recording);
 }
 
 void Session::write_smile() const {

@@ -81,7 +81,7 @@ const keys = [
   key('tissue.young_kpa', 'kPa', 0, 1e4, 150), key('tissue.viscosity_pa_s', 'Pa s', 0, 1e4, 100), key('tissue.poisson', '', 0, 0.5, 0.45),
   key('tissue.density_kg_m3', 'kg/m^3', 0, 1e4, 1000), key('mesh.thickness_mm', 'mm', 0, 40, 0), key('motion.gain', '', 0, 5, 1),
 ];
-const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => [name, value])), 'muscles.gain': {}, 'tissue.region': [] };
+const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => [name, value])), 'muscles.gain': {}, 'tissue.region': [], 'motion.file': 'own.csv', 'motion.rigid_points': ['band_1', 'band_2', 'band_3'] };
 
 /** What a session does with requests, as far as the page needs it. `remarksOf(faces)`: those on its motion. */
 class Session {
@@ -98,7 +98,7 @@ class Session {
   scene() {
     this.send({
       event: 'scene', title: this.title, values: this.faces.map(({ values }) => values), faces: this.faces.map(({ name, values }, i) => ({ name, changes: i === 0 ? {} : Object.fromEntries(Object.entries(values).filter(([k, v]) => v !== defaults[k])) })),
-      drive: 'muscles', drive_why: 'the scene says so', can_undo: false, can_redo: false, saved: true, text: JSON.stringify(this.faces),
+      points: ['band_1', 'band_2', 'band_3', 'band_4', 'cheilion_L'], drive: 'muscles', drive_why: 'the scene says so', can_undo: false, can_redo: false, saved: true, text: JSON.stringify(this.faces),
     });
   }
   moved(event) {

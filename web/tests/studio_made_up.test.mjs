@@ -38,6 +38,26 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await close();
   });
 
+  test('the points that the head is held still by are chosen from the recording’s, three or more', async () => {
+    const { page, complaints, session, close } = await openMadeUp(browser, () => []);
+    await page.locator('.rigid-points').evaluate((details) => (details.open = true));
+    const box = (name) => page.locator(`.rigid-points input[value=${name}]`);
+    const press = (name) => box(name).evaluate((input) => input.click());
+    const apply = page.locator('.rigid-points button');
+    assert.equal(await page.locator('.rigid-points summary').textContent(), 'Head pose: from 3 points named');
+    assert.equal(await page.locator('.rigid-points input:checked').count(), 3);
+    await press('band_3');
+    assert.equal(await apply.isDisabled(), true, 'two are too few');
+    assert.match(await page.locator('.rigid-points .hint').textContent(), /3 points or more/);
+    await press('band_4');
+    await apply.evaluate((button) => button.click());
+    await page.waitForFunction(() => document.querySelectorAll('.rigid-points input:checked').length === 3);
+    const changes = session().requests.filter(({ name, changes: of }) => name === 'set' && of['motion.rigid_points']);
+    assert.deepEqual(changes.map(({ face, live, changes: of }) => [face, live, of['motion.rigid_points']]), [[0, false, ['band_1', 'band_2', 'band_4']]]);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
   test('a face is called by what it changes, until somebody names it', async () => {
     const { page, complaints, session, close } = await openMadeUp(browser, () => []);
     const names = () => page.locator('#tabs .tab-name').allInnerTexts();

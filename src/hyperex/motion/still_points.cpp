@@ -80,4 +80,8 @@ bool has_pose_points(const Motion& motion) {
          }) >= 3;
 }
 
+std::vector<std::string> proposed_rigid_points(const Motion& motion) {
+  return has_pose_points(motion) ? std::vector<std::string>() : find_still_points(motion);
+}
+
 }  // namespace hyperex::motion

@@ -21,4 +21,8 @@ inline constexpr double kStillPoints_m = 1e-3;
 /// move with the skull (default_rigid_points).
 bool has_pose_points(const Motion& motion);
 
+/// The points to name as moving with the skull where has_pose_points() is false:
+/// find_still_points().
+std::vector<std::string> proposed_rigid_points(const Motion& motion);
+
 }  // namespace hyperex::motion

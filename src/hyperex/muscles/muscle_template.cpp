@@ -117,6 +117,8 @@ class MuscleReader {
     m.cheek = value("cheek", false, "true or false");
     m.readiness = positive("readiness", m.readiness);
     if (table_.contains("yields")) m.yields = positive("yields", 1);
+    m.few_share = share("few_share");
+    m.many_share = share("many_share");
     m.together = together();
     return m;
   }
@@ -162,6 +164,12 @@ class MuscleReader {
       out.emplace_back(std::string(key.str()), value);
     }
     return out;
+  }
+  double share(const char* key) const {
+    if (!table_.contains(key)) return -1;
+    const double value = table_[key].value<double>().value_or(-1);
+    if (!(value >= 0 && value <= 1)) fail(key, "a number, 0 to 1");
+    return value;
   }
   double positive(const char* key, double otherwise) const {
     if (!table_.contains(key)) return otherwise;

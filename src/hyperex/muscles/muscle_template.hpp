@@ -39,6 +39,9 @@ struct TemplateMuscle {
   bool cheek = false;     ///< moves the cheek as far as the lips: an elevator or a retractor
   double readiness = 1;   ///< how far it is expected to act, over what is expected of others
   double yields = 0;  ///< per rad of the jaw's opening: by how much readiness is divided, less 1
+  /// Near driven points, the weight of the skin's shape that its force makes, beside the field
+  /// between the points: with few points and with many; below 0: as for all of its kind.
+  double few_share = -1, many_share = -1;
   /// Correlations of its activation with those of other muscles of its side before a point is seen.
   std::vector<std::pair<std::string, double>> together = {};
   bool operator==(const TemplateMuscle&) const = default;

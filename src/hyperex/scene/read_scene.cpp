@@ -44,6 +44,7 @@ class Reader {
   void settle_motion();
   /// Where no key says what drives: muscles in a scene with variants, save where the keys given
   /// have a meaning for displacement alone.
+  bool drive_is_open() const;
   void settle_drive();
   void fill();
   /// Variants have the same table.
@@ -215,19 +216,24 @@ void Reader::settle_motion() {
     complain_given(given[i], fmt::format("one source of motion, and {} is given", given[0]));
 }
 
-void Reader::settle_drive() {
-  if (!variants_.is_array()) return;
+/// Nothing in the scene or in a variant says what drives: muscles do.
+bool Reader::drive_is_open() const {
   const auto speaks_of_another = [](const std::string& key) {
     return key == "drive.by" || speaks_of_displacement(key);
   };
   for (const auto& [key, given] : given_)
-    if (speaks_of_another(key)) return;
-  for (const json& block : variants_) {
-    if (!block.is_object()) continue;
-    for (const auto& [key, value] : changes_of(block))
-      if (speaks_of_another(key)) return;
-  }
-  scene.drive.by = simulate::DriveBy::muscles;
+    if (speaks_of_another(key)) return false;
+  if (variants_.is_array())
+    for (const json& block : variants_) {
+      if (!block.is_object()) continue;
+      for (const auto& [key, value] : changes_of(block))
+        if (speaks_of_another(key)) return false;
+    }
+  return true;
+}
+
+void Reader::settle_drive() {
+  if (variants_.is_array() && drive_is_open()) scene.drive.by = simulate::DriveBy::muscles;
 }
 
 void Reader::fill() {
@@ -327,7 +333,7 @@ void Reader::check_together() {
   if (scene.region.measured == simulate::Measured::none && !scene.drive.all_points &&
       scene.drive.points.empty())
     complain_given("drive.points", "one or more names, or \"all\", as region.measured is \"none\"");
-  const bool by_muscles = scene.drive.by == simulate::DriveBy::muscles;
+  const bool by_muscles = scene.drive.by == simulate::DriveBy::muscles || drive_is_open();
   for (const auto& [key, given] : {std::pair{"muscles.gain", !scene.muscles.gains.empty()},
                                    {"muscles.mirrored", scene.muscles.mirrored},
                                    {"muscles.file", !scene.muscles_file.empty()},

@@ -220,7 +220,7 @@ struct MuscleOptions {
   /// kFewPoints) and where many are; of an activation before a point is seen, on the side below
   /// rest of those that may relax; of rings; of the jaw's slide.
   double few_sigma_m = 0.0008, many_sigma_m = 0.0016;
-  double activation_sigma = 0.406, ring_sigma = 0.12, tone_sigma = 0.09, slide_sigma_m = 0.0028;
+  double activation_sigma = 0.29, ring_sigma = 0.15, tone_sigma = 0.16, slide_sigma_m = 0.0045;
   /// Correlation of a muscle's activation with that of its counterpart, before a point is seen.
   double side_correlation = 0.3;
   /// Radius of the patches of skin at many points, over which what muscles leave over is spread; at
@@ -229,8 +229,8 @@ struct MuscleOptions {
   /// In the patches around driven points: this share of the shape that a muscle or the jaw gives
   /// the skin there, the rest of the field between the points; 1: all of it. Of muscles of the
   /// cheek (TemplateMuscle::cheek) and of all others at few points, of all muscles at many, of the
-  /// jaw.
-  double few_cheek_share = 0.65, few_lip_share = 0.3, many_muscle_share = 0.4, jaw_share = 0.6;
+  /// jaw. A muscle may have its own (TemplateMuscle::few_share).
+  double few_cheek_share = 1, few_lip_share = 0.4, many_muscle_share = 0.6, jaw_share = 0.5;
   bool operator==(const MuscleOptions&) const = default;
 
   /// The constants above are no options: only what a scene may change is described.

@@ -59,15 +59,20 @@ TEST(MuscleTemplate, ReadsTheOtherKeysAndHasDefaults) {
   EXPECT_EQ(plain.readiness, 1);
   EXPECT_EQ(plain.ramp, 0);
   EXPECT_EQ(plain.yields, 0);
+  EXPECT_LT(plain.few_share, 0);
+  EXPECT_LT(plain.many_share, 0);
   EXPECT_TRUE(plain.together.empty());
   const TemplateMuscle full =
       muscle(two,
              "latin = \"l\"\ngroup = \"g\"\nbranch = \"b\"\nwidth_mm = 7\nband = 2.5\n"
              "kind = \"ring\"\nlip = \"lower\"\nstraight = true\njaw = true\ntone = true\n"
              "cheek = true\nreadiness = 1.5\nramp = 0.5\nyields = 8\n"
+             "few_share = 0\nmany_share = 0.4\n"
              "together = { graft = 0.4, other = -0.2 }\n");
   EXPECT_EQ(full.ramp, 0.5);
   EXPECT_EQ(full.yields, 8);
+  EXPECT_EQ(full.few_share, 0);
+  EXPECT_EQ(full.many_share, 0.4);
   const std::vector<std::pair<std::string, double>> together = {{"graft", 0.4}, {"other", -0.2}};
   EXPECT_EQ(full.together, together);
   EXPECT_EQ(full.readiness, 1.5);
@@ -136,6 +141,8 @@ TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
       {"ramp", "ramp = 0"},
       {"ramp", "ramp = \"steep\""},
       {"yields", "yields = -1"},
+      {"few_share", "few_share = 1.5"},
+      {"many_share", "many_share = \"all\""},
       {"together", "together = 0.4"},
       {"together", "together = { malaris = 1 }"},
       {"together", "together = { malaris = \"often\" }"},

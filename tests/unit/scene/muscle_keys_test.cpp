@@ -90,6 +90,16 @@ TEST(MuscleKeys, GainsAreATableOfNamesAndNumbers) {
       << "--set takes the place of the table";
 }
 
+TEST(MuscleKeys, GainsNeedNoDriveToBeNamed) {
+  const std::string weak = "[muscles]\ngain = { side_L = 0.5 }\n";
+  EXPECT_THAT(scene_of(smallest + weak).muscles.gains, ElementsAre(MuscleGain{"side_L", 0.5}))
+      << "muscles drive by default";
+  EXPECT_THAT(only_muscle_problem(smallest + weak, {"drive.by=displacement"}),
+              HasSubstr("muscles move nothing otherwise"));
+  EXPECT_THAT(only_muscle_problem(smallest + weak, {"support.field_kpa_per_mm=2"}),
+              HasSubstr("muscles move nothing otherwise"));
+}
+
 TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
   EXPECT_EQ(only_muscle_problem(by_muscles + "[muscles]\ngain = { zyg_mayor_L = 0.3 }\n"),
             "scene.toml:8: muscles.gain.zyg_mayor_L = 0.3: expected another name; did you mean "
@@ -161,7 +171,8 @@ TEST(MuscleKeys, MistakesInOwnMusclesAreTold) {
   EXPECT_THAT(problem("without = [\"risorius\"]\ngain = { risorius_R = 0.5 }\n"),
               HasSubstr("muscles.gain.risorius_R"))
       << "left out";
-  EXPECT_THAT(only_muscle_problem(std::string(smallest) + "[muscles]\nwithout = [\"risorius\"]\n"),
+  EXPECT_THAT(only_muscle_problem(std::string(smallest) + "[muscles]\nwithout = [\"risorius\"]\n",
+                                  {"drive.by=displacement"}),
               HasSubstr("expected drive.by = \"muscles\" in the scene"));
   EXPECT_THAT(problem("[[variant]]\nname = \"other\"\nmuscles.without = [\"risorius\"]\n"),
               HasSubstr("variant[0].muscles.without"));
@@ -181,8 +192,9 @@ TEST(MuscleKeys, AFactorIsANumberFrom0To5) {
 }
 
 TEST(MuscleKeys, NeedMusclesThatDrive) {
-  EXPECT_THAT(only_muscle_problem(smallest, {"muscles.gain={ side_R = 0.5 }"}),
-              HasSubstr("expected drive.by = \"muscles\" in the scene"));
+  EXPECT_THAT(
+      only_muscle_problem(smallest, {"drive.by=displacement", "muscles.gain={ side_R = 0.5 }"}),
+      HasSubstr("expected drive.by = \"muscles\" in the scene"));
   EXPECT_THAT(only_muscle_problem(smallest, {"drive.by=reactions", "muscles.mirrored=true"}),
               HasSubstr("muscles.mirrored = true: expected drive.by = \"muscles\""));
 }

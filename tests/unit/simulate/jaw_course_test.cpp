@@ -46,7 +46,7 @@ TEST_P(JawCourse, CarriesTheChinAsItWasRecorded) {
     widest = std::max(widest, Eigen::AngleAxisd(jaw.linear()).angle());
   }
   EXPECT_NEAR(widest, result.report.greatest_opening_deg * M_PI / 180, 0.02);
-  EXPECT_GT(widest, 0.12);
+  EXPECT_GT(widest, 0.08) << "the jaw turns more than it slides";
 }
 
 TEST_P(JawCourse, IsKnownAtStillsToo) {

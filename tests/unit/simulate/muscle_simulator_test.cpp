@@ -7,6 +7,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
+#include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 #include "simulate/small_face.hpp"
 
@@ -91,6 +92,8 @@ TEST_F(DrivenByForces, MusclesMeetTheDrivenPoints) {
 /// between the points, to which shares of 0 leave the skin: prescribed displacements'
 /// patches.
 TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
+  options_.muscles.own = muscles::muscle_template();
+  for (muscles::TemplateMuscle& muscle : options_.muscles.own) muscle.few_share = -1;
   const SimulationOptions plain = options_;
   options_.drive.by = DriveBy::displacement;
   const SimulationResult field = made(options_).run();
@@ -124,6 +127,20 @@ TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
   EXPECT_EQ(by_share.at(0).performance.muscles.activation,
             by_share.at(1).performance.muscles.activation)
       << "the points are where they were";
+}
+
+TEST_F(DrivenByForces, AMuscleMayHaveAShareOfItsOwn) {
+  const auto peak = [&](double of_all, double of_zygomaticus) {
+    options_.muscles.own = muscles::muscle_template();
+    for (muscles::TemplateMuscle& muscle : options_.muscles.own)
+      muscle.few_share = muscle.name == "zyg_major" ? of_zygomaticus : -1;
+    options_.muscles.few_cheek_share = options_.muscles.few_lip_share = of_all;
+    return made(options_).run().performance.skin_displacement_m.back().cast<double>().eval();
+  };
+  const auto most = [](const Points& p) { return p.rowwise().norm().maxCoeff(); };
+  const Points as_all = peak(0.5, -1);
+  EXPECT_EQ(most(peak(0.5, 0.5) - as_all), 0);
+  EXPECT_GT(most(peak(0.5, 0) - as_all), 1e-5);
 }
 
 TEST_F(DrivenByForces, CheekLipsAndJawEachHaveTheirShareOfThePatches) {

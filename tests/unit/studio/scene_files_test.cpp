@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_files.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/scene/toml_values.hpp"
 #include "unit/studio/own_folder.hpp"
 
 namespace hyperex::studio {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 using testing::HasSubstr;
 
 TEST(SceneFiles, TheSceneWithTheSmileIsSound) {
@@ -42,6 +45,30 @@ TEST(SceneFiles, WhatASceneNamesIsFoundFromItsNewPlace) {
              own / "scene.toml", {own}, to / "c.toml");
   fs::remove_all(own);
   EXPECT_EQ(read_file(scene::read_scene(to / "c.toml").motion.arkit), embedded_smile());
+}
+
+TEST(MovedBy, NamesTheStillPointsOfARecordingWithoutTheUsualOnes) {
+  const test::OwnFolder folder;
+  const auto with_names = [&](const std::vector<std::string>& names) {
+    const fs::path file = folder.path() / "own.csv";
+    std::ofstream out(file);
+    out << "time_s";
+    for (const std::string& name : names)
+      for (const char axis : {'x', 'y', 'z'}) out << fmt::format(",{}_{}_mm", name, axis);
+    // A cross of four and a corner of the mouth, which moves.
+    for (int k = 0; k < 3; ++k)
+      out << fmt::format("\n{},40,60,0,-40,60,0,0,90,10,0,30,20,25,-30,{}", k, 5 * k);
+    out.close();
+    return moved_by("", file);
+  };
+  const auto rigid = [](const std::string& text) {
+    return scene::parse_toml(text).root["motion"].value("rigid_points", json());
+  };
+  EXPECT_EQ(rigid(with_names({"band_1", "band_2", "band_3", "band_4", "cheilion_L"})),
+            json({"band_1", "band_2", "band_3", "band_4"}));
+  EXPECT_EQ(
+      rigid(with_names({"exocanthion_R", "exocanthion_L", "glabella", "nasion", "cheilion_L"})),
+      json());
 }
 
 }  // namespace

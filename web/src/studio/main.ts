@@ -41,7 +41,7 @@ class Studio {
   private readonly muscles = new MusclesPanel(this.state, this.edits, (names) => this.stage?.face?.lightMuscles(names));
   private readonly tissue = new TissuePanel(this.state, this.edits);
   private readonly paint = new PaintPanel(this.state, this.edits, this.connection);
-  private readonly scene = new ScenePanel(this.state);
+  private readonly scene = new ScenePanel(this.state, this.edits);
   private readonly figures = new FiguresPanel(this.state, at('figures-body'));
   private readonly tabs = new Tabs(this.state, this.connection, this.edits);
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'));

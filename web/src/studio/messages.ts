@@ -76,6 +76,8 @@ export interface SceneNow {
   /** Of each face: every key. */
   values: Values[];
   faces: SceneFace[];
+  /** Of the recording; motion.rigid_points may name them. */
+  points: string[];
   drive: string;
   drive_why: string;
   can_undo: boolean;

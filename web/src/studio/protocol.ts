@@ -241,6 +241,8 @@ export interface SceneEvent {
   values: unknown;
   /** of base and each variant: name, changes (key: value) */
   faces: unknown;
+  /** names of the recording's points, which motion.rigid_points may name */
+  points: unknown;
   /** "muscles", "displacement" or "reactions" */
   drive: string;
   /** a sentence */

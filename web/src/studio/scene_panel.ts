@@ -2,8 +2,10 @@
 // The scene file as it would be saved, and what drives the face.
 import { button, element } from '../page/dom';
 import { upper } from '../page/format';
+import type { Edits } from './edits';
 import type { Control, RemarkPanel } from './remark_places';
 import type { Remark } from './remarks';
+import { RigidPoints } from './rigid_points';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
@@ -15,7 +17,7 @@ export class ScenePanel implements RemarkPanel {
   private readonly driveBox = element('div');
   private readonly drive = element('p', '', 'drive');
 
-  constructor(state: StudioState) {
+  constructor(state: StudioState, edits: Edits) {
     const { drive, driveBox } = this;
     driveBox.append(drive);
     const text = element('pre');
@@ -30,7 +32,7 @@ export class ScenePanel implements RemarkPanel {
     });
     const head = element('div', '', 'scene-head');
     head.append(element('h2', words.sceneText), copied, copy);
-    this.element.append(driveBox, head, text);
+    this.element.append(driveBox, new RigidPoints(state, edits).element, head, text);
     state.sceneChanged.add(() => {
       const { scene } = state;
       if (!scene) return;

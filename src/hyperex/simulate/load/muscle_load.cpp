@@ -175,10 +175,13 @@ Eigen::VectorXd tissue_shares(const MuscleModel& model, bool few, const MuscleOp
   const auto count = static_cast<Eigen::Index>(model.lines().size());
   Eigen::VectorXd of_muscle(count);
   for (Eigen::Index m = 0; m < count; ++m) {
-    const bool cheek = options.table()[std::size_t(model.lines()[std::size_t(m)].row)].cheek;
-    of_muscle[m] = !few    ? options.many_muscle_share
-                   : cheek ? options.few_cheek_share
-                           : options.few_lip_share;
+    const muscles::TemplateMuscle& muscle =
+        options.table()[std::size_t(model.lines()[std::size_t(m)].row)];
+    const double own = few ? muscle.few_share : muscle.many_share;
+    of_muscle[m] = own >= 0       ? own
+                   : !few         ? options.many_muscle_share
+                   : muscle.cheek ? options.few_cheek_share
+                                  : options.few_lip_share;
   }
   Eigen::VectorXd out(count + model.wide_force().cols() + model.jaw_force().cols());
   out << of_muscle, of_muscle.head(model.wide_force().cols()),
