@@ -71,7 +71,7 @@ TEST(MusclePicture, HasADiscForEachMuscle) {
   const muscles::test::AFace& face = muscles::test::a_face();
   const render::Image image = draw_muscles(face.mesh, face.landmarks, course(0, 0));
   for (std::size_t branch = 0; branch < 5; ++branch)
-    EXPECT_GT(pixels_of(image, render::face_colour(branch), 0, 1), 300) << branch;
+    EXPECT_GT(pixels_of(image, render::face_colour(branch), 0, 1), 250) << branch;
 }
 
 }  // namespace

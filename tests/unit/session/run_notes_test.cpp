@@ -128,12 +128,9 @@ TEST(IdleVariants, MoveAsBaseDoesToAThousandthOfAMillimetre) {
 TEST(VariantWarnings, HoldEachKind) {
   simulate::SimulationResult base;
   base.performance = moving(0, 0);
-  base.performance.muscles.names = {"zyg_major_L"};
-  base.performance.muscles.activation = Eigen::MatrixXd::Constant(1, 1, 0.1);
-  base.performance.muscles.sigma = Eigen::MatrixXd::Constant(1, 1, 0.2);
   std::vector<VariantRun> runs(1);
   runs[0].simulation = base;
-  runs[0].simulation.performance.muscles.activation *= 0.3;
+  runs[0].simulation.report.notes = {make_warning("muscles.gain_hardly_used", "hardly active")};
   runs[0].simulation.report.lip_overlap_mm = 1;
   EXPECT_THAT(variant_warnings(base, runs),
               ElementsAre(is_warning("variant.no_effect", "variant"),
