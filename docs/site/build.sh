@@ -31,6 +31,8 @@ ln -s "$repository/docs/site/index.md" "$source/index.md"
 rm -rf "$out/doxygen"
 mkdir "$out/doxygen"
 doxygen "$out/Doxyfile"
+# Sphinx cannot read values that name members, {.unit = ...}.
+sed -i '/<initializer>{\.[a-z]/d' "$out"/doxygen/xml/*.xml
 /usr/bin/python3 docs/site/api_pages.py pages "$source/reference" "$out/doxygen/xml" "$module/hyperex/__init__.pyi" "$module"
 
 # Formulas are drawn by MathJax from the same folder. Only what draws SVG is taken: 8 of 54 MB.
