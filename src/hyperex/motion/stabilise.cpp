@@ -38,7 +38,7 @@ Points rows_of(const Points& all, const std::vector<int>& rows) {
   return some;
 }
 
-/// "a, b, c and 4 more": as many as a sentence has room for that is never cut.
+/// "a, b, c and 4 more": as many names as fit into a message, which must not be truncated.
 std::string listed(std::vector<std::string> names) {
   constexpr std::size_t most_letters = 240;
   std::size_t shown = 0, letters = 0;

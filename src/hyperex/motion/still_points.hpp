@@ -17,8 +17,8 @@ std::vector<std::string> find_still_points(const Motion& motion);
 /// Of a marker that is glued to the skin over bone, and of the noise of its measurement.
 inline constexpr double kStillPoints_m = 1e-3;
 
-/// Whether the head's pose can be found from the points that a motion has, without being told which
-/// move with the skull (default_rigid_points).
+/// Whether a motion has enough of the usual points of the skull (default_rigid_points) to find the
+/// head's pose.
 bool has_pose_points(const Motion& motion);
 
 /// The points to name as moving with the skull where has_pose_points() is false:

@@ -14,7 +14,7 @@ double corner_number(const Json& json, const std::string& key, double otherwise)
   return json.contains(key) && json[key].is_number() ? json[key].get<double>() : otherwise;
 }
 
-/// As it is printed: what is said of a difference is that of the printed figures.
+/// Rounded as it is printed, so that a difference in words agrees with the printed figures.
 double rounded_mm(double mm) {
   return std::round(10 * mm) / 10;
 }
@@ -33,9 +33,9 @@ std::string floor_clause(const Json& corners, double apart_mm) {
                      of_jitter ? "jitter" : "mesh");
 }
 
-/// An error of the head's pose moves both corners: a shift along both their ways parts them by
-/// nothing, a turn or a shift to one side does. No floor holds that, so it is said where it is
-/// larger than the floor.
+/// An error of the head's pose moves both corners. A turn, or a shift to one side, changes their
+/// difference, which the floor does not include. So the uncertainty of the pose is printed where it
+/// exceeds the floor.
 std::string head_clause(const Json& summary, const Json& corners) {
   const double shift_mm = corner_number(summary, "head_shift_uncertainty_mm", 0);
   if (shift_mm <= corner_number(corners, "floor_mm", 0) || shift_mm < 0.05) return "";

@@ -90,19 +90,30 @@ TEST_F(StudioSession, ARunThatIsSavedIsGivenUpWhereTheStudioEnds) {
   EXPECT_TRUE(fs::is_empty(folder_.path() / "mine"));
 }
 
-TEST(StudioSessionLeftovers, AreDeletedWhenAskedButNotWhileTheyAreOpen) {
-  const test::OwnFolder folder;
-  SessionOptions options;
-  options.save_into = options.folder = folder.path();
-  options.rescued = folder.path() / "left";
-  fs::create_directories(options.rescued);
-  fs::create_directories(options.folder / "uploads");
-  std::ofstream(options.rescued / "scene.toml")
-      << "scan.file = \"embedded\"\nmotion.file = \"embedded\"\n";
+/// A session beside a folder that an earlier one has left.
+class StudioSessionLeftovers : public testing::Test {
+ protected:
+  SessionOptions with_leftovers() const {
+    SessionOptions made;
+    made.save_into = made.folder = folder_.path();
+    made.rescued = folder_.path() / "left";
+    fs::create_directories(made.rescued);
+    fs::create_directories(made.folder / "uploads");
+    std::ofstream(made.rescued / "scene.toml")
+        << "scan.file = \"embedded\"\nmotion.file = \"embedded\"\n";
+    return made;
+  }
+
+  const test::OwnFolder folder_;
   std::vector<json> answers;
-  Session session(options, [&](const std::string& message, bool binary, const std::string&) {
-    if (!binary && json::parse(message).contains("answer")) answers.push_back(json::parse(message));
-  });
+  const SessionOptions options = with_leftovers();
+  Session session{options, [this](const std::string& message, bool binary, const std::string&) {
+                    if (!binary && json::parse(message).contains("answer"))
+                      answers.push_back(json::parse(message));
+                  }};
+};
+
+TEST_F(StudioSessionLeftovers, AreDeletedWhenAskedButNotWhileTheyAreOpen) {
   session.answer({1, "open", {{"what", "autosave"}}});
   session.answer({2, "discard_autosave", json::object()});
   EXPECT_THAT(answers.back().value("error", ""), HasSubstr("is open"));
@@ -117,19 +128,7 @@ TEST(StudioSessionLeftovers, AreDeletedWhenAskedButNotWhileTheyAreOpen) {
   EXPECT_TRUE(answers.back()["places"]["autosave"].is_null());
 }
 
-TEST(StudioSessionLeftovers, AreNamedByTheirScanAndNotOfferedWhileTheyAreOpen) {
-  const test::OwnFolder folder;
-  SessionOptions options;
-  options.save_into = options.folder = folder.path();
-  options.rescued = folder.path() / "left";
-  fs::create_directories(options.rescued);
-  fs::create_directories(options.folder / "uploads");
-  std::ofstream(options.rescued / "scene.toml")
-      << "scan.file = \"embedded\"\nmotion.file = \"embedded\"\n";
-  std::vector<json> answers;
-  Session session(options, [&](const std::string& message, bool binary, const std::string&) {
-    if (!binary && json::parse(message).contains("answer")) answers.push_back(json::parse(message));
-  });
+TEST_F(StudioSessionLeftovers, AreNamedByTheirScanAndNotOfferedWhileTheyAreOpen) {
   const auto offered = [&] {
     session.answer({1, "hello", {{"token", ""}, {"version", 1}}});
     return answers.back()["places"]["autosave"];

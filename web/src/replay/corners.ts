@@ -59,7 +59,7 @@ export const mm = (value: number): string => `${roundedMm(value).toFixed(1)} mm`
 /** A difference from base below this is none, mm: half of what a figure here shows. */
 export const sameMm = 0.05;
 
-/** As it is shown: what is said of a difference is that of the figures shown. */
+/** Rounded as it is shown, so that the difference in words agrees with the figures shown. */
 export const roundedMm = (value: number): number => Math.round(10 * value) / 10;
 
 export const farthestMm = (corners: Corners, side: Side): number => (side === 'left' ? corners.leftMm : corners.rightMm);

@@ -16,7 +16,7 @@ export const recordedType = (): string | undefined =>
   typeof MediaRecorder === 'undefined' ? undefined : recordedTypes.find((type) => MediaRecorder.isTypeSupported(type));
 
 const codecs: [webCodecs: string, matroska: WebmVideo['codec']][] = [['vp09.00.41.08', 'V_VP9'], ['vp8', 'V_VP8']];
-/** A player that is sent elsewhere has to decode so many pictures. */
+/** Frames between two key frames: the most that a player decodes to jump to a time. */
 const keyEach = 60;
 /** So many pictures may wait for the encoder. */
 const mostWaiting = 4;
