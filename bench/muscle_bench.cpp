@@ -4,9 +4,10 @@
 //   muscle_bench CASES.txt [key=value ...]
 // today=1: driven by displacement; show=1: activations; finite=1: finite strain; contact=1: lips
 // keep apart; teeth=1, eyes=1: tissue touches teeth (fitted as none are scanned), lids eyeballs.
-// CASES: lines "name scene truth 7|all", or "name scene - markers" for the recording of markers.
-// The share of the warp's error over parts of the face, at the peak. Truths for other expressions
-// of a rig: bench/rig_cases.py.
+// muscles=FILE: with these muscles of the template; write=FOLDER: the skin at the peak
+// (NAME_7.ply). CASES: lines "name scene truth 7|all", or "name scene - markers" for the recording
+// of markers. The share of the warp's error over parts of the face, at the peak. Truths for other
+// expressions of a rig: bench/rig_cases.py.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,6 +87,11 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("tone", m.tone_sigma);
   take("slide", m.slide_sigma_m, mm);
   take("patch_all", m.many_patch_m, mm);
+  if (has("muscles")) {
+    std::ifstream file(given["muscles"]);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    m.own = muscles::changed_table(m.table(), muscles::read_muscles(text, given["muscles"]), {});
+  }
   take("cheek_share", m.few_cheek_share);
   take("lip_share", m.few_lip_share);
   take("share_all", m.many_muscle_share);
@@ -173,6 +179,9 @@ Score score_scan(const std::string& name, const std::string& scene_file,
     fmt::print("  {} {:.2f} of {:.2f} ({:.2f})", part, a, b, a / b);
     score.share.push_back(a / b);
   }
+  if (has("write"))
+    io::write_ply(given["write"] + "/" + name + "_" + kind + ".ply",
+                  {moved, inputs.scan.mesh.triangles}, *io::length_unit("mm"));
   const simulate::LipSurfaces lips(*mesh, inputs.landmarks);
   PointsF true_motion = PointsF::Zero(mesh->skin.points.rows(), 3);
   true_motion.topRows(mesh->scan_vertices) =

@@ -12,4 +12,11 @@ struct ForceShape {
   bool operator==(const ForceShape&) const = default;
 };
 
+/// How muscles that end in the skin along the fold from nose to mouth pull there.
+struct FoldShape {
+  double width_mm = 2.5;    ///< weight exp(-(d / width)^2) at distance d, on the template's face
+  double inwards_deg = 30;  ///< of the pull, from the skin's tangent plane into the tissue
+  bool operator==(const FoldShape&) const = default;
+};
+
 }  // namespace hyperex::muscles

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/number.hpp"
@@ -120,6 +121,8 @@ class MuscleReader {
     m.few_share = share("few_share");
     m.many_share = share("many_share");
     m.together = together();
+    std::tie(m.fold_from, m.fold_to) = fold();
+    m.fold_strength = positive("fold_strength", m.fold_strength);
     return m;
   }
 
@@ -164,6 +167,16 @@ class MuscleReader {
       out.emplace_back(std::string(key.str()), value);
     }
     return out;
+  }
+  std::pair<double, double> fold() const {
+    if (!table_.contains("fold")) return {0, 0};
+    const toml::array* part = table_["fold"].as_array();
+    if (part && part->size() == 2) {
+      const double from = (*part)[0].value<double>().value_or(-1);
+      const double to = (*part)[1].value<double>().value_or(-1);
+      if (from >= 0 && from < to && to <= 1) return {from, to};
+    }
+    fail("fold", "two rising numbers from 0 (nose) to 1 (mouth), like [0.3, 0.7]");
   }
   double share(const char* key) const {
     if (!table_.contains(key)) return -1;

@@ -62,15 +62,20 @@ TEST(MuscleTemplate, ReadsTheOtherKeysAndHasDefaults) {
   EXPECT_LT(plain.few_share, 0);
   EXPECT_LT(plain.many_share, 0);
   EXPECT_TRUE(plain.together.empty());
+  EXPECT_EQ(plain.fold_from, 0);
+  EXPECT_EQ(plain.fold_to, 0);
   const TemplateMuscle full =
       muscle(two,
              "latin = \"l\"\ngroup = \"g\"\nbranch = \"b\"\nwidth_mm = 7\nband = 2.5\n"
              "kind = \"ring\"\nlip = \"lower\"\nstraight = true\njaw = true\ntone = true\n"
              "cheek = true\nreadiness = 1.5\nramp = 0.5\nyields = 8\n"
-             "few_share = 0\nmany_share = 0.4\n"
+             "few_share = 0\nmany_share = 0.4\nfold = [0.25, 1]\nfold_strength = 0.3\n"
              "together = { graft = 0.4, other = -0.2 }\n");
   EXPECT_EQ(full.ramp, 0.5);
   EXPECT_EQ(full.yields, 8);
+  EXPECT_EQ(full.fold_from, 0.25);
+  EXPECT_EQ(full.fold_to, 1);
+  EXPECT_EQ(full.fold_strength, 0.3);
   EXPECT_EQ(full.few_share, 0);
   EXPECT_EQ(full.many_share, 0.4);
   const std::vector<std::pair<std::string, double>> together = {{"graft", 0.4}, {"other", -0.2}};
@@ -143,6 +148,13 @@ TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
       {"yields", "yields = -1"},
       {"few_share", "few_share = 1.5"},
       {"many_share", "many_share = \"all\""},
+      {"fold", "fold = 0.4"},
+      {"fold", "fold = [0.4]"},
+      {"fold", "fold = [0.4, 0.4]"},
+      {"fold", "fold = [0.7, 0.4]"},
+      {"fold", "fold = [0.4, 1.1]"},
+      {"fold", "fold = [0.4, \"mouth\"]"},
+      {"fold_strength", "fold_strength = 0"},
       {"together", "together = 0.4"},
       {"together", "together = { malaris = 1 }"},
       {"together", "together = { malaris = \"often\" }"},

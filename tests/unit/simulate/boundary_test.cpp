@@ -8,6 +8,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/node_areas.hpp"
 #include "hyperex/simulate/drive/support.hpp"
 #include "simulate/small_face.hpp"
 

@@ -5,6 +5,9 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/muscles/fold_pull.hpp"
 #include "hyperex/simulate/run/node_rotations.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 #include "simulate/small_face.hpp"
@@ -60,6 +63,34 @@ TEST_F(FiniteRun, ASmallMotionIsTheLinearAnswer) {
     EXPECT_LT(apart(linear, made(options_, smile(0.01)).run()), 0.005);
     EXPECT_GT(apart(large, made(options_, smile(1)).run()), 0.01) << "but not a large one";
   }
+}
+
+/// Muscles that end in the skin of the fold draw it in, at finite strain only; the recorded points
+/// stay where they are.
+TEST_F(FiniteRun, AStrongSmileDrawsInTheFold) {
+  options_.drive.by = DriveBy::muscles;
+  SimulationOptions without = options_;
+  without.muscles.own = muscles::muscle_template();
+  for (muscles::TemplateMuscle& muscle : without.muscles.own) muscle.fold_from = muscle.fold_to = 0;
+  const auto with_it = made(options_, smile(1.5)).run(), bare = made(without, smile(1.5)).run();
+  const Points fold = muscles::nasolabial_fold(*mesh_, face_.landmarks, true);
+  const Points normals = vertex_normals(mesh_->skin);
+  const SurfaceTree skin(mesh_->skin);
+  double inwards_m = 0;
+  for (Eigen::Index i = fold.rows() / 2; i < fold.rows(); ++i) {
+    const ClosestPoint at = skin.query(fold.row(i));
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh_->skin.triangles(at.triangle, k);
+      const Eigen::RowVector3d added = (with_it.performance.skin_displacement_m.back().row(v) -
+                                        bare.performance.skin_displacement_m.back().row(v))
+                                           .cast<double>();
+      inwards_m -= at.weights[k] * added.dot(normals.row(v)) / double(fold.rows() / 2 + 1);
+    }
+  }
+  EXPECT_GT(inwards_m, 1e-4);
+  EXPECT_NEAR(way(with_it, "ibug68_54"), way(bare, "ibug68_54"), 1e-4);
+  options_.model.strain = without.model.strain = Strain::linear;
+  EXPECT_EQ(apart(made(options_, smile(1.5)).run(), made(without, smile(1.5)).run()), 0);
 }
 
 /// Farther than this the driven nodes themselves turn an element inside out.

@@ -7,6 +7,7 @@
 
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/geodesic.hpp"
+#include "hyperex/geometry/node_areas.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "simulate/small_face.hpp"
 #include "support/sheet_mesh.hpp"

@@ -10,6 +10,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/node_areas.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/simulate/drive/support.hpp"
 

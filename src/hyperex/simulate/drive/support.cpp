@@ -6,7 +6,6 @@
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
-#include "hyperex/geometry/surface_topology.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -126,14 +125,6 @@ std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& 
   for (Eigen::Index v = 0; v < skin.rows(); ++v)
     near[v] = map.distance_to_jaw(map.frame().local(skin.row(v)), 4, 12) < border_free_m;
   return near;
-}
-
-Eigen::VectorXd node_areas(const TriMesh& surface) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.points.rows());
-  const Eigen::VectorXd triangles = triangle_areas(surface);
-  for (Eigen::Index f = 0; f < triangles.size(); ++f)
-    for (int k = 0; k < 3; ++k) areas[surface.triangles(f, k)] += triangles[f] / 3;
-  return areas;
 }
 
 }  // namespace hyperex::simulate

@@ -34,7 +34,5 @@ struct EdgeOfJaw {
 };
 std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
-/// Area of the outer surface that belongs to each outer node, m^2.
-Eigen::VectorXd node_areas(const TriMesh& surface);
 
 }  // namespace hyperex::simulate

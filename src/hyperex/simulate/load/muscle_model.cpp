@@ -5,7 +5,17 @@
 
 #include <algorithm>
 
+#include "hyperex/muscles/fold_pull.hpp"
+
 namespace hyperex::simulate {
+namespace {
+
+/// Sum of the nodes' forces, N.
+double total(const Eigen::Ref<const Eigen::VectorXd>& force) {
+  return Eigen::Map<const Points>(force.data(), force.size() / 3, 3).rowwise().norm().sum();
+}
+
+}  // namespace
 
 MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                          const fem::SparseMatrix& stiffness,
@@ -32,6 +42,13 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
   };
   forces(1, force_);
   scale_to_unit(options.unit_m, between, force_, response_);
+  fold_force_.resize(unknowns, count);
+  tbb::parallel_for(Eigen::Index(0), count, [&](Eigen::Index m) {
+    const muscles::TemplateMuscle& muscle = muscles[lines_[m].row];
+    fold_force_.col(m) = muscles::fold_pull(lines_[m], muscle, mesh, landmarks, options.fold);
+    const double sum = total(fold_force_.col(m));
+    if (sum > 0) fold_force_.col(m) *= muscle.fold_strength * total(force_.col(m)) / sum;
+  });
   if (options.widening != 1) {
     forces(options.widening, wide_force_);
     scale_to_unit(options.unit_m, between, wide_force_, wide_response_);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hyperex/fem/solve/condensed_inverse.hpp"
+#include "hyperex/geometry/node_areas.hpp"
 #include "hyperex/simulate/drive/support.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/muscles/fold_pull.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/node_areas.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+
+namespace hyperex::muscles {
+namespace {
+
+/// Below this weight the skin is not pulled.
+constexpr double kLeastSkinWeight = 1e-3;
+constexpr int kPieces = 40;
+
+/// Template mm, outwards and up: from the wing of the nose to the fold's upper end, from the corner
+/// of the mouth to its lower end, and the bow between. Read off the groove of a real smile, which
+/// it meets to 2 mm (docs/muscles.md).
+constexpr double kUpper_mm[2] = {4.5, 5}, kLower_mm[2] = {10, 0}, kBow_mm = 1.5;
+
+/// The part from share `from` to share `to` of a line with points at equal shares.
+Points part_of(const Points& line, double from, double to) {
+  const auto at = [&](double share) {
+    const double x = share * double(line.rows() - 1);
+    const Eigen::Index i = std::min<Eigen::Index>(Eigen::Index(x), line.rows() - 2);
+    return Vec3((1 - (x - double(i))) * line.row(i) + (x - double(i)) * line.row(i + 1));
+  };
+  Points out(kPieces + 1, 3);
+  for (int k = 0; k <= kPieces; ++k) out.row(k) = at(from + (to - from) * k / kPieces).transpose();
+  return out;
+}
+
+}  // namespace
+
+Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left) {
+  const face::FaceFrame frame = face::face_frame(landmarks);
+  const double mm =
+      (landmarks.at(face::ibug(36)) - landmarks.at(face::ibug(45))).norm() / kTemplateEyes_mm;
+  const Vec3 out = (left ? 1 : -1) * mm * frame.x, up = mm * frame.y;
+  const Vec3 wing =
+      landmarks.at(face::ibug(left ? 35 : 31)) + kUpper_mm[0] * out + kUpper_mm[1] * up;
+  const Vec3 corner =
+      landmarks.at(face::ibug(left ? 54 : 48)) + kLower_mm[0] * out + kLower_mm[1] * up;
+  const SurfaceTree skin(mesh.volume.outer);
+  Points line(kPieces + 1, 3);
+  for (int k = 0; k <= kPieces; ++k) {
+    const double s = double(k) / kPieces;
+    line.row(k) =
+        skin.query((1 - s) * wing + s * corner + 4 * s * (1 - s) * kBow_mm * out).point.transpose();
+  }
+  return line;
+}
+
+Eigen::VectorXd fold_pull(const MuscleLine& line, const TemplateMuscle& muscle,
+                          const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                          const FoldShape& shape) {
+  const tissue::VolumeMesh& volume = mesh.volume;
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * volume.nodes.rows());
+  if (!(muscle.fold_to > muscle.fold_from)) return force;
+  MuscleLine fold;
+  fold.line =
+      part_of(nasolabial_fold(mesh, landmarks, line.left), muscle.fold_from, muscle.fold_to);
+  for (Eigen::Index i = 0; i < fold.line.rows(); ++i)
+    fold.arc.push_back(i == 0 ? 0
+                              : fold.arc.back() + (fold.line.row(i) - fold.line.row(i - 1)).norm());
+  const double width = 1e-3 * shape.width_mm * line.scale;
+  const double inwards = shape.inwards_deg * std::numbers::pi / 180;
+  const Vec3 origin = line.line.row(0);
+  const Points normals = vertex_normals(volume.outer);
+  const Eigen::VectorXd areas = node_areas(volume.outer);
+  for (int v = 0; v < volume.surface_nodes(); ++v) {
+    const Vec3 at = volume.nodes.row(v), n = normals.row(v);
+    const double weight = std::exp(-std::pow(nearest_on_line(fold, at).distance_m / width, 2));
+    if (weight < kLeastSkinWeight) continue;
+    const Vec3 towards = origin - at;
+    const Vec3 along = (towards - n * n.dot(towards)).normalized();
+    force.segment<3>(3 * v) =
+        weight * areas[v] * (std::cos(inwards) * along - std::sin(inwards) * n);
+  }
+  return force;
+}
+
+}  // namespace hyperex::muscles

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/muscles/fold_pull.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/node_areas.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+#include "muscles/a_face.hpp"
+
+namespace hyperex::muscles {
+namespace {
+
+class FoldPull : public testing::Test {
+ protected:
+  FoldPull() {
+    for (const MuscleLine& line : lines_)
+      if (line.name == "zyg_minor_L") line_ = line;
+    muscle_ = muscle_template()[std::size_t(line_.row)];
+  }
+  Points pull() const {
+    const Eigen::VectorXd f = fold_pull(line_, muscle_, face_.mesh, face_.landmarks, shape_);
+    EXPECT_EQ(f.size(), 3 * face_.mesh.volume.nodes.rows());
+    return Eigen::Map<const Points>(f.data(), f.size() / 3, 3);
+  }
+  static double sum(const Points& force) { return force.rowwise().norm().sum(); }
+
+  const test::AFace& face_ = test::a_face();
+  const std::vector<MuscleLine> lines_ =
+      muscle_lines(muscle_template(), face_.mesh, face_.landmarks);
+  MuscleLine line_;
+  TemplateMuscle muscle_;
+  FoldShape shape_;
+};
+
+TEST_F(FoldPull, TheLineRunsOnTheSkinFromBesideTheNoseToBesideTheMouth) {
+  const face::FaceFrame frame = face::face_frame(face_.landmarks);
+  const SurfaceTree skin(face_.mesh.volume.outer);
+  for (const bool left : {true, false}) {
+    const Points line = nasolabial_fold(face_.mesh, face_.landmarks, left);
+    const auto out_mm = [&](Eigen::Index row, int landmark) {
+      return 1e3 * (left ? 1 : -1) *
+             frame.x.dot(line.row(row).transpose() - face_.landmarks.at(face::ibug(landmark)));
+    };
+    EXPECT_NEAR(out_mm(0, left ? 35 : 31), 4.5, 2.5) << "the closest skin is not straight ahead";
+    EXPECT_NEAR(out_mm(line.rows() - 1, left ? 54 : 48), 10, 2.5);
+    for (Eigen::Index i = 0; i < line.rows(); ++i) {
+      EXPECT_LT((skin.query(line.row(i)).point - line.row(i).transpose()).norm(), 1e-9);
+      EXPECT_GT((left ? 1 : -1) * frame.local(line.row(i)).x(), 0.01);
+      if (i > 0) {
+        EXPECT_LT((line.row(i) - line.row(i - 1)).dot(frame.y), 0) << "downwards";
+      }
+    }
+  }
+}
+
+TEST_F(FoldPull, DrawsTheSkinTowardsTheOriginAndIntoTheTissue) {
+  const Points force = pull(), normals = vertex_normals(face_.mesh.volume.outer);
+  const double inwards = std::sin(shape_.inwards_deg * std::numbers::pi / 180);
+  const Eigen::Index skin = face_.mesh.volume.surface_nodes();
+  ASSERT_GT(sum(force), 0);
+  EXPECT_EQ(sum(force.bottomRows(force.rows() - skin)), 0) << "of the skin alone";
+  for (Eigen::Index v = 0; v < skin; ++v) {
+    const double size = force.row(v).norm();
+    if (size == 0) continue;
+    EXPECT_NEAR(force.row(v).dot(normals.row(v)), -inwards * size, 1e-9 * size);
+    EXPECT_GT(force.row(v).dot(line_.line.row(0) - face_.mesh.volume.nodes.row(v)), 0);
+  }
+}
+
+TEST_F(FoldPull, FallsOffBesideItsPartOfTheLine) {
+  const Points force = pull();
+  const Points whole = nasolabial_fold(face_.mesh, face_.landmarks, true);
+  const Eigen::VectorXd areas = node_areas(face_.mesh.volume.outer);
+  MuscleLine part;  // between two of the line's points, as the template says
+  const auto first = Eigen::Index(std::lround(muscle_.fold_from * double(whole.rows() - 1)));
+  const auto last = Eigen::Index(std::lround(muscle_.fold_to * double(whole.rows() - 1)));
+  part.line = whole.middleRows(first, last - first + 1);
+  for (Eigen::Index i = 0; i < part.line.rows(); ++i)
+    part.arc.push_back(i == 0 ? 0
+                              : part.arc.back() + (part.line.row(i) - part.line.row(i - 1)).norm());
+  const double width = 1e-3 * shape_.width_mm * line_.scale;
+  for (Eigen::Index v = 0; v < areas.size(); ++v) {
+    const double distance =
+        nearest_on_line(part, face_.mesh.volume.nodes.row(v).transpose()).distance_m;
+    const double wanted = areas[v] * std::exp(-std::pow(distance / width, 2));
+    // The part ends up to half a step of the whole line away from its point.
+    if (force.row(v).norm() > 0 || wanted > 2e-3 * areas[v]) {
+      EXPECT_NEAR(force.row(v).norm(), wanted, 0.2 * areas[v]) << v;
+    }
+  }
+  muscle_.fold_from = 0;
+  muscle_.fold_to = 1;
+  EXPECT_GT(sum(pull()), 1.8 * sum(force)) << "a third is pulled less than the whole";
+}
+
+TEST_F(FoldPull, IsNothingForAMuscleThatDoesNotEndThere) {
+  muscle_.fold_from = muscle_.fold_to = 0;
+  EXPECT_EQ(sum(pull()), 0);
+}
+
+}  // namespace
+}  // namespace hyperex::muscles
