@@ -34,5 +34,4 @@ struct EdgeOfJaw {
 };
 std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
-
 }  // namespace hyperex::simulate
