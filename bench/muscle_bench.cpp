@@ -18,6 +18,7 @@
 #include <memory>
 #include <sstream>
 
+#include "hyperex/core/files.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/io/scan.hpp"
@@ -87,11 +88,8 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("tone", m.tone_sigma);
   take("slide", m.slide_sigma_m, mm);
   take("patch_all", m.many_patch_m, mm);
-  if (has("muscles")) {
-    std::ifstream file(given["muscles"]);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    m.own = muscles::changed_table(m.table(), muscles::read_muscles(text, given["muscles"]), {});
-  }
+  if (const std::string& file = given["muscles"]; !file.empty())
+    m.own = muscles::changed_table(m.table(), muscles::read_muscles(read_file(file), file), {});
   take("cheek_share", m.few_cheek_share);
   take("lip_share", m.few_lip_share);
   take("share_all", m.many_muscle_share);

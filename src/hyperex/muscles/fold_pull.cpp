@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
@@ -24,14 +23,17 @@ constexpr int kPieces = 40;
 constexpr double kUpper_mm[2] = {4.5, 5}, kLower_mm[2] = {10, 0}, kBow_mm = 1.5;
 
 /// The part from share `from` to share `to` of a line with points at equal shares.
-Points part_of(const Points& line, double from, double to) {
+MuscleLine part_of(const Points& line, double from, double to) {
   const auto at = [&](double share) {
     const double x = share * double(line.rows() - 1);
     const Eigen::Index i = std::min<Eigen::Index>(Eigen::Index(x), line.rows() - 2);
     return Vec3((1 - (x - double(i))) * line.row(i) + (x - double(i)) * line.row(i + 1));
   };
-  Points out(kPieces + 1, 3);
-  for (int k = 0; k <= kPieces; ++k) out.row(k) = at(from + (to - from) * k / kPieces).transpose();
+  MuscleLine out;
+  out.line.resize(kPieces + 1, 3);
+  for (int k = 0; k <= kPieces; ++k)
+    out.line.row(k) = at(from + (to - from) * k / kPieces).transpose();
+  out.arc = arc_of(out.line);
   return out;
 }
 
@@ -39,8 +41,7 @@ Points part_of(const Points& line, double from, double to) {
 
 Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left) {
   const face::FaceFrame frame = face::face_frame(landmarks);
-  const double mm =
-      (landmarks.at(face::ibug(36)) - landmarks.at(face::ibug(45))).norm() / kTemplateEyes_mm;
+  const double mm = 1e-3 * scale_of(landmarks);
   const Vec3 out = (left ? 1 : -1) * mm * frame.x, up = mm * frame.y;
   const Vec3 wing =
       landmarks.at(face::ibug(left ? 35 : 31)) + kUpper_mm[0] * out + kUpper_mm[1] * up;
@@ -56,18 +57,12 @@ Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& land
   return line;
 }
 
-Eigen::VectorXd fold_pull(const MuscleLine& line, const TemplateMuscle& muscle,
-                          const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                          const FoldShape& shape) {
+Eigen::VectorXd fold_pull(const MuscleLine& line, const TemplateMuscle& muscle, const Points& fold,
+                          const tissue::TissueMesh& mesh, const FoldShape& shape) {
   const tissue::VolumeMesh& volume = mesh.volume;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * volume.nodes.rows());
   if (!(muscle.fold_to > muscle.fold_from)) return force;
-  MuscleLine fold;
-  fold.line =
-      part_of(nasolabial_fold(mesh, landmarks, line.left), muscle.fold_from, muscle.fold_to);
-  for (Eigen::Index i = 0; i < fold.line.rows(); ++i)
-    fold.arc.push_back(i == 0 ? 0
-                              : fold.arc.back() + (fold.line.row(i) - fold.line.row(i - 1)).norm());
+  const MuscleLine part = part_of(fold, muscle.fold_from, muscle.fold_to);
   const double width = 1e-3 * shape.width_mm * line.scale;
   const double inwards = shape.inwards_deg * std::numbers::pi / 180;
   const Vec3 origin = line.line.row(0);
@@ -75,7 +70,7 @@ Eigen::VectorXd fold_pull(const MuscleLine& line, const TemplateMuscle& muscle,
   const Eigen::VectorXd areas = node_areas(volume.outer);
   for (int v = 0; v < volume.surface_nodes(); ++v) {
     const Vec3 at = volume.nodes.row(v), n = normals.row(v);
-    const double weight = std::exp(-std::pow(nearest_on_line(fold, at).distance_m / width, 2));
+    const double weight = std::exp(-std::pow(nearest_on_line(part, at).distance_m / width, 2));
     if (weight < kLeastSkinWeight) continue;
     const Vec3 towards = origin - at;
     const Vec3 along = (towards - n * n.dot(towards)).normalized();

@@ -22,8 +22,7 @@ class Laying {
         landmarks_(landmarks),
         frame_(face::face_frame(landmarks)),
         skin_(mesh.volume.outer),
-        scale_((landmarks.at(face::ibug(36)) - landmarks.at(face::ibug(45))).norm() /
-               (1e-3 * kTemplateEyes_mm)) {}
+        scale_(scale_of(landmarks)) {}
 
   MuscleLine lay(const TemplateMuscle& muscle, bool left) const {
     MuscleLine out;
@@ -45,12 +44,9 @@ class Laying {
       }
     }
     out.line.resize(static_cast<Eigen::Index>(line.size()), 3);
-    double arc = 0;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (i > 0) arc += (line[i] - line[i - 1]).norm();
+    for (std::size_t i = 0; i < line.size(); ++i)
       out.line.row(static_cast<Eigen::Index>(i)) = line[i].transpose();
-      out.arc.push_back(arc);
-    }
+    out.arc = arc_of(out.line);
     return out;
   }
 
@@ -101,6 +97,18 @@ class Laying {
 };
 
 }  // namespace
+
+double scale_of(const io::Landmarks& landmarks) {
+  return (landmarks.at(face::ibug(36)) - landmarks.at(face::ibug(45))).norm() /
+         (1e-3 * kTemplateEyes_mm);
+}
+
+std::vector<double> arc_of(const Points& line) {
+  std::vector<double> arc;
+  for (Eigen::Index i = 0; i < line.rows(); ++i)
+    arc.push_back(i == 0 ? 0 : arc.back() + (line.row(i) - line.row(i - 1)).norm());
+  return arc;
+}
 
 std::vector<MuscleLine> muscle_lines(const std::vector<TemplateMuscle>& muscles,
                                      const tissue::TissueMesh& mesh,

@@ -19,6 +19,12 @@ struct MuscleLine {
   double scale = 1;         ///< of the face's size over the template's
 };
 
+/// Size of a face over that of the template's: by the distance of the outer eye corners.
+double scale_of(const io::Landmarks& landmarks);
+
+/// Way along a line (n x 3) from its first point to each, m.
+std::vector<double> arc_of(const Points& line);
+
 /// The template laid on a face, left and right of each in turn. Places are carried by their
 /// landmarks, offsets turned and scaled with the face; the path is straight between places, laid on
 /// the skin, then sunk by its depth into the tissue. `landmarks`: the 68 iBUG points.

@@ -24,7 +24,7 @@ class FoldPull : public testing::Test {
     muscle_ = muscle_template()[std::size_t(line_.row)];
   }
   Points pull() const {
-    const Eigen::VectorXd f = fold_pull(line_, muscle_, face_.mesh, face_.landmarks, shape_);
+    const Eigen::VectorXd f = fold_pull(line_, muscle_, fold_, face_.mesh, shape_);
     EXPECT_EQ(f.size(), 3 * face_.mesh.volume.nodes.rows());
     return Eigen::Map<const Points>(f.data(), f.size() / 3, 3);
   }
@@ -33,6 +33,7 @@ class FoldPull : public testing::Test {
   const test::AFace& face_ = test::a_face();
   const std::vector<MuscleLine> lines_ =
       muscle_lines(muscle_template(), face_.mesh, face_.landmarks);
+  const Points fold_ = nasolabial_fold(face_.mesh, face_.landmarks, true);
   MuscleLine line_;
   TemplateMuscle muscle_;
   FoldShape shape_;
@@ -75,15 +76,12 @@ TEST_F(FoldPull, DrawsTheSkinTowardsTheOriginAndIntoTheTissue) {
 
 TEST_F(FoldPull, FallsOffBesideItsPartOfTheLine) {
   const Points force = pull();
-  const Points whole = nasolabial_fold(face_.mesh, face_.landmarks, true);
   const Eigen::VectorXd areas = node_areas(face_.mesh.volume.outer);
   MuscleLine part;  // between two of the line's points, as the template says
-  const auto first = Eigen::Index(std::lround(muscle_.fold_from * double(whole.rows() - 1)));
-  const auto last = Eigen::Index(std::lround(muscle_.fold_to * double(whole.rows() - 1)));
-  part.line = whole.middleRows(first, last - first + 1);
-  for (Eigen::Index i = 0; i < part.line.rows(); ++i)
-    part.arc.push_back(i == 0 ? 0
-                              : part.arc.back() + (part.line.row(i) - part.line.row(i - 1)).norm());
+  const auto first = Eigen::Index(std::lround(muscle_.fold_from * double(fold_.rows() - 1)));
+  const auto last = Eigen::Index(std::lround(muscle_.fold_to * double(fold_.rows() - 1)));
+  part.line = fold_.middleRows(first, last - first + 1);
+  part.arc = arc_of(part.line);
   const double width = 1e-3 * shape_.width_mm * line_.scale;
   for (Eigen::Index v = 0; v < areas.size(); ++v) {
     const double distance =

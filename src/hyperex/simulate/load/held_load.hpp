@@ -21,7 +21,7 @@ struct HeldLoad {
   /// band per muscle.
   bool wide_bands = false;
   /// 3 |nodes| x |muscles|, N: what the strong pull of each adds along the fold from nose to mouth
-  /// at finite strain. No columns where no muscle does.
+  /// at finite strain. No columns where no muscles drive.
   Eigen::MatrixXd fold;
   MuscleCourse muscles;  ///< no names where there are none
   double greatest_opening_deg = 0;

@@ -42,10 +42,13 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
   };
   forces(1, force_);
   scale_to_unit(options.unit_m, between, force_, response_);
+  const Points fold[2] = {muscles::nasolabial_fold(mesh, landmarks, false),
+                          muscles::nasolabial_fold(mesh, landmarks, true)};
   fold_force_.resize(unknowns, count);
   tbb::parallel_for(Eigen::Index(0), count, [&](Eigen::Index m) {
     const muscles::TemplateMuscle& muscle = muscles[lines_[m].row];
-    fold_force_.col(m) = muscles::fold_pull(lines_[m], muscle, mesh, landmarks, options.fold);
+    fold_force_.col(m) =
+        muscles::fold_pull(lines_[m], muscle, fold[lines_[m].left], mesh, options.fold);
     const double sum = total(fold_force_.col(m));
     if (sum > 0) fold_force_.col(m) *= muscle.fold_strength * total(force_.col(m)) / sum;
   });

@@ -15,9 +15,9 @@ namespace hyperex::simulate {
 struct MuscleModelOptions {
   SupportOptions support;
   muscles::ForceShape shape;
-  double widening = 1;    ///< width of the band of a strong pull over that of a weak one
-  double unit_m = 0.010;  ///< greatest displacement of the skin by a muscle of activation 1
-  muscles::FoldShape fold = {};
+  double widening = 1;           ///< width of the band of a strong pull over that of a weak one
+  double unit_m = 0.010;         ///< greatest displacement of the skin by a muscle of activation 1
+  muscles::FoldShape fold = {};  ///< of pulls along the fold from nose to mouth
 };
 
 /// The static responses of a face at rest to unit pulls of its muscles and unit motions of its jaw:

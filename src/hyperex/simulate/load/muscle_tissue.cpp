@@ -9,8 +9,9 @@ namespace hyperex::simulate {
 namespace {
 
 MuscleModelOptions model_options(const SimulationOptions& options) {
-  return {muscle_support(options.support, options.muscles), options.muscles.shape,
-          options.muscles.widening};
+  return {.support = muscle_support(options.support, options.muscles),
+          .shape = options.muscles.shape,
+          .widening = options.muscles.widening};
 }
 
 }  // namespace

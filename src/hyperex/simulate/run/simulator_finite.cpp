@@ -53,12 +53,12 @@ FiniteDrive Simulator::Impl::finite_drive(const MuscleOptions& muscles,
     drive.still = stages.input->drive;
     return drive;
   }
-  const HeldLoad& load = stages.load.value();
+  const HeldLoad load = with_fold(stages.load.value());
   std::vector<char> turning = turning_columns(load, muscles.table());
-  drive.turning = drive_by(with_fold(with_columns(load, turning)), muscles);
+  drive.turning = drive_by(with_columns(load, turning), muscles);
   for (char& turns : turning) turns = !turns;
   drive.still = drive_by(with_columns(load, turning), muscles);
-  if (!places) drive.forces = load.patch_forces.get();
+  if (!places) drive.forces = stages.load->patch_forces.get();
   return drive;
 }
 
