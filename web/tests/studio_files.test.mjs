@@ -2,6 +2,7 @@
 // Files that are chosen in the studio, on a made-up face with a made-up server: each wrong one is named with what was
 // expected, a recording alone moves the face that is open, and no face is taken for the next one while that comes.
 import assert from 'node:assert/strict';
+import { File } from 'node:buffer'; // Debian 12's Node 18 has no global one
 import { after, before, test } from 'node:test';
 import { launch } from './browser.mjs';
 import { openMadeUp } from './made_up_studio.mjs';
