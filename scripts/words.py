@@ -141,7 +141,7 @@ def words(sentence):
 
 
 def anchors(page):
-    """The anchors of a page's headings, as GitHub makes them."""
+    """The anchors of a page's headings, as GitHub makes them. The documentation site knows no others (<a id=...>)."""
     names, seen = set(), {}
     text = page.read_text(encoding="utf-8")
     for line in blank_code(text.splitlines()):
@@ -153,7 +153,6 @@ def anchors(page):
         count = seen.get(name, 0)
         seen[name] = count + 1
         names.add(f"{name}-{count}" if count else name)
-    names.update(re.findall(r"<a (?:id|name)=\"([^\"]+)\"", text))
     return names
 
 
