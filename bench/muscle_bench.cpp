@@ -79,6 +79,8 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("ramp", m.shape.ramp);
   take("tangential", m.shape.tangential);
   take("midline", m.shape.midline_m, mm);
+  take("fold_width", m.fold.width_mm);
+  take("fold_inwards", m.fold.inwards_deg);
   take("widening", m.widening);
   take("half", m.half);
   take("sigma", m.few_sigma_m, mm);

@@ -43,9 +43,9 @@ struct TemplateMuscle {
   /// between the points: with few points and with many; below 0: as for all of its kind.
   double few_share = -1, many_share = -1;
   /// The part of the fold from nose (0) to mouth (1) along which it ends in the skin; nowhere where
-  /// both are 0. At finite strain its strong pull (MuscleOptions::widening) also acts there, with
-  /// forces that sum to `fold_strength` times those of its weak pull.
-  double fold_from = 0, fold_to = 0, fold_strength = 0.5;
+  /// both are 0. It also pulls there (fold_pull()), with forces that sum to `fold_strength` times
+  /// those of its weak pull.
+  double fold_from = 0, fold_to = 0, fold_strength = 0.1;
   /// Correlations of its activation with those of other muscles of its side before a point is seen.
   std::vector<std::pair<std::string, double>> together = {};
   bool operator==(const TemplateMuscle&) const = default;

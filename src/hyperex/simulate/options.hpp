@@ -204,14 +204,15 @@ struct MuscleOptions {
   bool mirrored = false;  ///< each muscle takes the activation of its counterpart
 
   /// In the place of SimulationOptions::support's layers.
-  BoneLayer skull_layer{2.5e6, 4.8e6}, mandible_layer{3.3e7, 1e7}, teeth_layer{3.1e5, 1.04e6};
+  BoneLayer skull_layer{2.5e6, 6e6}, mandible_layer{3.3e7, 1e7}, teeth_layer{3.1e5, 1.04e6};
   /// The ring of muscle in the lips is denser than other tissue: E is `lip_stiffening` times as
   /// large there, falling off as exp(-(d / lip_reach_m)^2) with the distance d to the lips' points.
-  double lip_stiffening = 3.2, lip_reach_m = 0.0085;
+  double lip_stiffening = 2, lip_reach_m = 0.0085;
   double foundation_pa_per_m = 3.1e5;  ///< under tissue over neither bone
   double teeth_reach_m = 0.013;
   double throat_pa_per_m = 1e6, throat_reach_m = 0.09;
   muscles::ForceShape shape;
+  muscles::FoldShape fold;
   /// A pull's band grows with its activation a: of its force, a / (a + half) acts in a band
   /// `widening` times as wide.
   double widening = 2.3, half = 0.62;

@@ -129,7 +129,7 @@ struct TissueFieldOptions {
   static void describe(Visitor& v) {
     v.option(HX_MEMBER(uniform[young]),
              "Young's modulus E. The springs of [support] do not scale with it. Where drive.by = "
-             "\"muscles\", E rises towards the lips, up to 3.2 times this value (docs/muscles.md).",
+             "\"muscles\", E rises towards the lips (docs/muscles.md).",
              parameter_details(young));
     v.option(HX_MEMBER(uniform[poisson]),
              "Poisson's ratio. With tissue.element = \"tet4\" the tissue moves too little near "

@@ -5,9 +5,6 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
-#include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/muscles/fold_pull.hpp"
 #include "hyperex/simulate/run/node_rotations.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 #include "simulate/small_face.hpp"
@@ -63,57 +60,6 @@ TEST_F(FiniteRun, ASmallMotionIsTheLinearAnswer) {
     EXPECT_LT(apart(linear, made(options_, smile(0.01)).run()), 0.005);
     EXPECT_GT(apart(large, made(options_, smile(1)).run()), 0.01) << "but not a large one";
   }
-}
-
-class FoldAtFiniteStrain : public FiniteRun {
- protected:
-  FoldAtFiniteStrain() { options_.drive.by = DriveBy::muscles; }
-  static void end_elsewhere(SimulationOptions& options) {
-    for (muscles::TemplateMuscle& muscle : options.muscles.own)
-      muscle.fold_from = muscle.fold_to = 0;
-  }
-  /// How far the second run's skin lies inwards of the first's at the end, in the mean over the
-  /// lower half of the left fold (m).
-  double inwards_m(const SimulationResult& from, const SimulationResult& to) const {
-    const Points fold = muscles::nasolabial_fold(*mesh_, face_.landmarks, true);
-    const Points lower = fold.bottomRows(fold.rows() / 2 + 1);
-    const Points normals = vertex_normals(mesh_->skin);
-    const Points added =
-        (to.performance.skin_displacement_m.back() - from.performance.skin_displacement_m.back())
-            .cast<double>();
-    const SurfaceTree skin(mesh_->skin);
-    double sum = 0;
-    for (Eigen::Index i = 0; i < lower.rows(); ++i) {
-      const ClosestPoint at = skin.query(lower.row(i));
-      for (int k = 0; k < 3; ++k) {
-        const int v = mesh_->skin.triangles(at.triangle, k);
-        sum -= at.weights[k] * added.row(v).dot(normals.row(v));
-      }
-    }
-    return sum / double(lower.rows());
-  }
-};
-
-/// Muscles that end in the skin of the fold draw it in, at finite strain only; the recorded points
-/// stay where they are.
-TEST_F(FoldAtFiniteStrain, AStrongSmileDrawsItIn) {
-  SimulationOptions without = options_;
-  without.muscles.own = muscles::muscle_template();
-  end_elsewhere(without);
-  const auto with_it = made(options_, smile(1.5)).run(), bare = made(without, smile(1.5)).run();
-  EXPECT_GT(inwards_m(bare, with_it), 1e-4);
-  EXPECT_NEAR(way(with_it, "ibug68_54"), way(bare, "ibug68_54"), 1e-4);
-  options_.model.strain = without.model.strain = Strain::linear;
-  EXPECT_EQ(apart(made(options_, smile(1.5)).run(), made(without, smile(1.5)).run()), 0);
-}
-
-/// Also by muscles whose forces keep their direction, since they are none of the cheek.
-TEST_F(FoldAtFiniteStrain, AnyMuscleCanDrawItIn) {
-  options_.muscles.own = muscles::muscle_template();
-  for (muscles::TemplateMuscle& muscle : options_.muscles.own) muscle.cheek = false;
-  SimulationOptions without = options_;
-  end_elsewhere(without);
-  EXPECT_GT(inwards_m(made(without, smile(1.5)).run(), made(options_, smile(1.5)).run()), 1e-4);
 }
 
 /// Farther than this the driven nodes themselves turn an element inside out.

@@ -145,20 +145,6 @@ class LoadOfMuscles : public testing::Test {
   MuscleOptions options_;
 };
 
-TEST_F(LoadOfMuscles, PullsAlongTheFoldWithItsStrongPart) {
-  const auto count = Eigen::Index(kNames.size());
-  EXPECT_EQ(with_fold(load_).force, load_.force) << "where no muscle ends in the fold";
-  load_.fold = Eigen::MatrixXd::Random(kUnknowns, count);
-  const Eigen::MatrixXd added = with_fold(load_).force - load_.force;
-  EXPECT_EQ(added.leftCols(count).norm(), 0);
-  EXPECT_LT((added.middleCols(count, count) - load_.fold).norm(), 1e-12);
-  EXPECT_EQ(added.rightCols(kOthers).norm(), 0);
-  load_.wide_bands = false;
-  const Eigen::MatrixXd to_all = with_fold(load_).force - load_.force;
-  EXPECT_LT((to_all.leftCols(count) - load_.fold).norm(), 1e-12) << "where there is no strong part";
-  EXPECT_EQ(to_all.middleCols(count, count).norm(), 0);
-}
-
 TEST_F(LoadOfMuscles, IsTheSamplesAndHeldAfterTheLast) {
   expect_at_samples(load_.force * load_.course);
   const fem::Drive drive = this->drive();

@@ -219,6 +219,7 @@ const std::vector<OptionCase>& muscle_cases() {
       scaled("throat_pa_per_m", &M::throat_pa_per_m, false),  // the face has no throat
       scaled("throat_reach_m", &M::throat_reach_m, false),
       {"muscles.shape", {all}, [](Options& o) { o.muscles.shape.band *= 0.8; }},
+      {"muscles.fold", {all}, [](Options& o) { o.muscles.fold.width_mm *= 0.8; }},
       scaled("widening", &M::widening),
       scaled("half", &M::half),
       scaled("few_sigma_m", &M::few_sigma_m),

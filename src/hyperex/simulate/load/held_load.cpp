@@ -200,12 +200,6 @@ std::vector<char> turning_columns(const HeldLoad& load, const muscles::MuscleTab
   return out;
 }
 
-HeldLoad with_fold(HeldLoad load) {
-  if (load.fold.cols() > 0)
-    load.force.middleCols(load.wide_bands ? load.fold.cols() : 0, load.fold.cols()) += load.fold;
-  return load;
-}
-
 HeldLoad with_columns(const HeldLoad& load, const std::vector<char>& wanted) {
   HeldLoad out = load;
   for (std::size_t c = 0; c < wanted.size(); ++c)

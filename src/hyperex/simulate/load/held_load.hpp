@@ -20,9 +20,6 @@ struct HeldLoad {
   /// The first columns of `force` hold one narrow band per muscle, then (if `wide_bands`) one wide
   /// band per muscle.
   bool wide_bands = false;
-  /// 3 |nodes| x |muscles|, N: what the strong pull of each adds along the fold from nose to mouth
-  /// at finite strain. No columns where no muscles drive.
-  Eigen::MatrixXd fold;
   MuscleCourse muscles;  ///< no names where there are none
   double greatest_opening_deg = 0;
   /// The nodes of the patches around driven points. At finite strain, additional forces hold them
@@ -77,10 +74,6 @@ HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change);
 /// All others keep their direction: those of lips and chin, of the jaw's springs, and what is left
 /// over (docs/mechanics.md).
 std::vector<char> turning_columns(const HeldLoad& load, const muscles::MuscleTable& table);
-
-/// The load whose strong pulls act along the fold, too (HeldLoad::fold). Where there are no wide
-/// bands, all pulls do.
-HeldLoad with_fold(HeldLoad load);
 
 /// The load with the course of all columns but the wanted ones set to zero.
 HeldLoad with_columns(const HeldLoad& load, const std::vector<char>& wanted);

@@ -280,7 +280,6 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
       forces_of(model, patches, driven, directions,
                 tissue_shares(model, driven.few(), options.muscles), motion.rest.rows(), between);
   load.patch_nodes = patches.nodes;
-  load.fold = model.fold_force();
   return load;
 }
 

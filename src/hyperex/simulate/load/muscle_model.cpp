@@ -37,25 +37,18 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
       muscles::TemplateMuscle muscle = muscles[lines_[m].row];
       if (muscle.kind == muscles::MuscleKind::pull)
         muscle.band = widening * (muscle.band > 0 ? muscle.band : options.shape.band);
-      force.col(m) = muscles::muscle_force(lines_[m], muscle, mesh, landmarks, options.shape);
+      muscles::ForceShape shape = options.shape;
+      if (muscle.fold_to > 0) shape.tangential = 1;  // it draws the skin in at the fold alone
+      force.col(m) = muscles::muscle_force(lines_[m], muscle, mesh, landmarks, shape);
     });
   };
   forces(1, force_);
   scale_to_unit(options.unit_m, between, force_, response_);
-  const Points fold[2] = {muscles::nasolabial_fold(mesh, landmarks, false),
-                          muscles::nasolabial_fold(mesh, landmarks, true)};
-  fold_force_.resize(unknowns, count);
-  tbb::parallel_for(Eigen::Index(0), count, [&](Eigen::Index m) {
-    const muscles::TemplateMuscle& muscle = muscles[lines_[m].row];
-    fold_force_.col(m) =
-        muscles::fold_pull(lines_[m], muscle, fold[lines_[m].left], mesh, options.fold);
-    const double sum = total(fold_force_.col(m));
-    if (sum > 0) fold_force_.col(m) *= muscle.fold_strength * total(force_.col(m)) / sum;
-  });
   if (options.widening != 1) {
     forces(options.widening, wide_force_);
     scale_to_unit(options.unit_m, between, wide_force_, wide_response_);
   }
+  add_fold(muscles, landmarks, options.fold, between);
   jaw_force_.resize(unknowns, 12);
   for (int k = 0; k < 12; ++k) {
     Boundary::JawMotion unit;
@@ -75,6 +68,37 @@ void MuscleModel::scale_to_unit(double unit_m, const std::function<void()>& betw
     const double scale = most > 0 ? unit_m / most : 0;
     force.col(m) *= scale;
     response.col(m) *= scale;
+  }
+}
+
+/// The fold's part is added to a muscle of unit response: its own response depends on the mesh,
+/// whose edges are hardly shorter than the fold is wide.
+void MuscleModel::add_fold(const std::vector<muscles::TemplateMuscle>& muscles,
+                           const io::Landmarks& landmarks, const muscles::FoldShape& shape,
+                           const std::function<void()>& between) {
+  std::vector<Eigen::Index> with_fold;
+  for (std::size_t m = 0; m < lines_.size(); ++m)
+    if (muscles[lines_[m].row].fold_to > 0) with_fold.push_back(Eigen::Index(m));
+  if (with_fold.empty()) return;
+  const Points fold[2] = {muscles::nasolabial_fold(mesh_, landmarks, false),
+                          muscles::nasolabial_fold(mesh_, landmarks, true)};
+  Eigen::MatrixXd pull(force_.rows(), Eigen::Index(with_fold.size()));
+  tbb::parallel_for(Eigen::Index(0), pull.cols(), [&](Eigen::Index k) {
+    const Eigen::Index m = with_fold[std::size_t(k)];
+    const muscles::TemplateMuscle& muscle = muscles[lines_[std::size_t(m)].row];
+    pull.col(k) = muscles::fold_pull(lines_[std::size_t(m)], muscle,
+                                     fold[lines_[std::size_t(m)].left], mesh_, shape);
+    const double sum = total(pull.col(k));
+    if (sum > 0) pull.col(k) *= muscle.fold_strength * total(force_.col(m)) / sum;
+  });
+  const Eigen::MatrixXd response = solve(pull, between);
+  for (Eigen::Index k = 0; k < pull.cols(); ++k) {
+    const Eigen::Index m = with_fold[std::size_t(k)];
+    force_.col(m) += pull.col(k);
+    response_.col(m) += response.col(k);
+    if (wide_force_.cols() == 0) continue;
+    wide_force_.col(m) += pull.col(k);
+    wide_response_.col(m) += response.col(k);
   }
 }
 

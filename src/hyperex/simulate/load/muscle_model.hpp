@@ -15,8 +15,9 @@ namespace hyperex::simulate {
 struct MuscleModelOptions {
   SupportOptions support;
   muscles::ForceShape shape;
-  double widening = 1;           ///< width of the band of a strong pull over that of a weak one
-  double unit_m = 0.010;         ///< greatest displacement of the skin by a muscle of activation 1
+  double widening = 1;  ///< width of the band of a strong pull over that of a weak one
+  /// Greatest displacement of the skin by a muscle of activation 1, without what pulls the fold.
+  double unit_m = 0.010;
   muscles::FoldShape fold = {};  ///< of pulls along the fold from nose to mouth
 };
 
@@ -40,8 +41,6 @@ class MuscleModel {
   /// 3 |nodes| x |lines|, N and m: force and response of each muscle at activation 1.
   const Eigen::MatrixXd& force() const { return force_; }
   const Eigen::MatrixXd& response() const { return response_; }
-  /// 3 |nodes| x |lines|, N: the pull of each muscle along the fold at activation 1.
-  const Eigen::MatrixXd& fold_force() const { return fold_force_; }
   /// The same with the wide bands; no columns where widening is 1.
   const Eigen::MatrixXd& wide_force() const { return wide_force_; }
   const Eigen::MatrixXd& wide_response() const { return wide_response_; }
@@ -59,9 +58,10 @@ class MuscleModel {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& force, const std::function<void()>& between);
   void scale_to_unit(double unit_m, const std::function<void()>& between, Eigen::MatrixXd& force,
                      Eigen::MatrixXd& response);
+  void add_fold(const std::vector<muscles::TemplateMuscle>& muscles, const io::Landmarks& landmarks,
+                const muscles::FoldShape& shape, const std::function<void()>& between);
   const tissue::TissueMesh& mesh_;
-  Eigen::MatrixXd force_, response_, fold_force_, wide_force_, wide_response_, jaw_force_,
-      jaw_response_;
+  Eigen::MatrixXd force_, response_, wide_force_, wide_response_, jaw_force_, jaw_response_;
 };
 
 }  // namespace hyperex::simulate

@@ -11,7 +11,8 @@ namespace {
 MuscleModelOptions model_options(const SimulationOptions& options) {
   return {.support = muscle_support(options.support, options.muscles),
           .shape = options.muscles.shape,
-          .widening = options.muscles.widening};
+          .widening = options.muscles.widening,
+          .fold = options.muscles.fold};
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ FiniteDrive Simulator::Impl::finite_drive(const MuscleOptions& muscles,
     drive.still = stages.input->drive;
     return drive;
   }
-  const HeldLoad load = with_fold(stages.load.value());
+  const HeldLoad& load = stages.load.value();
   std::vector<char> turning = turning_columns(load, muscles.table());
   drive.turning = drive_by(with_columns(load, turning), muscles);
   for (char& turns : turning) turns = !turns;

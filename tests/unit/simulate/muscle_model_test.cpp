@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a muscle that ends in the fold from nose to mouth pulls, beside the same muscle without it.
+#include "hyperex/simulate/load/muscle_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hyperex/fem/form/assembler.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/muscles/fold_pull.hpp"
+#include "hyperex/simulate/options.hpp"
+#include "simulate/small_face.hpp"
+
+namespace hyperex::simulate {
+namespace {
+
+class PullAtTheFold : public testing::Test {
+ protected:
+  PullAtTheFold() {
+    const SimulationOptions options;
+    fem::System system;
+    fem::Assembler(face_.mesh.volume.nodes, face_.mesh.volume.tets, options.model.element)
+        .assemble(options.tissue.material(std::size_t(face_.mesh.volume.tets.rows()),
+                                          options.model.viscous_form),
+                  system);
+    stiffness_ = system.stiffness;
+    muscle_ = *muscles::find_muscle("zyg_major", muscles::muscle_template());
+    options_.widening = 2;
+  }
+  MuscleModel model(const muscles::TemplateMuscle& muscle) const {
+    return {face_.mesh, face_.landmarks, stiffness_, {muscle}, options_};
+  }
+  static double sum(const Eigen::VectorXd& force) {
+    return Eigen::Map<const Points>(force.data(), force.size() / 3, 3).rowwise().norm().sum();
+  }
+
+  const test::SmallFace face_ = test::small_face();
+  fem::SparseMatrix stiffness_;
+  muscles::TemplateMuscle muscle_;
+  MuscleModelOptions options_;
+};
+
+TEST_F(PullAtTheFold, IsAddedToTheWeakAndToTheStrongPull) {
+  muscles::TemplateMuscle none = muscle_;
+  none.fold_strength = 0;
+  const MuscleModel with_it = model(muscle_), without = model(none);
+  ASSERT_EQ(with_it.lines().size(), 2u);
+  for (const Eigen::Index m : {0, 1}) {
+    const muscles::MuscleLine& line = with_it.lines()[std::size_t(m)];
+    const Points fold = muscles::nasolabial_fold(face_.mesh, face_.landmarks, line.left);
+    Eigen::VectorXd pull = muscles::fold_pull(line, muscle_, fold, face_.mesh, options_.fold);
+    pull *= muscle_.fold_strength * sum(without.force().col(m)) / sum(pull);
+    EXPECT_LT((with_it.force().col(m) - without.force().col(m) - pull).norm(), 1e-9 * pull.norm());
+    EXPECT_LT((with_it.wide_force().col(m) - without.wide_force().col(m) - pull).norm(),
+              1e-9 * pull.norm());
+  }
+}
+
+TEST_F(PullAtTheFold, ResponsesAreThoseOfAllItsForces) {
+  const MuscleModel model = this->model(muscle_);
+  const auto residual = [&](const Eigen::MatrixXd& force, const Eigen::MatrixXd& response) {
+    Eigen::MatrixXd off = model.stiffness() * response - force;
+    off(model.boundary().prescribed(), Eigen::all).setZero();
+    return off.norm() / force.norm();
+  };
+  EXPECT_LT(residual(model.force(), model.response()), 1e-8);
+  EXPECT_LT(residual(model.wide_force(), model.wide_response()), 1e-8);
+}
+
+TEST_F(PullAtTheFold, DrawsTheSkinOfTheFoldIn) {
+  muscles::TemplateMuscle none = muscle_;
+  none.fold_strength = 0;
+  const MuscleModel with_it = model(muscle_), without = model(none);
+  const Points normals = vertex_normals(face_.mesh.skin);
+  const SurfaceTree skin(face_.mesh.skin);
+  for (const Eigen::Index m : {0, 1}) {
+    const bool left = with_it.lines()[std::size_t(m)].left;
+    const Points fold = muscles::nasolabial_fold(face_.mesh, face_.landmarks, left);
+    const Eigen::VectorXd added = with_it.response().col(m) - without.response().col(m);
+    double inwards_m = 0;
+    for (const auto& place : fold.bottomRows(fold.rows() / 2).rowwise()) {
+      const ClosestPoint at = skin.query(place);
+      for (int k = 0; k < 3; ++k) {
+        const int v = face_.mesh.skin.triangles(at.triangle, k);
+        inwards_m -= at.weights[k] * added.segment<3>(3 * v).dot(normals.row(v));
+      }
+    }
+    EXPECT_GT(inwards_m / double(fold.rows() / 2), 1e-4) << "at activation 1";
+  }
+}
+
+/// Beside the fold it pulls along the skin alone; without one, a share of its force is inwards.
+TEST_F(PullAtTheFold, NothingIsInwardsElsewhere) {
+  muscles::TemplateMuscle none = muscle_, elsewhere = muscle_;
+  none.fold_strength = 0;
+  elsewhere.fold_from = elsewhere.fold_to = 0;
+  const Points normals = vertex_normals(face_.mesh.volume.outer);
+  const auto across = [&](const MuscleModel& model) {
+    double most = 0;
+    for (Eigen::Index n = 0; n < model.force().rows() / 3; ++n)
+      most = std::max(most, std::abs(normals.row(n % face_.mesh.volume.surface_nodes())
+                                         .dot(model.force().col(0).segment<3>(3 * n))));
+    return most / model.force().col(0).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(across(model(none)), 1e-9);
+  EXPECT_GT(across(model(elsewhere)), 0.05);
+}
+
+}  // namespace
+}  // namespace hyperex::simulate
