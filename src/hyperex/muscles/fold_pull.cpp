@@ -61,7 +61,7 @@ Eigen::VectorXd fold_pull(const MuscleLine& line, const TemplateMuscle& muscle, 
                           const tissue::TissueMesh& mesh, const FoldShape& shape) {
   const tissue::VolumeMesh& volume = mesh.volume;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * volume.nodes.rows());
-  if (!(muscle.fold_to > muscle.fold_from)) return force;
+  if (!muscle.ends_in_fold()) return force;
   const MuscleLine part = part_of(fold, muscle.fold_from, muscle.fold_to);
   const double width = 1e-3 * shape.width_mm * line.scale;
   const double inwards = shape.inwards_deg * std::numbers::pi / 180;

@@ -46,6 +46,7 @@ struct TemplateMuscle {
   /// both are 0. It also pulls there (fold_pull()), with forces that sum to `fold_strength` times
   /// those of its weak pull.
   double fold_from = 0, fold_to = 0, fold_strength = 0.1;
+  bool ends_in_fold() const { return fold_to > fold_from; }
   /// Correlations of its activation with those of other muscles of its side before a point is seen.
   std::vector<std::pair<std::string, double>> together = {};
   bool operator==(const TemplateMuscle&) const = default;

@@ -25,6 +25,8 @@ class PullAtTheFold : public testing::Test {
                   system);
     stiffness_ = system.stiffness;
     muscle_ = *muscles::find_muscle("zyg_major", muscles::muscle_template());
+    bare_ = muscle_;
+    bare_.fold_strength = 0;
     options_.widening = 2;
   }
   MuscleModel model(const muscles::TemplateMuscle& muscle) const {
@@ -36,14 +38,12 @@ class PullAtTheFold : public testing::Test {
 
   const test::SmallFace face_ = test::small_face();
   fem::SparseMatrix stiffness_;
-  muscles::TemplateMuscle muscle_;
+  muscles::TemplateMuscle muscle_, bare_;  ///< without its pull at the fold
   MuscleModelOptions options_;
 };
 
 TEST_F(PullAtTheFold, IsAddedToTheWeakAndToTheStrongPull) {
-  muscles::TemplateMuscle none = muscle_;
-  none.fold_strength = 0;
-  const MuscleModel with_it = model(muscle_), without = model(none);
+  const MuscleModel with_it = model(muscle_), without = model(bare_);
   ASSERT_EQ(with_it.lines().size(), 2u);
   for (const Eigen::Index m : {0, 1}) {
     const muscles::MuscleLine& line = with_it.lines()[std::size_t(m)];
@@ -68,9 +68,7 @@ TEST_F(PullAtTheFold, ResponsesAreThoseOfAllItsForces) {
 }
 
 TEST_F(PullAtTheFold, DrawsTheSkinOfTheFoldIn) {
-  muscles::TemplateMuscle none = muscle_;
-  none.fold_strength = 0;
-  const MuscleModel with_it = model(muscle_), without = model(none);
+  const MuscleModel with_it = model(muscle_), without = model(bare_);
   const Points normals = vertex_normals(face_.mesh.skin);
   const SurfaceTree skin(face_.mesh.skin);
   for (const Eigen::Index m : {0, 1}) {
@@ -91,8 +89,7 @@ TEST_F(PullAtTheFold, DrawsTheSkinOfTheFoldIn) {
 
 /// Beside the fold it pulls along the skin alone; without one, a share of its force is inwards.
 TEST_F(PullAtTheFold, NothingIsInwardsElsewhere) {
-  muscles::TemplateMuscle none = muscle_, elsewhere = muscle_;
-  none.fold_strength = 0;
+  muscles::TemplateMuscle elsewhere = muscle_;
   elsewhere.fold_from = elsewhere.fold_to = 0;
   const Points normals = vertex_normals(face_.mesh.volume.outer);
   const auto across = [&](const MuscleModel& model) {
@@ -102,7 +99,7 @@ TEST_F(PullAtTheFold, NothingIsInwardsElsewhere) {
                                          .dot(model.force().col(0).segment<3>(3 * n))));
     return most / model.force().col(0).cwiseAbs().maxCoeff();
   };
-  EXPECT_LT(across(model(none)), 1e-9);
+  EXPECT_LT(across(model(bare_)), 1e-9);
   EXPECT_GT(across(model(elsewhere)), 0.05);
 }
 

@@ -38,7 +38,7 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
       if (muscle.kind == muscles::MuscleKind::pull)
         muscle.band = widening * (muscle.band > 0 ? muscle.band : options.shape.band);
       muscles::ForceShape shape = options.shape;
-      if (muscle.fold_to > 0) shape.tangential = 1;  // it draws the skin in at the fold alone
+      if (muscle.ends_in_fold()) shape.tangential = 1;  // it draws the skin in at the fold alone
       force.col(m) = muscles::muscle_force(lines_[m], muscle, mesh, landmarks, shape);
     });
   };
@@ -78,7 +78,7 @@ void MuscleModel::add_fold(const std::vector<muscles::TemplateMuscle>& muscles,
                            const std::function<void()>& between) {
   std::vector<Eigen::Index> with_fold;
   for (std::size_t m = 0; m < lines_.size(); ++m)
-    if (muscles[lines_[m].row].fold_to > 0) with_fold.push_back(Eigen::Index(m));
+    if (muscles[lines_[m].row].ends_in_fold()) with_fold.push_back(Eigen::Index(m));
   if (with_fold.empty()) return;
   const Points fold[2] = {muscles::nasolabial_fold(mesh_, landmarks, false),
                           muscles::nasolabial_fold(mesh_, landmarks, true)};

@@ -16,7 +16,7 @@ struct MuscleModelOptions {
   SupportOptions support;
   muscles::ForceShape shape;
   double widening = 1;  ///< width of the band of a strong pull over that of a weak one
-  /// Greatest displacement of the skin by a muscle of activation 1, without what pulls the fold.
+  /// Greatest displacement of the skin by a muscle of activation 1, without its pull at the fold.
   double unit_m = 0.010;
   muscles::FoldShape fold = {};  ///< of pulls along the fold from nose to mouth
 };
