@@ -307,11 +307,13 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
       type, touchPoints: type === 'touchEnd' ? [] : [{ x: x + 0.7 * width + dx, y: y + 0.4 * height }],
     });
     await page.locator('#canvas-host').scrollIntoViewIfNeeded();
+    await page.evaluate(() => (document.getElementById('announcement').textContent = 'kept'));
     await finger('touchStart');
     for (let i = 1; i <= 5; ++i) await finger('touchMove', 4 * i);
     await finger('touchEnd');
     await untilOther(page, first.file);
     await settled(page);
+    assert.equal(await page.locator('#announcement').textContent(), 'kept', 'the same faces move otherwise: no news');
     const [second] = await patches(page);
 
     await page.reload();

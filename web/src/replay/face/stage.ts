@@ -55,9 +55,12 @@ export class Stage {
     this.fillOverlays();
     this.wireWipe();
     this.wireReadout();
+    let announced = shown.visible.join();
     this.undoing.add(showSideMarks(this.viewer, at('canvas-host')), shown.onChange(() => {
       this.paint();
-      this.announce();
+      // Listeners are also called when the same faces move otherwise: no choice, and no news to screen readers.
+      if (shown.visible.join() !== announced) this.announce();
+      announced = shown.visible.join();
     }));
     at('save-picture').addEventListener('click', () => void this.savePicture(), { signal: this.undoing.signal });
   }
