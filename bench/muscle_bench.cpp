@@ -96,6 +96,12 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("lip_share", m.few_lip_share);
   take("share_all", m.many_muscle_share);
   take("jaw_share", m.jaw_share);
+  if (has("tissue_alone")) m.shape_prior = false;
+  take("shape_sigma", m.shape_sigma_m, mm);
+  take("shape_share", m.shape_share);
+  take("shape_smoothing", m.shape_smoothing_m, mm);
+  take("shape_clear", m.shape_clear_m, mm);
+  take("shape_reach", m.shape_reach_m, mm);
   return o;
 }
 

@@ -49,6 +49,12 @@ SUBJECTS = ("A", "D", "E")
 class Rig:
     """Positions and morph targets in mm. The targets were made for subject A; they are added to all subjects' points."""
 
+    @classmethod
+    def of_file(cls, file):
+        rig = cls.__new__(cls)
+        rig.read(file)
+        return rig
+
     def __init__(self, folder, subject):
         self.read(f"{folder}/subject_A_rig.glb")
         if subject != "A":

@@ -11,22 +11,29 @@
   "_end\n"                                                    \
   "hyperex_" symbol "_begin:\n.incbin \"" file "\"\nhyperex_" symbol "_end:\n"
 __asm__(".pushsection .rodata\n"  //
-        HYPEREX_TABLE("canonical_units", HYPEREX_MODEL_DATA "/canonical_units.csv")
-            HYPEREX_TABLE("tracked_landmarks", HYPEREX_MODEL_DATA "/canonical_landmarks.csv")
-                HYPEREX_TABLE("network_points", HYPEREX_MODEL_DATA "/network_points.csv")
-                    HYPEREX_TABLE("candide_pairs", HYPEREX_MODEL_DATA "/candide_pairs.csv")
-                        HYPEREX_TABLE("candide_landmarks",
-                                      HYPEREX_MODEL_DATA "/candide_landmarks.csv")
-                            HYPEREX_TABLE("candide_units", HYPEREX_MODEL_DATA "/candide_units.csv")
-                                HYPEREX_TABLE("openface_arkit", HYPEREX_MODEL_DATA
-                                              "/openface_arkit.csv") ".byte 0\n.popsection\n");
+        HYPEREX_TABLE("canonical_units", HYPEREX_MODEL_DATA
+                      "/canonical_units.csv") HYPEREX_TABLE("tracked_landmarks", HYPEREX_MODEL_DATA
+                                                            "/canonical_landmarks.csv")
+            HYPEREX_TABLE("network_points", HYPEREX_MODEL_DATA
+                          "/network_points.csv") HYPEREX_TABLE("candide_pairs", HYPEREX_MODEL_DATA
+                                                               "/candide_pairs.csv")
+                HYPEREX_TABLE("candide_landmarks", HYPEREX_MODEL_DATA "/candide_landmarks.csv")
+                    HYPEREX_TABLE("candide_units", HYPEREX_MODEL_DATA "/candide_units.csv")
+                        HYPEREX_TABLE("openface_arkit", HYPEREX_MODEL_DATA
+                                      "/openface_arkit.csv") HYPEREX_TABLE("expression_shapes",
+                                                                           HYPEREX_MODEL_DATA
+                                                                           "/expression_shapes.csv")
+                            HYPEREX_TABLE("expression_couplings", HYPEREX_MODEL_DATA
+                                          "/expression_couplings.csv") ".byte 0\n.popsection\n");
 
 extern "C" const char hyperex_canonical_units_begin[], hyperex_canonical_units_end[],
     hyperex_tracked_landmarks_begin[], hyperex_tracked_landmarks_end[],
     hyperex_network_points_begin[], hyperex_network_points_end[], hyperex_candide_pairs_begin[],
     hyperex_candide_pairs_end[], hyperex_candide_landmarks_begin[], hyperex_candide_landmarks_end[],
     hyperex_candide_units_begin[], hyperex_candide_units_end[], hyperex_openface_arkit_begin[],
-    hyperex_openface_arkit_end[];
+    hyperex_openface_arkit_end[], hyperex_expression_shapes_begin[],
+    hyperex_expression_shapes_end[], hyperex_expression_couplings_begin[],
+    hyperex_expression_couplings_end[];
 
 namespace hyperex::expression {
 
@@ -56,6 +63,12 @@ std::string_view candide_units_table() {
 }
 std::string_view openface_arkit_table() {
   return {hyperex_openface_arkit_begin, hyperex_openface_arkit_end};
+}
+std::string_view expression_shapes_table() {
+  return {hyperex_expression_shapes_begin, hyperex_expression_shapes_end};
+}
+std::string_view expression_couplings_table() {
+  return {hyperex_expression_couplings_begin, hyperex_expression_couplings_end};
 }
 
 std::vector<std::vector<std::string>> table_rows(std::string_view text, std::string_view header) {

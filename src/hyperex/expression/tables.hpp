@@ -14,6 +14,8 @@ std::string_view candide_pairs_table();
 std::string_view candide_landmarks_table();
 std::string_view candide_units_table();
 std::string_view openface_arkit_table();
+std::string_view expression_shapes_table();
+std::string_view expression_couplings_table();
 
 /// The rows of such a table as cells, without comments, blank lines and the line `header`.
 /// They are ours: a fault in them is a fault of the build.

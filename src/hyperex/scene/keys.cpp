@@ -73,6 +73,10 @@ bool speaks_of_displacement(const std::string& key) {
          (key.starts_with("support.") && !key.starts_with("support.jaw_points"));
 }
 
+bool decides_the_drive(const std::string& key) {
+  return key == "drive.by" || speaks_of_displacement(key);
+}
+
 const Key* find_key(const std::string& name) {
   for (const Key& key : keys())
     if (key.name == name) return &key;

@@ -78,6 +78,10 @@ std::string in_place_of(const std::string& name);
 /// [support] but jaw_points (which muscles, that fit the jaw to all points, can do without).
 bool speaks_of_displacement(const std::string& key);
 
+/// Whether a key, where it is given, decides what drives: drive.by, and those that speak of
+/// displacement. Where none is given, in the scene or in a variant, muscles drive.
+bool decides_the_drive(const std::string& key);
+
 /// What is expected in the place of an unknown name.
 std::string one_of_names(const std::string& name, const std::vector<std::string>& names);
 /// "a", "b" or "c".

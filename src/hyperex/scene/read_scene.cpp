@@ -218,16 +218,13 @@ void Reader::settle_motion() {
 
 /// Nothing in the scene or in a variant says what drives: muscles do.
 bool Reader::drive_is_open() const {
-  const auto speaks_of_another = [](const std::string& key) {
-    return key == "drive.by" || speaks_of_displacement(key);
-  };
   for (const auto& [key, given] : given_)
-    if (speaks_of_another(key)) return false;
+    if (decides_the_drive(key)) return false;
   if (variants_.is_array())
     for (const json& block : variants_) {
       if (!block.is_object()) continue;
       for (const auto& [key, value] : changes_of(block))
-        if (speaks_of_another(key)) return false;
+        if (decides_the_drive(key)) return false;
     }
   return true;
 }

@@ -27,7 +27,7 @@ DriveChoice drive_choice(const scene::Scene& scene) {
   };
   if (scene.origins.contains("drive.by")) return chosen(scene.drive.by, "the scene says so");
   for (const auto& [key, origin] : scene.origins)
-    if (scene::speaks_of_displacement(key))
+    if (scene::decides_the_drive(key))
       return chosen(scene.drive.by, key + " is given, which speaks of displacement");
   if (!scene.variants.empty())
     return chosen(scene.drive.by, scene.drive.by == DriveBy::muscles

@@ -232,6 +232,13 @@ struct MuscleOptions {
   /// cheek (TemplateMuscle::cheek) and of all others at few points, of all muscles at many, of the
   /// jaw. A muscle may have its own (TemplateMuscle::few_share).
   double few_cheek_share = 1, few_lip_share = 0.4, many_muscle_share = 0.6, jaw_share = 0.5;
+  /// Between the driven points the skin is led from where muscles put it towards where shapes of
+  /// real faces would (shape_correction.hpp). 1 sigma of the error of these shapes at a point;
+  /// their share of the difference, over which length it is smoothed, and how far from the driven
+  /// points it begins and is whole.
+  bool shape_prior = true;
+  double shape_sigma_m = 0.002, shape_share = 0.7, shape_smoothing_m = 0.008;
+  double shape_clear_m = 0.0035, shape_reach_m = 0.012;
   bool operator==(const MuscleOptions&) const = default;
 
   /// The constants above are no options: only what a scene may change is described.
@@ -245,6 +252,9 @@ struct MuscleOptions {
               {.key = "gain"});
     v.option(HX_MEMBER(mirrored),
              "Each muscle takes the activation of its counterpart on the other side.");
+    v.option(HX_MEMBER(shape_prior),
+             "Between the driven points the skin follows the tissue and, in part, how real faces "
+             "move with such points; false: the tissue alone.");
   }
 };
 

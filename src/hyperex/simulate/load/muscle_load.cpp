@@ -5,18 +5,18 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
-#include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
-#include "hyperex/simulate/drive/support.hpp"
+#include "hyperex/simulate/load/holding_forces.hpp"
 #include "hyperex/simulate/load/muscle_fit.hpp"
 #include "hyperex/simulate/load/muscle_model.hpp"
 #include "hyperex/simulate/load/muscle_prior.hpp"
+#include "hyperex/simulate/load/shape_correction.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -37,6 +37,7 @@ Eigen::MatrixXd at_points(const CarrierMatrix& carrier, const Eigen::MatrixXd& n
 /// The points that drive.
 struct Driven {
   std::vector<int> rows;
+  std::vector<DrivenPoint> points;
   CarrierMatrix carrier;
 
   Driven(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
@@ -49,8 +50,10 @@ struct Driven {
         names.push_back(name);
       }
     Points rest(static_cast<Eigen::Index>(rows.size()), 3);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
       rest.row(static_cast<Eigen::Index>(i)) = motion.rest.row(rows[i]);
+      points.push_back({names[i], motion.rest.row(rows[i]).transpose()});
+    }
     carrier = carriers(mesh, skin_places(mesh, names, rest));
     const Vec3 nose = landmarks.at(face::ibug(33)), up = face::face_frame(landmarks).y;
     below_nose_ = (((rest.rowwise() - nose.transpose()) * up).array() < -kBelowNose_m).count();
@@ -109,52 +112,12 @@ Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& drive
   return out;
 }
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Forces that hold the patches' nodes so displaced (columns), the rest of the face being in
-/// equilibrium without.
-Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patches,
-                               const Eigen::MatrixXd& displaced,
-                               const std::function<void()>& between) {
-  const std::vector<int>& held = model.boundary().prescribed();
-  const std::vector<int> prescribed = with_nodes(held, patches.nodes);
-  fem::PartitionedFactor factor(
-      model.stiffness(), prescribed, "patches of the driven points",
-      std::make_shared<const fem::NodeOrder>(
-          restricted(*model.order(), int(model.stiffness().rows()), held, prescribed)));
-  const auto unknown = [&](Eigen::Index row) { return 3 * patches.nodes[row / 3] + int(row % 3); };
-  const std::vector<int>& place = factor.partition().free_index;
-  const Rows held_at = displaced;
-  Rows right = Rows::Zero(Eigen::Index(factor.free().size()), displaced.cols());
-  for (Eigen::Index row = 0; row < held_at.rows(); ++row)
-    for (fem::SparseMatrix::InnerIterator it(model.stiffness(), unknown(row)); it; ++it)
-      if (place[it.row()] >= 0) right.row(place[it.row()]) -= it.value() * held_at.row(row);
-  Eigen::MatrixXd free = right;
-  factor.solve(free, between);
-  right = free;
-  // Of the rest the forces are zero.
-  Rows moved = Rows::Zero(model.stiffness().rows(), displaced.cols());
-  for (std::size_t i = 0; i < factor.free().size(); ++i)
-    moved.row(factor.free()[i]) = right.row(Eigen::Index(i));
-  for (Eigen::Index row = 0; row < held_at.rows(); ++row)
-    moved.row(unknown(row)) = held_at.row(row);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model.stiffness().rows(), displaced.cols());
-  Eigen::RowVectorXd sum(displaced.cols());
-  for (Eigen::Index row = 0; row < held_at.rows(); ++row) {
-    sum.setZero();
-    for (fem::SparseMatrix::InnerIterator it(model.stiffness(), unknown(row)); it; ++it)
-      sum += it.value() * moved.row(it.row());
-    out.row(unknown(row)) = sum;
-  }
-  return out;
-}
-
 /// The forces of muscles and jaw, then of the left-over's directions: columns of a HeldLoad. In the
 /// patches the tissue under the muscles' forces and the field between the points are two guesses of
 /// how the skin moves: of each column its `tissue_share` of the one and the rest of the other.
-Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
-                          const Eigen::MatrixXd& left_over, const Eigen::VectorXd& tissue_share,
-                          Eigen::Index points, const std::function<void()>& between) {
+HeldShape forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
+                    const Eigen::MatrixXd& left_over, const Eigen::VectorXd& tissue_share,
+                    Eigen::Index points, const std::function<void()>& between) {
   const Eigen::Index rows = model.force().rows();
   const Eigen::Index columns =
       model.force().cols() + model.wide_force().cols() + model.jaw_force().cols();
@@ -165,8 +128,9 @@ Eigen::MatrixXd forces_of(const MuscleModel& model, const DrivenSkin& patches, c
   displaced << field_less_tissue(patches, driven, moved, points) *
                    (1 - tissue_share.array()).matrix().asDiagonal(),
       field_in_patches(patches, driven, left_over, points);
-  Eigen::MatrixXd out = holding_forces(model, patches, displaced, between);
-  out.leftCols(own.cols()) += own;
+  HeldShape out = holding_forces(model, patches.nodes, displaced, between);
+  out.force.leftCols(own.cols()) += own;
+  out.moved.leftCols(own.cols()) += moved.topRows(out.moved.rows());
   return out;
 }
 
@@ -186,6 +150,13 @@ Eigen::VectorXd tissue_shares(const MuscleModel& model, bool few, const MuscleOp
   Eigen::VectorXd out(count + model.wide_force().cols() + model.jaw_force().cols());
   out << of_muscle, of_muscle.head(model.wide_force().cols()),
       Eigen::VectorXd::Constant(model.jaw_force().cols(), options.jaw_share);
+  return out;
+}
+
+/// Both lists (rising) as one.
+std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> out;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
   return out;
 }
 
@@ -223,6 +194,51 @@ Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
   return svd.matrixU().leftCols(kept);
 }
 
+/// Places over the skull that hardly move in any expression: beside the ears, at the root of the
+/// nose and under the brows' middles, without those near a driven point.
+std::vector<Vec3> skull_places(const std::vector<DrivenPoint>& points,
+                               const io::Landmarks& landmarks) {
+  constexpr double near_m = 0.015;
+  std::vector<Vec3> places;
+  for (const int k : {0, 16, 27, 19, 24}) {
+    const auto it = landmarks.find(face::ibug(k));
+    if (it == landmarks.end()) continue;
+    if (std::none_of(points.begin(), points.end(), [&](const DrivenPoint& point) {
+          return (point.rest - it->second).norm() < near_m;
+        }))
+      places.push_back(it->second);
+  }
+  return places;
+}
+
+/// Adds forces that lead the skin between the points from where `skin` has it towards where shapes
+/// of real faces would have it. They stay as they are when muscles change.
+void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                const AlignedMotion& motion, const SimulationOptions& options,
+                const MuscleModel& model, const Driven& driven, const LoadedSkin& skin,
+                const std::function<void()>& between, HeldLoad& load) {
+  const Vec3 up = face::face_frame(landmarks).y;
+  const DriveField field(driven.points, skull_places(driven.points, landmarks), mesh, up,
+                         lip_parting(motion, driven.rows, up));
+  const CarriedShapes shapes(mesh, landmarks, driven.points, options.muscles.shape_sigma_m);
+  const SkinCorrection correction =
+      shape_correction(mesh, shapes, field, skin, model.boundary().prescribed(), options.muscles);
+  if (correction.course.rows() == 0) return;
+  const std::vector<int> nodes = united(correction.nodes, load.patch_nodes);
+  Eigen::MatrixXd displaced =
+      Eigen::MatrixXd::Zero(3 * Eigen::Index(nodes.size()), correction.displaced.cols());
+  for (std::size_t i = 0, from = 0; i < nodes.size() && from < correction.nodes.size(); ++i)
+    if (nodes[i] == correction.nodes[from])
+      displaced.middleRows<3>(3 * Eigen::Index(i)) =
+          correction.displaced.middleRows<3>(3 * Eigen::Index(from++));
+  const HeldShape held = holding_forces(model, nodes, displaced, between);
+  const Eigen::Index own = load.force.cols();
+  load.force.conservativeResize(Eigen::NoChange, own + held.force.cols());
+  load.force.rightCols(held.force.cols()) = held.force;
+  load.course.conservativeResize(own + correction.course.rows(), Eigen::NoChange);
+  load.course.bottomRows(correction.course.rows()) = correction.course;
+}
+
 }  // namespace
 
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
@@ -249,12 +265,14 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   resize(muscle, count, members.rows(), samples);
   Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
   Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
+  Eigen::MatrixXd seen(left_over.rows(), samples);
   for (Eigen::Index k = 0; k < samples; ++k) {
     if (between) between();
     load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
     const Points moved = options.drive.gain * (motion.motion.positions[std::size_t(k)] -
                                                motion.motion.positions.front());
-    const FitResult fitted = fit.fit(driven.of(moved));
+    seen.col(k) = driven.of(moved);
+    const FitResult fitted = fit.fit(seen.col(k));
     muscle.activation.col(k) = fitted.activation;
     muscle.sigma.col(k) = fitted.covariance.diagonal().cwiseSqrt();
     muscle.group_activation.col(k) = members * fitted.activation;
@@ -276,10 +294,14 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Eigen::MatrixXd directions = directions_of(left_over);
   load.course.resize(course.rows() + directions.cols(), samples);
   load.course << course, directions.transpose() * left_over;
-  load.force =
+  HeldShape held =
       forces_of(model, patches, driven, directions,
                 tissue_shares(model, driven.few(), options.muscles), motion.rest.rows(), between);
+  load.force = std::move(held.force);
   load.patch_nodes = patches.nodes;
+  if (options.muscles.shape_prior)
+    add_shapes(mesh, landmarks, motion, options, model, driven, {held.moved, load.course, seen},
+               between, load);
   return load;
 }
 

@@ -37,6 +37,7 @@ class MuscleModel {
   const std::vector<muscles::MuscleLine>& lines() const { return lines_; }
   const Boundary& boundary() const { return boundary_; }
   const fem::SparseMatrix& stiffness() const { return stiffness_; }  ///< with springs
+  Eigen::Index outer_nodes() const { return mesh_.volume.surface_nodes(); }
   const std::shared_ptr<const fem::NodeOrder>& order() const { return factor_->order(); }
   /// 3 |nodes| x |lines|, N and m: force and response of each muscle at activation 1.
   const Eigen::MatrixXd& force() const { return force_; }

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Dense>
+#include <vector>
+
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/simulate/drive/drive.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
+
+namespace hyperex::simulate {
+
+/// The shapes of real faces (expression/shape_model.hpp) on one face: carried there with the
+/// canonical face by the landmarks that both have, and their weights found from driven points.
+class CarriedShapes {
+ public:
+  /// `points`: those that drive. `sigma_m`: 1 sigma of the error of the shapes at a point.
+  CarriedShapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                const std::vector<DrivenPoint>& points, double sigma_m);
+
+  Eigen::Index count() const { return at_points_.cols(); }
+  /// 3 |points| and 3 |outer nodes| x count(), m: displacement where a shape's weight is 1.
+  const Eigen::MatrixXd& at_points() const { return at_points_; }
+  const Eigen::MatrixXd& at_nodes() const { return at_nodes_; }
+  /// Per outer node, 1 where the canonical face lies on the skin to 0 far off it (neck, ears).
+  const Eigen::VectorXd& cover() const { return cover_; }
+  /// The most probable weights, 0 or more, for displacements of the points (3 |points|, m).
+  Eigen::VectorXd weights_for(const Eigen::VectorXd& displacement) const;
+
+ private:
+  Eigen::MatrixXd at_points_, at_nodes_;
+  Eigen::VectorXd cover_;
+  double sigma_m_;
+  Eigen::MatrixXd information_;  ///< of the weights, the points seen
+};
+
+}  // namespace hyperex::simulate
