@@ -10,7 +10,7 @@ namespace hyperex::session {
 template <typename Made>
 Made TissueFields::made(const scene::Scene& scene, const std::string& owner,
                         const std::function<Made(const tissue::TissueFieldMaker&)>& make) {
-  // A studio's scene changes after its inputs were read and checked.
+  // In the studio a scene may change after its inputs were read and checked.
   const auto problems = tissue::problems_of(scene.tissue, inputs_.landmarks);
   if (!problems.empty()) {
     InputProblem first =

@@ -132,7 +132,7 @@ Eigen::MatrixXd holding_forces(const MuscleModel& model, const DrivenSkin& patch
   Eigen::MatrixXd free = right;
   factor.solve(free, between);
   right = free;
-  // Of the rest the forces are zero.
+  // On all other nodes the forces are zero.
   Rows moved = Rows::Zero(model.stiffness().rows(), displaced.cols());
   for (std::size_t i = 0; i < factor.free().size(); ++i)
     moved.row(factor.free()[i]) = right.row(Eigen::Index(i));
@@ -229,7 +229,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
                      const AlignedMotion& motion, const MeasuredRegion& region,
                      const SimulationOptions& options, const MuscleModel& model,
                      const std::function<void()>& between) {
-  // First, since it says what is wrong with the points.
+  // First, since its errors name faults of the points.
   const Driven driven(mesh, landmarks, motion, options.drive);
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;

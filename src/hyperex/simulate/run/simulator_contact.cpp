@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact: frames that were found without it, corrected.
+// Contact: correction of frames that were simulated without it.
 #include <fmt/format.h>
 
 #include <algorithm>
