@@ -209,7 +209,7 @@ std::vector<std::string> unknown_landmarks(const io::Landmarks& given) {
 Note unknown_landmarks_note(const std::vector<std::string>& names) {
   return make_note(
       "landmarks.unknown",
-      fmt::format("{} not known and left aside: {}; docs/landmarks.md has the names",
+      fmt::format("{} not known and ignored: {}; docs/landmarks.md lists the names",
                   names.size() == 1 ? "one landmark's name is"
                                     : fmt::format("the names of {} landmarks are", names.size()),
                   listed(names)));

@@ -159,7 +159,7 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
                         "rest was checked against an average face, as the scan's landmarks are not "
                         "known")
             : make_note("recording.start_unchecked",
-                        "not checked: whether the recording starts at rest, which a run tells"));
+                        "not checked: whether the recording starts at rest; a run checks that"));
 }
 
 }  // namespace hyperex::session

@@ -151,23 +151,23 @@ struct DriveOptions {
   }
   bool operator==(const DriveOptions&) const = default;
 
-  static constexpr const char* about = "What moves it.";
+  static constexpr const char* about = "What moves the face.";
   template <class Visitor>
   static void describe(Visitor& v) {
     v.one_or_all(
         HX_MEMBER(points), HX_MEMBER(all_points),
         "Points of the recording that drive the skin; \"all\": all but motion.rigid_points "
-        "and stomion, which lies between the lips. Where none are named, brows and lids "
-        "join the default where one of their points moves by 2 mm, nostrils by 3, and of "
-        "motion.candide those of the default are driven that the model has.");
-    v.option(HX_MEMBER(by),
-             "What the points are: places that the skin is carried to, whatever the tissue; or "
-             "what muscles, the jaw and forces at the points are found from (docs/muscles.md), or "
-             "forces alone. Forces are found once, in the scene's tissue, and variants answer the "
-             "same forces. Where it is not given: \"displacement\" where the scene or a variant "
-             "sets a key of [support] (but jaw_points) or [region]; else \"muscles\" where there "
-             "are variants that do not say otherwise; else \"muscles\", whatever the motion. The "
-             "run says which and why.");
+        "and stomion, which lies between the lips. Where none are named, brows and lids are "
+        "added to the default where one of their points moves by 2 mm, nostrils by 3 mm; with "
+        "motion.candide, default points that the model lacks are left out.");
+    v.option(
+        HX_MEMBER(by),
+        "How the recorded points drive the face: the skin is carried to them, whatever the "
+        "tissue; or muscles, the jaw and forces at the points are fitted to them "
+        "(docs/muscles.md); or forces alone are. Forces are found once, in the scene's tissue, "
+        "and variants respond to the same forces. Where it is not given: \"displacement\" "
+        "where the scene or a variant sets a key of [support] (but jaw_points) or [region]; "
+        "else \"muscles\", unless the variants say otherwise. The run says which and why.");
     v.option(HX_MEMBER(patch_radius_m),
              "Radius of the patch of skin that a driven point moves where the lips part; half as "
              "much again where they stay closed. 0 takes the nearest node alone.",
@@ -235,7 +235,7 @@ struct MuscleOptions {
   bool operator==(const MuscleOptions&) const = default;
 
   /// The constants above are no options: only what a scene may change is described.
-  static constexpr const char* about = "Muscles, where they are what moves it (`drive.by`).";
+  static constexpr const char* about = "Muscles, where they move the face (`drive.by`).";
   template <class Visitor>
   static void describe(Visitor& v) {
     v.factors(HX_MEMBER(gains), [] { return muscles::gain_names(); },

@@ -223,7 +223,7 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
     if (const int dropped = remove_corner_linings(working_copy_, landmarks_); dropped > 0)
       out.notes.push_back(
           make_note("mesh.lip_linings_dropped",
-                    fmt::format("{} triangles on the inner sides of the lips were given up at the "
+                    fmt::format("{} triangles on the inner sides of the lips were removed at the "
                                 "corners of the mouth, where they lie on each other",
                                 dropped)));
     const TriMesh mended =
