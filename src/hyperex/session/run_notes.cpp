@@ -78,8 +78,8 @@ std::vector<Note> symmetry_notes(const metrics::SymmetryMeasures& symmetry,
   if (symmetry.map && !symmetry.map->plane.note.empty())
     notes.push_back(make_warning("symmetry.plane_of_landmarks", symmetry.map->plane.note));
   if (!why_no_twin.empty())
-    notes.push_back(make_note("symmetry.no_mesh_floor",
-                              "the floor of the mesh is not known: " + why_no_twin));
+    notes.push_back(
+        make_note("symmetry.no_mesh_floor", "the floor of the mesh is not known: " + why_no_twin));
   return notes;
 }
 
