@@ -26,10 +26,10 @@ Obstacles obstacles(const SharedTissueMesh& mesh, const io::Landmarks& landmarks
     if (!fit.why_none.empty())
       throw InputError(
           InputProblem{{}, 0, "teeth", fit.why_none, "an open mouth with room behind its lips"});
-    *all = simulate::teeth_to_touch(fit.teeth);
+    *all = simulate::teeth_obstacles(fit.teeth);
   }
   if (eyes)
-    for (Obstacle& eye : simulate::eyes_to_touch(mesh->skin.points, landmarks))
+    for (Obstacle& eye : simulate::eye_obstacles(mesh->skin.points, landmarks))
       all->push_back(std::move(eye));
   return {all->empty() ? nullptr : std::move(all)};
 }

@@ -121,12 +121,11 @@ TEST_F(GoodInputs, NotesWhatMayBeAMistake) {
   marks["cheilion_r"] = marks["mole"] = marks["cheilion_R"];
   io::write_landmarks(in("face_landmarks.json"), marks, io::LengthUnit::millimetre);
   const std::string sound = call("check scene.toml").out;
-  EXPECT_THAT(sound,
-              testing::AllOf(HasSubstr("one landmark's name is not known and left aside: mole"),
-                             HasSubstr("did you mean cheilion_R?")));
+  EXPECT_THAT(sound, testing::AllOf(HasSubstr("one landmark's name is not known and ignored: mole"),
+                                    HasSubstr("did you mean cheilion_R?")));
   EXPECT_THAT(sound, testing::Not(HasSubstr("nothing holds")));
   const std::string unit = " --set scan.unit=guess";
-  // A landmark that the scene names is not left aside.
+  // A landmark that the scene names is not ignored.
   EXPECT_THAT(call("check scene.toml --set 'drive.still_points=[\"mole\"]'" + unit).out,
               testing::AllOf(testing::Not(HasSubstr("mole")),
                              HasSubstr("the scan's unit is mm, guessed by its size")));

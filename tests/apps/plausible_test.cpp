@@ -128,7 +128,8 @@ TEST_F(Plausible, SymmetryJudgesByTheJitterThatTheRecordingShows) {
   EXPECT_THAT(call("symmetry ran --keep-head --out s.csv").out,
               HasSubstr("from the run's summary.json: 0.17 mm"));
   write_motion(0, 12);
-  EXPECT_THAT(call(quiet).err, HasSubstr("warning: the recording is too short to tell its jitter"));
+  EXPECT_THAT(call(quiet).err,
+              HasSubstr("warning: the recording is too short to measure its jitter"));
 }
 
 TEST_F(Plausible, SymmetryWarnsOfMillisecondsAndOfAPairExchanged) {

@@ -256,7 +256,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.waitForFunction(() => /zyg_major_R" = 0\.4/.test(document.getElementById('scene-text').textContent));
     await settled(page);
     assert.deepEqual(await faces(page), ['Base', 'zygomaticus major, right 40 %']);
-    assert.match(await page.locator('#whose').innerText(), /It keeps what it has: Right zyg major at 40 %/);
+    assert.match(await page.locator('#whose').innerText(), /Its changes so far: Right zyg major at 40 %/);
     await page.click('#undo');
     await page.click('#undo');
     await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 1);
@@ -352,7 +352,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     // Another one in its place has another token, and offers what was not saved.
     const next = await startStudio([], { port: studio.port, folder: studio.folder });
     t.after(() => next.stop());
-    await page.waitForSelector('#banner:has-text("does not let this page in")');
+    await page.waitForSelector('#banner:has-text("refuses this page")');
     const again = await openStudio(browser, next.address);
     assert.match(await again.page.locator('.rescue').innerText(), /“Mine”, of \w+ \d+, \d{4}/);
     assert.deepEqual(await again.page.locator('.rescue button').allInnerTexts(), ['Open it', 'Leave it', 'Delete it…']);
@@ -393,7 +393,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.deepEqual(await faces(second.page), ['Base', 'left side 50 %']);
     const stranger = await openStudio(browser, studio.address.replace(/#.*/, '#00112233445566778899aabbccddeeff'), { ready: false });
     await stranger.page.waitForSelector('#banner:not([hidden])');
-    assert.match(await stranger.page.locator('#banner').innerText(), /does not let this page in/);
+    assert.match(await stranger.page.locator('#banner').innerText(), /refuses this page/);
     const blocked = await stranger.page.evaluate(() => new Promise((done) => {
       document.addEventListener('securitypolicyviolation', ({ effectiveDirective }) => done(effectiveDirective));
       fetch('http://127.0.0.1:9/').catch(() => setTimeout(() => done('none'), 500));

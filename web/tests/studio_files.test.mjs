@@ -35,9 +35,9 @@ test('each wrong file is named, with what it is and what was expected', async ()
   const wrong = [
     [file('face.jpg', '\xff\xd8\xff'), /^face\.jpg is a picture: expected a scan .* a recording .* a scene/],
     [file('points.json', '{}'), /^points\.json is JSON: expected a scan .*Landmarks are loaded under/],
-    [file('smile.mp4', 'this is no video'), /^smile\.mp4 is no sound video, .*: expected a scan/],
+    [file('smile.mp4', 'this is no video'), /^smile\.mp4 is not a valid video, .*: expected a scan/],
     [file('visit2.csv', ''), /^visit2\.csv is empty: expected a scan/],
-    [file('notes.docx', 'PK'), /^notes\.docx is of no kind that is read here: expected a scan/],
+    [file('notes.docx', 'PK'), /^notes\.docx has an unknown format: expected a scan/],
   ];
   for (const [one, expected] of wrong) {
     await choose(one);

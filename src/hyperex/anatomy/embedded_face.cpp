@@ -15,7 +15,7 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
 constexpr unsigned kRounds = 2;
-// Each correction of the control mesh leaves about a third of the shrinking.
+// Each correction of the control mesh leaves about a third of the shrinkage.
 constexpr int kCorrections = 2;
 
 /// Vertices of the control mesh keep their indices; new ones follow.

@@ -6,7 +6,7 @@
 
 namespace hyperex::anatomy {
 
-// The canonical face stands in a room of its own, below tracking, which needs it too.
+// The canonical face has a room of its own, below tracking, which uses it too.
 using face::canonical_face;
 using face::CanonicalFace;
 using face::left_eye_contour;
@@ -14,15 +14,15 @@ using face::lip_contour;
 using face::mirrored_landmark;
 using face::right_eye_contour;
 
-/// A face to work with where none was scanned.
+/// The face that is used where no scan is given.
 struct EmbeddedFace {
   TriMesh mesh;             ///< metres
   io::Landmarks landmarks;  ///< all of CanonicalFace::landmarks, on the mesh
 };
 
 /// The canonical face with eyes and mouth opened, refined by two rounds of Loop's subdivision (C.
-/// T. Loop, 1987; borders as cubic B-splines) to about 7,000 vertices. The subdivided surface goes
-/// through the canonical vertices nearly: its control mesh is corrected for the shrinking.
+/// T. Loop, 1987; borders as cubic B-splines) to about 7,000 vertices. The subdivided surface
+/// nearly passes through the canonical vertices: its control mesh is corrected for the shrinkage.
 EmbeddedFace embedded_face();
 
 }  // namespace hyperex::anatomy

@@ -9,7 +9,7 @@
 
 namespace hyperex::anatomy {
 
-/// Where eyes and mouth end: metres, the right one first.
+/// The corners of the eyes and of the mouth: metres, the right one first.
 struct FaceCorners {
   std::array<Vec3, 2> outer;
   std::array<std::optional<Vec3>, 2> inner;
@@ -29,9 +29,9 @@ struct Eyeball {
 
 /// Right and left, behind `skin` (vertices at rest, metres); none without inner corners. The
 /// radius is 0.4 of the distance of the eye's corners (an adult's is 12 mm, behind an opening of
-/// some 30 mm). The ball lies as far forward as lets no vertex of the lids nearer than 0.4 mm to
-/// it: at most a sixth of that distance before the line between the corners, at least 8 mm behind
-/// that place.
+/// some 30 mm). The ball lies as far forward as keeps it 0.4 mm from all vertices of the lids. Its
+/// front is at most a sixth of that distance before the line between the corners, and at most 8 mm
+/// behind that place.
 std::vector<Eyeball> eyeballs_behind(const Points& skin, const FaceCorners& corners);
 
 }  // namespace hyperex::anatomy

@@ -28,7 +28,7 @@ constexpr std::size_t kFew = 20;
 constexpr double kManyShare = 1.0 / 3;
 
 constexpr const char* kRemedy =
-    "correct it, or take it out of the landmarks: the program then places it";
+    "correct it, or remove it from the landmarks: the program then places it";
 
 struct Doubt {
   double weight = 0;  ///< for the order, mm

@@ -9,7 +9,7 @@
 
 namespace hyperex::anatomy {
 
-/// How far a landmark is from where the others put it.
+/// How far a landmark is from the place that the others predict.
 struct LandmarkSurprise {
   std::string name;
   Vec3 expected = Vec3::Zero();  ///< scan frame, m
@@ -18,26 +18,26 @@ struct LandmarkSurprise {
   double deviations = 0;
 };
 
-/// Where the other landmarks put each landmark, itself and its other names left out. Faces differ
-/// from the canonical face by a similarity and a smooth field of displacements, mostly the same on
-/// both sides: a Gaussian process over the canonical face whose covariance joins each place with
-/// those near it and with their mirror images. All landmarks left out in turn by one inverse (C. E.
-/// Rasmussen, C. K. I. Williams, "Gaussian Processes for Machine Learning", 2006, 5.4.2), the
-/// similarity's seven parameters being unknowns with a flat prior (there, 2.7). In the order of the
-/// names; empty for fewer than five landmarks that the canonical face knows, or where they lie
-/// nearly on a line. `given`: m.
+/// The place of each landmark as predicted from the others, without itself and its other names.
+/// Faces differ from the canonical face by a similarity and a smooth field of displacements, mostly
+/// the same on both sides: a Gaussian process over the canonical face whose covariance joins each
+/// place with those near it and with their mirror images. All landmarks are left out in turn by one
+/// inverse (C. E. Rasmussen, C. K. I. Williams, "Gaussian Processes for Machine Learning", 2006,
+/// 5.4.2), the similarity's seven parameters being unknowns with a flat prior (there, 2.7). In the
+/// order of the names; empty for fewer than five landmarks that the canonical face knows, or where
+/// they lie nearly on a line. `given`: m.
 std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given);
 
-/// The same against landmarks that were found on the same scan (tracking/scan): how a person and
-/// the program set landmarks differs smoothly over the face and alike on both sides, so that a
-/// landmark whose offset is none of that stands out. Far more is seen so than against the canonical
-/// face.
+/// The same against landmarks that were found on the same scan (tracking/scan): a person's and the
+/// program's landmarks differ by offsets that vary smoothly over the face and are alike on both
+/// sides. A landmark with another offset stands out. This finds far more errors than the comparison
+/// with the canonical face.
 std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given,
                                                  const io::Landmarks& found);
 
 /// Landmarks that are probably not where their names say: `landmarks.doubtful` for each, with the
 /// distance in mm and what to do, the most doubtful first; where there are many, only
-/// `landmarks.many_doubtful`. Three questions:
+/// `landmarks.many_doubtful`. Three checks:
 ///  * two names of one place (face::same_place) are more than 5 mm apart: the one that the others
 ///    put farther off is named;
 ///  * a landmark is more than 7 mm and 3.5 standard deviations (2.75 of at most 20 landmarks) from
@@ -49,8 +49,8 @@ std::vector<Note> landmark_doubts(const io::Landmarks& given, const TriMesh& sca
 
 /// The same by landmarks that were found on this scan: those more than 7 mm and 3.5 standard
 /// deviations from where they put them (landmark_surprises). Of single landmarks moved by 10 mm on
-/// three faces that finds over 99 % of eyes and lips, 98 % of brows and nose, 12 % of the outline
-/// of the jaw, along which a place is not defined any better.
+/// three faces this finds over 99 % at eyes and lips, 98 % at brows and nose, and 12 % at the
+/// outline of the jaw, along which places are no better defined.
 std::vector<Note> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found);
 
 }  // namespace hyperex::anatomy

@@ -22,9 +22,9 @@ namespace {
 constexpr double kLargestOffset_m = 0.015;
 // Eye corners alone spread by 0.07 about their line; less leaves the face's tilt to chance.
 constexpr double kLeastSpread = 0.04;
-// Faces differ from the canonical one by up to 17 mm at the jaw (subject A); a slip is larger.
+// Faces differ from the canonical one by up to 17 mm at the jaw (subject A); a mistake is larger.
 constexpr double kLargestSurprise_m = 0.04;
-// A pair is exchanged when turning it round takes away at least this much of the misfit.
+// A pair is exchanged if exchanging it back removes at least this share of the misfit.
 constexpr double kExchangedShare = 0.5, kExchangedRms_m = 0.006;
 
 /// A handful of names, then how many more.
@@ -157,7 +157,7 @@ std::vector<std::string> slip_problems(const KnownLandmarks& known) {
         b.row(row++) = known.given.row(j);
       }
     if (spread_off_line(a) < kLeastSpread) continue;
-    // A set that does not fit without this landmark either has its slip elsewhere.
+    // If the set does not fit without this landmark either, the mistake is elsewhere.
     const Similarity fit = fit_similarity(a, b);
     if (rms_distance(fit.apply(a), b) > kLargestSurprise_m / 2) continue;
     const Vec3 expected = fit * Vec3(known.canonical.row(i));
@@ -209,7 +209,7 @@ std::vector<std::string> unknown_landmarks(const io::Landmarks& given) {
 Note unknown_landmarks_note(const std::vector<std::string>& names) {
   return make_note(
       "landmarks.unknown",
-      fmt::format("{} not known and left aside: {}; docs/landmarks.md has the names",
+      fmt::format("{} not known and ignored: {}; docs/landmarks.md lists the names",
                   names.size() == 1 ? "one landmark's name is"
                                     : fmt::format("the names of {} landmarks are", names.size()),
                   listed(names)));
@@ -239,7 +239,7 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
                     missing.size(), *missing.begin(), known.names.size(),
                     unknown.empty() ? "" : " (not known: " + listed(unknown) + ")"));
   }
-  // Axes that are others than the scan's explain all that floats off it.
+  // Axes other than the scan's explain all landmarks far off it.
   if (enough)
     if (const auto axes =
             negated_axes_problem(known.canonical, known.given, tree, kLargestOffset_m))

@@ -20,9 +20,9 @@ struct CompletedLandmarks {
 /// `source` is the file to name in errors. Throws InputError, all problems at once:
 ///  * landmarks in other axes than the scan's (negated_axes_problem);
 ///  * a given landmark farther than 15 mm from the scan's surface, named with the distance;
-///  * left and right exchanged: of one pair (the others then fit far better when it is turned
-///    round), or of all (the face then looks into the scan, as it does where the scan's triangles
-///    are inside out);
+///  * left and right exchanged: of one pair (the fit is far better with the pair exchanged back),
+///    or of all (the face then looks into the scan, as it does where the scan's triangles are
+///    inside out);
 ///  * a landmark 4 cm or more from where all the others put it;
 ///  * something is missing and fewer than three of the given are known to the canonical face, or
 ///    they lie nearly on a line; or a missing one is unknown to it.
@@ -34,11 +34,11 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
 CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh& scan,
                                       const std::string& source = "landmarks");
 
-/// The names of `given` that the canonical face does not know: own ones, or misspelt.
+/// The names of `given` that the canonical face does not know: the user's own, or misspelt.
 std::vector<std::string> unknown_landmarks(const io::Landmarks& given);
 
-/// `landmarks.unknown` on such names (one or more): a handful of them, and where the known ones
-/// stand.
+/// `landmarks.unknown` for such names (one or more): lists some of them, and where to find the
+/// known names.
 Note unknown_landmarks_note(const std::vector<std::string>& names);
 
 }  // namespace hyperex::anatomy

@@ -126,7 +126,7 @@ std::optional<Rims> rims_of(const TriMesh& mesh, const io::Landmarks& landmarks)
   return rims;
 }
 
-/// At the corners neither lip is nearer, and on the rims there is no doubt.
+/// At the corners neither lip is nearer, and the rims belong to their lips.
 void settle_at_rims(std::vector<double>& margin, const TriMesh& mesh, const Rims& rims) {
   const Vec3 corner = mesh.points.row(rims.right_corner);
   const Vec3 across = mesh.points.row(rims.left_corner).transpose() - corner;

@@ -9,11 +9,11 @@
 
 namespace hyperex::anatomy {
 
-/// Which lip a vertex belongs to, found by walking on the surface, since across a closed mouth the
-/// other lip is nearer through the air. Per vertex: walk to the lower lip minus walk to the upper
-/// one (m); above 0 on the upper side. Infinite walks count as far (0 where both are).
-/// Where the mouth is open it is shifted to be 0 at its corners (between them linearly), and at
-/// least 5 mm, with the lip's own sign, on its rims.
+/// Which lip a vertex belongs to, by paths along the surface, since across a closed mouth the other
+/// lip may be nearer in a straight line. Per vertex: length of the path to the lower lip minus that
+/// to the upper one (m); above 0 on the upper side. A missing path counts as 1 m (0 where both are
+/// missing). Where the mouth is open it is shifted to be 0 at its corners (between them linearly),
+/// and at least 5 mm, with the lip's own sign, on its rims.
 std::vector<double> upper_lip_margin(const TriMesh& mesh, const io::Landmarks& landmarks);
 
 /// -1, 0 or 1 for points of the lower lip, of neither and of the upper lip by their iBUG-68 number.
@@ -23,7 +23,7 @@ int lip_of(const std::string& landmark);
 /// closed.
 std::vector<int> mouth_border(const TriMesh& mesh, const io::Landmarks& landmarks);
 
-/// A border loop runs between the lips: the mouth is a slit already.
+/// Whether a border loop runs between the lips.
 bool mouth_is_open(const TriMesh& mesh, const io::Landmarks& landmarks);
 
 /// A line from the right corner of the mouth to the left along which closed lips may be cut, laid

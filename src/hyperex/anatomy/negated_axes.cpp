@@ -13,7 +13,7 @@
 namespace hyperex::anatomy {
 namespace {
 
-// Below this the face stands well in the scan as it is.
+// Below this the face fits the scan as it is.
 constexpr double kWell_m = 0.002;
 constexpr double kShare = 0.5;
 

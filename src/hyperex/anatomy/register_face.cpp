@@ -22,7 +22,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// 4 |V| x 3: the affine maps, transposed and stacked.
 using Maps = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-// Lengths are in this unit inside, so that the turning and the moving part of a map weigh alike.
+// Internal unit of length, so that the linear part and the shift of a map have equal weight.
 constexpr double kUnit = 0.1;
 // A hole of the scan is taken for an opening of the face when its length is this near to the
 // opening's own and its middle this near to the opening's middle, in parts of that length.

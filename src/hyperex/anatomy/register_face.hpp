@@ -11,7 +11,7 @@
 namespace hyperex::anatomy {
 
 struct RegisterOptions {
-  /// Stiffness from stiff to soft, one a stage: how much neighbouring vertices must move alike.
+  /// Decreasing stiffness, one value per stage: how strongly neighbouring vertices move alike.
   std::vector<double> stiffness = {30, 15, 8, 4, 2, 1, 0.5};
   int rounds_per_stage = 3;
   double landmark_weight = 4;    ///< of a given landmark against one vertex on the surface
@@ -27,7 +27,7 @@ struct RegisteredFace {
 };
 
 /// The canonical face laid over a scan. A similarity by the landmarks, then non-rigid iterated
-/// closest points: an affine map a vertex, alike between neighbours (Amberg, Romdhani, Vetter,
+/// closest points: one affine map per vertex, similar between neighbours (Amberg, Romdhani, Vetter,
 /// "Optimal step nonrigid ICP algorithms for surface registration", CVPR 2007). Where the scan has
 /// holes at the eyes or the mouth, lids and lips are laid on their borders. `given`: three or more
 /// landmarks that the canonical face knows, not on one line (asserted).

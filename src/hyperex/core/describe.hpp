@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A struct of options describes them once, beside its members, for all who walk through them: scene
-// files and their reference, checks of bounds, Python and its type stubs, tests.
+// A struct of options describes them once, beside its members, for everything that reads them:
+// scene files and their reference, checks of bounds, Python and its type stubs, tests.
 //
 //   struct TimeOptions {
 //     double step_s = 0.002;
@@ -25,7 +25,7 @@
 
 #include "hyperex/core/bounds.hpp"
 
-/// The name of a member, "skull_layer.along_pa_per_m", and what returns it: they cannot disagree.
+/// The name of a member, "skull_layer.along_pa_per_m", and a function that returns that member.
 #define HX_MEMBER(member)                     \
 #member, [](auto& options) -> auto& {       \
     return options.member; /* const or not */ \
@@ -33,7 +33,7 @@
 
 namespace hyperex {
 
-/// The unit of an option in scene files, and in the program (SI), with what ends their names.
+/// The unit of an option in scene files, and in the program (SI), with the endings of their names.
 /// SI = value * times / over: two exact integers, so that 9 mm is 0.009 to the last bit.
 struct Unit {
   const char* name = "";       ///< "kPa/mm"
@@ -57,7 +57,7 @@ inline constexpr Unit kKilopascalsPerMillimetre{"kPa/mm",    "_kpa_per_mm", "Pa/
 inline constexpr Unit kPascalSeconds{"Pa s", "_pa_s", "Pa s", "_pa_s"};
 inline constexpr Unit kKilogramsPerCubicMetre{"kg/m^3", "_kg_m3", "kg/m^3", "_kg_m3"};
 
-/// What there is to say of an option besides its sentence.
+/// Details of an option besides its sentence.
 struct OptionDetails {
   Unit unit = {};
   Bounds bounds = {0, std::numeric_limits<double>::infinity()};  ///< of numbers, SI
@@ -69,7 +69,7 @@ struct OptionDetails {
   bool required = false;       ///< in scene files
   std::size_t least = 0;       ///< how many elements; of a text: how many characters
   std::size_t most = 1000;
-  /// Of a truth value: the words for true and for false. Of a text: all that it may be.
+  /// Of a truth value: the words for true and for false. Of a text: its allowed values.
   std::array<const char*, 3> words = {};
   const char* none = nullptr;   ///< the word of an optional that holds nothing
   bool folder_too = false;      ///< of a path: folders are allowed

@@ -11,15 +11,15 @@
 namespace hyperex {
 
 /// Writes `path` through `write(stream)`: to a temporary name, checked, then renamed. A link is
-/// followed; a device, a pipe or what standard output goes to is written to, not replaced; a file
+/// followed; a device, a pipe or the target of standard output is written to, not replaced; a file
 /// that is replaced keeps its permissions. Throws InputError where the file cannot be written whole
 /// (no folder, no right, disk full).
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
 
-/// To be called before the work that `outputs` are to hold; empty paths are passed over. Throws
-/// InputError where one of them is a folder, could not be written for want of its folder or of the
-/// right, or is also one of `inputs` or another output. Removes what killed processes left of them.
+/// Call it before the work whose results `outputs` will hold; empty paths are ignored. Throws
+/// InputError where one of them is a folder, has no folder or no permission to be written, or is
+/// also one of `inputs` or another output. Removes temporary files that killed processes left.
 void check_outputs(const std::vector<std::filesystem::path>& outputs,
                    const std::vector<std::filesystem::path>& inputs = {});
 

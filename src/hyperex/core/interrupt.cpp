@@ -68,7 +68,7 @@ void remove_at_exit() {
 }
 
 void wait_for_signal() {
-  // Where memory has run out, removing what is half written still takes some: this.
+  // Removing unfinished files takes some memory: reserved here, in case it has run out.
   auto reserve = std::make_unique<std::array<char, kReserve>>();
   reserve->fill(1);  // by pages that this thread has
   unsigned char signal = 0;
@@ -106,7 +106,7 @@ std::unique_lock<std::mutex> hold_off_interruption() {
 
 void end_cleanly_when_interrupted() {
   std::atexit(remove_at_exit);
-  if (::pipe(wake) != 0) return;  // signals then end the program as ever
+  if (::pipe(wake) != 0) return;  // signals then end the program as usual
   std::thread(wait_for_signal).detach();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     struct sigaction action {};

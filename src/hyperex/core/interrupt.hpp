@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A run that the user breaks off leaves nothing behind: what is half written stands in one list,
-// and a thread that waits for the signal removes it and ends the program. Long calls into libraries
-// need not look for a flag.
+// An interrupted run leaves no unfinished files: they are kept in one list, and a thread that waits
+// for the signal removes them and ends the program. Long calls into libraries need not poll a flag.
 #include <filesystem>
 #include <mutex>
 
 namespace hyperex {
 
 /// A file or folder under a temporary name, removed when the program is interrupted; the destructor
-/// only takes it off the list.
+/// only removes it from the list.
 class TemporaryPath {
  public:
   explicit TemporaryPath(std::filesystem::path path);
@@ -26,9 +25,9 @@ class TemporaryPath {
 std::unique_lock<std::mutex> hold_off_interruption();
 
 /// From now on SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGXCPU (each unless it is ignored, as under
-/// nohup) remove what is on the list, say so in one line on standard error and end the program with
-/// the status 128 + signal. What is on the list when a library calls exit() is removed as well.
-/// Call once, from main().
+/// nohup) remove the files on the list, report that in one line on standard error and end the
+/// program with the status 128 + signal. Files on the list when a library calls exit() are removed
+/// as well. Call once, from main().
 void end_cleanly_when_interrupted();
 
 /// While an object of this class lives, the first of these signals only requests an end: the

@@ -13,7 +13,7 @@ namespace hyperex {
 /// removed when all together exceed a bound.
 ///
 /// What is kept shows faces: folders are made for their owner alone (0700), entries too (0600). A
-/// folder or an entry that belongs to another user, or that others may write to, is passed over.
+/// folder or an entry that belongs to another user, or that others may write to, is ignored.
 class KeptResults {
  public:
   /// No folder: nothing is kept or found.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Files that another file names: a scan its texture, a recording its pictures. Whoever made that
-// file may not be whoever reads it, so it gets no other file of the machine, and no device.
+// Files that another file names, such as a scan's texture or a recording's pictures. The naming
+// file may come from somebody else, so it gets no file outside its own folder, and no device.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -18,7 +18,7 @@ constexpr NoteKind note(const char* id, const char* key, const char* when) {
 constexpr NoteKind kKinds[] = {
   warning("landmarks.doubtful", "scan.landmarks",
     "A landmark is probably not where its name says: more than 5 mm off the scan or from another "
-    "name of the same place, or farther from where the others put it than faces differ."),
+    "name of the same place, or farther from where the others predict it than faces differ."),
   warning("landmarks.many_doubtful", "scan.landmarks",
     "More than a third of the landmarks are doubtful: they may belong to another scan."),
   warning("landmarks.misspelt", "scan.landmarks",
@@ -34,8 +34,7 @@ constexpr NoteKind kKinds[] = {
   warning("recording.nothing_moves", "motion.unit",
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",
-    "The face comes nearer to rest later than it is at the start, where displacements are taken "
-    "from."),
+    "The face is nearer to rest later than at the start, and displacements count from the start."),
   warning("recording.fits_badly", "motion.unit",
     "After alignment the common points are more than 10 mm rms apart, 5 mm where there are at least "
     "20, or the scale is outside 0.8 to 1.25."),
@@ -89,15 +88,15 @@ constexpr NoteKind kKinds[] = {
   note("recording.first_face", "motion.recording",
     "`hyperex check` tracks a recording to its first frame with a face."),
   note("recording.no_depth", "motion.recording",
-    "The recording has no depth: lengths rest on a usual distance between the eyes."),
+    "The recording has no depth: lengths assume an average distance between the eyes."),
   note("recording.source", "motion.recording", "What the camera or the video reader reports."),
   note("recording.unit", "motion.unit", "The recording's unit, and how it is known."),
   note("recording.timing", "motion.file", "How long the recording lasts, and its sampling."),
   note("recording.gaps_filled", "motion.max_gap_s", "Gaps of the recording were interpolated."),
   note("recording.lead_in", "motion.rest_s",
-    "The recording does not start at rest: the face is led from rest into it."),
+    "The recording does not start at rest: the run begins at rest and blends into it."),
   note("recording.checked_by_average_face", "scan.landmarks",
-    "The scan's landmarks are not known: sides and start were checked by an average face."),
+    "The scan's landmarks are not known: sides and start were checked against an average face."),
   note("recording.start_unchecked", "motion.rest_s",
     "`hyperex check` does not see whether a camera's recording starts at rest."),
   note("recording.aligned", "alignment.method", "How recording and scan were aligned."),
@@ -112,7 +111,7 @@ constexpr NoteKind kKinds[] = {
   note("tissue.values_averaged", "tissue.per_vertex",
     "Several vertices of a file with different values lie at one vertex of the scan."),
   note("tissue.regions_unchecked", "tissue.region",
-    "`hyperex check` does not look where the regions of the tissue lie."),
+    "`hyperex check` does not check where the regions of the tissue lie."),
   note("support.none", "support.border",
     "Nothing holds the tissue but the driven points."),
   note("drive.chosen", "drive.by", "What drives the face, and why."),
@@ -143,7 +142,7 @@ constexpr NoteKind kKinds[] = {
     "At most 0.1 % of the tetrahedra are turned inside out in some frame: too few to matter."),
   note("contact.none", "contact", "Contact is switched on, and nothing touches in any frame."),
   note("symmetry.no_mesh_floor", "",
-    "The run has no mirrored twin, so that the mesh's own floor of symmetry is not known."),
+    "The run has no mirrored twin, so that the floor of the mesh (docs/symmetry.md) is not known."),
 };
 // clang-format on
 

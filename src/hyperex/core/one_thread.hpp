@@ -9,8 +9,8 @@ namespace hyperex {
 void keep_blas_to_one_thread();
 
 /// While it lives, OpenMP's loops in libraries that this thread calls run on this thread alone.
-/// CHOLMOD asks for four threads whatever the machine, and for matrices of a thousand rows they
-/// spend their time spinning (measured: 9 against 5 ms for a frame's fit).
+/// CHOLMOD requests four threads on any machine, which for matrices of a thousand rows spend their
+/// time spinning (measured: 9 against 5 ms for a frame's fit).
 class OneOpenMpThread {
  public:
   OneOpenMpThread();

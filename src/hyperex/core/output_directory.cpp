@@ -199,8 +199,8 @@ void OutputDirectory::commit() {
   const auto together = hold_off_interruption();
   if (!in_use_.front().is_at(path()))
     throw InputError(target_,
-                     "cannot be written: somebody has put something else in the place of "
-                     "the folder that was being filled");
+                     "cannot be written: the folder that was being filled was replaced by "
+                     "something else");
   std::error_code error;
   if (!fs::exists(target_, error)) {
     fs::rename(path(), target_, error);
@@ -284,7 +284,7 @@ void OutputDirectory::clear_away(const fs::path& aside, const std::set<std::stri
     kept = target_.string() + fmt::format(".kept{}", n);
   fs::rename(aside, kept, ignored);
   remark(Remark::warning,
-         fmt::format("{}: what others put into the output folder meanwhile", kept.string()));
+         fmt::format("{}: files that others put into the output folder meanwhile", kept.string()));
 }
 
 }  // namespace hyperex

@@ -20,9 +20,9 @@ struct OutputFile {
 /// The same with the extension of its kind and the mark that render::write_png leaves in its files.
 OutputFile png_output(const std::filesystem::path& path);
 
-/// To be called before any work, after check_outputs. Throws InputError for a name that does not
-/// end as the command's files do, and for a file that is there already and is not of that kind.
-/// Empty files may be replaced; a device or a pipe may have any name.
+/// Call it before any work, after check_outputs. Throws InputError for a name that does not end as
+/// the command's files do, and for a file that is there already and is not of that kind. Empty
+/// files may be replaced; a device or a pipe may have any name.
 void check_output_kinds(const std::vector<OutputFile>& outputs);
 
 }  // namespace hyperex

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Values one after the other as bytes, for results that this very program reads back on the same
-// machine (KeptResults). One function names the parts of a type for both ways:
+// Values one after the other as bytes, for results that the same build of the program reads back on
+// the same machine (KeptResults). One function names the parts of a type for both directions:
 //
 //   template <class Archive, class T> requires std::same_as<std::remove_const_t<T>, Edge>
 //   void parts(Archive& archive, T& edge) { auto& [from, to] = edge; archive(from, to); }
@@ -83,7 +83,7 @@ class Unpacker {
     at_ += size;
     left_ -= size;
   }
-  /// A number of things of at least one byte each.
+  /// A number of elements of at least one byte each.
   std::size_t count() {
     std::uint64_t n = 0;
     take(n);

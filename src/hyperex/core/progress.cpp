@@ -12,7 +12,7 @@
 namespace hyperex {
 namespace {
 std::atomic<bool> silenced{true};  // a library in other programs
-std::atomic<bool> taken{false};    // a bar stands
+std::atomic<bool> taken{false};    // a bar is shown
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
@@ -26,7 +26,7 @@ void Progress::silence(bool silent) {
 Progress::Progress(std::string label, long total)
     : label_(std::move(label)), total_(total), start_(Clock::now()), last_draw_(start_) {
   if (silenced) return;
-  // On a terminal the label stands at once: some work is one long call that cannot report.
+  // On a terminal the label is shown at once: some work is one long call that cannot report.
   if (::isatty(2)) draw(false);
   try {
     redrawer_ = std::thread([this] { redraw_periodically(); });

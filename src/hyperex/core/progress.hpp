@@ -22,7 +22,7 @@ class Progress {
   /// `done` steps are finished. Cheap: may be called on every step.
   void update(long done);
   double seconds() const;
-  /// True, as at the start of every program: no bars are shown.
+  /// Shows no bars where `silent`, which is the default of every program.
   static void silence(bool silent);
 
  private:

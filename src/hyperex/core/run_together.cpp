@@ -36,7 +36,7 @@ void run_each(std::size_t count, const std::function<void(std::size_t)>& body) {
 void run_together(const std::vector<std::function<void()>>& all) {
   std::vector<std::exception_ptr> thrown(all.size());
   tbb::task_group group;
-  // Given last to first, as a thread takes its newest task: the first begins first.
+  // Submitted last to first, since a thread takes its newest task: so the first begins first.
   for (std::size_t i = all.size(); i-- > 0;)
     group.run([&, i] {
       try {

@@ -16,7 +16,7 @@ class Sha256 {
   Sha256(Sha256&& other) noexcept;
   Sha256& operator=(Sha256&& other) noexcept;
   void add(const void* bytes, std::size_t size);
-  /// A text with its length: texts one after the other do not run into each other.
+  /// A text with its length, so that "ab", "c" and "a", "bc" have different hashes.
   void add_text(std::string_view text);
   /// A file's bytes and their number; false where it cannot be read to its end.
   bool add_file(const std::filesystem::path& file);

@@ -46,7 +46,7 @@ class Stage {
 
  protected:
   Stage(StageGraph& graph, std::string name, std::initializer_list<Input> inputs);
-  /// Tells the stages that name this one.
+  /// Notifies the stages that have this one as an input.
   void pass_change_on();
   /// Ends the program where a stage that is being computed on this thread reads this one without
   /// naming it: it would not be dropped when this one changes.
@@ -70,7 +70,7 @@ class Stage {
 
   const StageGraph& graph_;
   std::string name_;
-  std::vector<Input> inputs_, dependents_;  // dependents_: the other ends of their inputs
+  std::vector<Input> inputs_, dependents_;  // dependents_: stages with this input
   int computed_ = 0;
 };
 
@@ -97,7 +97,7 @@ class StageGraph {
   std::vector<Stage*> own_;  // the same
 };
 
-/// What is given from outside and kept elsewhere, such as options.
+/// A value that is set from outside and stored elsewhere, such as options.
 class Source : public Stage {
  public:
   Source(StageGraph& graph, std::string name) : Stage(graph, std::move(name), {}) {}
@@ -109,8 +109,8 @@ class Source : public Stage {
   void share(const Stage&) override {}
 };
 
-/// A value that is found in the course of other work, such as a part of another stage. It stays
-/// when its inputs change. An equal value changes nothing when it is set; another one does.
+/// A value that other work computes, such as a part of another stage. It is kept when its inputs
+/// change. Setting an equal value changes nothing; setting another one does.
 template <class T>
 class Checked final : public Stage {
  public:
@@ -162,7 +162,7 @@ class Cached final : public Stage {
     check_read();
     return value_;
   }
-  /// Stores a value that was found on the way to another stage, where there is none.
+  /// Stores a value that was computed on the way to another stage, unless there is one.
   void keep(Pointer value) {
     if (!value_) value_ = std::move(value);
   }
@@ -172,7 +172,7 @@ class Cached final : public Stage {
     input_changed(OnChange::drop);
     value_ = std::move(value);
   }
-  /// The same value with more known of it. What was computed from it stays.
+  /// The same value with further parts computed. Stages computed from it are kept.
   void complete(Pointer value) { value_ = std::move(value); }
   /// From now on changes of inputs with OnChange::drop_unless_held leave the value.
   void hold() { held_ = true; }

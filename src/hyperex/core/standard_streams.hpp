@@ -4,19 +4,19 @@
 
 namespace hyperex {
 
-/// Opens those of the descriptors 0 to 2 that are closed, as services and cron may leave them, on
-/// /dev/null: a file or pipe that is opened later would get their number, and receive what is
-/// meant for the standard streams. First thing in main().
+/// Opens closed descriptors 0 to 2, as services and cron may leave them, on /dev/null. A file or
+/// pipe opened later would else get their number and receive the output of the standard streams.
+/// Call it first in main().
 void open_standard_streams();
 
 /// Whether everything that was printed to standard output arrived there; else why not.
 struct Printed {
   bool whole = true;
-  bool reader_left = false;  ///< as `head` does when it has enough
+  bool reader_left = false;  ///< as `head` does after its last line
   std::string why;           ///< "No space left on device"
 };
 
-/// Sends what is still buffered (std::cout and stdout). Once, at the end of main().
+/// Flushes std::cout and stdout. Call it once, at the end of main().
 Printed flush_standard_output();
 
 }  // namespace hyperex

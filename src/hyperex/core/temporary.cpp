@@ -114,7 +114,7 @@ InUse::~InUse() {
 bool InUse::is_at(const fs::path& path) const {
   struct stat marked {
   }, there{};
-  if (file_ < 0 || ::fstat(file_, &marked) != 0) return true;  // nothing is known of it
+  if (file_ < 0 || ::fstat(file_, &marked) != 0) return true;  // its state is unknown
   return ::lstat(path.c_str(), &there) == 0 && there.st_dev == marked.st_dev &&
          there.st_ino == marked.st_ino;
 }
@@ -126,8 +126,8 @@ void remove_leftovers(const fs::path& target, const fs::path& folder) {
     if (is_temporary_of(target, at->path().filename().string())) found.push_back(at->path());
   for (const fs::path& path : found) {
     const Leftover left = *parse(target, path.filename().string());
-    // The lock decides, also where another machine or container counts processes otherwise; the
-    // number saves what a living process has made and not yet locked.
+    // The lock decides, also where another machine or container has other process numbers. The
+    // number protects files that a living process has made and not yet locked.
     if (may_be_ours(left.process) || !InUse(path).held()) continue;
     if (left.aside && !fs::exists(fs::symlink_status(target, error))) {
       fs::rename(path, target, error);

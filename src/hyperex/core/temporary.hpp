@@ -7,8 +7,8 @@
 
 namespace hyperex {
 
-/// A name beside `target` that is this process's own: ".NAME.PID.EXTENSION". Where that were longer
-/// than the file system takes, NAME is cut and ends in a hash of the whole name.
+/// A name beside `target` that is this process's own: ".NAME.PID.EXTENSION". Where that is longer
+/// than the file system allows, NAME is cut and ends in a hash of the whole name.
 std::filesystem::path temporary_beside(const std::filesystem::path& target,
                                        const std::string& extension = "tmp");
 
@@ -16,8 +16,8 @@ std::filesystem::path temporary_beside(const std::filesystem::path& target,
 std::filesystem::path temporary_within(const std::filesystem::path& folder,
                                        const std::string& extension = "tmp");
 
-/// Whether `name` is one that temporary_beside() or temporary_within() gives for `target`, in
-/// whichever process, with the ".going" of an interruption or without.
+/// Whether `name` is one that temporary_beside() or temporary_within() gives for `target`, in any
+/// process, with or without the ".going" of an interruption.
 bool is_temporary_of(const std::filesystem::path& target, const std::string& name);
 
 /// Marks a file or folder that exists as in use while this lives, by a lock that ends with the
@@ -40,9 +40,9 @@ class InUse {
   bool held_ = false, taken_ = false;
 };
 
-/// Removes the temporary files and folders of `target` in `folder` that no living process uses: a
-/// killed one left them. An earlier output that it had moved aside gets its name back if that is
-/// free. Reports each in one line; what cannot be removed is left without a message.
+/// Removes the temporary files and folders of `target` in `folder` that killed processes left and
+/// no living process uses. An earlier output that one of them had moved aside gets its name back if
+/// that is free. Reports each in one line; what cannot be removed is left without a message.
 void remove_leftovers(const std::filesystem::path& target, const std::filesystem::path& folder);
 
 }  // namespace hyperex

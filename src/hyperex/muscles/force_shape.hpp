@@ -5,9 +5,9 @@ namespace hyperex::muscles {
 
 /// How a muscle's force spreads in the tissue around its line.
 struct ForceShape {
-  double band = 2.1;         ///< weight exp(-(r / R)^2) at distance r, R = band x width
-  double ramp = 6;           ///< a pull grows as the way from the origin to this power
-  double tangential = 0.54;  ///< share of the force across the skin that is taken away: 0 to 1
+  double band = 2.1;  ///< weight exp(-(r / R)^2) at distance r, R = band x width
+  double ramp = 6;    ///< a pull grows with this power of the share s of the way from the origin
+  double tangential = 0.54;  ///< share of the force normal to the skin that is removed: 0 to 1
   double midline_m = 0.005;  ///< a muscle's force fades within this of the other side's; 0: no cut
   bool operator==(const ForceShape&) const = default;
 };

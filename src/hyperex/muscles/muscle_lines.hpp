@@ -15,14 +15,14 @@ struct MuscleLine {
   int row = 0;              ///< of the template
   bool left = true;         ///< the subject's
   Points line;              ///< n x 3, m, scan frame: from origin to insertion
-  std::vector<double> arc;  ///< of each point: way from the origin, m
+  std::vector<double> arc;  ///< of each point: arc length from the origin, m
   double scale = 1;         ///< of the face's size over the template's
 };
 
 /// Size of a face over that of the template's: by the distance of the outer eye corners.
 double scale_of(const io::Landmarks& landmarks);
 
-/// Way along a line (n x 3) from its first point to each, m.
+/// Arc length of a line (n x 3) from its first point to each, m.
 std::vector<double> arc_of(const Points& line);
 
 /// The template laid on a face, left and right of each in turn. Places are carried by their

@@ -8,17 +8,18 @@
 namespace hyperex::muscles {
 
 /// Muscles that a wrong name of a gain ("zygomaticus_R", "frontalis medial part_L") may mean: those
-/// whose Latin name holds all words of it, with its side. Empty where it has no side or none does.
+/// on its side whose Latin name contains all its words. Empty where it has no side or no muscle
+/// matches.
 std::vector<std::string> muscles_called(const std::string& name,
                                         const MuscleTable& among = muscle_template());
 
 /// What a wrong name of a gain may mean, best first: "right" the whole side, "zygomatic" the branch
-/// of the nerve on both, "zygomaticus_R" the muscles called so. Empty where that is nothing known.
+/// of the nerve on both, "zygomaticus_R" the muscles of that name. Empty where nothing matches.
 std::vector<std::string> gains_meant(const std::string& name,
                                      const MuscleTable& among = muscle_template());
 
-/// "another name; did you mean side_R?"; of a name that resembles none what there is, the sides
-/// and branches by name.
+/// "another name; did you mean side_R?"; for a name that resembles none, the list of sides and
+/// branches.
 std::string gain_expected(const std::string& name, const MuscleTable& among = muscle_template());
 
 }  // namespace hyperex::muscles

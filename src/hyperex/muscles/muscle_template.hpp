@@ -29,25 +29,25 @@ struct TemplateMuscle {
   std::string name, latin, group, branch;
   std::vector<TemplatePlace> path;  ///< origin first, insertion last; two or more
   double width_mm = 5;
-  double band = 0;  ///< reach of its force beside the line over the width; 0: as for all muscles
-  double ramp = 0;  ///< a pull grows as the way from the origin to this power; 0: as for all
+  double band = 0;  ///< as ForceShape::band; 0: as for all muscles
+  double ramp = 0;  ///< as ForceShape::ramp; 0: as for all muscles
   MuscleKind kind = MuscleKind::pull;
   MuscleLip lip = MuscleLip::both;
-  bool straight = false;  ///< runs straight between its places, under what bulges over it
-  bool jaw = false;       ///< its origin rides on the mandible
+  bool straight = false;  ///< runs straight between its places, not along the skin
+  bool jaw = false;       ///< its origin moves with the mandible
   bool tone = false;      ///< may relax below rest
   bool cheek = false;     ///< moves the cheek as far as the lips: an elevator or a retractor
-  double readiness = 1;   ///< how far it is expected to act, over what is expected of others
-  double yields = 0;  ///< per rad of the jaw's opening: by how much readiness is divided, less 1
+  double readiness = 1;   ///< prior sigma of its activation over that of others
+  double yields = 0;      ///< readiness is divided by 1 + yields x opening of the jaw (rad)
   /// Near driven points, the weight of the skin's shape that its force makes, beside the field
-  /// between the points: with few points and with many; below 0: as for all of its kind.
+  /// between the points: with few points and with many; below 0: as for all muscles of its kind.
   double few_share = -1, many_share = -1;
   /// The part of the fold from nose (0) to mouth (1) along which it ends in the skin; nowhere where
-  /// both are 0. It also pulls there (fold_pull()), with forces that sum to `fold_strength` times
-  /// those of its weak pull.
+  /// both are 0. It also pulls there (fold_pull()), with a total force of `fold_strength` times
+  /// that of its weak pull.
   double fold_from = 0, fold_to = 0, fold_strength = 0.1;
   bool ends_in_fold() const { return fold_to > fold_from; }
-  /// Correlations of its activation with those of other muscles of its side before a point is seen.
+  /// Prior correlations of its activation with those of other muscles of its side.
   std::vector<std::pair<std::string, double>> together = {};
   bool operator==(const TemplateMuscle&) const = default;
 };
@@ -57,18 +57,18 @@ using MuscleTable = std::vector<TemplateMuscle>;
 /// muscle and what was expected.
 MuscleTable read_muscles(std::string_view toml, const std::string& source);
 
-/// The template that the program carries.
+/// The template built into the program.
 const MuscleTable& muscle_template();
 /// The muscle of that name (without side), or null.
 const TemplateMuscle* find_muscle(const std::string& name,
                                   const MuscleTable& among = muscle_template());
-/// `own` muscles in the place of those of the same name, the others of `own` behind the rest, and
-/// none of those named in `without`.
+/// `table` with muscles replaced by those of the same name in `own`, the others of `own` appended,
+/// and those named in `without` removed.
 MuscleTable changed_table(MuscleTable table, const MuscleTable& own,
                           const std::vector<std::string>& without);
 
-/// What may name a muscle of one side ("zyg_major_R"), alone or with others: itself, its branch on
-/// its side ("zygomatic_R"), its side ("side_R").
+/// The names whose gains act on a muscle of one side ("zyg_major_R"): its own, its branch on that
+/// side ("zygomatic_R"), and the side ("side_R").
 std::set<std::string> names_for(const std::string& muscle,
                                 const MuscleTable& among = muscle_template());
 /// The same muscle, branch or side of the other side: "side_L" -> "side_R".

@@ -6,19 +6,19 @@
 
 namespace hyperex::session {
 
-/// Throws InputError for names of points, landmarks and regions that do not exist and for tissue
-/// that cannot be. `owner` precedes the keys: "variant[0].".
+/// Throws InputError for names of points, landmarks and regions that do not exist and for invalid
+/// tissue. `owner` precedes the keys: "variant[0].".
 void check_names(const scene::Scene& scene, const Inputs& in, const std::string& owner = "");
 
 /// Throws InputError where the elements are longer than a third of the mouth's width: lips move
 /// apart only where several elements lie between its corners.
 void check_element_size(const scene::Scene& scene, const Inputs& in);
 
-/// `landmarks.misspelt` and `landmarks.unknown` for labels that nothing in the scene refers to: a
-/// name of the recording or of the scene is known there.
+/// `landmarks.misspelt` and `landmarks.unknown` for labels to which neither the recording nor the
+/// scene refers.
 void note_unknown_landmarks(const scene::Scene& scene, const io::Landmarks& given, Inputs& in);
 
-/// `support.none` where nothing but the driven points holds the tissue.
+/// `support.none` where only the driven points hold the tissue.
 void note_missing_support(const scene::Scene& scene, Inputs& in);
 
 }  // namespace hyperex::session

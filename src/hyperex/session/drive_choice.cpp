@@ -28,10 +28,10 @@ DriveChoice drive_choice(const scene::Scene& scene) {
   if (scene.origins.contains("drive.by")) return chosen(scene.drive.by, "the scene says so");
   for (const auto& [key, origin] : scene.origins)
     if (scene::decides_the_drive(key))
-      return chosen(scene.drive.by, key + " is given, which speaks of displacement");
+      return chosen(scene.drive.by, key + " is given, which applies to displacement");
   if (!scene.variants.empty())
     return chosen(scene.drive.by, scene.drive.by == DriveBy::muscles
-                                      ? "variants are asked what the same forces do"
+                                      ? "its variants respond to the same forces"
                                       : "a variant says so");
   return chosen(DriveBy::muscles, "nothing in the scene says otherwise");
 }

@@ -14,8 +14,8 @@ struct DriveChoice {
   Note note() const;  ///< `drive.chosen`
 };
 
-/// What drives a scene: what it says (drive.by); else displacement where keys of [support] or
-/// [region] speak of it; else what the variants say; else muscles, whatever the motion.
+/// What drives a scene: drive.by where it is given; else displacement where keys of [support] or
+/// [region] are given that belong to it; else, with variants, what these have; else muscles.
 DriveChoice drive_choice(const scene::Scene& scene);
 
 }  // namespace hyperex::session

@@ -102,14 +102,14 @@ void note_left_out_points(const scene::Scene& scene, const motion::Motion& motio
         .push_back(fmt::format("{} ({:.1f} mm)", part.name, 1e3 * far_m));
   }
   if (!joined.empty())
-    notes.push_back(make_note(
-        "drive.parts_joined",
-        fmt::format("driven besides the mouth, as they move: {}", fmt::join(joined, ", "))));
+    notes.push_back(make_note("drive.parts_joined",
+                              fmt::format("driven in addition to the mouth, since they move: {}",
+                                          fmt::join(joined, ", "))));
   if (!left_out.empty())
-    notes.push_back(
-        make_note("drive.measured_not_driven",
-                  fmt::format("measured, but not driven: {}; drive.points names what drives",
-                              fmt::join(left_out, ", "))));
+    notes.push_back(make_note(
+        "drive.measured_not_driven",
+        fmt::format("recorded, but not driven: {}; drive.points selects the driven points",
+                    fmt::join(left_out, ", "))));
 }
 
 }  // namespace hyperex::session

@@ -9,10 +9,11 @@
 
 namespace hyperex::session {
 
-/// Those that drive.points names. "all": every point but those of motion.rigid_points and
-/// `stomion`, which lies between the lips. Where the scene names none: seven of the mouth (of
-/// CANDIDE's motion those that it has), and of brows and lids each part with a point that goes
-/// 2 mm from its first place, of the nostrils 3 mm. `motion`: head pose out.
+/// The points that drive: those that drive.points names. "all": every point but those of
+/// motion.rigid_points and `stomion`, which lies between the lips. Where the scene names none:
+/// seven of the mouth (with CANDIDE's motion those that it has), and each part of brows and lids
+/// with a point that moves by 2 mm from its first place, of the nostrils by 3 mm. `motion`: without
+/// head pose.
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion);
 /// Adds `drive.points_left_out` where default points were left out, `drive.parts_joined` and
 /// `drive.measured_not_driven` where the default points follow the motion.

@@ -13,12 +13,12 @@
 
 namespace hyperex::session {
 
-/// What one run of a face gave. A copy is cheap and stays as it is while the session goes on.
+/// The results of one run of a face. A copy is cheap and does not change with the session.
 struct FaceResult {
   std::string name;  ///< "base", or that of the variant
   std::shared_ptr<const simulate::SimulationResult> simulation;
   std::shared_ptr<const metrics::SymmetryMeasures> symmetry;
-  std::shared_ptr<const io::Scan> scan;         ///< whose vertices the skin's first ones are
+  std::shared_ptr<const io::Scan> scan;         ///< its vertices are the first of the skin's
   std::shared_ptr<const anatomy::Teeth> teeth;  ///< null: none
   std::vector<Note> notes;                      ///< of the whole session, as FaceSession::notes()
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the inputs to a face that is ready to run, and what it holds.
+// From the inputs to a face that is ready to run.
 #include "hyperex/session/face_session.hpp"
 
 #include <algorithm>
@@ -181,7 +181,7 @@ void FaceSession::Impl::keep_variants(std::vector<VariantRun> before,
   });
 }
 
-/// Made where a face first asks for them, as a grid of distances takes a moment.
+/// Made where a face first uses them, since a grid of distances takes some time.
 void FaceSession::Impl::set_obstacles() {
   if (contact_of(scene) == obstacles_of_teeth_and_eyes) return;
   obstacles_of_teeth_and_eyes = contact_of(scene);

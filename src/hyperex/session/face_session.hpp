@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One face from its inputs to its results: what the program, the studio, Python and C++ programs
-// call. Nothing else puts a run together.
+// One face from its inputs to its results: the program, the studio, Python and C++ programs all use
+// this class to set up runs.
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -33,8 +33,8 @@ struct Inputs;
 struct SkinOff;
 struct VariantRun;
 
-/// When a session does the work that makes no figure but says how certain figures are: the mirrored
-/// twins that give error bands, and the search for landmarks that checks those given.
+/// When a session computes how certain its results are: the mirrored twins that give error bands,
+/// and the search for landmarks that checks the given ones.
 enum class Certainty {
   with_runs,  ///< beside the runs, on the other cores
   on_request  ///< by find_certainty(), so that a run answers sooner
@@ -71,12 +71,12 @@ struct StageSeconds {
 ///   notes                  all of these
 ///
 /// Faces are numbered: 0 is base, the scene without its variants; 1, 2, ... are its variants, in
-/// the scene's order. One thread at a time. Moving a session leaves nothing behind that can be
-/// used.
+/// the scene's order. One thread at a time. A session that was moved from cannot be used.
 class FaceSession {
  public:
-  /// Reads a scene file, changes keys of it, reads what it names, and meshes the tissue; simulates
-  /// nothing yet. Relative paths in `changes` are taken from the current folder. Throws InputError.
+  /// Reads a scene file, changes keys of it, reads the files that it names, and meshes the tissue;
+  /// simulates nothing yet. Relative paths in `changes` are taken from the current folder. Throws
+  /// InputError.
   explicit FaceSession(const std::filesystem::path& scene_file, const Changes& changes = {},
                        SessionOptions options = {});
   /// The same for a face and a recorded motion (its own frame, metres, the head's pose included) in
@@ -89,37 +89,37 @@ class FaceSession {
   FaceSession& operator=(FaceSession&&) noexcept;
   ~FaceSession();
 
-  // ----- asking "what if"
+  // ----- changes and their results
 
   /// Runs what is not up to date and returns the face with all changes of set(): base as long as
   /// nothing was set. Throws NumericalError, simulate::Cancelled.
   FaceResult run(const simulate::RunCallbacks& callbacks = {});
 
-  /// Another value for a key, which the next run() takes. What the keys of [tissue], [support],
-  /// [drive], [muscles], [region] and motion.gain change is asked as a variant asks it: where
-  /// forces drive, base's forces are kept. Parts of lists are named as in
-  /// "tissue.region[0].young_factor". Any other key opens the face anew. Throws InputError, and
-  /// then nothing is changed.
+  /// Another value for a key, which the next run() takes. Keys of [tissue], [support], [drive],
+  /// [muscles], [region] and motion.gain act as in a variant: where forces drive, base's forces are
+  /// kept. Parts of lists are named as in "tissue.region[0].young_factor". After any other key the
+  /// face is read and meshed again. Throws InputError, and then changes nothing.
   void set(const std::string& key, const Value& value);
 
-  /// Adds a variant of this name, or gives the one of this name other changes, runs what is not up
-  /// to date and returns the variant. Throws as set() and run().
+  /// Adds a variant of this name, or replaces the changes of the one that has it, runs what is not
+  /// up to date and returns the variant. Throws as set() and run().
   FaceResult variant(const std::string& name, const Changes& changes,
                      const simulate::RunCallbacks& callbacks = {});
 
-  /// Of what run() returned last; runs first where that is not up to date.
+  /// Those of the face that run() returns; run first where it is not up to date.
   const simulate::Performance& performance();
   const metrics::SymmetryMeasures& measures();
 
-  /// What was assumed, repaired and found so far, warnings among it; by id in docs/notes.md.
+  /// What was assumed, repaired and found so far, including warnings; docs/notes.md lists the ids.
   std::vector<Note> notes() const;
   /// Those of severity warning.
   std::vector<Note> warnings() const;
 
   // ----- stage by stage
 
-  /// Another scene. False, and nothing is changed, where it names another scan, recording or mesh:
-  /// that is another session. Throws InputError, and nothing is changed, where it cannot be.
+  /// Sets another scene of the same face. Returns false and changes nothing where it names another
+  /// scan, recording or mesh, which needs a new session. Throws InputError and changes nothing
+  /// where it is invalid.
   bool set_scene(scene::Scene next);
 
   /// Runs base where it is not up to date.
@@ -132,17 +132,17 @@ class FaceSession {
 
   /// Whether all error bands are known and given landmarks are checked.
   bool certainty_known() const;
-  /// Finds what is not known of them, once all is up to date. What was done stays where it throws
-  /// NumericalError or, as `cancelled` says so, simulate::Cancelled.
+  /// Computes those that are missing; call it once all is up to date. Throws NumericalError, and
+  /// simulate::Cancelled after `cancelled` returned true; parts computed before are kept.
   void find_certainty(const std::function<bool()>& cancelled = {});
 
   /// The skin's displacement (|skin| x 3, m) in static equilibrium at `time_s`: a view that follows
   /// a slider. Throws as Simulator::still().
   PointsF still(std::size_t face, double time_s);
-  /// Whether still() has all but what the change itself asks for.
+  /// Whether still() needs to compute only what the change itself requires.
   bool ready(std::size_t face) const;
-  /// Finds in advance what the first change of a first variant will need. Once all is up to date;
-  /// nothing where there are variants already.
+  /// Computes in advance what the first change of a first variant will need. Call it once all is up
+  /// to date; does nothing where there are variants already.
   void prepare_variant();
 
   // ----- what it holds
@@ -154,14 +154,14 @@ class FaceSession {
   std::shared_ptr<const tissue::TissueMesh> shared_mesh() const;
   const SkinOff& skin_off() const;  ///< where the simulated skin is farthest from the scan
   std::shared_ptr<const anatomy::Teeth> teeth() const;  ///< null: none
-  /// What tissue may touch, as far as a face asks for it; null: nothing.
+  /// The bodies of contact that some face uses (contact.teeth, contact.eyes); null: none.
   std::shared_ptr<const std::vector<simulate::Obstacle>> obstacles() const;
-  /// Why the program chose what drives, a sentence.
+  /// Why this drive was chosen, a sentence.
   const std::string& drive_reason() const;
 
   std::size_t faces() const;
   simulate::SimulationOptions options(std::size_t face) const;
-  /// A simulator of base as it stands: a copy that shares its stages.
+  /// A copy of the simulator of base, which shares its stages.
   simulate::Simulator simulator() const;
   /// Where base's tissue differs from place to place; else null.
   const tissue::TissueField* field() const;
@@ -188,9 +188,9 @@ class FaceSession {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads what a scene names, what takes long only in part, and simulates nothing: what is assumed,
-/// doubtful and was not checked. Throws InputError with every problem found.
-/// `cost`: what a run would take, in a sentence; empty where that is not known.
+/// Reads the files of a scene, those that take long only in part, and simulates nothing. Returns
+/// notes on what is assumed, is doubtful or was not checked. Throws InputError with every problem
+/// found. `cost`: set to the expected cost of a run, a sentence; empty where it is unknown.
 std::vector<Note> check(const scene::Scene& scene, std::string* cost = nullptr);
 
 }  // namespace hyperex::session

@@ -43,11 +43,11 @@ struct FaceSession::Impl {
   bool stale = true;
   simulate::SimulationResult simulation;
   metrics::SymmetryMeasures symmetry;
-  mutable std::optional<metrics::PeakTissue> tissue_at_peak;  // none: not asked for yet
+  mutable std::optional<metrics::PeakTissue> tissue_at_peak;  // none: not computed yet
   std::optional<MirroredTwin> twin;                           // of base as it is; none: not run
   std::optional<simulate::Simulator> next_variant;            // of prepare_variant()
 
-  // Of the variants: their results, and what each rests on.
+  // Of the variants: their results, and what each is computed from.
   std::vector<VariantRun> runs;
   struct VariantState {
     std::optional<simulate::Simulator> simulator;  // holds base's forces; none: not made
@@ -69,7 +69,7 @@ struct FaceSession::Impl {
   void take(scene::Scene next);
   void take_source(SceneSource next);
   void set_obstacles();
-  std::size_t asked_face() const;
+  std::size_t changed_face() const;
   void keep_variants(std::vector<VariantRun> before,
                      const std::vector<simulate::SimulationOptions>& options, bool same_base);
   void begin_search();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a session has to say, stage by stage.
+// The notes of a session, stage by stage.
 #include <algorithm>
 #include <iterator>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs of base and its variants, and what says how certain they are.
+// Runs of base and its variants, and how certain they are.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -202,7 +202,7 @@ void FaceSession::Impl::prepare_variant() {
 }
 
 /// The face that run() returns: the one that set() changed, else base.
-std::size_t FaceSession::Impl::asked_face() const {
+std::size_t FaceSession::Impl::changed_face() const {
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (runs[i].scene.title == kChanged) return i + 1;
   return 0;
@@ -219,7 +219,7 @@ void FaceSession::Impl::take_source(SceneSource next) {
 FaceResult FaceSession::run(const simulate::RunCallbacks& callbacks) {
   run_base(callbacks);
   run_variants(callbacks);
-  return result(impl_->asked_face());
+  return result(impl_->changed_face());
 }
 
 void FaceSession::set(const std::string& key, const Value& value) {
@@ -244,14 +244,14 @@ FaceResult FaceSession::variant(const std::string& name, const Changes& changes,
 const simulate::Performance& FaceSession::performance() {
   run_base();
   run_variants();
-  const std::size_t face = impl_->asked_face();
+  const std::size_t face = impl_->changed_face();
   return face == 0 ? simulation().performance : variants()[face - 1].simulation.performance;
 }
 
 const metrics::SymmetryMeasures& FaceSession::measures() {
   run_base();
   run_variants();
-  const std::size_t face = impl_->asked_face();
+  const std::size_t face = impl_->changed_face();
   return face == 0 ? symmetry() : variants()[face - 1].symmetry;
 }
 

@@ -18,19 +18,19 @@ struct Inputs {
   io::Landmarks landmarks;          ///< completed: the 68 iBUG points and the anatomical ones
   std::vector<std::string> placed;  ///< landmarks that were not given
   anatomy::Teeth teeth;             ///< the user's own scans of them; often none
-  simulate::AlignedMotion motion;   ///< gaps filled, head pose out, in the scan's frame
+  simulate::AlignedMotion motion;   ///< gaps filled, without head pose, in the scan's frame
   /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
   std::vector<std::string> driven;  ///< names of the driven points
-  /// What was guessed, placed or filled, and what is probably wrong with what to do about it, in
-  /// the order in which it was found.
+  /// What was guessed, placed or filled, and probable mistakes with their remedies, in the order in
+  /// which they were found.
   std::vector<Note> notes;
 };
 
-/// The landmarks of a scan that has none (tracking/scan), and a note that says so: `why`, and how
-/// well the pictures agree. Takes seconds, unless they were found before and `kept`. Throws
-/// InputError where no face is found.
+/// Finds the landmarks of a scan that has none (tracking/scan). Adds a note with `why` and how well
+/// the pictures agree. Takes seconds, unless they were found before and `kept`. Throws InputError
+/// where no face is found.
 io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why, std::vector<Note>& notes,
                              const KeptResults& kept = {});
 
@@ -38,8 +38,8 @@ io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why, std::
 enum class Extent {
   full,
   /// A camera's recording as far as its first frame with a face. Landmarks of a scan that has none
-  /// are not searched, and what rests on them (the alignment, whether the elements are small
-  /// enough) is left out. Notes say so.
+  /// are not searched for, and what depends on them (the alignment, whether the elements are small
+  /// enough) is left out. Notes report this.
   quick
 };
 

@@ -224,7 +224,9 @@ FoundLandmarks landmarks_on(const io::Scan& scan,
   const std::string key = kept.in_use() ? key_of_landmarks(scan, colours, scan_from_canonical) : "";
   if (const auto bytes = kept.find(key))
     if (auto found = landmarks_from(*bytes)) {
-      spdlog::info("the landmarks that an earlier run found on this scan (--no-cache: anew)");
+      spdlog::info(
+          "using the landmarks that an earlier run found on this scan (--no-cache finds them "
+          "anew)");
       return *std::move(found);
     }
   auto searched = tracking::find_scan_landmarks(scan.mesh, colours, scan.file.string(),
@@ -254,7 +256,7 @@ RecordedFace recorded_face(const scene::Scene& scene, const std::function<Record
   if (key.empty()) return track();
   if (const auto bytes = scene.kept.find(key))
     if (auto recorded = recorded_from(*bytes)) {
-      spdlog::info("the recording as an earlier run tracked it (--no-cache: anew)");
+      spdlog::info("using the recording as an earlier run tracked it (--no-cache tracks it anew)");
       return *std::move(recorded);
     }
   RecordedFace recorded = track();

@@ -16,9 +16,9 @@
 
 namespace hyperex::session {
 
-// What takes seconds and rests on the inputs alone is computed once and kept (KeptResults), under a
-// hash of the inputs' bytes, of the options that matter and of the program. A line of the log says
-// where a kept result is used.
+// Results that take seconds and depend on the inputs alone are computed once and cached
+// (KeptResults), under a hash of the inputs' bytes, of the options that matter and of the program.
+// The log names each cached result that is used.
 
 struct FoundLandmarks {
   io::Landmarks landmarks;  ///< as tracking::ScanLandmarks has them, bit for bit
@@ -35,19 +35,20 @@ FoundLandmarks landmarks_on(const io::Scan& scan,
 anatomy::CompletedLandmarks completed_landmarks(const io::Landmarks& given, const io::Scan& scan,
                                                 const std::string& source, const KeptResults& kept);
 
-/// A camera's recording, tracked, and what there is to say about it.
+/// A camera's recording, tracked, and the notes on it.
 struct RecordedFace {
   motion::Motion motion;  ///< `source` and `unit_note` empty
   std::vector<Note> notes;
 };
 
-/// What `track` makes of the scene's motion.recording.
+/// The scene's motion.recording as `track` returns it, from the cache where it is there.
 RecordedFace recorded_face(const scene::Scene& scene, const std::function<RecordedFace()>& track);
 
-/// The key of what rests on `bytes` (all of the inputs and options that matter) and the program.
+/// The key of a result that depends on `bytes` (all inputs and options that matter) and on the
+/// program.
 std::string kept_key(const std::string& what, const std::string& bytes);
 
-/// As bytes and back; nothing where the bytes are not of this.
+/// To bytes and back; nothing where the bytes hold no such result.
 std::string bytes_of(const FoundLandmarks& found);
 std::string bytes_of(const anatomy::CompletedLandmarks& completed);
 std::string bytes_of(const RecordedFace& recorded);

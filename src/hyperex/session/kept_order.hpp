@@ -9,11 +9,11 @@
 namespace hyperex::session {
 
 /// simulator.prepare() with the order of elimination that an earlier run kept in scene.kept; where
-/// there is none, or of other prescribed unknowns, the one found is kept there.
+/// there is none, or one for other prescribed unknowns, the new order is kept there.
 void prepare_with_kept_order(const scene::Scene& scene, const Inputs& inputs,
                              simulate::Simulator& simulator);
 
-/// As bytes and back; null where the bytes are not of this.
+/// To bytes and back; null where the bytes hold no order.
 std::string bytes_of(const simulate::EliminationOrder& order);
 std::shared_ptr<const simulate::EliminationOrder> order_from(const std::string& bytes);
 

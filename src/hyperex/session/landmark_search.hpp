@@ -8,16 +8,16 @@
 
 namespace hyperex::session {
 
-/// The landmarks that a user gave against those that the program finds on the scan, which takes
-/// seconds: in the background.
+/// Compares a user's landmarks with those that the program finds on the scan. Works in the
+/// background, since it takes seconds.
 class LandmarkSearch {
  public:
-  /// `inputs` must outlive this and stay as they are. What was found before on the same scan is
-  /// taken from `kept`.
+  /// `inputs` must outlive this and not change. Landmarks found before on the same scan are taken
+  /// from `kept`.
   LandmarkSearch(const Inputs& inputs, const KeptResults& kept);
 
-  /// Waits. `landmarks.doubtful` for each doubtful landmark that no note of that id in `said` names
-  /// yet; nothing where no face is found in pictures of the scan.
+  /// Waits for the result: `landmarks.doubtful` for each doubtful landmark that no such note in
+  /// `said` names yet. None where no face is found in pictures of the scan.
   std::vector<Note> doubts(const std::vector<Note>& said);
 
  private:

@@ -4,8 +4,8 @@
 
 namespace hyperex::session {
 
-/// Writes the sentence to the log, as information or as a warning: what SessionOptions::note can
-/// be.
+/// Writes the sentence to the log, as information or as a warning. It can serve as
+/// SessionOptions::note.
 void log_note(const Note& note);
 
 }  // namespace hyperex::session

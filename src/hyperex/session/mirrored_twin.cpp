@@ -135,7 +135,7 @@ MirroredTwin simulate_variants_twin(const scene::Scene& scene, const Inputs& inp
                                     const metrics::MidsagittalPlane& plane,
                                     simulate::Simulator& run, const MirroredTwin& of_base,
                                     const std::function<bool()>& cancelled) {
-  // A variant may do what has no twin.
+  // A variant may use options for which there is no twin.
   MirroredTwin none;
   if (!of_base.simulator || scene.region.measured != simulate::Measured::none ||
       !mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), none.why_not))

@@ -8,8 +8,8 @@
 
 namespace hyperex::session {
 
-/// What tissue may touch in a scene or one of its variants (contact.teeth, contact.eyes); null
-/// where none asks for it. `teeth`: at rest; null: there are none.
+/// The bodies of contact that a scene or one of its variants uses (contact.teeth, contact.eyes);
+/// null where there are none. `teeth`: at rest; null: no teeth.
 std::shared_ptr<const std::vector<simulate::Obstacle>> obstacles_of(const scene::Scene& scene,
                                                                     const Inputs& inputs,
                                                                     const tissue::TissueMesh& mesh,

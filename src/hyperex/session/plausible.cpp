@@ -246,7 +246,7 @@ std::optional<Note> skin_warning(const SkinOff& off) {
       "skin.far_from_scan",
       fmt::format(
           "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: there the motion "
-          "is not the scan's own; a smaller mesh.element_size_mm or a cleaner scan helps",
+          "is less accurate; a smaller mesh.element_size_mm or a cleaner scan helps",
           off.distance_mm, off.beside_mm, off.landmark));
 }
 

@@ -9,17 +9,17 @@
 
 namespace hyperex::session {
 
-// Whether what a scene names belongs together. Numbers in the .cpp are calibrated on real data.
+// Checks that the files of a scene belong together. The thresholds are calibrated on real data.
 
-/// The face at rest that a recording is held against.
+/// The face at rest that a recording is compared with.
 struct FaceAtRest {
   const io::Landmarks& landmarks;
   std::string whose;            ///< "the scan", "an average face": for messages
-  double least_moved_m = 3e-3;  ///< from the start to rest, to be called a start in an expression
+  double least_moved_m = 3e-3;  ///< distance from rest that counts as a start in an expression
 };
 
-/// The canonical face, for a recording whose scan has no landmarks yet. As it is not the person's
-/// own, only a start 6 mm from rest counts.
+/// The canonical face, for a recording whose scan has no landmarks yet. Since it is not the
+/// person's own, a start must be 6 mm from rest to count.
 FaceAtRest average_face();
 
 /// Throws InputError where the recording fits the face far better with left and right exchanged: at
@@ -27,10 +27,9 @@ FaceAtRest average_face();
 /// half of that with its points mirrored.
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
-/// `recording.fits_badly`: the recording fits the scan badly, as one of another face, in another
-/// unit, or with points that only share their names: more than 5 mm rms where it has 20 common
-/// points or more, else 10 mm. `of_a_model`: the points are of an average face that expressions
-/// move; 10 mm.
+/// `recording.fits_badly`: the recording fits the scan badly, as with another face, another unit,
+/// or points that share only their names: more than 5 mm rms where it has 20 common points or more,
+/// else 10 mm. `of_a_model`: the points are of an average face that expressions move; 10 mm.
 std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned, bool of_a_model);
 
 /// `recording.starts_in_expression`: the recording seems to begin in the middle of an expression
@@ -44,32 +43,32 @@ std::string timing_sentence(const motion::Motion& m);
 /// more than ten minutes in all.
 std::optional<Note> timing_warning(const motion::Motion& m);
 
-/// `recording.wild_samples`: names the first readings that were left out as no face can make them.
+/// `recording.wild_samples`: names the first samples that were left out, since no face moves so.
 std::optional<Note> wild_samples_warning(const motion::MendedMotion& mended);
 
-/// `recording.nothing_moves`: no point moves 0.05 mm from its first place, head pose out.
+/// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
 std::optional<Note> stillness_warning(const motion::Motion& stabilised);
 
-/// `sides.exchanged_pair`: names the pairs of points (face::mirrored_landmark) which lie the wrong
-/// way round in the first sample: the vector from one to the other points against that of the face,
-/// turned as the recording's common points have it. Nothing where there is none, or as many as are
-/// right (check_sides reports those).
+/// `sides.exchanged_pair`: names the pairs of points (face::mirrored_landmark) that are exchanged
+/// in the first sample: the vector from one to the other points against that of the face, rotated
+/// by the fit of the common points. Nothing where there are none, or at least as many as right ones
+/// (check_sides reports those).
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
-/// `law.idle`: names the keys given which only finite strain uses, where neither the scene nor one
-/// of its variants has it.
+/// `law.idle`: names given keys that only finite strain uses, where neither the scene nor a variant
+/// has it.
 std::optional<Note> idle_law_warning(const scene::Scene& scene);
 
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before
 /// its second frame.
 void check_length(const scene::Scene& scene, const motion::Motion& m);
 
-/// Where the simulated skin is farthest from the scan on the face, which is what lies within 25 mm
-/// of a landmark: ears, neck and border may be far off.
+/// Where the simulated skin is farthest from the scan on the face, that is within 25 mm of a
+/// landmark; ears, neck and border may be far off.
 struct SkinOff {
   double distance_mm = 0;  ///< 0 where there is no landmark
   std::string landmark;    ///< the nearest one to that place
-  double beside_mm = 0;    ///< how far it is from there
+  double beside_mm = 0;    ///< its distance from that place
 };
 SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 

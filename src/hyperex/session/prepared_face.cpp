@@ -245,7 +245,8 @@ PreparedFace prepare_face(const scene::Scene& scene, Inputs& inputs,
   const std::string key = mesh_key(scene, inputs, held);
   if (const auto bytes = scene.kept.find(key))
     if (auto face = prepared_face_from(*bytes); face && fits(*face, inputs.scan.mesh)) {
-      spdlog::info("the mesh that an earlier run made of this scan (--no-cache: anew)");
+      spdlog::info(
+          "using the mesh that an earlier run made of this scan (--no-cache makes it anew)");
       if (const auto& full = face->mesh->full)
         inputs.scan = thinned_scan(inputs.scan, *full, face->mesh->skin);
       skin_known();

@@ -39,7 +39,7 @@ void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
   const auto stretch = rest_stretch(scene.motion);
   const double start_s = scene.motion.start_s;
   if (!stretch && start_s == 0) return;
-  // Where nothing is said, the recording's first sample shows rest.
+  // By default the recording's first sample shows rest.
   auto rested = motion::with_rest(m, stretch.value_or(motion::RestStretch{}), start_s);
   m = std::move(rested.motion);
   if (rested.lead_s > 0)
@@ -147,7 +147,7 @@ void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, I
 
 void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m, Inputs& in) {
   const FaceAtRest average = average_face();
-  const bool whole = scene.motion.recording.empty();  // of a camera's there is its first face only
+  const bool whole = scene.motion.recording.empty();  // of a camera's only the first face was read
   check_sides(m, average);
   if (whole) {
     add(in.notes, start_warning(m, average));
@@ -159,7 +159,7 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
                         "rest was checked against an average face, as the scan's landmarks are not "
                         "known")
             : make_note("recording.start_unchecked",
-                        "not checked: whether the recording starts at rest, which a run tells"));
+                        "not checked: whether the recording starts at rest; a run checks that"));
 }
 
 }  // namespace hyperex::session

@@ -7,10 +7,11 @@ namespace hyperex::session {
 
 /// The parts of read_inputs() that concern the recording. Notes go into `in`.
 
-/// What the scene's [motion] names, but the embedded motion. Throws InputError.
+/// Reads the motion that the scene's [motion] names, other than the embedded one. Throws
+/// InputError.
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in);
 
-/// Gaps filled, head pose out, rest where motion.rest_s says. Throws InputError.
+/// Fills gaps, removes the head pose, and takes rest from motion.rest_s. Throws InputError.
 motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::Motion& m,
                                        Extent extent, Inputs& in);
 
@@ -18,8 +19,8 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
 /// gains on points that the recording lacks, and where nothing would move.
 void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, Inputs& in);
 
-/// What a recording shows where the scan's landmarks are not known. Throws InputError where left
-/// and right are exchanged.
+/// Checks a recording where the scan's landmarks are unknown, and adds notes. Throws InputError
+/// where left and right are exchanged.
 void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m, Inputs& in);
 
 }  // namespace hyperex::session

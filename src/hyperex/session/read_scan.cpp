@@ -73,9 +73,10 @@ io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why, std::
   FoundLandmarks found = landmarks_on(scan, std::nullopt, kept);
   notes.push_back(make_note(
       "landmarks.found",
-      fmt::format("{}: {} were found on the scan in {} pictures, which lie {:.1f} mm (median) from "
-                  "where all agree; hyperex landmarks --picture draws them",
-                  why, found.landmarks.size(), found.views, 1e3 * found.spread_m)));
+      fmt::format(
+          "{}: {} were found on the scan in {} pictures, which differ by {:.1f} mm (median) "
+          "from their mean; hyperex landmarks --picture draws them",
+          why, found.landmarks.size(), found.views, 1e3 * found.spread_m)));
   return std::move(found.landmarks);
 }
 

@@ -27,7 +27,8 @@ std::vector<int> judged_columns(const motion::Motion& m) {
 /// A recording too short for its fourth differences, at most some 20 frames.
 RecordedJitter jitter_of_short(const motion::Motion& m) {
   const double jitter_m = metrics::jitter_at_rest(m);
-  if (!std::isfinite(jitter_m)) return {0, false, "the recording is too short to tell its jitter"};
+  if (!std::isfinite(jitter_m))
+    return {0, false, "the recording is too short to measure its jitter"};
   return {jitter_m, true,
           fmt::format("jitter of the tracked points in their quietest half second, as the "
                       "recording is short: {:.2f} mm",
@@ -38,13 +39,14 @@ RecordedJitter jitter_of_short(const motion::Motion& m) {
 
 RecordedJitter recorded_jitter(const motion::Motion& m) {
   const double jitter_m = motion::jitter_of_motion(m, judged_columns(m));
-  if (std::isnan(jitter_m)) return {0, false, "the recording is too short to tell its jitter"};
+  if (std::isnan(jitter_m)) return {0, false, "the recording is too short to measure its jitter"};
   if (jitter_m < kNone_m)
     return {0, true, "no jitter shows in the recorded points: they are exact, or smoothed"};
   return {jitter_m, true,
-          fmt::format("jitter of the recorded points, estimated from their fourth differences in "
-                      "time: {:.2f} mm; errors that last and what was smoothed away are not in it",
-                      1e3 * jitter_m)};
+          fmt::format(
+              "jitter of the recorded points, estimated from their fourth differences in "
+              "time: {:.2f} mm; constant errors and smoothing of the recording are not included",
+              1e3 * jitter_m)};
 }
 
 void settle_jitter(const scene::Scene& scene, Extent extent, const motion::Motion& m, Inputs& in) {
@@ -64,10 +66,10 @@ void settle_jitter(const scene::Scene& scene, Extent extent, const motion::Motio
   in.jitter_m = found.jitter_m;
   in.notes.push_back(
       in.jitter_m > 0
-          ? make_note("recording.jitter", found.how + " (output.jitter_mm states another)")
+          ? make_note("recording.jitter", found.how + " (output.jitter_mm sets another)")
           : make_note("recording.no_jitter",
                       found.how + "; figures of symmetry are judged by the mesh alone "
-                                  "(output.jitter_mm states a jitter)"));
+                                  "(output.jitter_mm sets a jitter)"));
 }
 
 }  // namespace hyperex::session

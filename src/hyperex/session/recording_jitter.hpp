@@ -13,14 +13,14 @@ struct RecordedJitter {
   std::string how;  ///< a clause for a note or a line of output
 };
 
-/// From the fourth differences in time (motion::jitter_of_motion) of the points that S(t) takes, or
-/// of all points where it can take none; below 0.01 mm none. Not known of fewer than 20 samples.
-/// `m`: head pose out, in its own times and lengths.
+/// From the fourth differences in time (motion::jitter_of_motion) of the points that S(t) uses, or
+/// of all points where it can use none; below 0.01 mm it counts as none. Unknown for fewer than 20
+/// samples. `m`: without head pose, with recorded times and lengths.
 RecordedJitter recorded_jitter(const motion::Motion& m);
 
-/// Sets Inputs::jitter_m, with a note that says where it comes from: what the scene states
-/// (output.jitter_mm), else recorded_jitter; of a camera's recording, read in full, that is too
-/// short for it, the jitter in its quietest half second (metrics::jitter_at_rest).
+/// Sets Inputs::jitter_m, with a note on its source: output.jitter_mm of the scene, else
+/// recorded_jitter(). For a camera's recording that is read in full and too short for that, it is
+/// the jitter in the quietest half second (metrics::jitter_at_rest).
 void settle_jitter(const scene::Scene& scene, Extent extent, const motion::Motion& m, Inputs& in);
 
 }  // namespace hyperex::session

@@ -99,7 +99,7 @@ std::string sentence_of(const RunCost& cost) {
   if (cost.frames_bytes > 0.5 * cost.disk_bytes)
     text += fmt::format(" (frames/, for ParaView: {})", size_text(cost.frames_bytes));
   text += fmt::format(", {} of memory", size_text(cost.memory_bytes));
-  if (cost.seconds == 0) return text + "; its time is not known beforehand";
+  if (cost.seconds == 0) return text + "; its duration is not known in advance";
   text += fmt::format(", {} on two idle processors", time_text(cost.seconds));
   if (cost.variants > 0)
     text += fmt::format("; without {}, {} less (--no-variants)",

@@ -9,20 +9,20 @@
 
 namespace hyperex::session {
 
-/// What a run with all its outputs will take, before it begins.
+/// The expected cost of a run with all its outputs.
 struct RunCost {
   double frames = 0;                        ///< of each face
   double variants = 0;                      ///< besides base
   double disk_bytes = 0, frames_bytes = 0;  ///< in all; of them frames/, for ParaView
   double memory_bytes = 0;
-  /// On two processors with nothing else to do, by a factor of two or so; 0: not known, as at
-  /// finite strain or with contact. Of them what the variants take.
+  /// On two idle processors, correct to a factor of about two, and the part of the variants; 0:
+  /// unknown, as at finite strain or with contact.
   double seconds = 0, variants_seconds = 0;
 };
 
-/// `volume`: of the face, once it is meshed; null: its size is taken from the area of the scan.
-/// Nothing where the length of the run is not known: that of a camera's recording that was not
-/// read whole.
+/// `volume`: of the face, once it is meshed; null: its size is estimated from the area of the scan.
+/// Nothing where the length of the run is unknown, as for a camera's recording that was not read
+/// whole.
 std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& inputs, Extent extent,
                                      const tissue::VolumeMesh* volume = nullptr);
 

@@ -78,8 +78,8 @@ std::vector<Note> symmetry_notes(const metrics::SymmetryMeasures& symmetry,
   if (symmetry.map && !symmetry.map->plane.note.empty())
     notes.push_back(make_warning("symmetry.plane_of_landmarks", symmetry.map->plane.note));
   if (!why_no_twin.empty())
-    notes.push_back(make_note("symmetry.no_mesh_floor",
-                              "the mesh's own floor of symmetry is not known: " + why_no_twin));
+    notes.push_back(
+        make_note("symmetry.no_mesh_floor", "the floor of the mesh is not known: " + why_no_twin));
   return notes;
 }
 
@@ -91,7 +91,7 @@ std::vector<Note> volume_warnings(const metrics::PeakTissue& tissue) {
   return {make_warning(
       "tissue.volume_changed",
       fmt::format("at the peak the volume of single elements is {:.2f} to {:.2f} times that at "
-                  "rest (99 % below {:.2f}): their stress says little; use percentiles, or a "
+                  "rest (99 % below {:.2f}): their stress is unreliable; use percentiles, or a "
                   "finer mesh there",
                   volume.min, volume.max, volume.p99),
       "mesh.element_size_mm")};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a finished run must say: found here once, shown by the program, the studio and Python.
+// Notes on a finished run, made here for the program, the studio and Python alike.
 #include <optional>
 #include <vector>
 
@@ -17,9 +17,8 @@ std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport
                                                 const simulate::Performance& performance,
                                                 const simulate::ContactOptions& contact);
 
-/// What a user should not overlook: the report's own notes (SimulationReport::notes),
-/// `lips.pass_through` (by more than 0.5 mm), `tissue.inverted` (more than 0.1 % of the
-/// tetrahedra).
+/// Warnings: the report's own notes (SimulationReport::notes), `lips.pass_through` (by more than
+/// 0.5 mm), `tissue.inverted` (more than 0.1 % of the tetrahedra).
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,
                                const simulate::Performance& performance);
 
@@ -29,7 +28,8 @@ std::vector<Note> symmetry_notes(const metrics::SymmetryMeasures& symmetry,
                                  const std::string& why_no_twin);
 
 /// `tissue.volume_changed` (a warning): at finite strain, single elements whose volume changes by
-/// more than 3 times. Patches of them keep theirs, so that the skin's motion is hardly affected.
+/// more than 3 times. Patches of elements keep their volume, so that the skin's motion is hardly
+/// affected.
 std::vector<Note> volume_warnings(const metrics::PeakTissue& tissue);
 
 /// `variant.no_effect`: a variant that moves as base does, to 0.001 mm. It is probably a mistake.
@@ -44,7 +44,7 @@ std::vector<Note> lips_that_pass(const std::vector<VariantRun>& runs, double bas
 std::vector<Note> gains_hardly_known(const std::vector<Note>& base,
                                      const std::vector<VariantRun>& runs);
 
-/// All of the last three.
+/// The last three together.
 std::vector<Note> variant_warnings(const simulate::SimulationResult& base,
                                    const std::vector<VariantRun>& runs);
 

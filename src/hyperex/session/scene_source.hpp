@@ -8,14 +8,14 @@
 
 namespace hyperex::session {
 
-/// Whether a variant may change the key: another value needs neither inputs nor mesh anew.
+/// Whether a variant may change the key, since another value needs no new inputs and no new mesh.
 bool is_variant_key(const std::string& key);
 
-/// Where a session's scene comes from, and how it is changed key by key: always through the text of
-/// a scene file, so that every value is checked as the program checks it.
+/// The scene of a session, and changes of its keys. Changes go through the text of a scene file, so
+/// that every value is checked as in a file.
 class SceneSource {
  public:
-  /// A scene that was read. `scene.given` is handed on to every scene that is made of it.
+  /// A scene that was read. `scene.given` is passed to every scene made from it.
   explicit SceneSource(scene::Scene scene);
   /// A face and a motion in memory (`given`), with keys changed.
   SceneSource(scene::GivenFace given, const Changes& changes);
@@ -27,7 +27,7 @@ class SceneSource {
 
   /// With another value of a key of base.
   SceneSource with_value(const std::string& key, const Value& value) const;
-  /// With a variant of this name that has these changes, in the place of one of that name.
+  /// With a variant of this name that has these changes; it replaces one of that name.
   SceneSource with_variant(const std::string& name, const Changes& changes) const;
   /// With one more change of the variant `name`, which is added where there is none. `key` may name
   /// a part of a list: "tissue.region[0].young_factor".
@@ -39,7 +39,7 @@ class SceneSource {
   std::string text_now() const;
 
   scene::Scene scene_;
-  std::string text_;  // empty: not made yet of scene_
+  std::string text_;  // empty: not yet made from scene_
   scene::GivenFace given_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace hyperex::session {
 
-/// Options of the simulation as simulate/ understands them, the tissue uniform.
+/// The scene's options in the form that simulate/ takes, with uniform tissue.
 simulate::SimulationOptions simulation_options(const scene::Scene& scene, const Inputs& inputs);
 
 }  // namespace hyperex::session

@@ -8,8 +8,7 @@
 
 namespace hyperex::session {
 
-/// Simulators that are not needed any more and whose factors can be used again: as many as ran at a
-/// time. Any thread may call.
+/// Finished simulators whose factors can be reused. Thread-safe.
 class SpentSimulators {
  public:
   void give(std::shared_ptr<simulate::Simulator> spent) {

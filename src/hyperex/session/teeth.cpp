@@ -76,13 +76,14 @@ std::shared_ptr<const anatomy::Teeth> teeth_of(const scene::Scene& scene, const 
         anatomy::fit_teeth(mesh.volume.outer, tissue::boundary_of(mesh.volume), inputs.landmarks);
     if (!fit.why_none.empty()) {
       notes.push_back(
-          make_note("teeth.none", "no teeth are laid behind the lips: " + fit.why_none));
+          make_note("teeth.none", "no teeth were fitted behind the lips: " + fit.why_none));
     } else {
       notes.push_back(make_note(
           "teeth.average",
           fmt::format(
-              "average teeth (times {:.2f}{}) stand behind the lips, their edges {:.1f} mm behind "
-              "the lips' inner middles; scans of teeth are read by teeth.upper and teeth.lower",
+              "average teeth (scale {:.2f}{}) were fitted behind the lips, edges {:.1f} mm behind "
+              "the "
+              "middle of the lips' inner sides; teeth.upper and teeth.lower read scans of teeth",
               fit.size.scale,
               fit.size.breadth < 1 ? fmt::format(", arches {:g} of their breadth", fit.size.breadth)
                                    : "",

@@ -11,15 +11,15 @@
 namespace hyperex::session {
 
 /// The scans that teeth.upper and teeth.lower name, closed (close_mesh), as crowns; notes say what
-/// was closed. `scan_unit`: of teeth.unit = "scan". `landmarks`: of the face, or none where they
-/// are not known. Throws InputError where a file cannot be read or closed, or its mesh does not lie
-/// in the mouth.
+/// was closed. `scan_unit`: used where teeth.unit = "scan". `landmarks`: of the face; empty where
+/// they are unknown. Throws InputError where a file cannot be read or closed, or its mesh does not
+/// lie in the mouth.
 anatomy::Teeth read_teeth(const scene::Scene& scene, io::LengthUnit scan_unit,
                           const io::Landmarks& landmarks, std::vector<Note>& notes);
 
-/// What stands in the mouth: inputs.teeth and, of jaws without a scan, average arches laid into the
-/// face (anatomy::fit_teeth) where teeth.shape asks for them; null where there is nothing. Notes
-/// say how they were laid, or why there are none.
+/// The teeth of a face: inputs.teeth and, for jaws without a scan, average arches
+/// (anatomy::fit_teeth) where teeth.shape requests them; null where there are none. Notes say how
+/// the arches were fitted, or why there are none.
 std::shared_ptr<const anatomy::Teeth> teeth_of(const scene::Scene& scene, const Inputs& inputs,
                                                const tissue::TissueMesh& mesh,
                                                std::vector<Note>& notes);

@@ -11,11 +11,11 @@ namespace hyperex::session {
 /// Per vertex: the texture has a seam there, so that thinning keeps it. Empty without a texture.
 std::vector<char> on_seams(const io::Scan& scan);
 
-/// The scan as the thinned skin has it: its vertices, their colours, texture coordinates of the
+/// The scan with the vertices of the thinned skin, their colours, and texture coordinates in the
 /// same part of the texture.
 io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const TriMesh& thinned);
 
-/// A field made there, on the thinned skin.
+/// Reduces a field on the full skin to the vertices of the thinned skin.
 void keep_thinned(tissue::TissueField& field, const tissue::FullSkin& full);
 
 /// Values of the thinned skin's vertices, one row each, at every vertex of the full skin.

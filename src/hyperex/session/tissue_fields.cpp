@@ -10,7 +10,7 @@ namespace hyperex::session {
 template <typename Made>
 Made TissueFields::made(const scene::Scene& scene, const std::string& owner,
                         const std::function<Made(const tissue::TissueFieldMaker&)>& make) {
-  // A studio's scene changes after its inputs were read and checked.
+  // In the studio a scene may change after its inputs were read and checked.
   const auto problems = tissue::problems_of(scene.tissue, inputs_.landmarks);
   if (!problems.empty()) {
     InputProblem first =
@@ -40,7 +40,7 @@ std::optional<tissue::TissueField> TissueFields::of(const scene::Scene& scene,
                                                     const std::string& owner) {
   const tissue::TissueFieldOptions options = scene.tissue;
   if (!is_graded(options)) return std::nullopt;
-  Progress progress("spreading the tissue's parameters over the face", 0);
+  Progress progress("interpolating the tissue's parameters", 0);
   tissue::TissueField field = made<tissue::TissueField>(
       scene, owner, [&](const tissue::TissueFieldMaker& maker) { return maker.make(options); });
   if (mesh_.full) keep_thinned(field, *mesh_.full);

@@ -10,15 +10,15 @@
 namespace hyperex::session {
 
 /// Tissue fields of a scene and its variants on one mesh; what does not depend on their options is
-/// found once, when it is first needed.
+/// computed once, when it is first needed.
 class TissueFields {
  public:
   /// Both must outlive this.
   TissueFields(const Inputs& inputs, const tissue::TissueMesh& mesh)
       : inputs_(inputs), mesh_(mesh) {}
 
-  /// Nothing where the tissue is the same everywhere. Throws InputError naming the scene's key,
-  /// `owner` before it: "variant[0].".
+  /// Nothing where the tissue is uniform. Throws InputError naming the scene's key, preceded by
+  /// `owner`: "variant[0].".
   std::optional<tissue::TissueField> of(const scene::Scene& scene, const std::string& owner = "");
   /// How much of a region's change holds at each vertex of the skin, 0 to 1. Errors as above.
   Eigen::VectorXd region_shares(const scene::Scene& scene, std::size_t region);

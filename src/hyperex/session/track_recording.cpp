@@ -97,7 +97,7 @@ RecordedFace track_face(const scene::Scene& scene, Extent extent) {
                                           tracking.frames.size() - lost, tracking.frames.size()));
   if (!tracking.neutral->metric)
     note("recording.no_depth",
-         "motion: no depth in the recording; lengths rest on a usual distance between the eyes");
+         "motion: no depth in the recording; lengths assume an average distance between the eyes");
   for (const auto& remark : source->notes()) note("recording.source", "motion: " + remark);
   recorded.motion =
       tracking::motion_of(model, tracking, scene.region.measured != simulate::Measured::none);
@@ -115,8 +115,9 @@ motion::Motion track_recording(const scene::Scene& scene, Extent extent, Inputs&
       !scene.origins.contains("motion.mirrored"))
     in.notes.push_back(make_warning(
         "recording.mirror_unknown",
-        "the video is assumed not mirrored, as the file has no such flag; where it is (many selfie "
-        "videos are), left and right are exchanged: say motion.mirrored = true, or false"));
+        "the video is assumed not mirrored, as the file has no such flag; if it is mirrored (as "
+        "many "
+        "selfie videos are), left and right are exchanged: set motion.mirrored to true or false"));
   recorded.motion.source = scene.motion.recording.string();
   return std::move(recorded.motion);
 }

@@ -8,11 +8,11 @@
 
 namespace hyperex::session {
 
-/// The face model that motion.candide names, kept in `own`; else the canonical one.
+/// The face model that motion.candide names, stored in `own`; else the canonical one.
 const expression::FaceModel& face_model(const scene::MotionOptions& options,
                                         std::optional<expression::FaceModel>& own);
 
-/// The stretch that motion.rest_s says; one time stands for the sample there.
+/// The interval of motion.rest_s; a single time means the sample there.
 std::optional<motion::RestStretch> rest_stretch(const scene::MotionOptions& options);
 
 /// The points of motion.recording, tracked, or taken from an earlier run; in a quick reading those

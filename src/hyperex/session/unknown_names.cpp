@@ -118,7 +118,7 @@ std::vector<Note> misspelt_landmarks(std::vector<std::string>& unknown) {
     else
       warnings.push_back(make_warning(
           "landmarks.misspelt",
-          fmt::format("landmark {} is not known and left aside; did you mean {}?", name, near)));
+          fmt::format("landmark {} is not known and ignored; did you mean {}?", name, near)));
   }
   unknown = std::move(others);
   return warnings;

@@ -7,23 +7,22 @@
 
 namespace hyperex::session {
 
-/// What a name that does not exist was probably meant to be, in the spelling that exists. A side is
-/// never guessed: "cheek_r" and "right_cheek" are cheek_R, "chek" is cheek. Empty where nothing is
-/// alike.
+/// The existing name that an unknown name was probably meant to be. A side is never guessed:
+/// "cheek_r" and "right_cheek" are cheek_R, "chek" is cheek. Empty where no name is similar.
 
-/// Of the regions of the face (tissue::facial_regions); empty for one of them. Quotes around the
-/// name, as problems show it, are put up with.
+/// Among the regions of the face (tissue::facial_regions); empty for one of them. Quotes around the
+/// name are ignored.
 std::string nearest_region(std::string name);
 
-/// Of the landmarks that the canonical face knows; "ibug_48" and "48" are ibug68_48.
+/// Among the landmarks that the canonical face knows; "ibug_48" and "48" are ibug68_48.
 std::string nearest_landmark(const std::string& name);
 
-/// "; did you mean cheilion_R?" of the names that there are, to end a message; empty where none is
-/// alike.
+/// The end of a message, "; did you mean cheilion_R?", with the most similar of the names that
+/// exist; empty where none is similar.
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& there_are);
 
 /// `landmarks.misspelt` for landmarks of unknown names that look misspelt, "... did you mean
-/// cheilion_L?", one each, at most five; those names are taken out of `unknown`.
+/// cheilion_L?", one each, at most five; removes those names from `unknown`.
 std::vector<Note> misspelt_landmarks(std::vector<std::string>& unknown);
 
 }  // namespace hyperex::session

@@ -16,9 +16,9 @@ namespace hyperex::session {
 
 /// One variant's run on the mesh and motion of base, the scene without a variant.
 struct VariantRun {
-  std::string folder;                        ///< of its outputs, in variants/
-  scene::Scene scene;                        ///< the variant's; output.* says what its folder holds
-  Inputs inputs;                             ///< the scene's, with the variant's driven points
+  std::string folder;  ///< of its outputs, in variants/
+  scene::Scene scene;  ///< the variant's; output.* selects the files of its folder
+  Inputs inputs;       ///< the scene's, with the variant's driven points
   std::optional<tissue::TissueField> field;  ///< where the tissue differs from place to place
   simulate::SimulationOptions options;
   simulate::SimulationResult simulation;
@@ -26,7 +26,7 @@ struct VariantRun {
 };
 
 /// The runs of scene.variants, not simulated yet. Mesh, landmarks, motion and its alignment are the
-/// scene's own. Throws InputError naming the variant's key for tissue that cannot be.
+/// scene's own. Throws InputError naming the variant's key for invalid tissue.
 std::vector<VariantRun> prepare_variants(const scene::Scene& scene, const Inputs& inputs,
                                          TissueFields& fields);
 

@@ -128,7 +128,7 @@ struct SupportOptions {
 
 enum class DriveBy {
   displacement,  ///< patches of skin are carried to where the points are recorded
-  muscles,       ///< forces: muscles, the jaw, and what they leave over at the points
+  muscles,       ///< forces: muscles, the jaw, and the residual at the points
   reactions      ///< forces: those that hold the patches of a run by displacement
 };
 constexpr auto words_of(DriveBy) {
@@ -151,23 +151,23 @@ struct DriveOptions {
   }
   bool operator==(const DriveOptions&) const = default;
 
-  static constexpr const char* about = "What moves it.";
+  static constexpr const char* about = "What moves the face.";
   template <class Visitor>
   static void describe(Visitor& v) {
     v.one_or_all(
         HX_MEMBER(points), HX_MEMBER(all_points),
         "Points of the recording that drive the skin; \"all\": all but motion.rigid_points "
-        "and stomion, which lies between the lips. Where none are named, brows and lids "
-        "join the default where one of their points moves by 2 mm, nostrils by 3, and of "
-        "motion.candide those of the default are driven that the model has.");
-    v.option(HX_MEMBER(by),
-             "What the points are: places that the skin is carried to, whatever the tissue; or "
-             "what muscles, the jaw and forces at the points are found from (docs/muscles.md), or "
-             "forces alone. Forces are found once, in the scene's tissue, and variants answer the "
-             "same forces. Where it is not given: \"displacement\" where the scene or a variant "
-             "sets a key of [support] (but jaw_points) or [region]; else \"muscles\" where there "
-             "are variants that do not say otherwise; else \"muscles\", whatever the motion. The "
-             "run says which and why.");
+        "and stomion, which lies between the lips. Where none are named, brows and lids are "
+        "added to the default where one of their points moves by 2 mm, nostrils by 3 mm; with "
+        "motion.candide, default points that the model lacks are left out.");
+    v.option(
+        HX_MEMBER(by),
+        "How the recorded points drive the face: the skin is carried to them, whatever the "
+        "tissue; or muscles, the jaw and forces at the points are fitted to them "
+        "(docs/muscles.md); or forces alone are. Forces are found once, in the scene's tissue, "
+        "and variants respond to the same forces. Where it is not given: \"displacement\" "
+        "where the scene or a variant sets a key of [support] (but jaw_points) or [region]; "
+        "else \"muscles\", unless the variants say otherwise. The run says which and why.");
     v.option(HX_MEMBER(patch_radius_m),
              "Radius of the patch of skin that a driven point moves where the lips part; half as "
              "much again where they stay closed. 0 takes the nearest node alone.",
@@ -217,15 +217,15 @@ struct MuscleOptions {
   /// `widening` times as wide.
   double widening = 2.3, half = 0.62;
 
-  /// 1 sigma: of the error of a point's displacement where few points are driven (up to
-  /// kFewPoints) and where many are; of an activation before a point is seen, on the side below
-  /// rest of those that may relax; of rings; of the jaw's slide.
+  /// 1 sigma: of the error of a point's displacement where few points are driven (up to kFewPoints)
+  /// and where many are; prior of an activation; of rings; below rest, of muscles that may relax;
+  /// of the jaw's slide.
   double few_sigma_m = 0.0008, many_sigma_m = 0.0016;
   double activation_sigma = 0.29, ring_sigma = 0.15, tone_sigma = 0.16, slide_sigma_m = 0.0045;
-  /// Correlation of a muscle's activation with that of its counterpart, before a point is seen.
+  /// Prior correlation of a muscle's activation with that of its counterpart.
   double side_correlation = 0.3;
-  /// Radius of the patches of skin at many points, over which what muscles leave over is spread; at
-  /// few it is DriveOptions::patch_radius_m.
+  /// Radius of the patches of skin over which the residual at many points is spread; at few points
+  /// it is DriveOptions::patch_radius_m.
   double many_patch_m = 0.015;
   /// In the patches around driven points: this share of the shape that a muscle or the jaw gives
   /// the skin there, the rest of the field between the points; 1: all of it. Of muscles of the
@@ -242,7 +242,7 @@ struct MuscleOptions {
   bool operator==(const MuscleOptions&) const = default;
 
   /// The constants above are no options: only what a scene may change is described.
-  static constexpr const char* about = "Muscles, where they are what moves it (`drive.by`).";
+  static constexpr const char* about = "Muscles, where they move the face (`drive.by`).";
   template <class Visitor>
   static void describe(Visitor& v) {
     v.factors(HX_MEMBER(gains), [] { return muscles::gain_names(); },
@@ -294,7 +294,7 @@ struct ModelOptions {
   }
 };
 
-/// One value everywhere, or where `element` is not empty (tissue/field) one a tetrahedron.
+/// One value everywhere or, where `element` is not empty (tissue/field), one per tetrahedron.
 struct TissueValues {
   tissue::TissueParameters uniform = tissue::default_parameters;
   std::array<std::vector<double>, tissue::parameter_count> element{};  ///< of all or of none
@@ -343,7 +343,7 @@ struct SolverOptions {
              {.bounds = {0.5, 1}});
     v.option(HX_MEMBER(verify),
              "Run the full model too and report the true error of the reduced one.");
-    // Shorter steps would take longer than anyone waits.
+    // Shorter steps would take impractically long.
     v.option(HX_MEMBER(finite_step_s),
              "The time step where tissue.strain = \"finite\"; it is halved where it does not "
              "converge. 0: the time between frames.",
@@ -357,7 +357,7 @@ struct SolverOptions {
   }
 };
 
-/// What tissue may not pass through (mouth_contact.hpp). Streams know no contact.
+/// What tissue may not pass through (mouth_contact.hpp). Streams have no contact.
 struct ContactOptions {
   bool lips = false;   ///< the lips each other
   bool teeth = false;  ///< the mouth's side of the tissue those of Simulator::set_obstacles()
@@ -368,8 +368,8 @@ struct ContactOptions {
   /// driven.
   double patch_pa_per_m = 2e8;
   /// Where forces drive, driven points near the lips stay where the motion without contact has
-  /// them, but for this share of the tissue's own compliance: what touches in a recording touched
-  /// already when it was recorded.
+  /// them, except that they yield by this share of the tissue's own compliance: surfaces that touch
+  /// in a recording touched when it was recorded.
   double point_give = 0.5;
   bool operator==(const ContactOptions&) const = default;
 

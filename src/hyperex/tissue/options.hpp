@@ -17,7 +17,7 @@ inline constexpr Bounds thickness_m_in{0.001, 0.04};
 enum Parameter { young, viscosity, poisson, density };
 inline constexpr int parameter_count = 4;
 
-/// A value a parameter.
+/// One value per parameter.
 using TissueParameters = std::array<double, parameter_count>;
 /// The same where given.
 using GivenParameters = std::array<std::optional<double>, parameter_count>;
@@ -48,7 +48,7 @@ constexpr auto words_of(Interpolation) {
 
 struct TissuePoint {
   std::string landmark;
-  std::string side;  ///< "L", "R" or "": as the name says, and of a name without side both
+  std::string side;  ///< "L", "R" or "": that of the name, both for a name without side
   GivenParameters value{};
   bool operator==(const TissuePoint&) const = default;
 
@@ -72,9 +72,9 @@ struct TissueRegion {
   std::string name = {};                                  ///< of facial_regions(); or
   std::vector<std::string> scar = {};                     ///< landmarks, two or more; or
   std::vector<std::array<double, 3>> scar_points_m = {};  ///< scan frame, two or more; or
-  std::filesystem::path painted = {};                     ///< shares a vertex of the scan
+  std::filesystem::path painted = {};                     ///< one share per vertex of the scan
   double width_m = 0.004;                                 ///< of a scar
-  double blend_m = 0.004;  ///< from nothing to the whole change, half of it on either side
+  double blend_m = 0.004;  ///< width of the transition, half of it on either side of the border
   GivenParameters value{}, factor{};
   bool operator==(const TissueRegion&) const = default;
 
@@ -118,9 +118,9 @@ struct TissueFieldOptions {
   GivenParameters uniform{};  ///< where no point gives the parameter; none: preset or default
   std::string preset;         ///< of tissue_presets(); empty: none
   Interpolation interpolation = Interpolation::harmonic;
-  bool mirror = false;                ///< what is given for one side holds for the other too
-  std::vector<TissuePoint> points;    ///< in the place of the preset's at the same landmark
-  std::filesystem::path per_vertex;   ///< CSV or PLY, a row per vertex of the scan; empty: none
+  bool mirror = false;                ///< values for one side hold for the other too
+  std::vector<TissuePoint> points;    ///< replace those of the preset at the same landmark
+  std::filesystem::path per_vertex;   ///< CSV or PLY, one row per vertex of the scan; empty: none
   std::vector<TissueRegion> regions;  ///< applied in turn
   bool operator==(const TissueFieldOptions&) const = default;
 

@@ -325,7 +325,7 @@ TEST_F(ObstacleOfAFace, GapsOpenAlongTheNormalOfAnObstacleThatTurned) {
 }
 
 TEST_F(ObstacleOfAFace, LidsTouchTheEyeballsBehindThem) {
-  const std::vector<Obstacle> eyes = eyes_to_touch(face_.mesh.skin.points, face_.landmarks);
+  const std::vector<Obstacle> eyes = eye_obstacles(face_.mesh.skin.points, face_.landmarks);
   ASSERT_EQ(eyes.size(), 2u);
   for (const Obstacle& eye : eyes) {
     const ObstaclePlaces places(face_.mesh, face_.landmarks, eye);

@@ -40,7 +40,7 @@ TriMesh with_linings(const EmbeddedFace& face) {
 TEST(CornerLinings, AFaceWithoutThemKeepsAll) {
   const EmbeddedFace face = embedded_face();
   TriMesh mesh = face.mesh;
-  EXPECT_EQ(give_up_corner_linings(mesh, face.landmarks), 0);
+  EXPECT_EQ(remove_corner_linings(mesh, face.landmarks), 0);
   EXPECT_EQ(mesh.points, face.mesh.points);
   EXPECT_EQ(mesh.triangles, face.mesh.triangles);
 }
@@ -55,7 +55,7 @@ TEST(CornerLinings, AreGivenUpAtTheCornersAlone) {
     return std::min((p - face.landmarks.at(face::ibug(60))).norm(),
                     (p - face.landmarks.at(face::ibug(64))).norm());
   };
-  const int dropped = give_up_corner_linings(mesh, face.landmarks);
+  const int dropped = remove_corner_linings(mesh, face.landmarks);
   ASSERT_GT(dropped, 0);
   EXPECT_EQ(mesh.triangles.rows(), triangles - dropped);
   EXPECT_EQ(boundary_loops(mesh.triangles).size(), boundary_loops(face.mesh.triangles).size());

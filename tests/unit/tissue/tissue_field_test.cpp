@@ -315,7 +315,7 @@ TEST_F(Field, IsReadFromFilesOfVertices) {
   options.per_vertex = csv;
   EXPECT_THAT(refusal(options), HasSubstr("2 rows of young_kpa: expected"));
   std::ofstream(csv) << "stiffness\n1\n";
-  EXPECT_THAT(refusal(options), HasSubstr("no values a vertex"));
+  EXPECT_THAT(refusal(options), HasSubstr("no values per vertex"));
   young_kpa[5] = -1;
   io::write_ply(ply, {mesh_->skin.points.topRows(count), embedded_face().mesh.triangles},
                 io::LengthUnit::metre, {{"young_kpa", young_kpa}});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A chart to take along: its values as CSV, and a picture of it with title and legend.
+// Export of a chart: its values as CSV, and a picture with title and legend.
 import uPlot from 'uplot';
 import { chartOptions, lineOf, type Chart } from './chart_options';
 import { linesOf } from '../page/lines';
 import { csvFile, subject } from '../page/save';
 import { theme } from '../page/theme';
 
-/** A row a time; values are whole, not rounded as in the legend. */
+/** One row per time; values are not rounded as they are in the legend. */
 export function csvOf(chart: Chart): Blob {
   const unit = chart.unit.trim();
   const names = chart.curves.map((c) => c.column ?? (unit ? `${c.label} (${unit})` : c.label));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a chart is, and how uPlot is to draw it.
+// The description of a chart, and its options for uPlot.
 import type uPlot from 'uplot';
 import { signed } from '../page/format';
 import { theme } from '../page/theme';
@@ -7,15 +7,15 @@ import { theme } from '../page/theme';
 export interface Curve {
   label: string;
   values: (number | null)[];
-  /** A thin line in the ink's colour, for what is only there to compare with. */
+  /** A thin line in the text's colour, for curves that serve only as a reference. */
   dashed?: boolean;
-  /** Place in the palette; past its end the colours come again, dotted. Else its place among the curves. */
+  /** Place in the palette; past its end the colours repeat, dotted. Else its place among the curves. */
   hue?: number;
   /** Dashed, to differ from another without colours. */
   broken?: boolean;
   /** Drawn thicker than others. */
   strong?: boolean;
-  /** What lies under it is hatched and called this. */
+  /** The area under the curve is hatched and has this name. */
   under?: string;
   /** Its name in the CSV file, with the unit; else label and unit. */
   column?: string;
@@ -27,10 +27,10 @@ export interface Chart {
   timeS: number[];
   curves: Curve[];
   digits: number;
-  /** What the upright axis shows, with its unit; the time axis is then named too. */
+  /** Title of the vertical axis, with its unit; the time axis then has a title too. */
   yLabel?: string;
   heightPx?: number;
-  /** Limits of the upright axis; else those of the curves. */
+  /** Limits of the vertical axis; default: those of the curves. */
   range?: [number, number];
   /** Stretches of time that are shaded. */
   shaded?: [fromS: number, toS: number][];
@@ -46,7 +46,7 @@ export function lineOf(curve: Curve, i: number): { colour: string; widthPx: numb
   return { colour: palette[hue % palette.length], widthPx: curve.strong ? 3 : 2, dash };
 }
 
-/** Slanted lines in the soft ink. */
+/** A pattern of slanted lines in the soft text colour. */
 function hatching(scale: number): CanvasPattern | string {
   const { inkSoft } = theme();
   const size = Math.round(7 * scale * devicePixelRatio);
@@ -101,7 +101,7 @@ function nameHatched(plot: uPlot, chart: Chart, font: string): void {
   ctx.restore();
 }
 
-/** A little room above and below, so that what lies under the least curve is seen. */
+/** A little room above and below, so that the area under the lowest curve is visible. */
 const withRoom = (_plot: uPlot, least: number | null, most: number | null): Range =>
   least === null || most === null ? [null, null] : [least - 0.13 * (most - least || 1), most + 0.06 * (most - least || 1)];
 

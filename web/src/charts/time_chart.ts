@@ -8,13 +8,13 @@ import { chartOptions, type Chart } from './chart_options';
 import { button, element } from '../page/dom';
 import { fileName, save, saveButton, subject } from '../page/save';
 
-/** One chart in its card. Made anew when its curves or the colours of the page change. */
+/** One chart in its card. It is made again when its curves or the colours of the page change. */
 export class TimeChart {
   private plot: uPlot | null = null;
   private readonly host = document.createElement('div');
   private readonly caption = document.createElement('p');
   private readonly now = document.createElement('div');
-  /** Labels of curves that the reader has taken away. */
+  /** Labels of curves that the reader has hidden. */
   private readonly hidden = new Set<string>();
   private timeS = NaN;
   private window: [number, number] | null = null;
@@ -59,7 +59,7 @@ export class TimeChart {
     this.show(this.window);
   }
 
-  /** Takes the chart off the page for good. */
+  /** Removes the chart from the page. */
   remove(): void {
     this.watch.disconnect();
     this.plot?.destroy();
@@ -84,7 +84,7 @@ export class TimeChart {
     if (!plot.over.matches(':hover') && (anew || plot.legend.idx !== idx)) plot.setLegend({ idx }, false);
   }
 
-  /** Once drawn the plot knows where a time lies, and has emptied its legend. */
+  /** After drawing, the plot can place the cursor, and its legend is empty. */
   private afterDrawing(): void {
     const { plot, timeS } = this;
     if (!plot || Number.isNaN(timeS)) return;
@@ -120,12 +120,12 @@ export class TimeChart {
     return options;
   }
 
-  /** What takes curves away and brings them back is accessible without a mouse. */
+  /** Makes the buttons that hide and show curves accessible without a mouse. */
   private makeButtons(plot: uPlot): void {
     [...plot.root.querySelectorAll('.u-series')].slice(1).forEach((row, i) => {
       row.classList.toggle('hatched', this.chart.curves[i].under !== undefined);
       const head = row.querySelector('th')!;
-      const toggle = button('', '', () => {}); // the press goes on to the head, which uPlot listens to
+      const toggle = button('', '', () => {}); // the press bubbles to the head, where uPlot listens
       toggle.title = 'Show or hide this curve; with Ctrl all others';
       toggle.append(...head.childNodes);
       head.append(toggle);
@@ -143,7 +143,7 @@ export class TimeChart {
     });
   }
 
-  /** The chart without what the reader has taken away. */
+  /** The chart without the curves that the reader has hidden. */
   private get plotted(): Chart {
     // The others keep their colours.
     const curves = this.chart.curves.map((curve, i) => ({ ...curve, hue: curve.hue ?? i }));

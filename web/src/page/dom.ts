@@ -30,7 +30,7 @@ export function memberBox<T>(chosen: Set<T>, item: T, changed: () => void): HTML
   return box;
 }
 
-/** Shows an error in the place of the title if the page cannot start. */
+/** Shows an error instead of the title if the page cannot start. */
 export function startPage(start: () => void): void {
   try {
     start();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The colours of curves, sides and faces: those of the pictures that the program draws, which it writes into
 // the page (src/hyperex/render/time_plot.hpp). After Okabe and Ito's palette, which colour-blind readers can
-// tell apart; darker on light paper, lighter on dark.
+// distinguish; darker on light paper, lighter on dark.
 
 export interface Palette {
   light: string[];
@@ -21,7 +21,7 @@ export const colours = (dark: boolean): string[] => (dark ? palette.dark : palet
 export const leftHue = (): number => palette.left;
 export const rightHue = (): number => palette.right;
 export const faceHue = (i: number): number => palette.faces[i % palette.faces.length];
-/** Of things that are neither sides nor faces. */
+/** Colours of curves that are neither of a side nor of a face. */
 export function otherHue(i: number): number {
   const rest = palette.light.map((_, hue) => hue).filter((hue) => hue !== palette.left && hue !== palette.right);
   const round = Math.floor(i / rest.length);

@@ -29,7 +29,7 @@ export const words = (key: string): string => key.replaceAll('_', ' ');
 
 let pointWords: Record<string, string> = {};
 
-/** Takes the names of points as people say them (src/hyperex/face/point_words.hpp). */
+/** Sets the plain names of points (src/hyperex/face/point_words.hpp). */
 export function usePointWords(given: Record<string, string>): void {
   pointWords = given;
 }
@@ -40,7 +40,7 @@ export const landmarkName = (name: string): string => pointWords[name] ?? words(
 /** The words of a known point; any other text as it is. */
 export const pointOrText = (text: string): string => pointWords[text] ?? text;
 
-/** Numbers in names count as numbers: 2 before 10. */
+/** Sorts numbers in names by value: 2 before 10. */
 export const naturally = new Intl.Collator('en', { numeric: true }).compare;
 
 export const upper = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Functions that are called after each change, until they unsubscribe.
 
-/** Ends a subscription, or undoes what else returned it. */
+/** Ends a subscription, or reverses the call that returned it. */
 export type Undo = () => void;
 
 export class Listeners<T = void> {
@@ -19,7 +19,7 @@ export class Listeners<T = void> {
   }
 }
 
-/** Collects what must be undone in the end, the last first. */
+/** Collects functions that clean up at the end, called in reverse order. */
 export class Undoing {
   private readonly all: Undo[] = [];
   private readonly events = new AbortController();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the data come from: the two script elements of the page, as src/hyperex/report/page_data.cpp
-// writes them. Nothing else knows of them.
+// writes them. No other file refers to them.
 
 import { defineColours, type Palette } from './face_colour';
 
@@ -42,7 +42,7 @@ function textOf(id: string): string {
   return text;
 }
 
-/** Reads what the page holds and takes over its palette; throws where it holds nothing or another version than 1. */
+/** Reads the page's data and sets its palette; throws where there are none or their version is not 1. */
 export function readPageData<M extends { version: number }>(): { manifest: M; block: Block } {
   const manifest = JSON.parse(textOf('hyperex-manifest')) as M & { palette: Palette };
   if (manifest.version !== 1) throw new Error(`Unknown version of the data: ${manifest.version}`);

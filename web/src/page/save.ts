@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hands files that the page makes to the reader.
+// Downloads of files that the page makes.
 import { button } from './dom';
 
-/** What the page shows, as pictures and files are called: its title, or what it is to be called in their place. */
+/** The name of what the page shows, for pictures and files: its title, or a name set instead. */
 export const subject = (): string => document.documentElement.dataset.subject ?? document.title;
 
 /** "Smile, left", "Point tracks", "csv" is "smile-left-point-tracks.csv". */
@@ -17,11 +17,11 @@ export function save(content: Blob, name: string): void {
   link.href = URL.createObjectURL(content);
   link.download = name;
   link.click();
-  // The browser has taken it by then.
+  // The browser has read it by then.
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-/** `what` it saves, for screen readers. */
+/** `what`: name of the file's contents, for screen readers. */
 export function saveButton(name: string, says: string, what: string, press: () => void): HTMLButtonElement {
   const made = button(name, 'quiet', press);
   made.title = says;

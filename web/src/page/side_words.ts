@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The subject's own sides, everywhere in one order: the right one first, as on a face that one looks at.
+// The subject's own sides, in the same order everywhere: right first, as on a face seen from in front.
 
 export type Side = 'right' | 'left';
 export type Letter = 'R' | 'L';
@@ -17,7 +17,7 @@ let words: SideWords = {
   letters: { R: 'R', L: 'L' }, hints: { R: 'The subject’s own right', L: 'The subject’s own left' },
 };
 
-/** In another language. */
+/** Sets the words of another language. */
 export function useSideWords(given: SideWords): void {
   words = given;
 }

@@ -4,7 +4,7 @@ import { colours } from './face_colour';
 
 export const dark = window.matchMedia('(prefers-color-scheme: dark)');
 
-/** While the page is printed colours are the light ones, whatever the screen shows. */
+/** In print the colours are the light ones, whatever the screen shows. */
 let printing = false;
 export function setPrinting(on: boolean): void {
   printing = on;

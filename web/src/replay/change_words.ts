@@ -64,7 +64,7 @@ export function changeWords(changes: Json, options: unknown): string[] {
     if (Array.isArray(value) && value.some(isObject)) return value.filter(isObject).map(placeWords);
     if (path === 'muscles.gain' && isObject(value)) return Object.entries(value).map(gainWords);
     const { name, unit } = keyWords(last);
-    // The tissue's own parameters speak for themselves.
+    // The tissue's parameters need no section.
     const room = parts[0] === 'tissue' ? '' : `${parts.join(' ')}: `;
     const before = baseValue(options, [...parts, last]);
     if (before === value) return []; // changes nothing

@@ -19,7 +19,7 @@ export interface Corners {
   /** Differences of the sides below this are undecided, mm; 0: no floor is known. */
   floorMm: number;
   undecided: boolean;
-  /** Both are points that the recording drives: they go where it says in any tissue. */
+  /** Both are driven points: they follow the recording in any tissue. */
   driven: boolean;
 }
 
@@ -28,7 +28,7 @@ const names: [left: string, right: string, pair: string][] = [
 ];
 const largest = (track: (number | null)[]): number => Math.max(0, ...track.map((v) => v ?? 0));
 
-/** Two places a side, each known to the jitter a coordinate: 95 in 100 (metrics/excursion.hpp). */
+/** 95 % bound of a difference of two positions per side with this jitter per coordinate (metrics/excursion.hpp). */
 export const jitterFloorMm = (jitterMm: number): number => 1.96 * 2 * jitterMm;
 
 /** Null where the run has no points at the corners. */
@@ -47,7 +47,7 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
     return {
       timeS: landmarks.timeS, left, right, leftMm, rightMm, floorMm,
       undecided: pair?.undecided ?? Math.abs(leftMm - rightMm) < floorMm,
-      // The corner goes by either name.
+      // The corner has either name.
       driven: names.some(([a, b]) => driven.names.includes(a) && driven.names.includes(b)),
     };
   }
@@ -56,7 +56,7 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
 
 export const mm = (value: number): string => `${roundedMm(value).toFixed(1)} mm`;
 
-/** A difference from base below this is none, mm: half of what a figure here shows. */
+/** A difference from base below this counts as none, mm: half of the last digit shown. */
 export const sameMm = 0.05;
 
 /** Rounded as it is shown, so that the difference in words agrees with the figures shown. */
@@ -67,7 +67,7 @@ export const farthestMm = (corners: Corners, side: Side): number => (side === 'l
 const rowOf = (replay: Replay, face: number): VariantRow | undefined =>
   variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
 
-/** Of a variant's change against base: what mesh and jitter make of it, mm; null: not known. */
+/** The error of a variant's change against base due to mesh and jitter, mm; null: unknown. */
 export function changeBandMm(replay: Replay, face: number, side: Side): number | null {
   const band = rowOf(replay, face)?.[`commissure_${letterOf[side]}_band_mm`];
   return isNumber(band) ? band : null;
@@ -79,11 +79,11 @@ export interface CornerChange {
   /** Greatest distances from rest in base and in the variant, as they are shown. */
   fromMm: number;
   toMm: number;
-  /** What it goes farther than in base, along the way that it goes there. */
+  /** How much farther it moves than in base, along its path in base. */
   byMm: number;
-  /** Where it goes along that way, with its sign. */
+  /** How far it moves along that path, signed. */
   alongMm: number;
-  /** It goes along base's way as far as from rest, so that the figures above say it all. */
+  /** Its distance along base's path is close to that from rest, so that the figures above are complete. */
   sameWay: boolean;
   /** Some muscle of that side pulls less than in base. */
   weaker: boolean;
@@ -91,7 +91,7 @@ export interface CornerChange {
   undecided: boolean;
 }
 
-/** A distance from rest has no direction: compared is what lies along base's own way, which the program measures
+/** A distance from rest has no direction, and so the displacement along base's own path is compared
  *  (metrics/variant_comparison.hpp, along_base_mm). Null where the corners are not known. */
 export function cornerChange(replay: Replay, face: number, side: Side): CornerChange | null {
   const [base, own] = [cornersOf(replay, 0), cornersOf(replay, face)];
@@ -168,7 +168,7 @@ export function cornerFigures(replay: Replay, face: number, t: number): string[]
 /** Of the figures shown. */
 const apartMm = ({ leftMm, rightMm }: Corners): number => Math.abs(roundedMm(leftMm) - roundedMm(rightMm));
 
-/** "8.1 mm apart": which side is the healthy one the figures do not say. */
+/** "8.1 mm apart": the figures do not show which side is the healthy one. */
 export function differenceWords(corners: Corners): string {
   const apart = apartMm(corners);
   if (corners.undecided) return `${mm(apart)} apart: undecided (below ${mm(corners.floorMm)})`;

@@ -21,7 +21,7 @@ export interface TissueMap {
   bytes: Uint8Array;
 }
 
-/** Base (the scene without a variant) or a variant of it: the same skin, moved otherwise. */
+/** Base (the scene without a variant) or a variant of it: the same skin with another motion. */
 export interface Face {
   name: string;
   /** What differs from base, a sentence each. */
@@ -156,7 +156,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
   return [itself, ...variants];
 }
 
-/** What of a replay stands still: the skin, and what is part of it. */
+/** The fixed part of a replay: the skin at rest. */
 type StillPart = 'scanVertices' | 'points' | 'triangles' | 'colour' | 'texture' | 'mirror' | 'openings' | 'eyeballs' | 'teeth';
 export type Moving = Omit<Replay, StillPart>;
 /** What a manifest must have for `movingOf`. */
@@ -191,7 +191,7 @@ function stillOf(manifest: Manifest, block: Block): Pick<Replay, StillPart> {
   };
 }
 
-/** All that can change while the skin at rest stays what it is. */
+/** The parts that can change while the skin at rest stays the same. */
 export function movingOf(manifest: MovingManifest, block: Block): Moving {
   usePointWords(manifest.point_words);
   const { motion } = manifest;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a replay comes from, and what of it may change while it is looked at: a report holds its own and nothing
-// changes, the studio's server sends another whenever it has computed one.
+// The source of a replay. A report contains its replay, which never changes; the studio's server sends a new one
+// whenever it has computed it.
 import { Listeners, type Undo } from '../page/listeners';
 import { readPageData } from '../page/page_data';
 import { replayOf, type Moving, type Replay } from './data';
 import type { Manifest } from './manifest';
 
-/** "face": another skin, all views are made anew. "motion": the same skin moves otherwise, or other variants of it. */
+/** "face": another skin, all views are made anew. "motion": a new motion of the same skin, or other variants. */
 export type Change = 'face' | 'motion';
 
 export interface DataSource {
-  /** The same object from one "face" to the next; its parts are exchanged. */
+  /** The same object until the next "face"; its parts are replaced. */
   readonly replay: Replay;
   onChange(listener: (change: Change) => void): Undo;
 }
@@ -21,7 +21,7 @@ export function pageSource(): DataSource {
   return { replay: replayOf(manifest, block), onChange: () => () => {} };
 }
 
-/** Whose data are exchanged by whoever holds it. */
+/** A source whose owner replaces the data. */
 export class ChangingSource implements DataSource {
   private current: Replay | null = null;
   private readonly listeners = new Listeners<Change>();

@@ -7,12 +7,12 @@ export interface Key {
   /** As in the list: "1 to 9". */
   shown: string;
   does: string;
-  /** Whether the key press is meant, as `KeyboardEvent.key` or a test of the event. */
+  /** Whether the key press matches, as `KeyboardEvent.key` or a test of the event. */
   when: string[] | ((event: KeyboardEvent) => boolean);
   act(event: KeyboardEvent): void;
 }
 
-/** Elements that use the key themselves. Letters mean nothing to buttons, boxes and sliders. */
+/** Elements that use the key themselves. Buttons, boxes and sliders do not use letters. */
 function taken(event: KeyboardEvent): boolean {
   const target = event.target instanceof Element ? event.target : null;
   if (!target) return false;
@@ -39,7 +39,8 @@ function listOf(keys: Key[]): HTMLElement {
   return list;
 }
 
-/** Listens on the whole page until undone. `enabled`: a box with which readers whose software uses keys turn these off. */
+/** Listens on the whole page until the returned function is called. `enabled`: a box that turns these keys off, for
+ *  readers whose software uses them. */
 export function wireKeys(keys: Key[], help: HTMLDialogElement, open: HTMLButtonElement, enabled: HTMLInputElement): Undo {
   const undoing = new Undoing();
   const { signal } = undoing;

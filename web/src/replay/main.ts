@@ -60,7 +60,7 @@ function start(): void {
   };
   const keys = [...transportKeys(source, playback, shown), ...stage.keys()];
   wireKeys(keys, at<HTMLDialogElement>('help'), at<HTMLButtonElement>('open-help'), at<HTMLInputElement>('keys-on'));
-  // What stands still shows most where most has moved.
+  // Without animation, the peak shows most.
   const still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
   if (still) playback.seek(timeS[replay.peakFrame] ?? 0);
   playback.onChange(show);

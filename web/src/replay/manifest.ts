@@ -13,13 +13,13 @@ export interface ModeData {
 /** A parameter of the tissue on the skin. */
 export interface TissueMapData {
   key: string;
-  /** As people say it: "Young's modulus". */
+  /** In plain words: "Young's modulus". */
   name: string;
   unit: string;
   /** Over all maps of this parameter in the page, so that one colour bar serves all. */
   least: number;
   greatest: number;
-  /** A byte a vertex: value = least + byte / 255 * (greatest - least). */
+  /** One byte per vertex: value = least + byte / 255 * (greatest - least). */
   values: Stretch;
 }
 
@@ -28,22 +28,22 @@ export interface SymmetryCurve {
   xi_left: (number | null)[];
   xi_right: (number | null)[];
   s: (number | null)[];
-  /** Where S stops, as perfect symmetry is minus infinity: the least |xi_left - xi_right| told apart. */
+  /** The lower limit of S, since perfect symmetry is minus infinity: the least |xi_left - xi_right| that counts. */
   floor: number;
-  /** What |xi_left - xi_right| of a symmetric motion stays under by jitter alone; [] of an exact motion. */
+  /** Bound of |xi_left - xi_right| of a symmetric motion due to jitter alone; [] for an exact motion. */
   noise?: (number | null)[];
-  /** The part of `noise` that is the mesh's own: what it makes of a symmetric motion; [] where not known. */
+  /** The part of `noise` that is due to the mesh; [] where unknown. */
   mesh_noise?: (number | null)[];
-  /** Of the points, a standard deviation a coordinate; 0 of an exact motion. */
+  /** Of the points: standard deviation of a coordinate; 0 for an exact motion. */
   jitter_mm?: number;
 }
 
-/** What muscles that drive the scene's own run did, and where they lie. */
+/** Activations and places of the muscles that drive the scene's own run. */
 export interface MuscleData {
   time_s: number[];
-  /** So few points drive that most of an activation is the prior's choice. */
+  /** Few points drive, so that the prior decides most activations. */
   few_points: boolean;
-  /** Sums over muscles that points can hardly tell apart; sigma: where the group acts most. */
+  /** Sums over muscles that points can hardly distinguish; sigma: where the group acts most. */
   groups: { name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number }[];
   /** From origin to insertion, at rest. */
   lines: { name: string; points: [number, number, number][] }[];
@@ -52,7 +52,7 @@ export interface MuscleData {
 /** Other tissue on the same mesh, moved by the same motion at the same times. */
 export interface VariantData {
   name: string;
-  /** What differs from base, a sentence each. */
+  /** Differences from base, one sentence each. */
   changes: string[];
   /** Displacement in frame f = the scene's own + sum over modes of weights[f, k] * step_m * values. */
   difference: { modes: ModeData[]; weights: Stretch; max_error_mm: number };
@@ -65,7 +65,7 @@ export interface VariantData {
   /** Samples x names x 3, of the names and times of the scene's landmarks. */
   landmarks: Stretch;
   tissue: TissueMapData[];
-  /** Activations, a group each as in the scene's own muscles; [] where not known. */
+  /** Activations of the groups of the scene's own muscles; [] where unknown. */
   muscles?: { left: number[]; right: number[] }[];
   /** As motion.jaw. */
   jaw?: Stretch;
@@ -81,7 +81,7 @@ export interface Manifest {
   skin: {
     points: Stretch;
     triangles: Stretch;
-    /** RGBA, sRGB, a vertex. */
+    /** RGBA, sRGB, per vertex. */
     colour?: Stretch;
     /** Vertices split at the picture's seams: each view vertex names its vertex of `points`. */
     texture?: { mime_type: string; image: Stretch; uv: Stretch; skin_vertex: Stretch; triangles: Stretch };
@@ -107,7 +107,7 @@ export interface Manifest {
   /** Where each vertex's mirror image lies on the skin at rest: three vertices each (-1: nowhere) and their
    *  weights (they sum to about 255). The plane's normal is of unit length. */
   mirror?: { normal: [number, number, number]; vertices: Stretch; weights: Stretch };
-  /** Names of points as people say them. */
+  /** Plain names of points. */
   point_words: Record<string, string>;
   /** Holes of the skin, with the way into the head; what is put behind them hangs on their edge. */
   openings: {
@@ -125,7 +125,7 @@ export interface Manifest {
     middle: [number, number, number];
     points: ModeData;
     triangles: Stretch;
-    /** A byte a vertex: how much light reaches it behind the lips. */
+    /** One byte per vertex: how much light reaches it behind the lips. */
     light: Stretch;
   }[];
   variants?: VariantData[];

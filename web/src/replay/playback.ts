@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The clock: what time is shown, and whether it runs. Knows nothing of what is shown.
+// The clock: the time shown, and whether it runs. Independent of the data shown.
 import { Listeners, type Undo } from '../page/listeners';
 
 export class Playback {
@@ -8,7 +8,7 @@ export class Playback {
   private last = 0;
   private readonly listeners = new Listeners();
   speed = 1;
-  /** At the end from the start again; else it stops there. */
+  /** At the end, starts again; else stops there. */
   loop = true;
 
   constructor(private startS: number, private endS: number) {
@@ -26,7 +26,7 @@ export class Playback {
     return this.listeners.add(listener);
   }
 
-  /** Of another recording, or the same at other times: the time stays where it lies in both. */
+  /** Sets the times of another recording. The time shown is kept where it lies in both. */
   setRange(startS: number, endS: number): void {
     [this.startS, this.endS] = [startS, endS];
     this.t = Math.min(Math.max(this.t, startS), endS);
@@ -58,7 +58,7 @@ export class Playback {
 
   private readonly tick = (now: number): void => {
     if (!this.running) return;
-    // A page that was hidden goes on where it was.
+    // A page that was hidden continues where it was.
     const step = Math.min(Math.max(now - this.last, 0) / 1e3, 0.25);
     this.last = now;
     this.t += step * this.speed;

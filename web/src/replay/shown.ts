@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which faces are looked at, and how. Whoever changes it, all views follow.
+// Which faces are shown, and how. All views follow its changes.
 
 import { Listeners, type Undo } from '../page/listeners';
 
@@ -17,7 +17,7 @@ export class Shown {
   private choice: Choice;
   private readonly listeners = new Listeners();
 
-  /** Begins with base alone, and the first variant ready beside it. */
+  /** Begins with base alone; the first variant is the second face. */
   constructor(private count: number) {
     this.choice = { first: 0, second: count > 1 ? 1 : 0, mode: 'single' };
   }
@@ -41,19 +41,19 @@ export class Shown {
     return this.listeners.add(listener);
   }
 
-  /** Sets the number of faces. Faces that are gone are replaced by the last; listeners are called in any case. */
+  /** Sets the number of faces. Removed faces are replaced by the last; listeners are called in any case. */
   setCount(count: number): void {
     this.count = count;
     const inside = (face: number) => Math.min(face, count - 1);
     this.choice = {
       first: inside(this.first), mode: count > 1 ? this.mode : 'single',
-      // Ready beside base; where two are seen it may be base itself.
+      // The other face; where two are shown it may be base itself.
       second: inside(this.mode === 'single' ? this.second || 1 : this.second),
     };
     this.listeners.notify();
   }
 
-  /** Changes what is named; faces that do not exist are left out, and a single face has one mode. */
+  /** Changes the given properties; faces that do not exist are ignored, and a single face has one mode. */
   set(change: Partial<Choice>): void {
     const exists = (face: number) => Number.isInteger(face) && face >= 0 && face < this.count;
     const next = { ...this.choice, ...change };

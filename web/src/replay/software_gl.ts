@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether the processor draws WebGL by itself, as in virtual machines and where drivers are missing.
+// Whether WebGL is drawn by the processor, as in virtual machines and where drivers are missing.
 
 const names = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 

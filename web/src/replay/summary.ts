@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the run says of itself: notes, warnings first; the figures that matter in groups; all others, and the
-// options, on demand. What is empty is left out.
+// The run's summary: notes, warnings first; the main figures in groups; all others, and the options, on demand. Empty
+// parts are left out.
 import { element } from '../page/dom';
 import { landmarkName, nameAndUnit, number, pointOrText, upper } from '../page/format';
 
@@ -74,7 +74,7 @@ const groups: [title: string, rows: [key: string, name: string, unit?: string][]
 /** Shown elsewhere on the page. */
 const elsewhere = new Set(['program', 'title', 'variants', 'notes', 'warnings', 'remarks', 'symmetry.excursions', 'symmetry.commissure', 'symmetry.jitter_mm', 'mesh_quality.skin_to_scan_max_mm']);
 
-/** Numbers that stand for no number: what they mean. Keys of summary.json, or of the scene's options. */
+/** Meanings of special numbers. Keys of summary.json, or of the scene's options. */
 const meanings: Record<string, [stands: (value: number) => boolean, words: string]> = {
   'symmetry.lowpass_hz': [(v) => v === 0, 'not filtered'],
   'options.output.lowpass_hz': [(v) => v === 0, 'off'],
@@ -94,7 +94,7 @@ const isEmpty = (value: unknown): boolean =>
   value === null || value === undefined || value === '' || (typeof value === 'number' && !Number.isFinite(value)) ||
   (Array.isArray(value) && value.every(isEmpty)) || (isObject(value) && Object.values(value).every(isEmpty));
 
-/** Lengths and times below a nanometre or a nanosecond are what rounding leaves. */
+/** Lengths and times below a nanometre or a nanosecond are rounding errors. */
 const leastShown = 1e-6;
 
 function textOf(value: unknown, unit = ''): string {
@@ -113,7 +113,7 @@ const byName = (list: unknown[]): Json =>
     return [`${i + 1}${called ? ` ${landmarkName(String(called))}` : ''}`, rest];
   }));
 
-/** Nested objects row by row; a unit in an outer key ("distance_mm": {"mean": ...}) goes for the inner. */
+/** Nested objects row by row; a unit in an outer key ("distance_mm": {"mean": ...}) applies to the inner ones. */
 function rowsOf(object: Json, skip: ReadonlySet<string>, outer: Omit<Row, 'value'> = { key: '', name: '', unit: '' }): Row[] {
   return Object.entries(object).flatMap(([key, value]) => {
     const own = nameAndUnit(key.replaceAll('.', ' · '));
@@ -164,10 +164,10 @@ function folded(title: string, tables: HTMLElement[]): HTMLElement {
   return details;
 }
 
-/** So many warnings are read before the figures that they bear on; the others are counted. */
+/** This many warnings are shown before the figures; the others are counted. */
 const mostAbove = 3;
 
-/** Above the face: no small link, as figures are not to be read without them. */
+/** Above the face and not behind a link, since figures should not be read without them. */
 export function fillWarnings(warnings: unknown, into: HTMLElement): void {
   const all = Array.isArray(warnings) ? [...new Set(warnings.filter((w): w is string => typeof w === 'string'))] : [];
   into.hidden = all.length === 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What moves the face: play, the time shown, speed; with the mouse and with keys.
+// Controls of the playback: play, time, speed; by mouse and by keys.
 import { mm, sameMm } from './corners';
 import type { Face, Replay } from './data';
 import { frameAt } from './face/deform';
@@ -8,7 +8,7 @@ import type { Key } from './keys';
 import type { Playback } from './playback';
 import type { Shown } from './shown';
 
-/** Of the variants that are seen, else of all, the one that lies farthest from base at some time; null: none does. */
+/** Of the variants shown, else of all, the one with the greatest distance from base; null: all are equal to it. */
 function mostDifferent({ faces }: Replay, { visible }: Shown): Face | null {
   const differing = faces.filter(({ maxDifferenceMm }) => maxDifferenceMm >= sameMm);
   const seen = differing.filter((face) => visible.includes(faces.indexOf(face)));

@@ -25,7 +25,7 @@ export function variantsOf(replay: Replay): Variants | null {
   return isVariants(variants) && variants.table.length > 1 ? variants : null;
 }
 
-/** What differs in a face, a sentence each; from the summary, which keeps numbers and names apart. */
+/** The differences of a face from base, one sentence each; from the summary, which has numbers and names separately. */
 export function changesOf(replay: Replay, i: number): string[] {
   const row = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[i].name);
   if (Array.isArray(row?.changes)) return row.changes;

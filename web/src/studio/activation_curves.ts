@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What each muscle of either side does over time, small beside its slider: of the face that is changed, and of base.
+// The activation of each muscle over time, drawn small beside its slider: of the edited face and of base.
 import { element } from '../page/dom';
 import type { Block } from '../page/page_data';
 import type { Activations } from './messages';
@@ -27,7 +27,7 @@ export class ActivationCurves {
   private range: [number, number] = [0, 1];
   private drawn: Drawn[] = [];
 
-  /** `holder`: where the time shown is kept for style sheets. */
+  /** `holder`: the element that holds the time shown as a style property. */
   constructor(private readonly state: StudioState, private readonly holder: HTMLElement) {
     state.shown.onChange(() => this.draw());
   }
@@ -41,7 +41,7 @@ export class ActivationCurves {
     this.names = given?.names ?? [];
     this.timeS = given?.time_s ?? [];
     this.faces = (given?.faces ?? []).map((values) => values && block.float32(values).slice());
-    // One range for all: a muscle that does little looks so.
+    // One range for all, so that weak activations look weak.
     let [least, most] = [0, 0.05];
     for (const values of this.faces)
       for (const value of values ?? []) {
@@ -83,7 +83,7 @@ export class ActivationCurves {
       const row = this.names.indexOf(one.name);
       const own = row < 0 ? null : this.rowOf(this.faces[edited] ?? null, row);
       const base = row < 0 || edited === 0 ? null : this.rowOf(this.faces[0] ?? null, row);
-      // What is not known yet keeps its place: nothing is to move under the pointer.
+      // Unknown curves keep their space, so that nothing moves under the pointer.
       one.picture.parentElement!.style.visibility = own || base ? '' : 'hidden';
       one.own.setAttribute('points', own ? this.points(own) : '');
       one.base.setAttribute('points', base ? this.points(base) : '');

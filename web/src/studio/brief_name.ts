@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a face is called by what it changes, in a few words: {"muscles.gain": {"side_R": 0.4}} is "right side 40 %". Faces
-// that were named by a person are not named anew. No DOM here.
+// A short name of a face from its changes: {"muscles.gain": {"side_R": 0.4}} is "right side 40 %". Names given by the
+// user are kept. No DOM here.
 import { isRecord, type MuscleInfo, type Values } from './messages';
 import { words } from './words';
 
-/** So many changes are named. */
+/** Greatest number of changes named. */
 const mostParts = 2;
 const longest = 56; // a number may follow
 
@@ -47,7 +47,7 @@ function parts(key: string, value: unknown, base: unknown, muscles: MuscleInfo[]
   return [[words.briefNames[key] ?? key.replace(/^.*\./, '').replaceAll('_', ' '), shown, unit].filter(Boolean).join(' ')];
 }
 
-/** Of the characters that a face's name may have; empty where nothing is changed. */
+/** Contains only characters allowed in a face's name; empty where nothing is changed. */
 export function briefName(changes: Values, base: Values, muscles: MuscleInfo[]): string {
   const all = Object.entries(changes).flatMap(([key, value]) => parts(key, value, base[key], muscles));
   const more = all.length - mostParts;
@@ -55,7 +55,7 @@ export function briefName(changes: Values, base: Values, muscles: MuscleInfo[]):
   return name.normalize('NFD').replace(/[^A-Za-z0-9 \-_.,;:+=%&'()[\]]/g, '').slice(0, longest).trim();
 }
 
-/** Whether a face was named by what it changes, or not yet: "What if 2", "right side 40 % 2". */
+/** Whether a name was made from the changes, or is the first default: "What if 2", "right side 40 % 2". */
 export function isBriefName(name: string, changes: Values, base: Values, muscles: MuscleInfo[]): boolean {
   const own = briefName(changes, base, muscles) || words.newVariant;
   return [own, words.newVariant].some((one) => name === one || (name.startsWith(`${one} `) && /^\d+$/.test(name.slice(one.length + 1))));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The brush in the hand: pointers and keys over the picture become places on the skin, and a ring shows its size.
+// The brush: turns pointer and key events over the picture into places on the skin; a ring shows its size.
 import { at, element } from '../page/dom';
 import { Undoing } from '../page/listeners';
 import type { SkinHit } from '../replay/face/face_body';
@@ -7,7 +7,7 @@ import type { FaceViewer } from '../replay/face/viewer';
 
 /** What an arrow key moves the brush by, pixels. */
 const stepPx = 4;
-/** A stroke is laid at least this densely, of the brush's radius. */
+/** Greatest distance of a stroke's places, over the brush's radius. */
 const spacing = 0.4;
 
 export interface Painter {
@@ -15,9 +15,9 @@ export interface Painter {
   radiusM(): number | null;
   begin(): void;
   dab(at: SkinHit): void;
-  /** `keep` false: as if it had not been. */
+  /** `keep` false: undo it. */
   end(keep: boolean): void;
-  /** Wider by so many steps. */
+  /** Widens the brush by this many steps. */
   widen(steps: number): void;
   /** To screen readers. */
   announce(what: 'down' | 'up'): void;
@@ -28,7 +28,7 @@ export class BrushInHand {
   private readonly undoing = new Undoing();
   private pointer = -1;
   private last: { x: number; y: number } | null = null;
-  /** Where keys have moved it, and whether they hold it down. */
+  /** The brush's place by keys, and whether keys hold it down. */
   private placed: SkinHit | null = null;
   private held = false;
 
@@ -39,7 +39,7 @@ export class BrushInHand {
     this.listen(at('face'));
   }
 
-  /** Out of the hand. */
+  /** Puts the brush away. */
   dispose(): void {
     this.lift(false);
     this.undoing.undo();
@@ -58,7 +58,7 @@ export class BrushInHand {
     const first = { signal, capture: true };
     canvas.addEventListener('pointerdown', (event) => {
       if (this.pointer >= 0) {
-        // A second finger: the face is turned, or nearer.
+        // A second finger: turns or zooms the face.
         this.lift(false);
         return;
       }
@@ -127,7 +127,8 @@ export class BrushInHand {
     this.place(from.x + stepPx * x, from.y + stepPx * y);
   }
 
-  /** Where keys take it up: where it was, else where the pointer last was, else the middle of the last face shown. */
+  /** Where keys begin to move it: at its last place, else at the pointer's last place, else in the middle of the last
+   *  face shown. */
   private start(): { x: number; y: number } {
     if (this.placed) return this.viewer.pick.seenAt(this.placed);
     if (this.last && this.viewer.pick.hitAt(this.last.x, this.last.y)) return this.last;

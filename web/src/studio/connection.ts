@@ -22,7 +22,7 @@ export interface LineState {
 const tokenKey = 'hyperex-studio-token';
 const retryMs = 1000;
 
-/** The token of the address, which then forgets it; kept for when the page is loaded again. */
+/** Takes the token out of the address and keeps it for reloads of the page. */
 export function takeToken(): string {
   const given = location.hash.slice(1);
   if (given) {
@@ -54,11 +54,11 @@ export class Connection {
   private readonly heard = new Map<string, Listeners<Received<EventName>>>();
   private readonly changed = new Listeners<LineState>();
   private retry = 0;
-  /** Since it was last connected hello was answered. */
+  /** Whether hello was answered since the last connection. */
   private inside = false;
   private line: LineState = { state: 'opening' };
 
-  /** `greeted`: of each hello's answer, also after the line was lost. */
+  /** `greeted`: called with each answer to hello, also after a reconnection. */
   constructor(private readonly token: string, private readonly greeted: (answer: Answer<'hello'>) => void) {}
 
   get state(): LineState {
@@ -87,7 +87,7 @@ export class Connection {
     socket.onclose = ({ code }) => this.lost(code);
   }
 
-  /** From another page that has the server. */
+  /** Takes the server over from another page. */
   takeOver(): void {
     this.be({ state: 'opening' });
     this.connect();
@@ -101,7 +101,7 @@ export class Connection {
     return new Promise((done, fail) => this.waiting.set(id, { done: done as (answer: unknown) => void, fail }));
   }
 
-  /** Hands a file to the server; returns the name that `open` takes. */
+  /** Uploads a file; returns the name that `open` takes. */
   async upload(file: File): Promise<string> {
     const answer = await fetch(`/upload/${encodeURIComponent(file.name)}`, {
       method: 'POST', body: file, headers: { Authorization: `Bearer ${this.token}` },
@@ -132,7 +132,7 @@ export class Connection {
     for (const { fail } of this.waiting.values()) fail(new Error('the connection was lost'));
     this.waiting.clear();
     if (this.line.state === 'refused') return;
-    // The token was wrong, and would be wrong again.
+    // The token was wrong, so trying again is useless.
     const never = code === 1008 && !this.inside;
     if (never || code === 1001) {
       this.be({ state: never ? 'refused' : 'taken' });

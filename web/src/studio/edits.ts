@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Changes on their way to the server: while something is pulled one request at a time, of those that wait the
-// last; then the change itself, a step that can be undone. What is changed while base is shown changes another
-// face beside it, made at the first change.
+// Sends changes to the server. While a slider is dragged there is one request at a time, and only the latest value
+// waits; after it the change itself is sent, a step that can be undone. A change made while base is shown goes to
+// another face beside it, which the first change adds.
 import { briefName, isBriefName } from './brief_name';
 import { Refused, type Connection } from './connection';
 import type { Values } from './messages';
@@ -12,7 +12,7 @@ export class Edits {
   private target: Promise<number> | null = null;
   private underWay = false;
   private waiting: Values | null = null;
-  /** Counts what was let go: what was pulled before it does not matter any more. */
+  /** Counts releases of sliders: drags before a release are obsolete. */
   private turn = 0;
   /** Changes of the edited face that the server has not confirmed. */
   private readonly drafts = new Map<string, unknown>();
@@ -30,7 +30,7 @@ export class Edits {
     return this.drafts.has(key) ? this.drafts.get(key) : this.state.valuesOf(this.state.edited)[key];
   }
 
-  /** While it is pulled. */
+  /** Called while a slider is dragged. */
   live(changes: Values): void {
     this.draft(changes);
     const { playback } = this.state;
@@ -42,7 +42,7 @@ export class Edits {
     if (!this.underWay) void this.sendWaiting();
   }
 
-  /** Let go. */
+  /** Called when the slider is released. */
   commit(changes: Values): Promise<void> {
     return this.apply(changes, false);
   }
@@ -52,7 +52,7 @@ export class Edits {
     return this.apply(changes, true);
   }
 
-  /** Of the whole scene, whichever face is edited: what no variant can have. */
+  /** A change of the whole scene, whichever face is edited, for keys that no variant can have. */
   async ofBase(changes: Values): Promise<void> {
     this.problem('');
     await this.send(0, changes, false).catch((error: unknown) => this.drop(error));
@@ -99,7 +99,7 @@ export class Edits {
     return this.connection.request('set', { changes, face, live, time_s: this.state.playback.timeS, ...(name && { name }) });
   }
 
-  /** What the face is called once it has these changes, too; undefined: as it is, or as a person called it. */
+  /** The face's new name after these changes; undefined: unchanged, or given by the user. */
   private nameFor(face: number, changes: Values): string | undefined {
     const { state } = this;
     const own = state.scene?.faces[face];
@@ -145,6 +145,6 @@ export class Edits {
     this.drafts.clear();
     this.wasPlaying = false;
     if (error instanceof Refused) this.problem(error.message);
-    this.state.sceneChanged.notify(); // sliders go back to what holds
+    this.state.sceneChanged.notify(); // sliders return to the valid values
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far both corners of the mouth go, now and at most, in each face, and what is changed against base; the curves.
+// How far both corners of the mouth move, now and at most, in each face, and the change against base; the curves.
 import type { Chart } from '../charts/chart_options';
 import { TimeChart } from '../charts/time_chart';
 import { button, element } from '../page/dom';
@@ -18,10 +18,10 @@ import { remarksOf, sentenceOf } from './remarks';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
-/** Until error bands are known: changes below this are not made to look like findings, mm. */
+/** Until error bands are known, changes below this are shown as uncertain, mm. */
 const unsureMm = 0.5;
 
-/** Remarks on what the figures rest on. */
+/** Remarks on the inputs of the figures. */
 const restOn = /^(landmarks|recording|sides|skin|head|symmetry|forces)\./;
 
 const plus = (value: number): string => signed(`${value > 0 ? '+' : ''}${value.toFixed(1)} mm`);
@@ -52,7 +52,7 @@ export class FiguresPanel {
     this.now = [];
   }
 
-  /** Of a new face: the charts are made anew. */
+  /** Called for a new face: makes the charts again. */
   build(): void {
     this.clear();
     this.refresh();
@@ -70,7 +70,7 @@ export class FiguresPanel {
     add(words.symmetry, 140, () => symmetryCurves(replay, state.shown));
   }
 
-  /** After the replay moves otherwise. */
+  /** Called after a new motion. */
   refresh(): void {
     const { replay } = this.state.source;
     this.live = null;
@@ -179,7 +179,7 @@ export class FiguresPanel {
     }
   }
 
-  /** The largest in large, what it is against base, and where the corner is now. */
+  /** The largest distance in large type, its change against base, and the distance now. */
   private cell(row: HTMLTableRowElement, own: Corners, side: Side, i: number): HTMLElement {
     const cell = row.insertCell();
     const change = i > 0 ? cornerChange(this.state.source.replay, i, side) : null;
@@ -218,7 +218,7 @@ export class FiguresPanel {
     return `${words.most}: ${mm(most)}${place} ${when}`;
   }
 
-  /** Of what the figures rest on: scan, landmarks, recording, the head's pose. */
+  /** Remarks on the inputs of the figures: scan, landmarks, recording, the head's pose. */
   private tellDoubts(): void {
     const { summary } = this.state.source.replay;
     const [shiftMm, turnDeg] = [summary.head_shift_uncertainty_mm, summary.head_turn_uncertainty_deg];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a file that is chosen or dropped is, by its ending and its first bytes, as far as the page can tell. The server
-// reads what is let through, and judges it. No DOM here.
+// The kind of a chosen or dropped file, by its extension and first bytes. Only clear mistakes are refused here; the
+// server checks the rest. No DOM here.
 
 export type FileKind = 'scan' | 'scene' | 'recording' | 'empty' | 'picture' | 'json' | 'torn video' | 'unknown';
 
@@ -14,7 +14,7 @@ const endings: [FileKind, RegExp][] = [
 
 export const isZip = (name: string): boolean => /\.zip$/i.test(name);
 
-/** Of what begins in one way only: where that way is to be found. */
+/** Kinds of files with fixed first bytes: where these are. */
 const beginnings: [RegExp, at: number, text: string[]][] = [
   [/\.(mp4|m4v|mov)$/i, 4, ['ftyp', 'moov', 'mdat', 'wide', 'free', 'skip']],
   [/\.avi$/i, 0, ['RIFF']],

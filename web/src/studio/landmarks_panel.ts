@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The landmarks of the scan, dragged over the skin at rest; the server lays them onto it and doubts what is hardly
-// plausible.
+// The landmarks of the scan, dragged over the skin at rest; the server projects them onto it and reports implausible
+// ones.
 import { at, button, element } from '../page/dom';
 import { Undoing } from '../page/listeners';
 import { landmarkName, naturally, upper } from '../page/format';
@@ -14,12 +14,12 @@ import type { LandmarkInfo } from './messages';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
-/** How near a pointer must be to take a point. */
+/** How near a pointer must be to pick a point, pixels. */
 const nearPx = 14;
 /** What an arrow key moves a point by, pixels. */
 const stepPx = 3;
 
-/** Two names of one place are one point; names that people know go first. */
+/** Two names of one place are one point; plain names come first. */
 function distinct(landmarks: LandmarkInfo[]): LandmarkInfo[] {
   const known = landmarks.filter(({ name }) => !name.startsWith('ibug68_'));
   const numbered = landmarks.filter(({ name }) => name.startsWith('ibug68_'));
@@ -27,7 +27,7 @@ function distinct(landmarks: LandmarkInfo[]): LandmarkInfo[] {
   return [...known, ...numbered.filter(({ position }) => !known.some((other) => near(other.position, position)))];
 }
 
-/** One point on its way from a place to another; a step of what can be undone. */
+/** A move of one point; one step of the undo history. */
 interface Move {
   i: number;
   from: Vec3;
@@ -126,7 +126,7 @@ export class LandmarksPanel {
     at('face').focus();
   }
 
-  /** The points lie on the face at rest: whatever else is chosen ends this; what only comes in does not. */
+  /** The points lie on the face at rest. Another choice of the user ends this; a message of the server does not. */
   private rest(viewer: FaceViewer): void {
     const { state } = this;
     const { shown, playback, source } = state;
@@ -155,7 +155,7 @@ export class LandmarksPanel {
     let from: Vec3 = [0, 0, 0];
     const glass = new Magnifier(viewer);
     this.undoing.add(() => glass.remove());
-    // Before the view's own listeners: what takes a point does not turn the face.
+    // Runs before the view's own listeners, so that picking a point does not turn the face.
     canvas.addEventListener('pointerdown', (event) => {
       dragged = this.nearest(viewer, event.clientX, event.clientY);
       if (dragged < 0) return;
@@ -192,7 +192,7 @@ export class LandmarksPanel {
       if (this.put(viewer, this.chosen, seen.x + stepPx * x, seen.y + stepPx * y))
         void this.take([{ i: this.chosen, from: before, to: this.marks.points[this.chosen] }]);
     }, { signal });
-    // While points are moved, undo is of them.
+    // While points are moved, undo acts on them.
     document.addEventListener('keydown', (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const key = event.key.toLowerCase();
@@ -203,7 +203,7 @@ export class LandmarksPanel {
     }, { signal, capture: true });
   }
 
-  /** Something was moved: a step. */
+  /** Records a move as a step of the history. */
   private async take(moves: Move[]): Promise<void> {
     this.past.push(moves);
     this.future = [];
@@ -252,7 +252,7 @@ export class LandmarksPanel {
       for (let c = 0; c < 3; ++c) image[c] += mirror.weights[k] * points[3 * v + c];
     }
     if (all === 0) return null;
-    // What the point lies off its vertex, mirrored.
+    // The point's offset from its vertex, mirrored.
     const off = point.map((x, c) => x - points[3 * vertex + c]);
     const along = 2 * off.reduce((sum, x, c) => sum + x * mirror.normal[c], 0);
     return image.map((x, c) => x / all + off[c] - along * mirror.normal[c]) as Vec3;
@@ -321,7 +321,7 @@ export class LandmarksPanel {
     }
   }
 
-  /** All as they were found. */
+  /** Resets all moved points and ends. */
   private async leave(): Promise<void> {
     const moved = this.landmarks.filter(({ position }, i) => {
       const now = this.marks?.points[i];

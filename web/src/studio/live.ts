@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The face live: a camera, or the scene's recording played as one. Drawn as it comes in, with what it costs; a take
-// is recorded, trimmed and becomes the scene's motion.
+// The face live: a camera, or the scene's recording played as one. Drawn as it arrives, with frame rate and delay; a
+// take is recorded, trimmed and becomes the scene's motion.
 import { button, element } from '../page/dom';
 import type { FaceViewer } from '../replay/face/viewer';
 import { Refused, type Connection } from './connection';
@@ -10,7 +10,7 @@ import type { StudioState } from './studio_state';
 import { TrimCurve } from './trim_curve';
 import { words } from './words';
 
-/** Digits that change faster are not read, and laying the page out anew takes time from the face. */
+/** Digits that change faster cannot be read, and each layout of the page delays the face. */
 const figuresEachMs = 100;
 
 export class LivePanel {
@@ -59,7 +59,7 @@ export class LivePanel {
     });
   }
 
-  /** Whether shapes come in. */
+  /** Whether shapes arrive. */
   get live(): boolean {
     return this.running;
   }
@@ -69,7 +69,7 @@ export class LivePanel {
     this.offer();
   }
 
-  /** What there is to follow. */
+  /** Sets the sources that can be followed. */
   private offer(): void {
     const recording = this.state.valuesOf(0)['motion.recording'];
     const choices = [];

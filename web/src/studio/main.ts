@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The studio: a face that answers while its parameters are changed. Ties the server's messages to state and views.
+// The studio: a face that responds while its parameters are changed. Connects the server's messages with state and
+// views.
 import '../page/style.css';
 import './studio.css';
 import { at, button, element, startPage } from '../page/dom';
@@ -106,7 +107,7 @@ class Studio {
       this.withOptions(manifest.summary);
       state.muscles = isRecord(muscles) ? (muscles.muscles as MuscleInfo[]) : [];
       this.muscles.curves.take(activations as Activations | null, block);
-      // What was said of the face before is not of this one.
+      // Messages on the previous face do not apply to this one.
       if (document.documentElement.hasAttribute('data-opening')) this.messages.clear();
       state.source.setFace(replayOf(manifest, block));
       this.showRemarks(manifest.summary);
@@ -148,14 +149,14 @@ class Studio {
     this.remarks.set(remarks);
   }
 
-  /** Whether what moves is the scene as it is; until then its figures are of before. */
+  /** Whether the motion shown is that of the present scene; until then figures are those of the scene before. */
   private compareTexts(): void {
     const current = this.movedText === (this.state.scene?.text ?? null);
     document.documentElement.dataset.current = String(current);
     at('figures').classList.toggle('stale', !current);
   }
 
-  /** What a report's summary says of base: from which its variants differ. */
+  /** Base's part of a report's summary, from which the variants differ. */
   private withOptions(summary: Record<string, unknown>): void {
     summary.options = nested(this.state.valuesOf(0));
   }
@@ -174,11 +175,11 @@ class Studio {
     this.opening.greet(places);
   }
 
-  /** Another skin: all views are made anew. */
+  /** A new skin: makes all views again. */
   private showFace(): void {
     const { source, shown, playback } = this.state;
     const { replay } = source;
-    // What shows the face that was must not hear of the other's.
+    // Views of the previous face must not receive data of the new one.
     this.paint.attach(null);
     this.stage?.dispose();
     this.stage = null;
@@ -197,7 +198,7 @@ class Studio {
     if (!still) playback.play();
   }
 
-  /** The same skin moves otherwise, or there are other variants. */
+  /** A new motion of the same skin, or other variants. */
   private showMotion(): void {
     const { source, shown } = this.state;
     this.setRange();

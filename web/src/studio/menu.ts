@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small sheet that opens below a button and goes with Escape or a press beside it.
+// A small sheet that opens below a button and closes with Escape or a press outside.
 import { element } from '../page/dom';
 
 export interface Menu {
@@ -8,7 +8,7 @@ export interface Menu {
   close(): void;
 }
 
-/** `fill` makes what stands in the sheet each time it opens; the first control in it has the focus. */
+/** `fill` makes the sheet's contents each time it opens; the first control gets the focus. */
 export function menuOf(opener: HTMLElement, name: string, fill: (sheet: HTMLElement, close: () => void) => void): Menu {
   const sheet = element('div', '', 'sheet');
   sheet.popover = 'auto';
@@ -35,7 +35,7 @@ export function menuOf(opener: HTMLElement, name: string, fill: (sheet: HTMLElem
     if (!isOpen) closedAt = event.timeStamp;
   });
   opener.addEventListener('click', (event) => {
-    // The press that closed it is not to open it again.
+    // The press that closed it must not open it again.
     if (!sheet.matches(':popover-open') && event.timeStamp - closedAt > 200) open();
     else if (sheet.matches(':popover-open')) close();
   });

@@ -28,7 +28,7 @@ export interface Preset {
   changes: Record<string, unknown>;
 }
 
-/** A published tissue that is so many times as stiff. */
+/** A published stiffness of another tissue, as a factor. */
 export interface StifferTissue {
   name: string;
   summary: string;
@@ -46,7 +46,7 @@ export interface Places {
   started: string | null;
   /** A camera that the command named. */
   device: string | null;
-  /** What a session that ended has left, and when. */
+  /** The unsaved work of an ended session, and its time. */
   autosave: { title: string; seconds_ago: number } | null;
   /** Where "save" writes. */
   folder: string;
@@ -66,7 +66,7 @@ export interface SceneFace {
 export interface Activations {
   names: string[];
   time_s: number[];
-  /** Names x times, a face each; null where it is not known. */
+  /** Names x times, one array per face; null where unknown. */
   faces: (Stretch | null)[];
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the command would write to its log, and remarks on the run, newest first.
+// The messages that the command would log, and remarks on the run, newest first.
 import { element } from '../page/dom';
 import { sentenceOf, type Remark } from './remarks';
 import { words } from './words';
@@ -27,7 +27,7 @@ export class MessagesPanel {
     return item;
   }
 
-  /** Once each: later motions have most remarks again. */
+  /** Shows each once, since later motions repeat most remarks. */
   addRemarks(remarks: Remark[]): void {
     for (const remark of remarks) {
       const sentence = sentenceOf(remark, words.remarks);

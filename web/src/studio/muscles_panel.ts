@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strengths of the muscles, of either side, branch and muscle, as the key muscles.gain has them; the muscle's line
-// lights up on the face while its slider is in hand.
+// Strengths of muscles by side, branch and muscle, as in the key muscles.gain. The muscle's line is highlighted on the
+// face while its slider is dragged.
 import { button, element } from '../page/dom';
 import { upper } from '../page/format';
 import { ActivationCurves } from './activation_curves';
@@ -14,7 +14,7 @@ import { words } from './words';
 
 type Gains = Record<string, number>;
 type Side = 'R' | 'L';
-/** As one sees the face: its right side is on the left. */
+/** As in the view of the face: its right side is on the left. */
 const sides: Side[] = ['R', 'L'];
 const gainKey = 'muscles.gain';
 const motionGain = 'motion.gain';
@@ -39,7 +39,7 @@ export class MusclesPanel implements RemarkPanel {
   private gain: Slider | null = null;
   private readonly resetAll = button(words.resetMuscles, 'quiet', () => this.set({}));
   private readonly note = element('p', '', 'why');
-  /** What a muted muscle had, and what all muscles of a face had before one of them was alone. */
+  /** The strength of a muted muscle, and the strengths of all muscles of a face before one of them was set to solo. */
   private readonly before = new Map<string, number>();
   private readonly beforeSolo = new Map<string, Gains>();
 
@@ -129,7 +129,7 @@ export class MusclesPanel implements RemarkPanel {
     return row;
   }
 
-  /** Its slider; what switches it goes into `head`. */
+  /** Its slider; its switches are put into `head`. */
   private side(
     title: string, name: string, side: Side, moves: MuscleInfo[], row: HTMLElement, head: HTMLElement, { mute = false, palsy = false },
   ): HTMLElement {
@@ -236,7 +236,7 @@ export class MusclesPanel implements RemarkPanel {
     const gainBefore = state.edited === 0 ? 1 : Number(state.valuesOf(0)[motionGain] ?? 1);
     this.gain?.set(100 * Number(state.valuesOf(state.edited)[motionGain] ?? 1), 100 * gainBefore);
     this.resetAll.disabled = Object.keys(gains).length === 0;
-    // Its place stays once the first change lets muscles drive: nothing is to move under the pointer.
+    // It keeps its space after the first change makes muscles drive, so that nothing moves under the pointer.
     const carried = state.scene.drive !== 'muscles';
     this.note.hidden &&= !carried;
     this.note.style.visibility = carried ? '' : 'hidden';

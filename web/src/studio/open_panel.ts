@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is open, and what to open instead: the embedded face, what the command named, files chosen or dropped.
+// The open scene, and others to open: the embedded face, the file of the command line, files chosen or dropped.
 import { at, button, element } from '../page/dom';
 import { Refused, type Connection } from './connection';
 import { isZip, kindOf } from './file_kinds';
@@ -9,7 +9,7 @@ import { words } from './words';
 
 export class OpenPanel {
   private places: Places | null = null;
-  /** The server has opened what was asked for: what comes next is of it. */
+  /** The server has opened the requested scene: later messages refer to it. */
   private answered = false;
   private readonly now = element('p', '', 'open-now');
   private readonly choices = element('div', '', 'choices');
@@ -30,7 +30,7 @@ export class OpenPanel {
     const drop = element('p', words.drop, 'drop');
     into.append(this.now, this.rescue, this.choices, this.problem, drop, this.picker);
     state.sceneChanged.add(() => (this.now.textContent = this.called()));
-    // Of the next face, or of the same one anew.
+    // Called for the next face, or for the same one opened again.
     state.source.onChange(() => {
       if (this.answered) this.showOpening(null);
     });
@@ -57,7 +57,7 @@ export class OpenPanel {
     if (!places.open) void this.open(started ? 'started' : 'embedded');
   }
 
-  /** What a session that ended has left goes for good. */
+  /** Deletes the work that an ended session has left. */
   private async discard(): Promise<void> {
     if (!window.confirm(words.autosaveDeleteSure)) return;
     try {
@@ -80,7 +80,7 @@ export class OpenPanel {
     return !this.state.scene?.can_undo || this.state.scene.saved || window.confirm(words.discard);
   }
 
-  /** `called`: what is opened, for people. */
+  /** `called`: name of what is opened, to show. */
   private async open(what: string, recording?: string, called = ''): Promise<void> {
     this.report('');
     const another = what !== 'current';
@@ -90,13 +90,13 @@ export class OpenPanel {
       this.answered = true;
       if (what === 'autosave') this.rescue.hidden = true; // no longer lost
     } catch (error) {
-      this.showOpening(null); // what was is still open
+      this.showOpening(null); // the previous face is still open
       if (this.state.scene) this.now.textContent = this.called();
       if (error instanceof Refused) this.report(error.message);
     }
   }
 
-  /** Until the next face is there nobody else's may be taken for it; null: none is being opened. */
+  /** Marks the page as opening, so that the previous face is not taken for the next; null: none is being opened. */
   private showOpening(what: string | null): void {
     this.answered = false;
     document.documentElement.toggleAttribute('data-opening', what !== null);
@@ -127,7 +127,7 @@ export class OpenPanel {
     await this.send(files, [...scene, ...scan][0] ?? null, scene.length === 0 ? recordings[0] : recordings.find(({ name }) => isZip(name)));
   }
 
-  /** Hands the files over and opens them; without a scan or a scene the recording moves the face that is open. */
+  /** Uploads the files and opens them; a recording without a scan or a scene moves the open face. */
   private async send(files: File[], main: File | null, recording: File | undefined): Promise<void> {
     this.report('');
     try {

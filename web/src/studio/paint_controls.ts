@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The controls of the paint panel: they show what is painted with what, and pass each action on.
+// The controls of the paint panel: they show the present patch and tool, and report each action.
 import { button, element } from '../page/dom';
 import { depthOf, factorOf, type Factor, type Painted, type Patch, type Row } from './patches';
 import { regionChooser } from './region_chooser';
@@ -10,7 +10,7 @@ import { words } from './words';
 export type Tool = 'turn' | 'paint' | 'erase' | 'scar';
 const tools: Tool[] = ['turn', 'paint', 'erase', 'scar'];
 
-/** What a patch may be from the start: a factor of the stiffness with its source. */
+/** A kind of patch: a factor of the stiffness with its source. */
 export interface Kind {
   name: string;
   factor: number;

@@ -20,7 +20,7 @@ export class PaintPanel implements Painter, PaintActions, PatchView {
   readonly element = element('div', '', 'panel paint-panel');
   private readonly editor: PatchEditor;
   private readonly map: PaintMap;
-  /** Null until the server has sent what there is to choose from. */
+  /** Null until the server has sent the choices. */
   private controls: PaintControls | null = null;
   private scar: Kind | null = null;
   private tool: Tool = 'paint';
@@ -38,7 +38,7 @@ export class PaintPanel implements Painter, PaintActions, PatchView {
     state.shown.onChange(() => this.sync());
   }
 
-  /** Once what there is to choose from is known. */
+  /** Called once the choices are known. */
   build(presets: Preset[], tissues: StifferTissue[]): void {
     this.scar = scarKind(presets, this.sizes.scar);
     const kinds = [...(this.scar ? [this.scar] : []), ...tissues.map(({ name, source, young_factor: factor }) => (
@@ -50,7 +50,7 @@ export class PaintPanel implements Painter, PaintActions, PatchView {
     this.sync();
   }
 
-  /** The stage of a new face; null: the present face is closed. */
+  /** Sets the stage of a new face; null: the present face is closed. */
   attach(stage: Stage | null): void {
     this.letGo();
     this.stage = stage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The panels of which one is seen, as tabs; above them, whose values they change.
+// The panels as tabs, one of them visible; above them, the face that they edit.
 import { at, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
 import type { StudioState } from './studio_state';
@@ -13,7 +13,7 @@ export interface Panel {
   seen?(now: boolean): void;
 }
 
-/** So many changes of a variant are listed above the panels. */
+/** Greatest number of a variant's changes listed above the panels. */
 const mostChanges = 2;
 
 export class Panels {
@@ -53,7 +53,7 @@ export class Panels {
       panel.hidden = i !== chosen;
       seen?.(i === chosen);
     });
-    // All panels share what scrolls: each stands where it was left.
+    // All panels share one scrolling element: each returns to its own position.
     scroller.scrollTop = this.scrolled[chosen] ?? 0;
   }
 

@@ -15,7 +15,7 @@ import { words } from './words';
 
 const ownFactor = 3;
 
-/** Is called after changes. */
+/** Called after changes. */
 export interface PatchView {
   /** Patches, or which one is chosen. */
   sync(): void;
@@ -85,7 +85,7 @@ export class PatchEditor {
     return this.chosen < this.patches.length || this.pending > 0;
   }
 
-  /** False where a change of the present patches is not finished. */
+  /** False while a change of the present patches is unfinished. */
   choosePainted(painted: Painted): boolean {
     if (this.stroke || this.pending > 0) return false;
     this.freshOf[this.painted] = this.fresh;

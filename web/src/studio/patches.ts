@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is painted: rows of tissue.region and mesh.thickness_region that name a file of shares, one a vertex, and how
-// these lie on the skin.
+// Painted patches: rows of tissue.region and mesh.thickness_region that name a file with one share per vertex, and
+// these shares on the skin.
 import type { Face } from '../replay/data';
 import type { Connection } from './connection';
 import { isRecord } from './messages';
@@ -9,7 +9,7 @@ import type { StudioState } from './studio_state';
 export const regionKey = 'tissue.region';
 /** A key of the scene itself: all faces have one mesh. */
 export const thicknessKey = 'mesh.thickness_region';
-/** What patches are of: each face has its own tissue, all have one mesh. */
+/** The property of a patch: each face has its own tissue, all share one mesh. */
 export type Painted = 'tissue' | 'thickness';
 export type Row = Record<string, unknown>;
 export type Factor = 'young' | 'viscosity';

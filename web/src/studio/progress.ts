@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the server is at, over the face; not shown for what is over in a moment.
+// The server's present work, shown over the face unless it is short.
 import { element } from '../page/dom';
 import { upper } from '../page/format';
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Named parts of the face, to choose one of, on either side or both.
+// A chooser of one named part of the face, on one side or both.
 import { element } from '../page/dom';
 import { upper } from '../page/format';
 import type { Region } from './messages';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shows each warning beside the control of its key: under the slider, or at the top of the section's panel where there is
-// no single control. Inputs are described by it (aria-describedby).
+// Shows each warning beside the control of its key: under the slider, or at the top of the section's panel where
+// there is no single control. Inputs are described by it (aria-describedby).
 import { at, element } from '../page/dom';
 import { holdingFor, sentenceOf, type Remark } from './remarks';
 import { words } from './words';
@@ -13,7 +13,7 @@ export interface Control {
 }
 
 export interface RemarkPanel {
-  /** Sections of the scene whose keys it sets: "tissue"; "": all that no other panel has. */
+  /** Sections of the scene whose keys it sets: "tissue"; "": all sections of no other panel. */
   sections: string[];
   key: string;
   element: HTMLElement;
@@ -21,7 +21,7 @@ export interface RemarkPanel {
   controlsOf(remark: Remark): Control[];
 }
 
-/** With more controls than this the remark stands once, at the top. */
+/** With more controls than this the remark is shown once, at the top. */
 const mostBeside = 2;
 
 export class RemarkPlaces {
@@ -31,7 +31,7 @@ export class RemarkPlaces {
 
   /** `variant`: the name of the variant that is edited, empty for base. */
   constructor(private readonly panels: RemarkPanel[], private readonly variant: () => string) {
-    // Nothing moves under a pressed pointer: what came meanwhile is shown at its release.
+    // Nothing moves under a pressed pointer: remarks that arrive meanwhile are shown at its release.
     document.addEventListener('pointerup', () => requestAnimationFrame(() => this.update()));
   }
 

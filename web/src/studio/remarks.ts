@@ -24,10 +24,10 @@ export function remarksOf(summary: Record<string, unknown>): Remark[] {
   })).filter((remark) => remark.text !== '');
 }
 
-/** The sentence of the reader's language, by id; the program's own where the language has none. */
+/** The sentence in the reader's language, by id; else the program's own. */
 export const sentenceOf = (remark: Remark, sentences: Record<string, string>): string => sentences[remark.id] ?? remark.text;
 
-/** The remarks that hold for a face: those on the scene, and on a variant its own. */
+/** The remarks that apply to a face: those on the scene and, for a variant, its own. */
 export const holdingFor = (variant: string, remarks: Remark[]): Remark[] =>
   remarks.filter((remark) => remark.variant === '' || remark.variant === variant);
 

@@ -6,7 +6,7 @@ import type { StudioState } from './studio_state';
 import { words } from './words';
 
 const key = 'motion.rigid_points';
-/** A pose needs as many. */
+/** Least number of points for a pose. */
 const fewest = 3;
 
 export class RigidPoints {

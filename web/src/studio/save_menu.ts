@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be saved, under which name, and where it then lies.
+// The menu of things to save: their name, and the path after saving.
 import { at, button, element } from '../page/dom';
 import { fileName } from '../page/save';
 import { Refused, type Connection } from './connection';
@@ -20,7 +20,7 @@ export class SaveMenu {
   readonly menu: Menu;
   folder = '';
   private name = '';
-  /** Of the scene that the name was offered for. */
+  /** The scene for which the name was proposed. */
   private named = '';
 
   constructor(private readonly state: StudioState, private readonly connection: Connection, private readonly done: (text: string) => void) {
@@ -54,7 +54,7 @@ export class SaveMenu {
     sheet.append(label, element('p', words.saveInto(this.folder), 'why'), ...buttons, status, problem);
   }
 
-  /** A name that would be refused is none to begin with. */
+  /** Replaces the name by a free one. */
   private async propose(field: HTMLInputElement): Promise<void> {
     const wanted = this.name;
     try {
@@ -62,7 +62,7 @@ export class SaveMenu {
       if (this.name !== wanted) return; // another one was typed meanwhile
       this.name = field.value = name;
     } catch {
-      // Saving says what is wrong with it.
+      // Saving reports the error.
     }
   }
 

@@ -11,7 +11,7 @@ import { words } from './words';
 
 export class ScenePanel implements RemarkPanel {
   readonly key = 'scene';
-  /** Also of all sections that have no sliders: contact, support, solver. */
+  /** Remarks on sections without sliders go here, too: contact, support, solver. */
   readonly sections = ['drive', ''];
   readonly element = element('div', '', 'panel scene-panel');
   private readonly driveBox = element('div');

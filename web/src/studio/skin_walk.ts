@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distances along the skin, which is open between the lips and lids: through the air the other lip is near, on
-// foot it is far. Fast marching (Kimmel and Sethian 1998): a front that crosses each triangle as a wave from a
-// point would, exact on a flat piece.
+// Geodesic distances on the skin, which is open between lips and lids: the other lip is near in a straight line and far
+// along the skin. Fast marching (Kimmel and Sethian 1998): a front that crosses each triangle as a wave from a point
+// would, exact on flat parts.
 import type { Vec3 } from '../replay/data';
 import type { SkinHit } from '../replay/face/face_body';
 
-/** Vertices this near are one, metres. */
+/** Vertices nearer than this are merged, metres. */
 const sameM = 1e-7;
 
 /** The least distance first. */
@@ -60,7 +60,7 @@ export interface Reach {
 }
 
 export class SkinWalk {
-  /** Of each vertex the first at the same place; itself elsewhere. */
+  /** Per vertex, the first vertex at the same place. */
   private readonly same: Int32Array;
   private readonly copies = new Map<number, number[]>();
   /** Triangles of each vertex: `around[start[v]]` up to `around[start[v + 1]]`. */
@@ -68,8 +68,8 @@ export class SkinWalk {
   private readonly around: Int32Array;
   private readonly distance: Float64Array;
 
-  /** `scanVertices`: the first so many are the scan's own; what a cut along the lips added is never one with
-   *  others. `cut`: the line of that cut. */
+  /** `scanVertices`: number of the scan's own vertices, which come first; those that a cut along the lips added are
+   *  never merged. `cut`: the line of that cut. */
   constructor(
     private readonly points: Float32Array, private readonly triangles: Int32Array, scanVertices: number, cut: Vec3[],
   ) {
@@ -105,7 +105,7 @@ export class SkinWalk {
     return same;
   }
 
-  /** All within `radiusM` of a place, on foot. */
+  /** All vertices within `radiusM` of a place, along the skin. */
   reach({ vertices, weights }: SkinHit, radiusM: number): Reach {
     const { distance, points, same } = this;
     const found: Reach = { vertices: [], far: [] };
@@ -137,7 +137,7 @@ export class SkinWalk {
     return found;
   }
 
-  /** The front, which has come to `vertex`, goes on over one of its triangles. */
+  /** Advances the front from `vertex` over one of its triangles. */
   private cross(triangle: number, vertex: number, done: Set<number>, reached: (v: number, far: number) => void): void {
     const { same, triangles } = this;
     const corners = [0, 1, 2].map((k) => same[triangles[triangle + k]]);

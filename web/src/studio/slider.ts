@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A value that is pulled: a slider, the number in digits where there is room, and a way back.
+// The control of a value: a slider, a number field where there is room, and a reset button.
 import { element } from '../page/dom';
 import { number } from '../page/format';
 import type { Control } from './remark_places';
@@ -16,14 +16,14 @@ export const linear = (low: number, high: number): Course => ({
   of: (value) => (value - low) / (high - low),
 });
 
-/** Each decade as long as the next; both above 0. */
+/** Logarithmic; both limits above 0. */
 export const logarithmic = (low: number, high: number): Course => ({
   at: (share) => low * (high / low) ** share,
   of: (value) => Math.log(Math.max(value, low) / low) / Math.log(high / low),
 });
 
 export interface SliderOptions {
-  /** Read aloud; shown elsewhere where `bare`. */
+  /** The accessible name; also visible unless `bare`. */
   name: string;
   unit: string;
   hint: string;
@@ -37,13 +37,13 @@ export interface SliderOptions {
   step?: number;
   /** Only the slider, with its value behind it. */
   bare?: boolean;
-  /** While it is pulled, and where it was let go; null: back to what it was. */
+  /** Called while the slider is dragged, and when it is released; null: reset. */
   live(value: number): void;
   done(value: number | null): void;
 }
 
 const steps = 1000;
-/** After this long without a key what keys moved counts as let go. */
+/** After this long without a key press, a slider moved by keys counts as released. */
 const keysRestMs = 500;
 
 let count = 0;
@@ -84,7 +84,7 @@ export class Slider {
     this.listen();
   }
 
-  /** Whether the user has it in hand; then nobody else moves it. */
+  /** Whether the user is dragging it; then nothing else moves it. */
   get busy(): boolean {
     return this.held || this.rest !== 0 || document.activeElement === this.digits;
   }
@@ -98,7 +98,7 @@ export class Slider {
     return { box: this.element, inputs: [this.range, this.digits] };
   }
 
-  /** `base`: what base has, where this is another face. */
+  /** `base`: the value in base, where this is another face. */
   set(value: number, base: number | null, enabled = true): void {
     this.range.disabled = this.digits.disabled = !enabled;
     const changed = base !== null && Math.abs(value - base) > 1e-9 * Math.max(Math.abs(value), Math.abs(base));
@@ -161,7 +161,7 @@ export class Slider {
       this.show(value);
       options.done(value);
     });
-    // What was not taken does not stay there.
+    // A value that was refused is not kept.
     digits.addEventListener('blur', () => {
       if (digits.value === '' || !digits.validity.valid) this.restore();
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One stroke over the skin: wherever the brush comes it counts once, however slowly it goes.
+// One stroke over the skin. It acts once on each place that the brush crosses, however slowly it moves.
 import type { Replay } from '../replay/data';
 import type { SkinHit } from '../replay/face/face_body';
 import type { SkinWalk } from './skin_walk';
@@ -7,12 +7,12 @@ import type { SkinWalk } from './skin_walk';
 export interface Brush {
   /** Metres, to its rim. */
   radiusM: number;
-  /** Of 1: how much of the radius has the whole strength. */
+  /** Share of the radius with full strength, 0 to 1. */
   hardness: number;
-  /** Of 1. */
+  /** 0 to 1. */
   strength: number;
   erases: boolean;
-  /** On the other side of the face too. */
+  /** Whether it also acts on the other side of the face. */
   mirrored: boolean;
 }
 
@@ -47,7 +47,7 @@ export class Stroke {
   private readonly covered: Float32Array;
   private readonly other: Float32Array | null;
 
-  /** Changes `shares`, of 0 to 1 a vertex, in place. */
+  /** Changes `shares` (0 to 1 per vertex) in place. */
   constructor(
     private readonly walk: SkinWalk, readonly shares: Float32Array, private readonly brush: Brush,
     private readonly mirror: Replay['mirror'],
@@ -71,7 +71,7 @@ export class Stroke {
     else vertices.forEach(put);
   }
 
-  /** As if it had not been. */
+  /** Undoes the stroke. */
   undo(): void {
     this.shares.set(this.before);
   }

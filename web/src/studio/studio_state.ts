@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the page knows: the scene as the server has it, the face's data, which face is looked at and changed.
+// The state of the page: the server's scene, the face's data, which face is shown and edited.
 import { Listeners } from '../page/listeners';
 import { ChangingSource } from '../replay/data_source';
 import type { Face } from '../replay/data';
@@ -56,7 +56,7 @@ export class StudioState {
     return variant === '' ? 0 : Math.max(faces.findIndex(({ name }, i) => i > 0 && name === variant), 0);
   }
 
-  /** The scene's title, or what is moved by what; "" where nothing is known. */
+  /** The scene's title, or "SCAN, moved by RECORDING"; "" where both are unknown. */
   get called(): string {
     if (this.scene?.title) return this.scene.title;
     const values = this.valuesOf(0);
@@ -75,7 +75,7 @@ export class StudioState {
     return changeWords(this.scene?.faces[face]?.changes ?? {}, nested(this.valuesOf(0)));
   }
 
-  /** A name that no face has yet, but for the one that is to get it. */
+  /** A name that no other face has yet. */
   freeName(wanted: string, own = -1): string {
     const taken = new Set(this.scene?.faces.filter((_, i) => i !== own).map(({ name }) => name));
     for (let n = 1; ; ++n) {

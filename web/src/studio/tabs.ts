@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Base and its variants, a tab each; of the one in hand a menu; "What if…" makes others.
+// Base and its variants, one tab each, with a menu for the edited one; "What if…" adds variants.
 import { at, button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
 import { upper } from '../page/format';
@@ -128,7 +128,7 @@ export class Tabs {
     }));
   }
 
-  /** What was made is where one goes on. */
+  /** Moves the keyboard focus to a face's tab. */
   private focus(face: number): void {
     at('tabs').querySelector<HTMLElement>(`.tab-name[data-face="${face}"]`)?.focus();
   }
@@ -147,8 +147,8 @@ export class Tabs {
     return made;
   }
 
-  /** The most common question: of a side, a branch of the facial nerve or a muscle, in the words and per cents
-   *  of the muscles' panel. */
+  /** The most common change: a weaker side, branch of the facial nerve or muscle, with the words and percentages of the
+   *  muscles' panel. */
   private weaker(close: () => void): HTMLElement {
     const form = element('form', '', 'weaker');
     const what = this.muscleChooser();

@@ -48,7 +48,7 @@ export class TissuePanel implements RemarkPanel {
     for (const key of keys) {
       const known = this.state.keys.get(key);
       if (known) this.add(known, courseOf(known), {});
-      // What is used most goes first.
+      // The most used key comes first.
       if (key === keys[0] && this.state.regions.length > 0) this.addRegion();
     }
     const depth = this.state.keys.get(thickness);
@@ -76,7 +76,7 @@ export class TissuePanel implements RemarkPanel {
     return slider;
   }
 
-  /** How stiff a part of the face is, over the rest. */
+  /** The stiffness of a part of the face relative to the rest. */
   private addRegion(): void {
     regionChooser(this.state.regions, this.part);
     this.part.onchange = () => this.update();
@@ -98,7 +98,7 @@ export class TissuePanel implements RemarkPanel {
     return Array.isArray(value) ? value.filter(isRecord) : [];
   }
 
-  /** The scene's own rows stay; that of this part gets the factor, and goes where nothing is left of it. */
+  /** Keeps the scene's other rows; sets the factor in the row of this part, and removes it when it is empty. */
   private withFactor(factor: number): Row[] {
     const name = this.part.value;
     const rows = this.rows(this.edits.value(regions));
@@ -109,7 +109,7 @@ export class TissuePanel implements RemarkPanel {
     return at < 0 ? [...rows, ...kept] : [...rows.slice(0, at), ...kept, ...rows.slice(at + 1)];
   }
 
-  /** One mesh serves all faces, and takes a while: no live changes, and none of variants. */
+  /** All faces share one mesh, which takes a while: no live changes, and none in variants. */
   private addThickness(key: SceneKey): void {
     const slider = this.add(key, linear(Math.max(key.low ?? 1, 1), key.high ?? 40), { still: true });
     const label = element('label', '', 'check');

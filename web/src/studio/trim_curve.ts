@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a take goes over time, and the part of it that is kept: two sliders under a curve.
+// The displacement of a take over time, and the part to keep: two sliders under a curve.
 import { element } from '../page/dom';
 
 const [width, height] = [200, 46];
@@ -51,7 +51,7 @@ export class TrimCurve {
     this.update();
   }
 
-  /** Neither end passes the other. */
+  /** Keeps the ends in order. */
   private pull(moved: number): void {
     const [from, to] = this.sliders;
     const least = 20;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The view as a video: the motion once from its start, a picture for each of its frames however long each takes to draw;
-// or what is live, as it comes, until it is ended. WebM, made by the browser.
+// The view as a video: the motion once from its start, one picture per frame however long drawing takes; or the live
+// face, as it arrives, until it is ended. WebM, made by the browser.
 import { at } from '../page/dom';
 import { fileName, save, subject } from '../page/save';
 import { drawSideMarks } from '../replay/face/side_marks';
@@ -32,7 +32,7 @@ export class ViewVideo {
     });
   }
 
-  /** Frame by frame: another clock than the computer's. */
+  /** Frame by frame, by the video's own clock. */
   private async renderMotion(): Promise<void> {
     const viewer = this.viewer();
     if (!viewer) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the pictures of a canvas become a video, each at a time of its own, not at that of the clock: by the browser's
-// encoder, or, where it has none, by its recorder, which is given one picture after the other.
+// Make a video from pictures of a canvas, each with a given time instead of that of the clock: by the browser's encoder
+// or, where it has none, by its recorder, which gets one picture after the other.
 import { webmOf, type EncodedPicture, type WebmVideo } from './webm';
 
 export interface VideoSink {
@@ -18,7 +18,7 @@ export const recordedType = (): string | undefined =>
 const codecs: [webCodecs: string, matroska: WebmVideo['codec']][] = [['vp09.00.41.08', 'V_VP9'], ['vp8', 'V_VP8']];
 /** Frames between two key frames: the most that a player decodes to jump to a time. */
 const keyEach = 60;
-/** So many pictures may wait for the encoder. */
+/** Greatest number of pictures that may wait for the encoder. */
 const mostWaiting = 4;
 const microseconds = 1e3;
 
@@ -65,7 +65,7 @@ export class EncodedVideo implements VideoSink {
     this.encoder.encode(frame, { keyFrame: this.count++ % keyEach === 0 });
     frame.close();
     [this.stepMs, this.lastMs] = [timeMs - this.lastMs, timeMs];
-    // The page stays in hand, and its memory small.
+    // Keeps the page responsive and its memory small.
     do {
       if (this.broken) throw this.broken;
       await pause();
@@ -82,15 +82,15 @@ export class EncodedVideo implements VideoSink {
   }
 }
 
-/** The recorder takes its times from the clock: pictures are handed to it no faster than they are to be seen, and where
- *  drawing is slower the video is, too; it leaves none out. */
+/** The recorder takes its times from the clock: pictures are passed to it no faster than they will be shown. Where
+ *  drawing is slower, the video is slower too; no picture is left out. */
 export class RecordedVideo implements VideoSink {
   private readonly recorder: MediaRecorder;
   private readonly track: CanvasCaptureMediaStreamTrack;
   private readonly parts: Blob[] = [];
   private lastMs = 0;
   private handedAt = 0;
-  /** A picture that is handed over sooner may be left out. */
+  /** A picture that is passed sooner may be left out. */
   private static readonly leastMs = 25;
 
   constructor(canvas: HTMLCanvasElement, bitsPerS: number) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The charts besides those of units: what is drawn in each, and what it says.
+// The charts other than those of units: the curves and the text of each.
 import type { Chart, Curve } from '../charts/chart_options';
 import { signed, upper } from '../page/format';
 import type { Channel, Group, Tracking } from './data';
@@ -43,7 +43,7 @@ class Maker {
   chart(group: Group, names: string[], made: {
     title: string; caption: string; yLabel: string; unit: string; digits: number;
     styles: Partial<Curve>[]; labels: string[]; extremes?: ('least' | 'most')[];
-    /** At least so much is shown, so that noise does not look like motion. */
+    /** Least range shown, so that noise does not look like motion. */
     span: number; fromZero?: boolean; range?: [number, number];
   }): Chart[] {
     const curves: Curve[] = [];

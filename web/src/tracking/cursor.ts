@@ -54,7 +54,7 @@ export class Cursor {
     return [from, from + length];
   }
 
-  /** The stretch goes along with a frame that leaves it. */
+  /** The interval follows a frame that leaves it. */
   private follow(): void {
     if (!this.window) return;
     const [from, to] = this.window;

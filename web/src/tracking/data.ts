@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tracking as the other parts use it: curves of plain numbers, and what to know of them.
+// The tracking as the other parts use it: curves of plain numbers and their properties.
 import { readPageData } from '../page/page_data';
 import type { Manifest } from './manifest';
 

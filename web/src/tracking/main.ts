@@ -61,7 +61,7 @@ function fillHead(t: Tracking, cursor: Cursor): void {
     'Numbers here are rounded; the CSV files have them whole. Made by Hyperex; needs no network.';
 }
 
-/** All charts of the page, those of units coming and going. */
+/** All charts of the page; those of units change with the choice. */
 class Charts {
   private readonly charts = new Set<TimeChart>();
   private readonly shaded: [number, number][];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The action units, a chart each, left and right of one in the same: those that move, strongest
-// first, and the rest on demand.
+// The action units, one chart each with left and right together: those that move, strongest first, and the rest on
+// demand.
 import type { Chart } from '../charts/chart_options';
 import { button, element, memberBox } from '../page/dom';
 import { upper, words } from '../page/format';
@@ -13,7 +13,7 @@ export interface UnitPair {
   facs: string;
   /** One, or the left and the right one. */
   channels: Channel[];
-  /** How far its weight goes, whichever side goes farther; single frames do not count. */
+  /** Range of its weight on the side where it is larger; single frames do not count. */
   travel: number;
 }
 

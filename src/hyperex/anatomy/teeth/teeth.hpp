@@ -19,8 +19,8 @@ struct JawTeeth {
   bool empty() const { return crowns.triangles.rows() + gum.triangles.rows() == 0; }
 };
 
-/// Teeth as they stand at rest: scan frame, metres. The upper ones do not move, the lower ones go
-/// along with the jaw (Performance::jaw_now_from_rest).
+/// Teeth at rest: scan frame, metres. The upper ones do not move, the lower ones move with the jaw
+/// (Performance::jaw_now_from_rest).
 struct Teeth {
   JawTeeth upper, lower;
 };

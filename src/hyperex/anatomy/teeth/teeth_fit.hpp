@@ -8,24 +8,24 @@
 
 namespace hyperex::anatomy {
 
-/// How average arches were laid into a face.
+/// The fit of average arches to a face.
 struct TeethFit {
-  Teeth teeth;  ///< nothing where `why_none` says why
+  Teeth teeth;  ///< empty where `why_none` gives a reason
   std::string why_none;
   ArchSize size;
   double behind_lips_m = 0;      ///< upper incisors' edges behind the lips' inner mid-points
   double least_clearance_m = 0;  ///< of any vertex to the inner surface of lips and cheeks
 };
 
-/// Where the least distance between teeth and tissue is at rest.
+/// The least distance between teeth and tissue at rest.
 inline constexpr double kTeethClearance_m = 5e-4;
 
 /// dental_arches() in a face at rest. `skin`: the outer surface of the simulated tissue (its mouth
 /// open); `boundary`: the whole surface of that tissue (tissue::boundary_of); `landmarks`: the 68
 /// iBUG points. All in the scan's frame, m.
 ///  * Size: the face's breadth between the outer corners of the eyes over 89.5 mm, the mean of men
-///    and women (Farkas, Anthropometry of the Head and Face, 1994), from 0.7 to 1.3: that teeth
-///    grow with the face so is assumed.
+///    and women (Farkas, Anthropometry of the Head and Face, 1994), from 0.7 to 1.3. That teeth
+///    scale with the face is an assumption.
 ///  * Mid-line: the mean over landmarks on it and pairs of landmarks beside it.
 ///  * Height: the upper incisors' edges 3 mm below the edge of the upper lip, where that shows 3.4
 ///    mm of them in adults below thirty and 1.6 mm below forty (Vig and Brundo, The kinetics of

@@ -172,9 +172,9 @@ double LipSurfaces::depth(const PointsF& skin_displacement) const {
   return deepest;
 }
 
-/// Inside and outside are told right by the normal of a triangle, by the sum of both at an edge and
-/// by that of all around at a vertex, each by its angle there (Baerentzen and Aanaes, IEEE TVCG 11,
-/// 2005, 243). Nothing where the surface ends: nobody can tell.
+/// Inside and outside are decided correctly by the normal of a triangle, by the sum of both at an
+/// edge and by that of all around at a vertex, each by its angle there (Baerentzen and Aanaes, IEEE
+/// TVCG 11, 2005, 243). Nothing where the surface ends, since they are undefined there.
 std::optional<Vec3> LipSurfaces::outward_at(const Points& points, std::size_t triangle,
                                             const Vec3& weights) const {
   const auto corner = [&](int f, int k) -> Vec3 { return points.row(triangles_(f, k)); };

@@ -37,7 +37,7 @@ std::vector<int> border_near(const TriMesh& skin, const Points& points, double w
 
 }  // namespace
 
-std::vector<Obstacle> teeth_to_touch(const anatomy::Teeth& teeth) {
+std::vector<Obstacle> teeth_obstacles(const anatomy::Teeth& teeth) {
   std::vector<Obstacle> out;
   for (const bool lower : {false, true})
     if (auto shape = anatomy::distance_to(lower ? teeth.lower : teeth.upper))
@@ -45,7 +45,7 @@ std::vector<Obstacle> teeth_to_touch(const anatomy::Teeth& teeth) {
   return out;
 }
 
-std::vector<Obstacle> eyes_to_touch(const Points& skin, const io::Landmarks& landmarks) {
+std::vector<Obstacle> eye_obstacles(const Points& skin, const io::Landmarks& landmarks) {
   std::vector<Obstacle> out;
   if (const auto corners = anatomy::face_corners(landmarks))
     for (const anatomy::Eyeball& eye : anatomy::eyeballs_behind(skin, *corners))

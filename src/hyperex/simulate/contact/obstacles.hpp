@@ -23,10 +23,10 @@ struct Obstacle {
 };
 
 /// The teeth of both jaws, as far as they are given.
-std::vector<Obstacle> teeth_to_touch(const anatomy::Teeth& teeth);
+std::vector<Obstacle> teeth_obstacles(const anatomy::Teeth& teeth);
 /// Both eyeballs, fitted behind the skin (anatomy/eyeballs.hpp). None where the landmarks do not
 /// suffice.
-std::vector<Obstacle> eyes_to_touch(const Points& skin, const io::Landmarks& landmarks);
+std::vector<Obstacle> eye_obstacles(const Points& skin, const io::Landmarks& landmarks);
 
 /// The places of a face that may touch an obstacle: vertices of the skin, then nodes of the inner
 /// surface. Each may lie as deep in it as at rest. So nothing jumps where a scan, a thickness or a

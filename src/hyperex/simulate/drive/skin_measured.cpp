@@ -25,7 +25,7 @@ double share_at(const Vec3& p, const std::vector<Vec3>& centres, const RegionOpt
   return 1 - t * t * (3 - 2 * t);
 }
 
-/// Which lip a place belongs to, told only near the mouth and where it is clear.
+/// Which lip a place belongs to; only near the mouth and where it is clear.
 std::vector<int> sides(const Points& places, const std::vector<double>& margin,
                        const face::FaceFrame& frame, double reach) {
   std::vector<int> side(places.rows(), 0);

@@ -102,8 +102,8 @@ std::string hardly_used_text(const MuscleCourse& recorded, const MuscleOptions& 
   if (most < 0) return {};
   return fmt::format(
       "in this recording {} is active by at most {:.2f} +- {:.2f} (1 sigma), less than its "
-      "uncertainty, so that what its strength changes is hardly known; a recording that uses it "
-      "more, such as a broad smile, or the whole branch of the nerve tells more",
+      "uncertainty, so that the effect of its strength is hardly known; a recording that uses it "
+      "more, such as a broad smile, or a gain on the whole branch of the nerve shows more",
       recorded.names[std::size_t(most)], recorded.activation(most, when),
       recorded.sigma(most, when));
 }

@@ -37,9 +37,9 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
 /// The activations after mirroring and gains.
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);
 
-/// What to say of gains, none of which changes a muscle that the recording uses by more than its
-/// own uncertainty (1 sigma): which of these muscles acts most, and how far. Empty where one is
-/// known, or no gain changes anything.
+/// The text of a note on gains that change only muscles which the recording uses by less than their
+/// uncertainty (1 sigma): which of these muscles acts most, and how much. Empty where a gain
+/// changes another muscle, or none changes anything.
 std::string hardly_used_text(const MuscleCourse& recorded, const MuscleOptions& options);
 
 /// Sums of activations over the groups that are named as in MuscleCourse::groups: |groups| x

@@ -245,7 +245,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
                      const AlignedMotion& motion, const MeasuredRegion& region,
                      const SimulationOptions& options, const MuscleModel& model,
                      const std::function<void()>& between) {
-  // First, since it says what is wrong with the points.
+  // First, since its errors name faults of the points.
   const Driven driven(mesh, landmarks, motion, options.drive);
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;

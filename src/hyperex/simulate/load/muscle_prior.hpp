@@ -8,8 +8,8 @@
 
 namespace hyperex::simulate {
 
-/// What is expected of the activations of `lines` before a point is seen: the options' standard
-/// deviations times each muscle's readiness, and correlations
+/// The prior of the activations of `lines`: the options' standard deviations times each muscle's
+/// readiness, and correlations
 ///
 ///   corr(a, b) = together(a, b) x (on one side ? 1 : side_correlation),   together(a, a) = 1
 ///

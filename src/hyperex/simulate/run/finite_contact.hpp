@@ -35,7 +35,7 @@ class FiniteContact {
     std::size_t frame = 0;
     Eigen::VectorXd in_all, first_order;
   };
-  /// A frame in work.
+  /// A frame that is being corrected.
   struct Work {
     std::size_t frame;
     const Eigen::VectorXd without;  // displacement without contact

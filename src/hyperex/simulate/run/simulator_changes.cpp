@@ -31,8 +31,8 @@ void Simulator::Impl::set(SimulationOptions next) {
   if (load_of_small_strain && next.model.strain == Strain::finite &&
       options.model.strain == Strain::linear)
     throw InputError("model.strain",
-                     "the forces that are held were found at small strain: expected finite in the "
-                     "run that they are of, too");
+                     "the held forces were found at small strain: expected finite in the run that "
+                     "found them, too");
   const SimulationOptions before = std::exchange(options, std::move(next));
   stages.options_changed(before, options);
 }

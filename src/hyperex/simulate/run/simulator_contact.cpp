@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact: frames that were found without it, corrected.
+// Contact: correction of frames that were simulated without it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,8 +84,8 @@ double Simulator::Impl::correct_finite(const ContactFrames& frames,
   report.factorisations += tissue.factorisations();
   if (contact.given_up() > 0)
     warn("contact.no_equilibrium", "",
-         fmt::format("in {} frames no equilibrium with contact was found at finite strain: what "
-                     "passes through each other there, by {:.2f} mm and more, was left so",
+         fmt::format("in {} frames no equilibrium with contact was found at finite strain: "
+                     "surfaces there still pass through each other, by {:.2f} mm or more",
                      contact.given_up(), 1e3 * contact.hopeless_m()));
   return contact.residual_m();
 }

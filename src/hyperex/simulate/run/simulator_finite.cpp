@@ -100,9 +100,10 @@ FiniteSolution Simulator::Impl::run_at_finite_strain(const MuscleOptions& muscle
 Solution Simulator::Impl::solve_finite(const std::vector<double>& times) {
   const bool held = stages.load.held() && stages.load.has_value() && stages.load->patch_forces;
   if (held && stages.load->patch_forces->time_s.back() < end_s() - 1e-9)
-    throw InputError("time.end_s",
-                     fmt::format("{:g} s: forces are held of a run of {:g} s; expected no more",
-                                 end_s(), stages.load->patch_forces->time_s.back()));
+    throw InputError(
+        "time.end_s",
+        fmt::format("{:g} s: the held forces are those of a run of {:g} s; expected no more",
+                    end_s(), stages.load->patch_forces->time_s.back()));
   if (!by_forces() || held)
     return std::move(run_at_finite_strain(options.muscles, false, times).solution);
   // What holds the patches belongs to the motion as it was recorded, whatever the gains.

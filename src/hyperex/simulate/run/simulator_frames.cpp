@@ -96,8 +96,8 @@ void Simulator::Impl::note_driven_off(const std::vector<double>& off_m,
   if (!names.empty())
     warn("drive.points_off", "drive.points",
          fmt::format("driven points end up to {:.2f} mm from where they are driven: {}; points "
-                     "that lie closer together than the elements and move differently are met in "
-                     "the mean",
+                     "that lie closer together than the elements and move differently are met only "
+                     "on average",
                      report.driven_off_mm, names));
 }
 

@@ -41,7 +41,7 @@ std::optional<fem::Response> Simulator::Impl::response_by_gains(const fem::Reduc
   const MuscleOptions as_was = as_recorded(options.muscles);
   stages.recorded.ensure(
       [&] { return stages.factor->model.run(drive_by(stages.load.value(), as_was), how); });
-  // One strength after another of the same muscles adds the same motion, more or less of it.
+  // Different strengths of the same muscles add multiples of the same motion.
   const Eigen::VectorXd direction = change / change[most];
   stages.direction.set({direction.begin(), direction.end()});
   stages.added_drive.ensure(

@@ -22,7 +22,7 @@
 
 namespace hyperex::simulate {
 
-/// What the values of the matrices rest on, once their patterns are there.
+/// What the values of the matrices are computed from, besides their patterns.
 struct MatrixValues {
   TissueValues tissue;
   ModelOptions model;
@@ -62,8 +62,8 @@ class OptionSource final : public Source {
   std::function<bool(const SimulationOptions&, const SimulationOptions&)> equal_;
 };
 
-/// Stages that change with the run and are kept by nobody: they stand in the graph so that each
-/// option reaches a stage.
+/// Stages whose values are not kept. They are in the graph so that each option is an input of a
+/// stage.
 class Uncached final : public Stage {
  public:
   Uncached(StageGraph& graph, std::string name, std::initializer_list<Input> inputs)
@@ -179,7 +179,7 @@ struct SimulatorStages : StageGraph {
   Owned<Stream> stream{*this, "stream", {pattern, order, prescribed, refill(values)}};
   Uncached frames{*this, "frames", {response, full, input, contact_model, solver, contact, time}};
 
-  /// Drops what rests on the parts of the options that differ.
+  /// Drops the stages that depend on options that differ.
   void options_changed(const SimulationOptions& before, const SimulationOptions& now);
 };
 

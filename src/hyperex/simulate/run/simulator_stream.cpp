@@ -20,7 +20,7 @@ void Simulator::Impl::start_stream(double interval_s) {
     throw InputError("stream", "forces need the whole motion: expected drive.by = displacement");
   if (options.model.strain == Strain::finite || options.contact.lips)
     throw InputError("stream",
-                     "a stream knows neither finite strain nor contact: expected model.strain = "
+                     "a stream has neither finite strain nor contact: expected model.strain = "
                      "linear and contact.lips = false");
   stages.stream.drop();
   stream_interval_s = interval_s;

@@ -4,7 +4,7 @@
 
 namespace hyperex::tissue {
 
-// The files of data/, carried inside the library.
+// The files of data/, built into the library.
 std::string_view presets_toml();
 std::string_view regions_csv();
 

@@ -15,14 +15,14 @@ namespace hyperex::tissue {
 /// is harmonic. The weight k is what makes the problem well posed: a point has no capacity in two
 /// dimensions, so that the plain harmonic field would sink to a constant with spikes at the points
 /// as the mesh is refined. With it u leaves a point as d^2: without a kink.
-/// Linear finite elements; an edge's weight (k_1 cot a_1 + k_2 cot a_2) / 2 is not let fall below
-/// 0.1 % of the mean of k_1 and k_2, so that the matrix is an M-matrix and u lies between the least
-/// and the greatest value (discrete maximum principle; M. Wardetzky et al., "Discrete Laplace
-/// operators: no free lunch", SGP 2007). On Delaunay meshes next to nothing is clamped.
-/// The corners of the triangle under a point take the point's value: met exactly there.
+/// Linear finite elements; an edge's weight (k_1 cot a_1 + k_2 cot a_2) / 2 is kept at or above 0.1
+/// % of the mean of k_1 and k_2, so that the matrix is an M-matrix and u lies between the least and
+/// the greatest value (discrete maximum principle; M. Wardetzky et al., "Discrete Laplace
+/// operators: no free lunch", SGP 2007). On Delaunay meshes hardly any edge is clamped. The corners
+/// of the triangle under a point take the point's value, so that the field meets it.
 class HarmonicField {
  public:
-  /// `same`: the lowest vertex at the same place on the same side, itself where it is alone.
+  /// `same`: per vertex, the lowest vertex at the same place on the same side (joined_vertices).
   /// `at`: the points' places on `mesh`, one or more.
   HarmonicField(const TriMesh& mesh, const std::vector<int>& same,
                 const std::vector<PlaceOnMesh>& at);
@@ -33,7 +33,7 @@ class HarmonicField {
   /// vertex nearest to it.
   Eigen::VectorXd solve(const Eigen::VectorXd& values) const;
 
-  /// Two points whose triangles touch: {-1, -1} where there are none.
+  /// Two points whose triangles share a corner; {-1, -1} where there are none.
   std::array<int, 2> shared_corner() const;
 
  private:
@@ -41,7 +41,8 @@ class HarmonicField {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Vertices at one place are one, save across the lips' rims, which touch at rest.
+/// Joins vertices at one place, except those of different lips, whose rims may touch at rest: per
+/// vertex the lowest vertex that it is joined with.
 std::vector<int> joined_vertices(const Points& points, const std::vector<double>& upper_margin);
 
 }  // namespace hyperex::tissue

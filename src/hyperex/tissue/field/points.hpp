@@ -15,12 +15,13 @@ struct ResolvedPoint {
   std::string key;  ///< "point[2]" or "preset"
 };
 
-/// "L", "R", or "" in the middle; of a name that is not known by its _L or _R.
+/// "L", "R", or "" in the middle; for an unknown name by its ending _L or _R.
 std::string side_of_landmark(const std::string& name);
 
 /// The points of `options` at landmarks: a paired name without a side stands for both; with
-/// options.mirror each has its twin. Adds to `problems`: unknown landmarks, a side that contradicts
-/// the name, a landmark on the wrong side of the face's middle (2 mm of slack), two values for one.
+/// options.mirror each also holds for its counterpart. Adds to `problems`: unknown landmarks, a
+/// side that contradicts the name, a landmark on the wrong side of the face's middle (2 mm of
+/// slack), two values for one landmark.
 std::vector<ResolvedPoint> resolve_points(const TissueFieldOptions& options,
                                           const io::Landmarks& landmarks,
                                           std::vector<FieldProblem>& problems);

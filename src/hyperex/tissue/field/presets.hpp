@@ -7,7 +7,7 @@
 
 namespace hyperex::tissue {
 
-/// Published tissue parameters (data/presets.toml, carried inside the program).
+/// Published tissue parameters (data/presets.toml, built into the program).
 struct TissuePreset {
   std::string name, summary, source;
   GivenParameters uniform{}, factor{};  ///< factor: on everything, points included
@@ -19,7 +19,8 @@ const std::vector<TissuePreset>& tissue_presets();
 /// Null where there is none of that name.
 const TissuePreset* find_preset(const std::string& name);
 
-/// The value of each parameter where nothing makes it differ: options, else preset, else default.
+/// The value of each parameter away from points and regions: that of the options, else of the
+/// preset, else the default.
 TissueParameters uniform_parameters(const TissueFieldOptions& options);
 
 }  // namespace hyperex::tissue

@@ -27,10 +27,10 @@ class RegionMap {
   RegionMap(const TissueMesh& mesh, const io::Landmarks& landmarks,
             const anatomy::RegisteredFace& face);
 
-  /// Per skin vertex how deep it lies inside the region, m: below 0 outside. `name` is
-  /// one that is_region() knows. A region's border runs between canonical vertices inside and
-  /// outside, that of a half along the middle of the face; skin farther than 10 mm from the
-  /// canonical face is outside of all.
+  /// Per skin vertex the distance from the region's border, m: above 0 inside, below 0 outside.
+  /// `name` is one that is_region() knows. A region's border runs between canonical vertices inside
+  /// and outside, that of a half along the middle of the face; skin farther than 10 mm from the
+  /// canonical face is outside of all regions.
   Eigen::VectorXd depth(const std::string& name) const;
 
  private:
@@ -39,8 +39,8 @@ class RegionMap {
   Eigen::VectorXd lateral_m_;  // per skin vertex: towards the subject's left, on the canonical face
 };
 
-/// Per vertex how deep it lies inside a band of `width_m` about a line laid on the skin: straight
-/// between the points, each bit of it at the nearest skin.
+/// Per vertex the distance (m) from the border of a band of `width_m` about a line, above 0 inside.
+/// The line is straight between the points and projected onto the nearest skin.
 Eigen::VectorXd band_depth(const TriMesh& skin, const std::vector<Vec3>& line, double width_m);
 
 /// 0 outside to 1 inside, smooth (3 s^2 - 2 s^3) over `blend_m` about the border.

@@ -94,9 +94,9 @@ void check_region(const TissueFieldOptions& options, std::size_t index,
       complain(".scar", fmt::format("names of landmarks of the scan ({} is none)", name));
   if (!options.mirror) return;
   if (!region.scar_points_m.empty())
-    complain(".scar_points_mm", "landmarks in its place (scar), as mirror is true");
+    complain(".scar_points_mm", "landmarks instead (scar), as mirror is true");
   if (!region.painted.empty())
-    complain(".painted", "mirror = false, as the paint says all of either side");
+    complain(".painted", "mirror = false, as the paint covers both sides");
   for (std::size_t other = 0; other < index; ++other)
     if (!region.name.empty() && region.name != options.regions[other].name &&
         anatomy::mirrored_landmark(region.name) == options.regions[other].name)
@@ -118,7 +118,7 @@ std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
   if (!options.preset.empty() && !find_preset(options.preset))
     problems.push_back({"preset", "the name of a preset (hyperex presets lists them)"});
   if (options.mirror && !options.per_vertex.empty())
-    problems.push_back({"mirror", "false, as per_vertex says all of either side"});
+    problems.push_back({"mirror", "false, as per_vertex covers both sides"});
   resolve_points(options, landmarks, problems);
   for (std::size_t i = 0; i < options.regions.size(); ++i)
     check_region(options, i, landmarks, problems);

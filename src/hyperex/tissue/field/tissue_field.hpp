@@ -15,15 +15,15 @@
 
 namespace hyperex::tissue {
 
-/// What the options say that no scan is needed to refuse, and, given its landmarks, what they say
-/// of those.
+/// Faults of the options that show without a scan, and faults of what they say about the scan's
+/// landmarks where `landmarks` holds any.
 std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
                                       const io::Landmarks& landmarks);
 
 /// False where the options give the same values everywhere, which uniform_parameters() are.
 bool is_graded(const TissueFieldOptions& options);
 
-/// A parameter a vertex of the skin (TissueMesh::skin), and a tetrahedron; SI.
+/// One value of each parameter per vertex of the skin (TissueMesh::skin) and per tetrahedron; SI.
 struct TissueField {
   std::array<Eigen::VectorXd, parameter_count> skin;
   std::array<std::vector<double>, parameter_count> element;
@@ -41,12 +41,12 @@ struct FieldError : std::runtime_error {
   FieldProblem problem;
 };
 
-/// Reads the files of values per vertex that the options name, as make() will: what was done to
-/// match them with the scan. Throws InputError where they cannot serve.
+/// Reads the files of values per vertex as make() will, and returns notes on how they were matched
+/// with the scan. Throws InputError where they cannot be used.
 std::vector<Note> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan);
 
-/// Fields on one mesh: what does not depend on the options is found once, so that variants cost
-/// their own solve alone.
+/// Fields on one mesh: what does not depend on the options is computed once, so that each variant
+/// costs only its own solve.
 ///   1. Each parameter is uniform, or where points give it interpolated between them. E itself is
 ///      interpolated, not its logarithm: fields then add up, as the source's models 2 and 3 do
 ///      about model 1.
@@ -84,7 +84,7 @@ class TissueFieldMaker {
   std::vector<PlaceOnMesh> above_;  ///< of each tetrahedron's centroid
 };
 
-/// Some region is named.
+/// Whether the options name a region of the face.
 bool needs_registration(const TissueFieldOptions& options);
 
 }  // namespace hyperex::tissue

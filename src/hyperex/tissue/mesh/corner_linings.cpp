@@ -32,7 +32,7 @@ Points forward_directions(const face::FaceFrame& frame) {
 
 }  // namespace
 
-int give_up_corner_linings(TriMesh& mesh, const io::Landmarks& landmarks) {
+int remove_corner_linings(TriMesh& mesh, const io::Landmarks& landmarks) {
   const std::vector<int> border = anatomy::mouth_border(mesh, landmarks);
   if (border.empty()) return 0;
   const std::vector<double> walk = EdgePaths(mesh).distances(border, kWalk_m);

@@ -5,18 +5,19 @@
 
 namespace hyperex::tissue {
 
-/// The mesh with the skin as it was before thinning, for what names the scan's own vertices.
+/// The mesh with the skin as it was before thinning, for files that refer to the scan's own
+/// vertices.
 TissueMesh with_full_skin(const TissueMesh& mesh);
 
-/// Closest points on the skin, near the mouth those of one's own lip.
+/// Closest points on the skin, near the mouth on the lip of the query point.
 SideTree skin_tree(const TissueMesh& mesh, const io::Landmarks& landmarks);
 
-/// The scan that the skin was cut from: what files with a row per vertex name.
+/// The scan that the skin was cut from, to whose vertices files with a row per vertex refer.
 TriMesh scan_of(const TissueMesh& mesh);
 
-/// Values of the scan's vertices, and between them those of the vertices that the cut added; where
-/// an edge joined the lips, each end of the cut has the value of its own lip: what holds for one
-/// does not run over to the other.
+/// Values of the scan's vertices, and values interpolated between them at the vertices that the cut
+/// added. Where an edge joined the lips, each end of the cut takes the value of its own lip, so
+/// that values do not spread to the other lip.
 Eigen::VectorXd on_skin(const TissueMesh& mesh, const Eigen::VectorXd& of_scan);
 
 }  // namespace hyperex::tissue

@@ -20,10 +20,9 @@ PrismTets split_prism(const std::array<double, 3>& rank);
 
 /// Ranks of the vertices for one layer of prisms between two levels, |V|: their numbers, and others
 /// where a prism split so has a flat tetrahedron (3 inradius / circumradius below 0.15) and other
-/// diagonals give plumper ones. In a fold a tetrahedron of positive volume may be a tenth of a
-/// millimetre high; no node has to move to avoid it. All tetrahedra must have positive volume with
-/// the vertices' numbers as ranks, and have it with the ranks returned.
-/// `top`, `bottom`: |V| x 3, m.
+/// diagonals give plumper ones. This avoids tetrahedra a tenth of a millimetre high in folds
+/// without moving a node. All tetrahedra must have positive volume with the vertices' numbers as
+/// ranks, and then have it with the ranks returned. `top`, `bottom`: |V| x 3, m.
 std::vector<double> prism_ranks(const Triangles& triangles, const Points& top,
                                 const Points& bottom);
 

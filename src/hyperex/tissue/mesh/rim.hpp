@@ -21,11 +21,10 @@ struct RimVertex {
 /// neighbours whose closest points differ would jump apart where the rim is drawn open.
 /// These vertices move by an affine field fitted to the displacements of the nodes around, by
 /// weighted least squares (moving least squares: Lancaster and Salkauskas, Math. Comp. 37, 1981,
-/// 141). Distances are walked along the skin, so that lips that touch at rest do not carry each
-/// other. The field alone moves what lies within 2 mm of the rim or hangs over the surface's border
-/// by 1 mm; it fades to the anchor alone at 5 mm from the rim.
-/// `anchors`: one per vertex of the skin; `on_border`: per outer node, on the outer border, where
-/// nothing is fitted.
+/// 141). Distances are measured along the skin, so that lips that touch at rest do not carry each
+/// other. The field alone moves vertices within 2 mm of the rim and those that hang over the
+/// surface's border by 1 mm. It fades to the anchor alone at 5 mm from the rim. `anchors`: one per
+/// vertex of the skin; `on_border`: per outer node, on the outer border, where nothing is fitted.
 std::vector<RimVertex> rim_vertices(const TriMesh& skin, const TriMesh& outer,
                                     const std::vector<Anchor>& anchors,
                                     const std::vector<char>& on_border);

@@ -5,7 +5,7 @@
 
 namespace hyperex::tissue {
 namespace {
-// Beside the mouth's corners both walks are equally long.
+// Beside the mouth's corners the paths to both lips are equally long.
 constexpr double kSure_m = 0.004;
 }  // namespace
 

@@ -15,7 +15,7 @@ struct PlaceOnMesh {
   Vec3 weight = Vec3::Zero();  ///< barycentric, each >= 0, sum 1
   double distance_m = 0;       ///< from the query point
 
-  /// Exactly a constant's value.
+  /// Interpolates `of_vertices`. Reproduces a constant exactly.
   double value(const Eigen::VectorXd& of_vertices) const {
     const double first = of_vertices[vertex[0]];
     return first + weight[1] * (of_vertices[vertex[1]] - first) +
@@ -23,14 +23,15 @@ struct PlaceOnMesh {
   }
 };
 
-/// Closest points on a face, near the mouth those of one's own lip: through the air the other lip
-/// may be nearer. `margin` as in upper_lip_margin: above 0 on the upper side, 0 on neither.
+/// Closest points on a face, near the mouth on the lip of the query point: in a straight line the
+/// other lip may be nearer. `margin` as in upper_lip_margin: above 0 on the upper side, 0 on
+/// neither.
 class SideTree {
  public:
-  /// Sides matter within the sphere about the mouth alone: beyond, both walks are equally long.
+  /// Sides are distinguished only within the sphere about the mouth.
   SideTree(const TriMesh& mesh, const std::vector<double>& margin, const Vec3& mouth,
            double reach_m);
-  /// `margin` of the query point: below 4 mm in size it belongs to either side.
+  /// `margin` of the query point: where |margin| < 4 mm, both sides are searched.
   PlaceOnMesh query(const Vec3& point, double margin) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Inside the room: the scan's skin on its way to the tissue's mesh.
+// Internal to this room: prepares the scan's skin for the tissue's mesh.
 #include <string>
 #include <vector>
 
@@ -21,7 +21,7 @@ class SkinBuilder {
   void cut(LipCut mode);
 
   /// Where the scan has more than thinned_above_vertices: `out.skin` becomes a thinned working
-  /// copy, and what it was `out.full`. `held`: of the scan's vertices, those to keep.
+  /// copy, and `out.full` the skin before. `held`: the scan's vertices to keep.
   void thin(double element_size_m, const std::vector<char>& held);
 
   /// The working copy.

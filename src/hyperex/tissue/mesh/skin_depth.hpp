@@ -7,22 +7,22 @@
 
 namespace hyperex::tissue {
 
-/// Whether files say how thick the tissue is somewhere.
+/// Whether a file gives the thickness anywhere.
 bool is_painted(const TissueMeshOptions& options);
 
-/// Reads them as skin_depth() will: what was done to match them with the scan. Throws InputError
-/// where they cannot serve.
+/// Reads these files as skin_depth() will, and returns notes on how they were matched with the
+/// scan. Throws InputError where they cannot be used.
 std::vector<Note> notes_on_depth_files(const TissueMeshOptions& options, const TriMesh& scan);
 
-/// Wanted thickness at points, m, without what files say: the same everywhere, or depths at
-/// landmarks, interpolated (depth_field).
+/// Wanted thickness at points, m, without the files: the same everywhere, or depths at landmarks,
+/// interpolated (depth_field).
 Eigen::VectorXd unpainted_depth(const Points& points, const io::Landmarks& landmarks,
                                 const TissueMeshOptions& options);
 
-/// Wanted thickness at each vertex of `mesh.skin`, m: unpainted_depth(); in its place that of
-/// depth_per_vertex where it gives any; then regions in turn, d <- d + w (depth - d), w the
-/// region's share at the vertex. Of `mesh` the skin and what belongs to it must be known. Throws
-/// InputError.
+/// Wanted thickness at each vertex of `mesh.skin`, m: unpainted_depth(), replaced by
+/// depth_per_vertex where that has values; then regions in turn, d <- d + w (depth - d), w the
+/// region's share at the vertex. `mesh` needs its skin (TissueMeshBuilder::with_skin), not its
+/// volume. Throws InputError.
 Eigen::VectorXd skin_depth(const TissueMesh& mesh, const io::Landmarks& landmarks,
                            const TissueMeshOptions& options);
 

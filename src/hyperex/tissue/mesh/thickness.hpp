@@ -28,7 +28,7 @@ struct DepthAt {
 
 /// Depth of the soft tissue in a part of the skin that was painted.
 struct DepthRegion {
-  std::filesystem::path painted;  ///< shares a vertex of the scan (field/per_vertex.hpp)
+  std::filesystem::path painted;  ///< one share per vertex of the scan (per_vertex/per_vertex.hpp)
   double depth_m = 0;             ///< where the share is 1
 
   static constexpr const char* about = "Thickness in a painted part of the skin.";
@@ -48,12 +48,12 @@ struct DepthRegion {
 /// Simpson, "Facial soft tissue depths in craniofacial identification (part I)", J. Forensic Sci.
 /// 53 (2008) 1257-1272 (pooled adults). Craniometric points are carried to the nearest landmark
 /// (e.g. mid-philtrum to between subnasale and the upper lip). The cheek, 20 mm and more down to
-/// the teeth, is capped at 12 mm: what moves there as one layer ends at the cavity of the mouth.
+/// the teeth, is capped at 12 mm, since the layer that moves there ends at the cavity of the mouth.
 const std::vector<DepthAt>& published_depths();
 
 /// A smooth field that lies between the least and the greatest of the given depths (Shepard's
-/// inverse squared distance, D. Shepard 1968) over `points`. Landmarks that are not known are
-/// passed over; std::invalid_argument where none is known.
+/// inverse squared distance, D. Shepard 1968) over `points`. Unknown landmarks are ignored;
+/// std::invalid_argument where none is known.
 Eigen::VectorXd depth_field(const Points& points, const std::vector<DepthAt>& depths,
                             const io::Landmarks& landmarks);
 

@@ -122,7 +122,8 @@ void anchor_skin(TissueMesh& out, const io::Landmarks& landmarks) {
                                  SurfaceTree(subset(outer, part[1]))};
     const face::FaceFrame frame = face::face_frame(landmarks);
     const double reach = 1.8 * (landmarks.at(face::ibug(54)) - frame.origin).norm();
-    constexpr double sure_m = 0.004;  // beside the mouth corners both walks are equally long
+    constexpr double sure_m =
+        0.004;  // beside the mouth corners the paths to both lips are equally long
     for (Eigen::Index v = 0; v < out.skin.points.rows(); ++v) {
       if (std::abs(skin_margin[v]) < sure_m) continue;
       if ((out.skin.points.row(v).transpose() - frame.origin).norm() > reach) continue;
@@ -219,10 +220,10 @@ TissueMeshBuilder::TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& l
 std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
   naming(source_, [&] {
     TissueMesh& out = *mesh_;
-    if (const int dropped = give_up_corner_linings(working_copy_, landmarks_); dropped > 0)
+    if (const int dropped = remove_corner_linings(working_copy_, landmarks_); dropped > 0)
       out.notes.push_back(
           make_note("mesh.lip_linings_dropped",
-                    fmt::format("{} triangles on the inner sides of the lips were given up at the "
+                    fmt::format("{} triangles on the inner sides of the lips were removed at the "
                                 "corners of the mouth, where they lie on each other",
                                 dropped)));
     const TriMesh mended =

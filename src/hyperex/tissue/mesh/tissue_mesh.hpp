@@ -29,9 +29,9 @@ struct TissueMeshOptions {
   double element_size_m = 0.0033;  ///< edges at the mouth; they grow smoothly away from it
   int layers = 2;                  ///< of elements between the skin and the inner surface
   double thickness_m = 0;  ///< > 0: the same everywhere; 0: published_depths(), interpolated
-  /// Used where thickness_m is 0: in the place of the published depths at the same landmarks.
+  /// Used where thickness_m is 0, instead of the published depths at the same landmarks.
   std::vector<DepthAt> depths;
-  std::filesystem::path depth_per_vertex;  ///< instead, where it gives any: a row a scan vertex
+  std::filesystem::path depth_per_vertex;  ///< instead, where it has values: a row per scan vertex
   std::vector<DepthRegion> depth_regions;  ///< applied in turn
   LipCut cut_lips = LipCut::automatic;
   double trim_border_m = 0;  ///< this much is taken off the scan's outer border
@@ -73,14 +73,14 @@ struct TissueMeshOptions {
 /// meshed and drawn.
 constexpr Eigen::Index thinned_above_vertices = 60000;
 
-/// The skin of a scan that was thinned, as TissueMesh::skin would else have it.
+/// The skin of a scan that was thinned, as TissueMesh::skin would be without thinning.
 struct FullSkin {
   TriMesh skin;
   Eigen::Index scan_vertices = 0;
   std::vector<EdgePoint> appended;
   std::vector<int> source_triangle;
-  std::vector<int> kept;           ///< of each vertex of the thinned skin, the one of `skin` it is
-  std::vector<int> kept_triangle;  ///< of each triangle of it, the one whose corners moved to it
+  std::vector<int> kept;           ///< of each vertex of the thinned skin, its vertex of `skin`
+  std::vector<int> kept_triangle;  ///< of each of its triangles, the triangle of `skin` that it was
   std::vector<MeshPlace> places;   ///< of each vertex of `skin` on the thinned skin
 };
 
@@ -92,20 +92,21 @@ struct Anchor {
 
 /// A scan made ready for simulation.
 struct TissueMesh {
-  /// The scan as given; where its lips were cut, triangles of the scan are replaced by a piece of
-  /// themselves, and new vertices and the other pieces are appended.
-  /// Thins a scan with very many vertices; the thinned one counts as the scan from there on.
+  /// The scan as given; where its lips were cut, triangles of the scan are replaced by one piece of
+  /// themselves, and new vertices and the other pieces are appended. Where the scan was thinned
+  /// (`full`), the thinned scan counts as the scan.
   TriMesh skin;
   std::shared_ptr<const FullSkin> full;  ///< where the scan was thinned
   Eigen::Index scan_vertices = 0;
-  std::vector<EdgePoint> appended;   ///< where each appended vertex lies on the scan
-  std::vector<int> source_triangle;  ///< of each skin triangle, the scan's that it is (a piece of)
-  Points lip_cut;                    ///< the line of the cut, empty where none was made
+  std::vector<EdgePoint> appended;  ///< where each appended vertex lies on the scan
+  std::vector<int>
+      source_triangle;  ///< of each skin triangle, the scan's triangle that it is part of
+  Points lip_cut;       ///< the line of the cut, empty where none was made
   VolumeMesh volume;
-  std::vector<Anchor> anchors;  ///< per skin vertex
-  std::vector<RimVertex> rim;   ///< what moves otherwise than its anchor, in rising order
-  std::vector<double>
-      upper_margin;  ///< per outer node: walk to the lower minus to the upper lip (m)
+  std::vector<Anchor> anchors;       ///< per skin vertex
+  std::vector<RimVertex> rim;        ///< vertices that do not follow their anchor, rising
+  std::vector<double> upper_margin;  ///< per outer node: path along the surface to the lower lip
+                                     ///< minus that to the upper (m)
   std::vector<double> skin_upper_margin;  ///< the same, per skin vertex
   std::vector<char> on_border;  ///< per outer node: on the outer border, not at mouth or eyes
   MeshQuality quality;
@@ -114,7 +115,7 @@ struct TissueMesh {
   std::vector<Note> notes;     ///< what was mended, trimmed or cut
 };
 
-/// build_tissue_mesh() in two steps, as what needs the skin alone need not wait for the volume.
+/// build_tissue_mesh() in two steps: work on the skin alone can begin before the volume is built.
 class TissueMeshBuilder {
  public:
   /// Makes the skin. `scan` and `landmarks` must outlive this. Throws as build_tissue_mesh().
@@ -122,11 +123,11 @@ class TissueMeshBuilder {
                     const TissueMeshOptions& options, std::string source,
                     const std::vector<char>& held = {});
 
-  /// `skin`, all that stands above `volume` in TissueMesh, and `skin_upper_margin`: may be read
-  /// while build() runs.
+  /// The members of TissueMesh before `volume`, and `skin_upper_margin`. They may be read while
+  /// build() runs.
   const TissueMesh& with_skin() const { return *mesh_; }
 
-  /// The same mesh, whole. Once.
+  /// The same mesh, complete. Call it once.
   std::shared_ptr<const TissueMesh> build();
 
  private:
@@ -140,9 +141,8 @@ class TissueMeshBuilder {
 
 /// Cleans a working copy, cuts joined lips, mends small holes, remeshes with a size that grows away
 /// from the mouth, and builds the layer. `landmarks` must hold the 68 iBUG points
-/// (complete_landmarks). `source` names the scan in errors. `held`, per
-/// scan vertex: stays where the scan is thinned (empty: none). Throws InputError where the scan
-/// cannot serve.
+/// (complete_landmarks). `source` names the scan in errors. `held`, per scan vertex: thinning keeps
+/// it (empty: none). Throws InputError where the scan cannot be used.
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
                              const TissueMeshOptions& options, const std::string& source,
                              const std::vector<char>& held = {});

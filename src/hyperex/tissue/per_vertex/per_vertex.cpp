@@ -73,9 +73,8 @@ class OnScan {
     if (match_ && !match_->same_order())
       notes_.push_back(make_note(
           "tissue.matched_by_place",
-          fmt::format(
-              "{}: its {} vertices do not stand in the scan's order; they were matched by place",
-              file.string(), own->points.rows())));
+          fmt::format("{}: its {} vertices are not in the scan's order; they were matched by place",
+                      file.string(), own->points.rows())));
   }
 
   Eigen::VectorXd operator()(const Eigen::VectorXd& values, double otherwise) const {
@@ -83,8 +82,8 @@ class OnScan {
     if (const auto count = match_->disagreements(values); count > 0)
       notes_.push_back(
           make_note("tissue.values_averaged",
-                    fmt::format("{}: at {} of the scan's vertices several of its vertices lie, of "
-                                "different values; their mean was taken",
+                    fmt::format("{}: at {} of the scan's vertices it has several vertices with "
+                                "different values; their mean was used",
                                 file_.string(), count)));
     return match_->on_scan(values, otherwise);
   }
@@ -111,7 +110,7 @@ std::optional<Eigen::VectorXd> sound_values(const std::filesystem::path& file, c
   if (column == table.columns.end()) return std::nullopt;
   Eigen::VectorXd values = column->values;
   if (!table.mesh && values.size() != scan.points.rows())
-    throw InputError(file, fmt::format("{} rows of {}: expected {}, one a vertex of the scan",
+    throw InputError(file, fmt::format("{} rows of {}: expected {}, one per vertex of the scan",
                                        values.size(), wanted.key, scan.points.rows()));
   for (Eigen::Index v = 0; v < values.size(); ++v) {
     const double value = values[v] * wanted.si;
@@ -140,9 +139,10 @@ PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan
     columns[p] = (*on_scan)(*values, kNone);
   }
   if (!on_scan)
-    throw InputError(file,
-                     "no values a vertex: expected columns (CSV) or vertex properties (PLY) of the "
-                     "names young_kpa, viscosity_pa_s, poisson or density_kg_m3");
+    throw InputError(
+        file,
+        "no values per vertex: expected columns (CSV) or vertex properties (PLY) with the "
+        "names young_kpa, viscosity_pa_s, poisson or density_kg_m3");
   return columns;
 }
 
@@ -156,8 +156,8 @@ Eigen::VectorXd read_depths(const std::filesystem::path& file, const TriMesh& sc
   const auto values = sound_values(file, table, wanted, scan);
   if (!values)
     throw InputError(file,
-                     "no thickness a vertex: expected a column (CSV) or a vertex property (PLY) of "
-                     "the name thickness_mm");
+                     "no thickness per vertex: expected a column (CSV) or a vertex property (PLY) "
+                     "with the name thickness_mm");
   return OnScan(file, table.mesh, scan, notes)(*values, kNone);
 }
 
@@ -174,9 +174,10 @@ Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& sca
     table.mesh = std::move(painted.mesh);
   }
   if (share.size() == 0)
-    throw InputError(file,
-                     "nothing painted: expected weights a vertex (column or property `weight`) or "
-                     "a mesh with vertex colours");
+    throw InputError(
+        file,
+        "nothing painted: expected one weight per vertex (column or property `weight`) or "
+        "a mesh with vertex colours");
   if (!table.mesh && share.size() != scan.points.rows())
     throw InputError(file, fmt::format("{} painted vertices: expected {}, those of the scan",
                                        share.size(), scan.points.rows()));

@@ -13,10 +13,10 @@ namespace hyperex::tissue {
 using PerVertex = std::array<Eigen::VectorXd, parameter_count>;
 
 /// A CSV with columns young_kpa, viscosity_pa_s, poisson, density_kg_m3 (one or more; others are
-/// passed over), a row per vertex of the scan in its order; or a PLY of the scan whose vertices
-/// have them, in any order (vertex_match.hpp). What was done to match them is added to `notes`.
-/// Throws InputError: another number of rows, vertices that are not the scan's, none of the
-/// columns, a value out of range.
+/// ignored), one row per vertex of the scan in its order; or a PLY of the scan whose vertices have
+/// them, in any order (vertex_match.hpp). Adds notes on how they were matched. Throws InputError:
+/// another number of rows, vertices that are not the scan's, none of the columns, a value out of
+/// range.
 PerVertex read_per_vertex(const std::filesystem::path& file, const TriMesh& scan,
                           std::vector<Note>& notes);
 

@@ -124,9 +124,9 @@ VertexMatch::VertexMatch(const std::filesystem::path& file, const TriMesh& own,
   throw InputError(
       file,
       fmt::format("{} of the scan's {} vertices have none of this file's {} at their place (vertex "
-                  "{}, counted from 0, is {:.2g} mm from the nearest, once both are laid on each "
-                  "other by their bounding boxes): expected the scan itself, its vertices where "
-                  "they were; their order, unit and axes do not matter",
+                  "{}, counted from 0, is {:.2g} mm from the nearest after alignment of the "
+                  "bounding boxes): expected the scan itself with unmoved vertices; their order, "
+                  "unit and axes do not matter",
                   apart, scan.points.rows(), at.rows(), first,
                   first < 0 ? 0 : 1e3 * nearest_distance(laid, scan.points.row(first))));
 }

@@ -42,8 +42,8 @@ function mostChanged(replay: Replay, face: number): CornerChange | null {
   return changes.sort((a, b) => Math.abs(b.byMm) - Math.abs(a.byMm))[0] ?? null;
 }
 
-/** Of base what the sides differ by; of a variant what it changes, and where: a weak side that is dragged farther must
- *  not make the other one look weak. */
+/** For base the difference of the sides; for a variant its change, and of which side: a weak side that is dragged
+ *  farther must not make the other one look weak. */
 function verdictOf(replay: Replay, face: number, corners: Corners): { text: string; undecided: boolean } {
   const change = face > 0 ? mostChanged(replay, face) : null;
   if (!change) return { text: differenceWords(corners), undecided: corners.undecided };
@@ -63,7 +63,7 @@ function headline(replay: Replay, face: number, corners: Corners): HTMLElement {
   return line;
 }
 
-/** "up to 3.7 mm from base at 1.93 s" of the side that lies farther: what greatest excursions may hide. */
+/** "up to 3.7 mm from base at 1.93 s" of the side with the larger distance, which greatest excursions may hide. */
 function onTheWay(row: VariantRow | undefined, changeMm: number): string {
   const [{ side, mm: far, s }] = sides.map((one) => ({
     side: one, mm: row?.[`commissure_${letterOf[one]}_from_base_mm`], s: row?.[`commissure_${letterOf[one]}_from_base_s`],
@@ -134,7 +134,8 @@ export function cornerCurves(replay: Replay, shown: Shown): Omit<Chart, 'title'>
   }];
 }
 
-/** Words above the chart, and below it what the variants do; they follow the face that is shown until undone. */
+/** Text above the chart, and below it the effects of the variants. Follows the face shown until the returned function
+ *  is called. */
 export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement): Undo {
   card.classList.add('corners');
   const line = element('div', '', 'said');

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far one corner of the mouth is from rest, in base and in each of its variants: what each of them takes away.
+// How far one corner of the mouth is from rest, in base and in each of its variants, so that their losses can be
+// compared.
 import type { Chart } from '../../charts/chart_options';
 import { cornersOf, farthestMm, type Corners } from '../corners';
 import type { Replay } from '../data';

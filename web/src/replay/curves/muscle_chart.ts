@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the muscles of either side do over time, by groups that points on the skin can tell apart, in base and in variants.
+// What the muscles of either side do over time, by groups that points on the skin can distinguish, in base and in
+// variants.
 import type { Chart } from '../../charts/chart_options';
 import type { Face, MuscleGroup, Muscles } from '../data';
 import { element } from '../../page/dom';

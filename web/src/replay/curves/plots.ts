@@ -42,7 +42,7 @@ export class Plots {
     for (const plot of this.plots) plot.mark(timeS);
   }
 
-  /** Follows what is shown; `made` gives the chart as it is to be now, or nothing from the start. */
+  /** Follows what is shown; `made` returns the present chart, or always nothing. */
   private add(title: string, made: () => Omit<Chart, 'title'>[]): TimeChart | null {
     const [chart] = made();
     if (!chart) return null;

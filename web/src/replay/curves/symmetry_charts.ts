@@ -51,7 +51,7 @@ function floorOf(curve: SymmetryCurve): { curve: Curve; caption: string } {
   };
 }
 
-/** Where jitter is known S has its noise floor to be seen against; samples at which it stops, as at rest, do not count. */
+/** Where jitter is known, S is compared with its noise floor; samples at its lower limit, as at rest, do not count. */
 function rangeOf(own: SymmetryCurve, curves: (number | null)[][]): [number, number] | undefined {
   if ((own.noise ?? []).length === 0) return undefined;
   const least = Math.log(own.floor) + 1e-6;
@@ -106,7 +106,7 @@ export function stretchCurves(replay: Replay, shown: Shown): Part[] {
   }];
 }
 
-/** ξL - ξR less that of base: what other tissue adds. Empty where there are no variants. */
+/** ξL - ξR less that of base: the effect of the variant. Empty where there are no variants. */
 export function addedCurves(replay: Replay, shown: Shown): Part[] {
   const own = replay.symmetry;
   const faces = facesWithCurve(replay);

@@ -34,11 +34,11 @@ const spread = (own: Track, others: Track[]): number =>
   Math.max(0, ...others.flatMap((other) => other.map((v, f) => Math.abs((v ?? 0) - (own[f] ?? v ?? 0)))));
 
 const corners: Record<string, 'L' | 'R'> = { cheilion_L: 'L', ibug68_54: 'L', cheilion_R: 'R', ibug68_48: 'R' };
-/** Whose corner of the mouth a point is: those have the colours of the sides everywhere. */
+/** The side whose corner of the mouth a point is: these have the colours of the sides everywhere. */
 const sideOfCorner = (name: string): 'L' | 'R' | undefined => corners[name];
 
-/** Points to show first. Of variants: their input and response, and where they differ most; driven points move alike
- *  in all. Else those that drive, or those that move most. */
+/** Points to show first. With variants: an input and a response point, and where they differ most, since driven points
+ *  move alike in all. Else the driven points, or those that move most. */
 function firstTracks(replay: Replay, of: (face: number) => Track[]): Set<number> {
   const { names } = replay.landmarks;
   const tracks = of(0);

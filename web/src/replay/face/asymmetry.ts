@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How unevenly the halves of a face move: of each vertex the part of its motion that the mirrored motion of
-// its counterpart does not have, a = u - R u_c with R v = v - 2 (n . v) n.
+// How unevenly the halves of a face move: per vertex, its displacement less the mirrored displacement of its
+// counterpart, a = u - R u_c with R v = v - 2 (n . v) n.
 import type { Replay } from '../data';
 import { displace, SceneMotion } from './deform';
 
@@ -29,7 +29,7 @@ export function asymmetry(mirror: Mirror, u: Float32Array, factor: number, out: 
   }
 }
 
-/** Of all faces where the scene moves most: what 99.5 of 100 vertices stay under, mm. */
+/** The 99.5 % quantile over vertices, of all faces where the scene moves most, mm. */
 export function usualAsymmetryMm(replay: Replay, mirror: Mirror): number {
   const scene = new SceneMotion(replay);
   const displacement = new Float32Array(replay.points.length);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands behind the holes of the skin, so that it looks like a face and not like a mask: dark pockets
-// that hang on the edges of mouth, eyes and nostrils, and plain eyeballs. The program says where
-// (src/hyperex/report/face_backing.hpp, which draws the same into its pictures); no figure knows of it.
+// Surfaces behind the holes of the skin, so that it looks like a face and not like a mask: dark pockets that hang on
+// the edges of mouth, eyes and nostrils, and plain eyeballs. The program says where
+// (src/hyperex/report/face_backing.hpp, which draws the same into its pictures); no figure depends on it.
 import {
   BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, Quaternion,
   SphereGeometry, Vector3,
@@ -46,7 +46,7 @@ class Pocket {
     this.mesh.frustumCulled = false;
   }
 
-  /** Hangs it on the skin's vertices as they are now. */
+  /** Attaches it to the present positions of the skin's vertices. */
   follow(points: Float32Array): void {
     const { loop, inward, depthM } = this.opening;
     const n = loop.length;

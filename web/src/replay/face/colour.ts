@@ -31,7 +31,7 @@ const ramps: Record<RampName, Rgb[]> = {
   ],
 };
 
-/** Of what has no value: none of the ramps comes near it. */
+/** The colour of vertices without a value; no ramp has a similar one. */
 const noValue: Rgb = [128, 128, 128];
 
 function colourAt(stops: Rgb[], share: number): Rgb {
@@ -40,8 +40,8 @@ function colourAt(stops: Rgb[], share: number): Rgb {
   return stops[i].map((c, k) => c + (x - i) * (stops[i + 1][k] - c)) as Rgb;
 }
 
-/** `size` colours from the map's first to its last, sRGB and opaque, four bytes each; then as many of what has
- *  no value. */
+/** `size` colours from the map's first to its last, sRGB and opaque, four bytes each; then as many of the colour for no
+ *  value. */
 export function rampBytes(name: RampName, size: number): Uint8Array<ArrayBuffer> {
   const out = new Uint8Array(8 * size);
   for (let i = size; i < 2 * size; ++i) out.set([...noValue, 255], 4 * i);

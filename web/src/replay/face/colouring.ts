@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the colours of the face can tell. But for the difference, whose size is not alike in any two variants,
-// ranges are those of all faces together, so that colours of any faces compare.
+// The quantities that the face's colours can show. Ranges are common to all faces, so that their colours can be
+// compared, except for the difference from base, whose size varies too much between variants.
 import { asymmetry, usualAsymmetryMm } from './asymmetry';
 import { niceCeiling, type RampName } from './colour';
 import type { Face, Replay } from '../data';
@@ -14,7 +14,7 @@ export interface Scale {
   unit: string;
   least: number;
   greatest: number;
-  /** Whose range it is, and what has no colour. */
+  /** Explains the range, and which vertices have no colour. */
   remark: string;
 }
 
@@ -22,8 +22,8 @@ export interface Scale {
 export interface Painting {
   /** Null where the face has its own colours. */
   scale: Scale | null;
-  /** Writes a number from 0 (least) to 1 (greatest) a vertex; may leave that range; NaN: no value. `other`: the
-   *  other face of two. */
+  /** Writes one number per vertex, 0 (least) to 1 (greatest), possibly outside; NaN: no value. `other`: the other face
+   *  of two. */
   fill(shape: FaceShape, out: Float32Array, other: FaceShape | null): void;
   /** Whether a face's colours depend on the other face, too. */
   together?: boolean;
@@ -66,8 +66,8 @@ function distances(a: Float32Array, b: Float32Array, factor: number, out: Float3
   }
 }
 
-/** From base. Beside base both faces have the colours of what differs between them: one that is
- *  nothing everywhere would hide the half of the other. */
+/** Difference from base. Next to base, both faces show the difference between them: base's own is zero everywhere and
+ *  would carry no information. */
 function difference(replay: Replay): Colouring {
   const { faces } = replay;
   const of = (shown: number[]): Painting => {
@@ -89,7 +89,7 @@ function difference(replay: Replay): Colouring {
   return { key: 'difference', label: 'Difference', of };
 }
 
-/** On a smaller scale what a mesh makes uneven looks like a finding. */
+/** On a smaller scale, unevenness due to the mesh would look like a finding. */
 const leastAsymmetryRangeMm = 5;
 
 function asymmetryOfMotion(replay: Replay, mirror: NonNullable<Replay['mirror']>): Colouring {

@@ -16,11 +16,11 @@ export function frameAt(timeS: number[], t: number): number {
   return low + (t - timeS[low]) / (timeS[high] - timeS[low]);
 }
 
-/** Displacements smaller than this are not worth an addition, metres. */
+/** Smaller displacements are not added, metres. */
 const negligibleM = 1e-7;
 
-/** Adds weights times modes at a frame to `out`. Between frames weights are interpolated linearly, as the
- *  animated glTF does. Four modes a pass: writing `out` is what takes the time. */
+/** Adds weights times modes at a frame to `out`. Between frames weights are interpolated linearly, as the animated glTF
+ *  does. Four modes per pass, since writing `out` dominates the time. */
 function addModes(modes: Mode[], weights: Float32Array, frame: number, frames: number, out: Float32Array): void {
   const count = modes.length;
   const first = Math.floor(frame);
@@ -48,7 +48,7 @@ function addModes(modes: Mode[], weights: Float32Array, frame: number, frames: n
   }
 }
 
-/** How base moves: worked out once a frame, whatever faces are made of it. */
+/** The motion of base, computed once per frame for all faces. */
 export class SceneMotion {
   readonly displacement: Float32Array; // metres
   private frame = NaN;
@@ -65,7 +65,7 @@ export class SceneMotion {
     addModes(modes, weights, frame, timeS.length, this.displacement);
   }
 
-  /** The replay moves otherwise now. */
+  /** Call it after a new motion. */
   forget(): void {
     this.frame = NaN;
   }
@@ -91,8 +91,8 @@ export class FaceShape {
     this.normal = new Float32Array(replay.points.length);
   }
 
-  /** `live`: displacements that stand for those of the motion; null: the motion's own. `triangles`: that normals are
-   *  found from, where fewer are drawn. */
+  /** `live`: displacements instead of those of the motion; null: the motion's own. `triangles`: those from which
+   *  normals are computed, where fewer are drawn. */
   moveTo(frame: number, live: Float32Array | null = null, triangles: ArrayLike<number> = this.replay.triangles): void {
     const { displacement, position } = this;
     const { points } = this.replay;

@@ -20,7 +20,7 @@ const manyTriangles = 30_000;
 /** A place on the skin, wherever it has moved to. */
 export interface SkinHit {
   vertices: [number, number, number];
-  /** Of 1 in all. */
+  /** Sum 1. */
   weights: [number, number, number];
 }
 
@@ -106,7 +106,7 @@ export class FaceBody {
     this.makeOverlays();
   }
 
-  /** Anew, after the replay moves otherwise. */
+  /** Call it after a new motion. */
   makeOverlays(): void {
     for (const overlay of this.overlays) disposeOverlay(overlay);
     this.overlays = overlaysOf(this.replay);
@@ -122,7 +122,7 @@ export class FaceBody {
     this.normalsOf = on ? this.fewOfSkin : undefined;
   }
 
-  /** Whether normals of a picture in motion are of fewer triangles than those of one at rest. */
+  /** Whether normals in motion are computed from fewer triangles than at rest. */
   get coarsens(): boolean {
     return this.fewOfSkin !== undefined;
   }
@@ -145,7 +145,7 @@ export class FaceBody {
     return this.shape.face;
   }
 
-  /** `live`: displacements that stand for those of the motion. */
+  /** `live`: displacements instead of those of the motion. */
   moveTo(face: Face, frame: number, live: Float32Array | null = null): void {
     this.shape.face = face;
     this.shape.moveTo(frame, live, this.normalsOf);
@@ -174,7 +174,7 @@ export class FaceBody {
     painting.fill(this.shape, this.shares, other?.shape ?? null);
     const out = this.ramp.array as Float32Array;
     const { split, shares } = this;
-    // Half a colour in at either end: the middles of the first and the last.
+    // Maps 0 and 1 to the centres of the first and the last colour.
     const span = 1 - 1 / rampSize;
     const start = 0.5 / rampSize;
     for (let i = 0; i < this.ramp.count; ++i) {
@@ -229,7 +229,7 @@ export class FaceBody {
     return new Vector3().fromArray(this.shape.position, 3 * vertex);
   }
 
-  /** `share`: as the colours have it, of 0 to 1; NaN where a vertex has no value. */
+  /** `share`: place on the colour map, 0 to 1; NaN where a vertex has no value. */
   figuresOf(vertex: number): { displacementMm: number; share: number } {
     const [x, y, z] = this.shape.displacement.subarray(3 * vertex, 3 * vertex + 3);
     return { displacementMm: 1e3 * Math.hypot(x, y, z), share: this.shares[vertex] };
@@ -238,7 +238,7 @@ export class FaceBody {
   private copyOut(from: Float32Array, attribute: BufferAttribute): void {
     attribute.needsUpdate = true;
     const { split } = this;
-    if (!split) return; // drawn from the very array
+    if (!split) return; // drawn from the same array
     const out = attribute.array as Float32Array;
     for (let i = 0, to = 0; i < split.length; ++i) {
       const at = 3 * split[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which face is looked at, or which two: a button each in the face's colour, and their names over the picture.
+// The choice of one or two faces to show: a button per face in its colour, and their names over the picture.
 import type { Face, Replay } from '../data';
 import { at } from '../../page/dom';
 import type { Undoing } from '../../page/listeners';
@@ -30,7 +30,7 @@ function fillChips(replay: Replay, group: HTMLElement, choose: (face: number) =>
   });
 }
 
-/** A label over the picture: the face's name, from which another is chosen, and what there is to say of it. */
+/** A label over the picture: the face's name, which is also a menu of the others, and a remark on the face. */
 class FaceLabel {
   private readonly dot = swatch(0);
   private readonly select = document.createElement('select');
@@ -60,7 +60,7 @@ class FaceLabel {
   }
 }
 
-/** Two faces: the one that was looked at, right, beside base. One again: the right one. */
+/** Two faces: base left, and right the one that was shown. Back to one: the right one. */
 export function changeMode(shown: Shown, mode: Mode): void {
   if (mode === shown.mode) return;
   if (mode === 'single') shown.set({ mode, first: shown.second });
@@ -68,7 +68,7 @@ export function changeMode(shown: Shown, mode: Mode): void {
   else shown.set({ mode });
 }
 
-/** The face looked at, of two the right one. */
+/** The face shown; of two, the right one. */
 export const chooseFace = (shown: Shown, face: number): void =>
   shown.set(shown.mode === 'single' ? { first: face } : { second: face });
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which way a face looks: scans come in any pose, cameras should not.
+// The orientation of a face: scans have any pose, views should not.
 import { Matrix4, Quaternion, Vector3 } from 'three';
 import type { Replay } from '../data';
 

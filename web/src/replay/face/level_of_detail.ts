@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fewer triangles over the same vertices, for pictures in motion where the processor draws them. Vertices are merged
-// along edges into every few of them (a maximal independent set), so that what only touches, as closed lips, stays
-// apart; vertices on the rim of a mesh stay, so that holes keep their shape.
+// along edges into every few of them (a maximal independent set), so that surfaces that only touch, such as closed
+// lips, stay separate; vertices on the rim of a mesh stay, so that holes keep their shape.
 import { BufferAttribute, type BufferGeometry, type Mesh } from 'three';
 
 type Triangles = ArrayLike<number>;
 
-/** Of each vertex the triangles around it: those of v are at[first[v]] to at[first[v + 1]]. */
+/** Per vertex the triangles around it: those of v are at[first[v]] to at[first[v + 1]], exclusive. */
 function trianglesAround(triangles: Triangles, count: number): { first: Uint32Array; at: Uint32Array } {
   const first = new Uint32Array(count + 1);
   for (let i = 0; i < triangles.length; ++i) ++first[triangles[i] + 1];
@@ -56,12 +56,12 @@ export function coarser(triangles: Triangles, count: number): Uint32Array<ArrayB
 export class LevelOfDetail {
   private readonly meshes: { geometry: BufferGeometry; all: number; few: number }[] = [];
 
-  /** Each pass leaves about a quarter. Returns those that are left. */
+  /** Returns the remaining triangles, about a quarter per pass. */
   add({ geometry }: Mesh, passes: number): ArrayLike<number> {
     const all = geometry.getIndex()!.array;
     let few: Triangles = all;
     for (let pass = 0; pass < passes; ++pass) few = coarser(few, geometry.getAttribute('position').count);
-    // One behind the other in one buffer: changing over costs nothing.
+    // Both lists in one buffer, so that switching costs nothing.
     const both = new Uint32Array(all.length + few.length);
     both.set(all);
     both.set(few, all.length);

@@ -91,8 +91,8 @@ function cutOverlay(replay: Replay): Overlay {
   return { name: 'cut', label: 'Lip cut', colour, object: group, follow };
 }
 
-/** From origin to insertion; each point goes with the skin next to it, as deep muscles do less: where they run, not
- *  how they lengthen. */
+/** From origin to insertion; each point follows the nearest skin, though deep muscles move less. So it shows their
+ *  course, not their stretch. */
 function muscleOverlay(replay: Replay, lines: Vec3[][], colour = '#b5179e', linewidth = 2.5): Overlay {
   const ends = lines.flatMap((line) => line.slice(1).flatMap((p, i) => [line[i], p]));
   const flat = new Float32Array(ends.flat());
@@ -119,7 +119,7 @@ export function litMuscles(replay: Replay, names: ReadonlySet<string>): Overlay 
   return lines.length > 0 ? muscleOverlay(replay, lines, '#ffd60a', 4) : null;
 }
 
-/** Takes an overlay off for good. */
+/** Removes an overlay and frees it. */
 export function disposeOverlay({ object }: Overlay): void {
   object.removeFromParent();
   object.traverse((part) => {

@@ -38,7 +38,7 @@ export class Picking {
     return pass.body.placeOn(this.rayAt(clientX, clientY, pass));
   }
 
-  /** The skin of whichever face is shown there. `pixelsPerM`: at its depth. */
+  /** The skin of the face shown there. `pixelsPerM`: at its depth. */
   hitAt(clientX: number, clientY: number): (SkinHit & { pixelsPerM: number }) | null {
     const pass = this.passAt(clientX)?.pass;
     const hit = pass?.body.hitOn(this.rayAt(clientX, clientY, pass));
@@ -49,7 +49,7 @@ export class Picking {
     return { ...hit, pixelsPerM: this.host.clientHeight / (2 * depth * halfHeight) };
   }
 
-  /** The nearest vertex of the skin of whichever face is shown there. */
+  /** The nearest vertex of the skin of the face shown there. */
   placeAt(clientX: number, clientY: number): Place | null {
     const found = this.passAt(clientX);
     if (!found) return null;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the stage shows as a picture to take along: with title, names, time and the bar of colours, on the
-// page's own background.
+// The stage as a picture to save: with title, names, time and colour bar, on the page's own background.
 import { rampStops } from './colour';
 import { ticksOf, type Scale } from './colouring';
 import { drawSideMarks, type SideMark } from './side_marks';
@@ -30,7 +29,7 @@ const mostLines = 8;
 const bandWords = '±: from jitter (95 %) and mesh (one sample) alone.';
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
-/** A pen that counts in the page's pixels. */
+/** A drawing context in the page's pixels. */
 class Pen {
   readonly canvas = document.createElement('canvas');
   readonly on: CanvasRenderingContext2D;

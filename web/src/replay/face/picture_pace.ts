@@ -3,12 +3,13 @@
 // drawn once more with all.
 import { drawsInSoftware } from '../software_gl';
 
-/** So many late pictures in a row: from then on those in motion stay coarse, as changing back and forth would show. */
+/** After this many late pictures in a row, pictures in motion stay coarse: switching back and forth would be visible.
+ *  */
 const lateInARow = 3;
 
 export class PicturePace {
   readonly software = drawsInSoftware();
-  /** More live shapes follow as fast as they are drawn, computed by the same processor. */
+  /** More live shapes follow as fast as they are drawn, computed on the same processor. */
   streaming = false;
   private drawnAt = 0;
   private late = 0;
@@ -26,7 +27,7 @@ export class PicturePace {
     this.drawnAt = time;
     if (this.late < lateInARow) this.late = (playing || live) && gap > 50 && gap < 400 ? this.late + 1 : 0;
     this.stop();
-    // A hand that rests on a slider soon goes on.
+    // A slider that is held still soon moves on.
     if (!playing) this.timer = window.setTimeout(refine, live ? 700 : 150);
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures at a place of the skin: those under a pointer that rests, or those of the place last pressed, which
-// stay, go along with the time and are read aloud.
+// Figures at a place of the skin: those under a pointer that rests, or those of the place last pressed, which stay,
+// follow the time and are read aloud.
 import type { Colouring, Painting } from './colouring';
 import type { Replay } from '../data';
 import { nearestVertex } from './deform';
@@ -12,7 +12,7 @@ import type { Place } from './picking';
 import type { FaceViewer } from './viewer';
 
 const restMs = 350;
-/** A pointer that went farther, or was held longer, has turned the face. */
+/** A pointer that moved farther, or was held longer, has turned the face. */
 const pressPx = 5;
 const pressMs = 600;
 
@@ -49,7 +49,7 @@ export class Readout {
     return this.place !== null;
   }
 
-  /** Off the page for good. */
+  /** Removes it from the page. */
   dispose(): void {
     this.clear();
     this.box.remove();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Letters over a view that say where the subject's own sides lie in it: R and L at its edges, and in profile, where both
-// lie in one place, that of the side which is seen, below. The program's pictures have them by the same rule
+// Letters over a view that show the subject’s own sides: R and L at its edges, and in profile, where both
+// lie in one place, only that of the visible side, below. The program's pictures use the same rule
 // (src/hyperex/render/side_marks.cpp).
 import type { PerspectiveCamera } from 'three';
 import { element } from '../../page/dom';
@@ -14,7 +14,7 @@ export interface SideMark {
   y: number;
 }
 
-/** Of the face's breadth as it is seen: within 20 degrees of the profile there is no room for both. */
+/** Share of the face's visible breadth: within 20 degrees of the profile there is no room for both. */
 const leastBreadth = 0.35;
 const insetPx = 16;
 
@@ -33,7 +33,7 @@ interface Marked {
   onDraw(drawn: () => void): Undo;
 }
 
-/** Keeps them over the view, until undone. */
+/** Shows them over the view until the returned function is called. */
 export function showSideMarks(viewer: Marked, host: HTMLElement): Undo {
   const layer = element('div', '', 'side-marks');
   layer.setAttribute('aria-hidden', 'true');
@@ -58,7 +58,7 @@ export function showSideMarks(viewer: Marked, host: HTMLElement): Undo {
   };
 }
 
-/** The same into a picture. */
+/** Draws them into a picture. */
 export function drawSideMarks(on: CanvasRenderingContext2D, marks: SideMark[], ink: string, halo: string): void {
   on.save();
   on.font = "700 15px system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";

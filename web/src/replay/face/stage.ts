@@ -30,12 +30,12 @@ export class Stage {
   private readout: Readout | null = null;
   private colourings: Colouring[];
   private colouring: Colouring;
-  /** Beside the replay's own, and what was chosen before it. */
+  /** A colouring in addition to the replay's own, and the one chosen before it. */
   private lent: { colouring: Colouring; before: string } | null = null;
   private painting: Painting;
   private sayOfFaces: (note: (face: Face) => string) => void;
   private timeS = 0;
-  /** Until the stage goes, and until the replay moves otherwise. */
+  /** Subscriptions until the stage is removed, and until the next motion. */
   private readonly undoing = new Undoing();
   private facesUndoing = new Undoing();
 
@@ -58,7 +58,7 @@ export class Stage {
     let announced = shown.visible.join();
     this.undoing.add(showSideMarks(this.viewer, at('canvas-host')), shown.onChange(() => {
       this.paint();
-      // Listeners are also called when the same faces move otherwise: no choice, and no news to screen readers.
+      // Listeners are also called after a new motion of the same faces. That is no choice, and so it is not announced.
       if (shown.visible.join() !== announced) this.announce();
       announced = shown.visible.join();
     }));
@@ -70,8 +70,8 @@ export class Stage {
     return this.viewer;
   }
 
-  /** The replay moves otherwise, or has other variants: colours and their ranges, names and overlays are made anew;
-   *  what was chosen and the camera stay. */
+  /** Call it after a new motion or new variants: makes colours and their ranges, names and overlays again. The choices
+   *  and the camera are kept. */
   refresh(): void {
     this.facesUndoing.undo();
     this.facesUndoing = new Undoing();
@@ -84,7 +84,7 @@ export class Stage {
     this.fillOverlays();
   }
 
-  /** Another colouring beside the replay's own, chosen at once; null: none any more, and the one before it. */
+  /** Adds a colouring to the replay's own and chooses it; null: removes it and restores the previous choice. */
   lend(colouring: Colouring | null): void {
     if (!this.viewer) return;
     const chosen = this.lent && this.colouring === this.lent.colouring ? this.lent.before : this.colouring.key;
@@ -98,7 +98,7 @@ export class Stage {
     if (this.viewer) this.paint();
   }
 
-  /** Off the page for good; leaves its elements as another stage wants them. */
+  /** Removes the stage; its elements can then be used by another one. */
   dispose(): void {
     this.facesUndoing.undo();
     this.undoing.undo();
@@ -114,7 +114,7 @@ export class Stage {
     this.viewer?.moveTo(frame, playing);
   }
 
-  /** What the keyboard does here. */
+  /** Keyboard shortcuts of the stage. */
   keys(): Key[] {
     const { replay, shown, viewer } = this;
     if (!viewer) return [];
@@ -211,7 +211,7 @@ export class Stage {
     this.announce();
   }
 
-  /** To screen readers, after a choice by a key. */
+  /** Announces a choice by key to screen readers. */
   private announce(): void {
     const { replay, shown, colouring, painting } = this;
     const faces = shown.visible.map((i) => faceWords(replay.faces, i));

@@ -21,7 +21,7 @@ export class StageLights {
     scene.add(this.sky);
   }
 
-  /** A map is read by its colours: less shading, more light from everywhere. */
+  /** For colour maps, which must be readable: less shading, more ambient light. */
   light(what: 'skin' | 'map'): void {
     const map = what === 'map';
     this.sky.intensity = map ? 2.35 : 1.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Teeth and gums behind the lips: the upper ones stand, the lower ones go along with the jaw.
+// Teeth and gums behind the lips: the upper ones do not move, the lower ones move with the jaw.
 import { BufferAttribute, BufferGeometry, Group, Mesh, MeshStandardMaterial, Quaternion, Vector3 } from 'three';
 import type { Face, Replay } from '../data';
 
@@ -30,7 +30,7 @@ export class Teeth {
     for (const row of replay.teeth) (row.jaw === 'lower' ? this.lower : this.object).add(meshOf(row));
   }
 
-  /** `frame`: with its fraction; between frames as the animated glTF has it. */
+  /** `frame`: may be fractional; interpolated as in the animated glTF. */
   moveTo(face: Face, frame: number): void {
     const { jaw } = face;
     if (!jaw) return;

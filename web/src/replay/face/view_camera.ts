@@ -31,7 +31,7 @@ export class ViewCamera {
     this.update();
   }
 
-  /** Moves around the face, to its left and up; degrees. */
+  /** Rotates the camera around the face, to its left and up; degrees. */
   turn(yaw: number, pitch: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
     const at = new Spherical().setFromVector3(offset);
@@ -55,7 +55,7 @@ export class ViewCamera {
     this.zoom(before / this.distance());
   }
 
-  /** From where the face fills the picture, m. */
+  /** The distance at which the face fills the picture, m. */
   private distance(): number {
     const half = Math.max(this.size.y, this.size.x / Math.max(this.camera.aspect, 0.1)) / 2;
     return (1.06 * half) / Math.tan(radians(this.camera.fov) / 2) + this.size.z / 4;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The face in 3D, or two of them: beside each other, or in one place and divided by an upright line.
-// One camera for both. Draws only when something changed, and deforms only what is drawn.
+// The face in 3D, or two of them: beside each other, or in one place and divided by a vertical line. One camera for
+// both. Draws only when something changed, and deforms only what is drawn.
 import { Box3, Group, NoToneMapping, Scene, SRGBColorSpace, Texture, WebGLRenderer } from 'three';
 import type { Painting } from './colouring';
 import type { Replay } from '../data';
@@ -38,10 +38,10 @@ export class FaceViewer {
   private queued = 0;
   /** The canvas holds a picture drawn since the page was last put on the screen. */
   private fresh = false;
-  /** Nothing but the live shape has changed since the last picture. */
+  /** Only the live shape has changed since the last picture. */
   private whole = false;
   private liveStale = false; // the live shape alone has changed
-  private coarse = false; // the last picture had few triangles
+  private coarse = false; // the last picture was drawn with few triangles
   private disposed = false;
   private readonly pace = new PicturePace();
   private readonly drawn = new Listeners();
@@ -59,7 +59,7 @@ export class FaceViewer {
     private readonly shown: Shown,
     private painting: Painting,
   ) {
-    // A kept picture need not be drawn again: of two faces only the changed one is.
+    // Keeps the picture, so that of two faces only the changed one is drawn again.
     const { software } = this.pace;
     this.renderer = new WebGLRenderer({ canvas, antialias: !software, alpha: true, preserveDrawingBuffer: software });
     this.renderer.toneMapping = NoToneMapping;
@@ -107,8 +107,8 @@ export class FaceViewer {
     this.renderer.forceContextLoss();
   }
 
-  /** Shows a shape of a face, in metres from rest, until the next motion or null. `streaming`: more of them follow as
-   *  fast as they are drawn, computed by the same processor. */
+  /** Shows a shape of a face, in metres from rest, until the next motion or null. `streaming`: more shapes follow as
+   *  fast as they are drawn, computed on the same processor. */
   showLive(live: { face: number; displacement: Float32Array } | null, streaming = false): void {
     this.pace.streaming = streaming && live !== null;
     if (!live && !this.live) return;
@@ -156,7 +156,7 @@ export class FaceViewer {
     return this.body(0).overlays;
   }
 
-  /** `playing`: another frame is to follow at once. */
+  /** `playing`: another frame follows at once. */
   moveTo(frame: number, playing: boolean): void {
     if (frame !== this.frame) this.live = null;
     this.frame = frame;
@@ -371,7 +371,7 @@ export class FaceViewer {
     });
   }
 
-  /** Draws a picture in motion, and soon after the last one another at rest. */
+  /** Draws a picture in motion and, soon after the last one, a picture at rest. */
   private show(): void {
     if (this.disposed) return;
     const { software, ratio } = this.pace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The upright line between two faces in one place: dragged, or moved with the arrow keys.
+// The vertical line between two faces in one place: dragged, or moved with the arrow keys.
 
 export class WipeHandle {
   private share = 0.5;

@@ -45,7 +45,7 @@ const undecided = {
 
 const unitKey = { excursion: 'excursion_mm', path: 'path_mm', peak_speed: 'peak_speed_mm_s' } as const;
 
-/** Of face i: the scene's own stand in summary.symmetry, a variant's in its row of the comparison. */
+/** The excursions of face i: those of base are in summary.symmetry, a variant's in its row of the comparison. */
 export function excursionsOf(replay: Replay, face: number): Excursion[] {
   const holder = face === 0
     ? replay.summary.symmetry
@@ -96,7 +96,7 @@ const floorOf = (pair: Excursion, key: keyof typeof floorKey): number => Number(
 const isUndecided = (pair: Excursion, key: keyof typeof floorKey): boolean =>
   key === 'excursion' ? pair.undecided : pair[`${key}_undecided`] === true;
 
-/** In grey, with the word and the floor in the place of a figure that would be read as a finding. */
+/** In grey, with the word and the floor instead of a figure that would be read as a finding. */
 function undecidedCell(cell: HTMLTableCellElement, floor: number, unit: string): HTMLTableCellElement {
   const known = Number.isFinite(floor) && floor > 0;
   const words = element('span', known ? `undecided (below ${floor.toFixed(1)} ${unit})` : 'undecided', 'undecided');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A table of figures in its card: heading, lines above it, a way to take it along, notes on its columns.
+// A table of figures in its card: heading, lines above it, a button to save it, notes on its columns.
 import './tables.css';
 import { element } from '../../page/dom';
 import { signed } from '../../page/format';
@@ -9,7 +9,7 @@ export interface Column {
   key: string;
   head: string;
   unit: string;
-  /** After the point: alike in a column, so that its figures stand under each other. */
+  /** Decimals, the same in a column, so that its figures are aligned. */
   digits: number;
   /** Shown = value * factor. */
   factor?: number;
@@ -41,7 +41,7 @@ export function headCell({ head, unit, says }: Column): HTMLTableCellElement {
   return cell;
 }
 
-/** What each column is, on demand. */
+/** Explanations of the columns, on demand. */
 export function columnNotes(columns: Pick<Column, 'head' | 'says'>[]): HTMLElement {
   const details = element('details', '', 'column-help');
   const list = element('dl', '', 'column-notes');
@@ -57,7 +57,8 @@ export function columnNotes(columns: Pick<Column, 'head' | 'says'>[]): HTMLEleme
 /** Where there is little room tables open on demand. */
 const roomy = () => !window.matchMedia('(max-width: 700px)').matches;
 
-/** The card and what of it folds; `rows` gives all figures, not rounded, with their names and units in the first row. */
+/** The card and its foldable part; `rows` returns all figures, not rounded, with their names and units in the first
+ *  row. */
 export function figureCard(
   title: string, lines: string[], table: HTMLTableElement, rows: () => (string | number | null)[][],
 ): { card: HTMLElement; body: HTMLElement } {

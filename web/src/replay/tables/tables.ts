@@ -6,7 +6,7 @@ import { excursionTable } from './excursion_table';
 import type { Shown } from '../shown';
 import { variantsTable } from './variants_table';
 
-/** `into` stays hidden where there are none. The tables follow what is shown until undone. */
+/** `into` stays hidden where there are none. The tables follow what is shown until the returned function is called. */
 export function fillTables(replay: Replay, shown: Shown, into: HTMLElement): Undo {
   const undoing = new Undoing();
   const tables = [variantsTable(replay, shown, undoing), excursionTable(replay, shown, undoing)].filter((card) => card !== null);

@@ -72,14 +72,14 @@ function linesOf({ driven_point, response_point, table }: Variants): string[] {
   return ['Each variant against base. Press a name to see that face.', ...points, decided];
 }
 
-/** Digits enough for the column's largest figure to show two that are not zero. */
+/** Enough decimals for two significant digits of the column's largest figure. */
 function fitted(column: Column, rows: VariantRow[]): Column {
   const most = Math.max(...rows.map((row) => Math.abs(Number(row[column.key] ?? 0)) * (column.factor ?? 1)));
   if (!(most > 0) || column.digits === 0) return column;
   return { ...column, digits: Math.min(Math.max(column.digits, 1 - Math.floor(Math.log10(most))), 9) };
 }
 
-/** Where the face differs most, and what that place does at the peak here and in base. */
+/** Where the face differs most, and the displacement there at the peak, here and in base. */
 function placeOf({ farthest_near: near, displacement_there_mm: here, base_displacement_there_mm: there }: VariantRow): string[] {
   if (typeof near !== 'string' || near === '' || !isNumber(here) || !isNumber(there)) return [];
   return [`differs most near ${landmarkName(near)}, which moves ${here.toFixed(2)} instead of ${there.toFixed(2)} mm`];
