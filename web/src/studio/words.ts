@@ -323,8 +323,6 @@ const en = {
   refused: 'The server does not let this page in: open the address that hyperex studio printed, with all that stands behind #.',
   taken: 'The studio is open in another window.',
   takeOver: 'Go on here',
-  working: 'Working',
-  secondsTaken: (seconds: string) => `computed in ${seconds} s`,
 
   // Keys.
   keyUndo: 'undo',
