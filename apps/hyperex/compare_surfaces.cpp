@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <iostream>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/io/scan.hpp"
 
 namespace hyperex::cli {
@@ -62,14 +62,11 @@ void check_sizes(const CompareOptions& options, const ComparedSurfaces& surfaces
 // An STL repeats each corner; joined again, vertices are numbered by their first appearance, and
 // where two of them touch they are one.
 void refuse_stl(const CompareOptions& options) {
-  for (const auto& file : {options.a, options.b}) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-    if (extension == ".stl")
+  for (const auto& file : {options.a, options.b})
+    if (ending_of(file) == ".stl")
       throw InputError(file,
                        "is an STL, which does not number its vertices: --corresponding needs "
                        "PLY, OBJ or glTF; without it the closest points are compared");
-  }
 }
 
 // Scored by corresponding vertices, all three must begin with the vertices at rest.

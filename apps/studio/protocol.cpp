@@ -5,23 +5,14 @@
 
 #include <cmath>
 
+#include "hyperex/core/carried_file.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/io/nesting.hpp"
 
-// Embeds the file.
-__asm__(
-    ".pushsection .rodata\n"
-    ".global hyperex_studio_protocol_begin\n"
-    ".global hyperex_studio_protocol_end\n"
-    "hyperex_studio_protocol_begin:\n"
-    ".incbin \"" HYPEREX_STUDIO_PROTOCOL
-    "\"\n"
-    "hyperex_studio_protocol_end:\n"
-    ".byte 0\n"
-    ".popsection\n");
-extern "C" const char hyperex_studio_protocol_begin[], hyperex_studio_protocol_end[];
-
 namespace hyperex::studio {
+
+HX_CARRIED_FILE(protocol_json, HYPEREX_STUDIO_PROTOCOL)
+
 namespace {
 
 using nlohmann::json;
@@ -60,8 +51,7 @@ std::string expectation_missed(const json& value, const json& field) {
 }  // namespace
 
 const json& protocol() {
-  static const json parsed =
-      json::parse(hyperex_studio_protocol_begin, hyperex_studio_protocol_end);
+  static const json parsed = json::parse(protocol_json());
   return parsed;
 }
 

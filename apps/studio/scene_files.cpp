@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hyperex/capture/tum_folder.hpp"
+#include "hyperex/core/carried_file.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/zip.hpp"
@@ -20,22 +21,12 @@
 #include "hyperex/scene/toml_values.hpp"
 #include "upload_name.hpp"
 
-__asm__(
-    ".pushsection .rodata\n"
-    ".global hyperex_studio_smile_begin\n"
-    ".global hyperex_studio_smile_end\n"
-    "hyperex_studio_smile_begin:\n"
-    ".incbin \"" HYPEREX_STUDIO_SMILE
-    "\"\n"
-    "hyperex_studio_smile_end:\n"
-    ".byte 0\n"
-    ".popsection\n");
-extern "C" const char hyperex_studio_smile_begin[], hyperex_studio_smile_end[];
-
 namespace hyperex::studio {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
+
+HX_CARRIED_FILE(embedded_smile, HYPEREX_STUDIO_SMILE)
 
 namespace {
 
@@ -100,10 +91,6 @@ std::string embedded_scene() {
          "[scan]\nfile = \"embedded\"\n\n"
          "[motion]\narkit = \"smile_arkit.csv\"\n\n"
          "[drive]\nby = \"muscles\"\n";
-}
-
-std::string_view embedded_smile() {
-  return {hyperex_studio_smile_begin, hyperex_studio_smile_end};
 }
 
 std::string moved_by(const std::string& text, const fs::path& recording) {

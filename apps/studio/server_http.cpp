@@ -20,11 +20,8 @@
 namespace hyperex::studio {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
-using tcp = asio::ip::tcp;
 using std::chrono::seconds;
 
 constexpr std::size_t kLongestHead = 16384;

@@ -15,6 +15,10 @@
 
 namespace hyperex::studio {
 
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using tcp = asio::ip::tcp;
+
 /// A connected peer. Peers that have not proven to be the user's page give way to others.
 class Peer {
  public:
@@ -33,12 +37,11 @@ class PageSocket : public Peer {
 };
 
 struct Server::Impl {
-  using tcp = boost::asio::ip::tcp;
-  using Request = boost::beast::http::request<boost::beast::http::empty_body>;
+  using Request = beast::http::request<beast::http::empty_body>;
 
   ServerOptions options;
   ServerEvents events;
-  boost::asio::io_context io{1};
+  asio::io_context io{1};
   tcp::acceptor acceptor{io};
   unsigned short port = 0;
   std::string policy;                  ///< Content-Security-Policy of each answer
@@ -47,7 +50,7 @@ struct Server::Impl {
   std::list<std::weak_ptr<Peer>> peers;  ///< oldest first
   std::size_t uploading = 0;             ///< bytes that uploads on their way will take
   int parts = 0;                         ///< uploads begun
-  boost::asio::steady_timer retry{io};
+  asio::steady_timer retry{io};
 
   void accept();
   /// Whether another connection may be accepted. Closes the oldest unproven one if need be.

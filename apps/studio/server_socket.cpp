@@ -13,10 +13,7 @@
 namespace hyperex::studio {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
 namespace websocket = beast::websocket;
-using tcp = asio::ip::tcp;
 using std::chrono::steady_clock;
 
 constexpr std::size_t kLongestHello = 4096;

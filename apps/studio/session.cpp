@@ -12,9 +12,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
 namespace {
 
 /// Removes the paths of the session's own folders, which mean nothing to the user.

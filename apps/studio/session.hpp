@@ -22,6 +22,9 @@
 
 namespace hyperex::studio {
 
+using nlohmann::json;
+namespace fs = std::filesystem;
+
 struct SessionOptions {
   std::filesystem::path started;    ///< the scene or scan named on the command line; empty: none
   std::filesystem::path save_into;  ///< the folder that "save" writes to

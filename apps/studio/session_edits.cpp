@@ -11,8 +11,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-
 namespace {
 
 constexpr std::size_t kMostSteps = 500;

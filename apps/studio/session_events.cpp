@@ -13,9 +13,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
 namespace {
 
 json muscles_json(const muscles::MuscleTable& table) {

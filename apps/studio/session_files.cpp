@@ -16,9 +16,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
 void Session::check_save_name(const std::string& name) {
   if (!is_upload_name(name))
     throw InputError("name: expected letters, digits, spaces and any of -_.(), the first no dot");

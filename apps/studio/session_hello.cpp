@@ -11,9 +11,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
 namespace {
 
 const char* kind_name(scene::Kind kind) {

@@ -12,9 +12,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
 json Session::move_landmark(const json& fields) {
   const io::Landmarks& known = require_face().inputs().landmarks;
   const std::string name = fields.at("name");

@@ -13,9 +13,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
 Live& Session::require_live() {
   if (!live_) throw InputError("no live face: start one first");
   return *live_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opening scans, recordings and scenes.
-#include <cctype>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene_text.hpp"
 #include "scene_files.hpp"
@@ -11,19 +11,6 @@
 #include "upload_name.hpp"
 
 namespace hyperex::studio {
-
-using nlohmann::json;
-namespace fs = std::filesystem;
-
-namespace {
-
-bool is_zip(const fs::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return ending == ".zip";
-}
-
-}  // namespace
 
 json Session::open(const json& fields) {
   const std::string what = fields.at("what");
@@ -34,7 +21,7 @@ json Session::open(const json& fields) {
     if (name.empty()) return fs::path();
     const fs::path file = uploads() / name;
     if (!fs::is_regular_file(file)) throw InputError(name + ": no such upload");
-    if (!is_zip(file)) return file;
+    if (ending_of(file) != ".zip") return file;
     report_progress("unpacking the recording");
     return unpacked_recording(file, uploads());
   };

@@ -7,8 +7,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-
 json Session::paint(const json& fields) {
   const tissue::TissueMesh& mesh = require_face().session().mesh();
   return {{"file", write_painting(mesh, fields.at("vertices"), fields.at("shares"), uploads())}};

@@ -8,8 +8,6 @@
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-
 namespace {
 
 /// Throws InputError, in terms of the page, for a name that the face may not have. `others`: the

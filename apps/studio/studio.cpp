@@ -24,9 +24,6 @@ extern char** environ;
 
 namespace hyperex::studio {
 
-using nlohmann::json;
-namespace fs = std::filesystem;
-
 namespace {
 
 /// A page that forwards to the address and that only this user can read: other users of the machine

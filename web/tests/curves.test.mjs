@@ -3,7 +3,7 @@
 //   REPORT=out/a/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/curves.test.mjs
 // Without REPORT it takes the variants of a made-up face that write_report_fixtures wrote.
 import assert from 'node:assert/strict';
-import { mkdir, readFile, rm } from 'node:fs/promises';
+import { readFile, rm } from 'node:fs/promises';
 import { basename, dirname, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
@@ -20,10 +20,7 @@ const trackTitle = 'Point tracks';
 const itself = 'base';
 
 let browser;
-before(async () => {
-  if (pictures) await mkdir(pictures, { recursive: true });
-  browser = await launch();
-});
+before(async () => (browser = await launch()));
 after(() => browser?.close());
 
 const card = (page, title) => page.locator('.plot-card').filter({ has: page.getByRole('heading', { name: title, exact: true }) });

@@ -3,7 +3,7 @@
 //   REPORT=out/demo/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/muscles.test.mjs
 // Without REPORT it takes the variants of a made-up face that write_report_fixtures wrote, and gives it muscles.
 import assert from 'node:assert/strict';
-import { mkdir, mkdtemp, writeFile } from 'node:fs/promises';
+import { mkdtemp, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
@@ -38,7 +38,6 @@ async function madeUp() {
 
 let browser, report;
 before(async () => {
-  if (pictures) await mkdir(pictures, { recursive: true });
   browser = await launch();
   report = given ?? (await madeUp());
 });

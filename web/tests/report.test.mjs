@@ -3,7 +3,7 @@
 //   REPORT=out/a/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/report.test.mjs
 // Without REPORT it takes the reports of a made-up face that write_report_fixtures wrote.
 import assert from 'node:assert/strict';
-import { mkdir, readFile } from 'node:fs/promises';
+import { readFile } from 'node:fs/promises';
 import { basename, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
@@ -16,10 +16,7 @@ const reports = process.env.REPORT
 const pictures = process.env.SCREENSHOTS;
 
 let browser;
-before(async () => {
-  if (pictures) await mkdir(pictures, { recursive: true });
-  browser = await launch();
-});
+before(async () => (browser = await launch()));
 after(() => browser?.close());
 
 async function open(report, options = {}) {

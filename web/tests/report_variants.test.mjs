@@ -3,7 +3,7 @@
 //   REPORT=out/variants/report.html SCREENSHOTS=/tmp/pictures node --test web/tests/report_variants.test.mjs
 // Without REPORT it takes the one of a made-up face with variants that write_report_fixtures wrote.
 import assert from 'node:assert/strict';
-import { mkdir, readFile } from 'node:fs/promises';
+import { readFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { after, before, beforeEach, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
@@ -15,10 +15,7 @@ const report = process.env.REPORT ? resolve(process.env.REPORT) : fixture('varia
 const pictures = process.env.SCREENSHOTS;
 
 let browser;
-before(async () => {
-  if (pictures) await mkdir(pictures, { recursive: true });
-  browser = await launch();
-});
+before(async () => (browser = await launch()));
 after(() => browser?.close());
 
 const drawn = (page, faces) => page.waitForSelector(`#face[data-faces="${faces}"][data-at-rest="true"]`);

@@ -3,7 +3,6 @@
 //   TRACKING=out/tracking.html SCREENSHOTS=/tmp/pictures node --test web/tests/tracking.test.mjs
 // Without TRACKING it takes those of a made-up face that write_report_fixtures wrote.
 import assert from 'node:assert/strict';
-import { mkdir } from 'node:fs/promises';
 import { basename, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
@@ -15,10 +14,7 @@ const files = process.env.TRACKING
 const pictures = process.env.SCREENSHOTS;
 
 let browser;
-before(async () => {
-  if (pictures) await mkdir(pictures, { recursive: true });
-  browser = await launch();
-});
+before(async () => (browser = await launch()));
 after(() => browser?.close());
 
 /** The data as they stand in the page, read here by other code than the page's. */

@@ -13,6 +13,7 @@
 #include "hyperex/capture/tum_folder.hpp"
 #include "hyperex/capture/video.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/io/number.hpp"
 
 namespace hyperex::capture {
@@ -23,16 +24,9 @@ std::unique_ptr<FrameSource> latest(std::unique_ptr<FrameSource> source) {
   return std::make_unique<LatestFrame>(std::move(source));
 }
 
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 bool is_mesh(const fs::path& file) {
   static constexpr std::array meshes{".ply", ".obj", ".stl", ".glb", ".gltf"};
-  return std::ranges::find(meshes, extension_of(file)) != meshes.end();
+  return std::ranges::find(meshes, ending_of(file)) != meshes.end();
 }
 
 int webcam_number(const std::string& spec) {
@@ -102,9 +96,9 @@ SourceKind source_kind(const std::string& spec) {
                        "is a device; expected a recording, or a camera by its word, as webcam:0");
     if (is_mesh(spec))
       throw InputError(spec, "is a mesh, not a recording: hyperex landmarks finds landmarks on it");
-    return extension_of(spec) == ".oni" ? SourceKind::oni
-           : is_picture(spec)           ? SourceKind::still
-                                        : SourceKind::video;
+    return ending_of(spec) == ".oni" ? SourceKind::oni
+           : is_picture(spec)        ? SourceKind::still
+                                     : SourceKind::video;
   }
   if (const auto kind = device_kind(spec)) return *kind;
   throw InputError(

@@ -2,13 +2,13 @@
 #include "hyperex/capture/still.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "hyperex/capture/camera_file.hpp"
 #include "hyperex/capture/decode.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/lower_case.hpp"
 
 namespace hyperex::capture {
 namespace {
@@ -48,9 +48,7 @@ class Still : public FrameSource {
 }  // namespace
 
 bool is_picture(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = ending_of(file);
   return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
 }
 

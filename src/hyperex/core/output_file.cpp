@@ -5,21 +5,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/lower_case.hpp"
 
 namespace hyperex {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kHead_bytes = 4 << 20;
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 std::string head_of(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -46,7 +41,7 @@ void check(const OutputFile& output) {
   if (const std::string path = output.path.string();
       path.starts_with("/dev/") || path.starts_with("/proc/"))
     return;
-  const std::string name = lower(output.path.filename().string());
+  const std::string name = lower_case(output.path.filename().string());
   if (std::ranges::none_of(output.extensions,
                            [&](const std::string& end) { return name.ends_with(end); }))
     throw InputError(output.path, fmt::format("expected a name that ends in {}",

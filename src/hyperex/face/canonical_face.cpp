@@ -8,30 +8,13 @@
 #include <string_view>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/core/carried_file.hpp"
 #include "hyperex/face/ibug.hpp"
 
-// Two small texts, made and kept as files, copied into the library by the assembler.
-__asm__(
-    ".pushsection .rodata\n"
-    ".global hyperex_canonical_face_begin\n"
-    ".global hyperex_canonical_face_end\n"
-    ".global hyperex_canonical_landmarks_begin\n"
-    ".global hyperex_canonical_landmarks_end\n"
-    "hyperex_canonical_face_begin:\n"
-    ".incbin \"" HYPEREX_CANONICAL_FACE_OBJ
-    "\"\n"
-    "hyperex_canonical_face_end:\n"
-    "hyperex_canonical_landmarks_begin:\n"
-    ".incbin \"" HYPEREX_CANONICAL_LANDMARKS_CSV
-    "\"\n"
-    "hyperex_canonical_landmarks_end:\n"
-    ".byte 0\n"
-    ".popsection\n");
-
-extern "C" const char hyperex_canonical_face_begin[], hyperex_canonical_face_end[];
-extern "C" const char hyperex_canonical_landmarks_begin[], hyperex_canonical_landmarks_end[];
-
 namespace hyperex::face {
+
+HX_CARRIED_FILE(canonical_face_obj, HYPEREX_CANONICAL_FACE_OBJ)
+HX_CARRIED_FILE(canonical_landmarks_csv, HYPEREX_CANONICAL_LANDMARKS_CSV)
 
 namespace {
 
@@ -138,8 +121,8 @@ Vec3 CanonicalFace::landmark(const std::string& name, const Points& vertices) co
 const CanonicalFace& canonical_face() {
   static const CanonicalFace face = [] {
     CanonicalFace made;
-    read_obj({hyperex_canonical_face_begin, hyperex_canonical_face_end}, made);
-    read_landmark_table({hyperex_canonical_landmarks_begin, hyperex_canonical_landmarks_end}, made);
+    read_obj(canonical_face_obj(), made);
+    read_landmark_table(canonical_landmarks_csv(), made);
     made.right_eye = triangles_within(made.mesh.triangles, right_eye_contour());
     made.left_eye = triangles_within(made.mesh.triangles, left_eye_contour());
     made.mouth = triangles_within(made.mesh.triangles, lip_contour());

@@ -23,13 +23,6 @@ bool oriented(const Triangles& triangles) {
   return true;
 }
 
-double length_of(const std::vector<int>& loop, const Points& points) {
-  double sum = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    sum += (points.row(loop[(i + 1) % loop.size()]) - points.row(loop[i])).norm();
-  return sum;
-}
-
 /// Continues the surface over a border by a ring of triangles, whose outer border is returned: no
 /// edge among its vertices is there already.
 std::vector<int> add_collar(TriMesh& mesh, const std::vector<int>& loop, double width) {
@@ -94,7 +87,7 @@ Closing close_mesh(TriMesh& mesh) {
   }
   if (!oriented(mesh.triangles)) mesh = clean_mesh(mesh).mesh;
   for (const std::vector<int>& loop : boundary_loops(mesh.triangles)) {
-    const double length = length_of(loop, mesh.points);
+    const double length = loop_length(loop, mesh.points);
     if (!fill(mesh, loop, length)) {
       out.why_not = "it has a border that cannot be filled";
       return out;

@@ -41,6 +41,13 @@ std::vector<std::vector<int>> boundary_loops(const Triangles& triangles) {
   return loops;
 }
 
+double loop_length(const std::vector<int>& loop, const Points& points) {
+  double sum = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    sum += (points.row(loop[(i + 1) % loop.size()]) - points.row(loop[i])).norm();
+  return sum;
+}
+
 std::vector<std::vector<int>> vertex_neighbours(const Triangles& triangles, Eigen::Index vertices) {
   std::vector<std::vector<int>> around(vertices);
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)

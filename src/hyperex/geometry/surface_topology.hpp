@@ -11,6 +11,9 @@ namespace hyperex {
 /// of its triangles. A vertex where two borders touch appears once in each.
 std::vector<std::vector<int>> boundary_loops(const Triangles& triangles);
 
+/// Of such a walk, back to where it began.
+double loop_length(const std::vector<int>& loop, const Points& points);
+
 /// Neighbours of every vertex along edges, sorted.
 std::vector<std::vector<int>> vertex_neighbours(const Triangles& triangles, Eigen::Index vertices);
 

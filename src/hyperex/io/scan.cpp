@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/io/raw_mesh.hpp"
 
 namespace hyperex::io {
@@ -17,20 +17,13 @@ constexpr std::array kUnits{LengthUnit::millimetre, LengthUnit::centimetre, Leng
 constexpr double guess_min_m = 0.10, guess_max_m = 0.30;
 constexpr double stated_min_m = 0.08, stated_max_m = 0.45;
 
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 bool is_gltf(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
+  const std::string extension = ending_of(file);
   return extension == ".gltf" || extension == ".glb";
 }
 
 RawMesh read_raw(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
+  const std::string extension = ending_of(file);
   std::error_code not_there;  // reported by the reader
   if (std::filesystem::is_regular_file(file, not_there) && std::filesystem::is_empty(file))
     throw InputError(file, "is empty; expected a triangle mesh");

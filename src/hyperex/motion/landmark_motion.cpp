@@ -5,23 +5,12 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "hyperex/core/carried_file.hpp"
 #include "hyperex/io/number.hpp"
 
-// A small table, kept as a file, copied into the library by the assembler.
-__asm__(
-    ".pushsection .rodata\n"
-    ".global hyperex_landmark_motion_begin\n"
-    ".global hyperex_landmark_motion_end\n"
-    "hyperex_landmark_motion_begin:\n"
-    ".incbin \"" HYPEREX_LANDMARK_MOTION_CSV
-    "\"\n"
-    "hyperex_landmark_motion_end:\n"
-    ".byte 0\n"
-    ".popsection\n");
-
-extern "C" const char hyperex_landmark_motion_begin[], hyperex_landmark_motion_end[];
-
 namespace hyperex::motion {
+
+HX_CARRIED_FILE(landmark_motion_csv, HYPEREX_LANDMARK_MOTION_CSV)
 
 namespace {
 
@@ -65,7 +54,7 @@ void add_row(const std::vector<std::string_view>& cells, Eigen::Index row, Landm
 }
 
 LandmarkMotion parsed() {
-  const std::string_view text(hyperex_landmark_motion_begin, hyperex_landmark_motion_end);
+  const std::string_view text = landmark_motion_csv();
   std::vector<std::vector<std::string_view>> lines;
   io::Lines all(text);
   for (std::string_view line; all.next(line);)

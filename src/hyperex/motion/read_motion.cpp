@@ -13,6 +13,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/io/csv.hpp"
 #include "hyperex/io/number.hpp"
@@ -32,17 +33,11 @@ constexpr double kLeastSpan = 0.05, kLargestSpan = 0.45;
 /// shoulders.
 constexpr double kLeastStatedSpan = 0.01, kLargestStatedSpan = 1.0;
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
-
 /// Takes "_mm", "_cm" or "_m" off the end of `text`.
 std::optional<LengthUnit> take_unit(std::string& text) {
   const auto cut = text.rfind('_');
   if (cut == std::string::npos || cut == 0) return {};
-  const auto unit = io::length_unit(lower(text.substr(cut + 1)));
+  const auto unit = io::length_unit(lower_case(text.substr(cut + 1)));
   if (unit) text.resize(cut);
   return unit;
 }
@@ -70,7 +65,7 @@ void add_coordinate(const io::CsvTable& table, Columns& columns, int column) {
   std::string name = header;
   const auto unit = take_unit(name);
   int axis = -1;
-  if (is_numbered(lower(name))) {
+  if (is_numbered(lower_case(name))) {
     axis = std::tolower(name[0]) - 'x';
     name = "point_" + std::to_string(std::stol(name.substr(1, 9)));
   } else if (name.size() > 2 && name[name.size() - 2] == '_' &&
@@ -98,7 +93,7 @@ void add_coordinate(const io::CsvTable& table, Columns& columns, int column) {
 void refuse_other_tables(const io::CsvTable& table) {
   const auto has = [&](const char* wanted) {
     return std::any_of(table.names.begin(), table.names.end(),
-                       [&](const std::string& name) { return lower(name) == wanted; });
+                       [&](const std::string& name) { return lower_case(name) == wanted; });
   };
   if (has("au12_r"))
     throw OptionError(table.file,
@@ -114,7 +109,7 @@ Columns find_columns(const io::CsvTable& table) {
   static const std::set<std::string> time_names = {"time_s", "time", "timestamp", "timestamp_s"};
   Columns columns;
   for (int c = 0; c < int(table.names.size()); ++c) {
-    const std::string name = lower(table.names[std::size_t(c)]);
+    const std::string name = lower_case(table.names[std::size_t(c)]);
     if (name == "frame") continue;
     if (!time_names.contains(name)) {
       add_coordinate(table, columns, c);
@@ -213,7 +208,7 @@ void scale_to_metres(const fs::path& file, const Columns& columns, std::optional
 
 /// Its times are no numbers, so that reading the table would speak of the first of them.
 void refuse_live_link(const fs::path& file) {
-  if (lower(read_file(file).substr(0, 27)).starts_with("timecode,blendshapecount"))
+  if (lower_case(read_file(file).substr(0, 27)).starts_with("timecode,blendshapecount"))
     throw OptionError(file,
                       "a recording of ARKit's blend shapes by Live Link Face, not of points: "
                       "expected it as ",
@@ -276,7 +271,7 @@ Motion from_trc(const fs::path& file, std::optional<LengthUnit> stated) {
 }  // namespace
 
 Motion read_motion(const fs::path& file, std::optional<LengthUnit> unit) {
-  const std::string extension = lower(file.extension().string());
+  const std::string extension = ending_of(file);
   if (std::error_code error; extension != ".c3d" && !fs::exists(file, error))
     throw InputError(file, "no such file");
   if (extension == ".csv") return from_csv(file, unit);

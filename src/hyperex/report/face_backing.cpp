@@ -13,13 +13,6 @@ namespace {
 using anatomy::FaceCorners;
 using Eigen::Index;
 
-double length_of(const std::vector<int>& loop, const Points& points) {
-  double sum = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    sum += (points.row(loop[(i + 1) % loop.size()]) - points.row(loop[i])).norm();
-  return sum;
-}
-
 Vec3 centre_of(const std::vector<int>& loop, const Points& points) {
   Vec3 centre = Vec3::Zero();
   for (const int v : loop) centre += points.row(v).transpose() / double(loop.size());
@@ -72,7 +65,7 @@ std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners
   constexpr double longest_m = 0.25;
   const std::vector<std::vector<int>> loops = boundary_loops(skin.triangles);
   std::vector<double> length_m;
-  for (const auto& loop : loops) length_m.push_back(length_of(loop, skin.points));
+  for (const auto& loop : loops) length_m.push_back(loop_length(loop, skin.points));
   const Points normals = vertex_normals(skin);
   const auto border = std::max_element(length_m.begin(), length_m.end()) - length_m.begin();
   std::vector<Opening> openings;

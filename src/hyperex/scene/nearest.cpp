@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cctype>
 #include <numeric>
 
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::scene {
 namespace {
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 std::string last_of_key(const std::string& key) {
   return key.substr(key.rfind('.') + 1);
@@ -43,13 +38,14 @@ std::string section_of(const std::string& key) {
 }
 
 std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string given = lower(name).substr(0, 100), given_last = last_of_key(given);
+  const std::string given = lower_case(name).substr(0, 100), given_last = last_of_key(given);
   std::string best;
   std::size_t best_slips = std::max<std::size_t>(1, given_last.size() / 3) + 1;
   for (const auto& candidate : candidates) {
     const std::string last = last_of_key(candidate);
     // The same last part in another section, or without its unit, is as near as one slip.
-    std::size_t far = std::min(slips(given, lower(candidate)), slips(given_last, lower(last)) + 1);
+    std::size_t far =
+        std::min(slips(given, lower_case(candidate)), slips(given_last, lower_case(last)) + 1);
     if (!given_last.empty() && last.rfind(given_last + "_", 0) == 0)
       far = std::min<std::size_t>(far, section_of(given) == section_of(candidate) ? 0 : 1);
     if (far >= best_slips) continue;

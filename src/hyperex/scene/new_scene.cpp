@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/scene/toml_values.hpp"
 
 namespace hyperex::scene {
@@ -32,8 +31,7 @@ std::string in_one_line(std::string text) {
 }  // namespace
 
 std::string recording_key(const std::filesystem::path& recording) {
-  std::string ending = recording.extension().string();
-  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = ending_of(recording);
   if (ending == ".trc") return "motion.file";
   if (ending != ".csv") return "motion.recording";
   const std::string head = read_file(recording).substr(0, 65536);
@@ -45,8 +43,7 @@ std::string recording_key(const std::filesystem::path& recording) {
 }
 
 std::string other_kind(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = ending_of(file);
   for (const char* scan : {".ply", ".obj", ".stl", ".gltf", ".glb"})
     if (extension == scan) return "scan";
   for (const char* recording : {".csv", ".trc", ".mp4", ".mov", ".avi", ".oni"})

@@ -4,21 +4,13 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "hyperex/core/carried_file.hpp"
 #include "hyperex/scene/toml_values.hpp"
 
-__asm__(
-    ".pushsection .rodata\n"
-    ".global hyperex_variant_presets_begin\n"
-    ".global hyperex_variant_presets_end\n"
-    "hyperex_variant_presets_begin:\n"
-    ".incbin \"" HYPEREX_VARIANT_PRESETS
-    "\"\n"
-    "hyperex_variant_presets_end:\n"
-    ".byte 0\n"
-    ".popsection\n");
-extern "C" const char hyperex_variant_presets_begin[], hyperex_variant_presets_end[];
-
 namespace hyperex::scene {
+
+HX_CARRIED_FILE(variant_presets_toml, HYPEREX_VARIANT_PRESETS)
+
 namespace {
 using nlohmann::json;
 
@@ -41,7 +33,7 @@ json mirrored(const json& value) {
 
 std::vector<VariantPreset> read_presets() {
   std::vector<VariantPreset> out;
-  const std::string text(hyperex_variant_presets_begin, hyperex_variant_presets_end);
+  const std::string text(variant_presets_toml());
   try {
     const json root = parse_toml(text).root;
     for (const json& one : root.at("preset")) {

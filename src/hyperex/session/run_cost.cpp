@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/geometry/surface_topology.hpp"
+
 namespace hyperex::session {
 namespace {
 
@@ -22,16 +24,6 @@ constexpr double kFaceBytes = 4e6, kMotionBytes = 5.4e3;
 constexpr double kOwnMemory = 0.25e9, kNodeMemory = 95e3;
 constexpr double kNodeSeconds = 6e-4, kFrameNodeSeconds = 8e-7, kWriteNodeSeconds = 6e-7;
 
-double area_of(const TriMesh& mesh) {
-  double area = 0;
-  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-    const Vec3 a = mesh.points.row(mesh.triangles(f, 0)), b = mesh.points.row(mesh.triangles(f, 1)),
-               c = mesh.points.row(mesh.triangles(f, 2));
-    area += 0.5 * (b - a).cross(c - a).norm();
-  }
-  return area;
-}
-
 struct MeshSize {
   double nodes = 0, tets = 0, skin = 0;
 };
@@ -42,8 +34,8 @@ MeshSize size_of(const scene::Scene& scene, const Inputs& inputs,
   const double skin = std::min(vertices, double(tissue::thinned_above_vertices));
   if (volume) return {double(volume->nodes.rows()), double(volume->tets.rows()), skin};
   const tissue::TissueMeshOptions& mesh = scene.mesh;
-  const double surface =
-      kNodesOfArea * area_of(inputs.scan.mesh) / (mesh.element_size_m * mesh.element_size_m);
+  const double surface = kNodesOfArea * triangle_areas(inputs.scan.mesh).sum() /
+                         (mesh.element_size_m * mesh.element_size_m);
   return {surface * (mesh.layers + 1), 3 * mesh.layers * kTrianglesOfNodes * surface, skin};
 }
 

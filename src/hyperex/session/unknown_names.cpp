@@ -7,6 +7,7 @@
 #include <cctype>
 #include <set>
 
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/scene/keys.hpp"
@@ -20,20 +21,15 @@ struct SidedName {
   std::string side;  ///< "_L", "_R" or empty
 };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
-
 /// "right_cheek", "cheek_right", "cheek_r" and "cheek_R" are cheek, "_R".
 SidedName sided(std::string name) {
   for (const auto& [word, side] :
        {std::pair<std::string, std::string>{"right", "_R"}, {"left", "_L"}}) {
-    if (lower(name).starts_with(word + "_")) return {name.substr(word.size() + 1), side};
-    if (lower(name).ends_with("_" + word))
+    if (lower_case(name).starts_with(word + "_")) return {name.substr(word.size() + 1), side};
+    if (lower_case(name).ends_with("_" + word))
       return {name.substr(0, name.size() - word.size() - 1), side};
-    if (lower(name).ends_with(lower(side))) return {name.substr(0, name.size() - 2), side};
+    if (lower_case(name).ends_with(lower_case(side)))
+      return {name.substr(0, name.size() - 2), side};
   }
   return {name, ""};
 }
@@ -80,7 +76,8 @@ std::string nearest_landmark(const std::string& name) {
   if (known.contains(name)) return "";
   if (const int k = number_at_end(name); k >= 0) {
     const std::string ibug = face::ibug(k);
-    const std::string stem = lower(name).substr(0, lower(name).find_last_not_of("0123456789") + 1);
+    const std::string stem =
+        lower_case(name).substr(0, lower_case(name).find_last_not_of("0123456789") + 1);
     const std::set<std::string> stems = {"", "p", "point_", "ibug", "ibug_", "ibug-", "ibug68"};
     return stems.contains(stem) && known.contains(ibug) ? ibug : "";
   }

@@ -323,8 +323,6 @@ const en = {
   refused: 'The server refuses this page: open the address that hyperex studio printed, with the part after #.',
   taken: 'The studio is open in another window.',
   takeOver: 'Continue here',
-  working: 'Working',
-  secondsTaken: (seconds: string) => `computed in ${seconds} s`,
 
   // Keys.
   keyUndo: 'undo',

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/io/csv.hpp"
 #include "hyperex/io/raw_mesh.hpp"
 #include "hyperex/io/scan.hpp"
@@ -19,13 +19,6 @@ namespace hyperex::tissue {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-bool has_extension(const std::filesystem::path& file, const char* wanted) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return extension == wanted;
-}
 
 struct Column {
   std::string name;
@@ -41,11 +34,11 @@ struct Table {
 /// The CSV's columns or the PLY's vertex properties; of other files nothing.
 Table read_table(const std::filesystem::path& file) {
   Table table;
-  if (has_extension(file, ".csv")) {
+  if (ending_of(file) == ".csv") {
     const io::CsvTable csv = io::read_csv(file);
     for (std::size_t c = 0; c < csv.names.size(); ++c)
       table.columns.push_back({csv.names[c], csv.values.col(Eigen::Index(c))});
-  } else if (has_extension(file, ".ply")) {
+  } else if (ending_of(file) == ".ply") {
     io::RawMesh raw = io::read_ply(file);
     for (const auto& scalar : raw.vertex_scalars)
       table.columns.push_back({scalar.name, scalar.values.cast<double>()});
@@ -167,7 +160,7 @@ Eigen::VectorXd read_paint(const std::filesystem::path& file, const TriMesh& sca
   Eigen::VectorXd share;
   for (const auto& column : table.columns)
     if (column.name == "weight") share = column.values;
-  const bool by_colour = share.size() == 0 && !has_extension(file, ".csv");
+  const bool by_colour = share.size() == 0 && ending_of(file) != ".csv";
   if (by_colour) {
     io::Scan painted = io::read_scan(file);
     share = redness(painted.vertex_colour);

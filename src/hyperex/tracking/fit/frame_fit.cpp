@@ -11,6 +11,7 @@
 #include "hyperex/expression/mesh_border.hpp"
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/geometry/transform.hpp"
 
 namespace hyperex::tracking {
@@ -33,21 +34,6 @@ std::vector<bool> outline(const TriMesh& mesh) {
   for (const auto& [a, b] : expression::border_edges(mesh).outline)
     on[std::size_t(a)] = on[std::size_t(b)] = true;
   return on;
-}
-
-Points normals_of(const Points& points, const Triangles& triangles) {
-  Points normals = Points::Zero(points.rows(), 3);
-  for (const auto t : triangles.rowwise()) {
-    const Vec3 a = points.row(t[0]).transpose(), b = points.row(t[1]).transpose(),
-               c = points.row(t[2]).transpose();
-    const Eigen::RowVector3d n = (b - a).cross(c - a).transpose();
-    for (int k = 0; k < 3; ++k) normals.row(t[k]) += n;
-  }
-  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
-    const double length = normals.row(v).norm();
-    if (length > 0) normals.row(v) /= length;
-  }
-  return normals;
 }
 
 /// The network's points of a kind (model/data/network_points.csv).
@@ -203,7 +189,7 @@ void FrameFit::add_depth(VertexSystem& system, const Observation& seen, const Fa
                          const Points& vertices, FitReport* report) const {
   if (seen.depth_m.empty()) return;
   const Eigen::Matrix3d turn = state.camera_from_head.linear();
-  const Points normals = normals_of(vertices, model_.mesh.triangles);
+  const Points normals = vertex_normals({vertices, model_.mesh.triangles});
   double squares = 0;
   int used = 0, facing = 0;
   for (int v = 0; v < vertices.rows(); ++v) {

@@ -72,7 +72,6 @@ struct FitOptions {
   double free_m = 0.015;        ///< of a vertex off the units
   double free_bend_m = 0.0007;  ///< of a vertex against the mean of its neighbours
   double free_step_m = 0.004;   ///< from one frame to the next
-  double pose_step_rad = 0.05, pose_step_m = 0.02;
 };
 
 /// `region`: around the face.
