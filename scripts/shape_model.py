@@ -24,6 +24,9 @@ LEFT_OUT = ("Pupil", "eyeLook")
 LEAST_MM = 0.05
 REST_PERCENTILE = 5  # of a weight: the face at rest
 LEAST_SPREAD = 0.1
+COUPLING = 0.7
+LEAST_EIGENVALUE = 0.03
+ROUNDS = 100
 UPPER_LIP = (191, 80, 81, 82, 13, 312, 311, 310, 415)
 LOWER_LIP = (324, 318, 402, 317, 14, 87, 178, 88, 95)
 AS = {"cheekRaiser": "cheekSquint"}  # shapes that the recording has no weight of: as these
@@ -116,7 +119,9 @@ def mirrored(name):
 
 
 def couplings(names, weights):
-    """Spreads and correlations of the weights about 0, both sides alike, none across."""
+    """Spreads and correlations of the weights about 0, both sides alike, none across. The correlations are of one
+    person who shows a range of motion; of others COUPLING of them is expected. They are then changed as little as makes
+    them possible (a positive definite matrix)."""
     moment = weights.T @ weights / len(weights)
     other = [names.index(mirrored(n)) for n in names]
     moment = (moment + moment[np.ix_(other, other)]) / 2
@@ -124,7 +129,14 @@ def couplings(names, weights):
     correlation = moment / np.maximum(np.outer(spread, spread), 1e-12)
     np.fill_diagonal(correlation, 1)
     side = np.array([{"_L": 1, "_R": -1}.get(n[-2:], 0) for n in names])
-    correlation[np.outer(side, side) < 0] = 0
+    across = np.outer(side, side) < 0
+    correlation = COUPLING * correlation
+    for _ in range(ROUNDS):
+        correlation[across] = 0
+        np.fill_diagonal(correlation, 1)
+        values, vectors = np.linalg.eigh(correlation)
+        correlation = vectors * np.maximum(values, LEAST_EIGENVALUE) @ vectors.T
+    correlation[across] = 0
     return np.maximum(spread, LEAST_SPREAD), correlation
 
 
