@@ -69,6 +69,15 @@ TEST_F(ShapesOnAFace, WeightsAreTheMostProbableOnesThatAreNotNegative) {
   }
 }
 
+/// The small face is the canonical face itself.
+TEST_F(ShapesOnAFace, OnTheCanonicalFaceTheyAreTheModels) {
+  const CarriedShapes shapes = this->shapes();
+  const Eigen::MatrixXd& own = expression::shape_model().displacement;
+  ASSERT_EQ(shapes.at_nodes().rows(), own.rows());
+  EXPECT_LT((shapes.at_nodes() - own).norm(), 0.01 * own.norm());
+  EXPECT_EQ(shapes.cover().minCoeff(), 1);
+}
+
 TEST_F(ShapesOnAFace, AStillSideStaysStill) {
   const CarriedShapes shapes = this->shapes();
   const Eigen::VectorXd truth = weights({{"mouthSmile_L", 0.9}});
