@@ -62,9 +62,10 @@ TEST(ShapeModel, SidesAreNotCoupled) {
   EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(model.covariance).info(), Eigen::Success);
   for (std::size_t a = 0; a < model.names.size(); ++a)
     for (std::size_t b = 0; b < model.names.size(); ++b)
-      if (model.names[a].ends_with("_L") && model.names[b].ends_with("_R"))
+      if (model.names[a].ends_with("_L") && model.names[b].ends_with("_R")) {
         EXPECT_EQ(model.covariance(Eigen::Index(a), Eigen::Index(b)), 0)
             << model.names[a] << ", " << model.names[b];
+      }
   EXPECT_GT(model.covariance(place_of("mouthSmile_L"), place_of("cheekSquint_L")), 0);
   EXPECT_EQ(model.covariance(place_of("mouthSmile_L"), place_of("cheekSquint_L")),
             model.covariance(place_of("mouthSmile_R"), place_of("cheekSquint_R")));

@@ -62,10 +62,11 @@ TEST_F(ShapesOnAFace, WeightsAreTheMostProbableOnesThatAreNotNegative) {
       (shapes.at_points().transpose() * seen).cwiseAbs().maxCoeff() / (kSigma_m * kSigma_m);
   for (Eigen::Index k = 0; k < found.size(); ++k) {
     EXPECT_GE(found[k], 0) << k;
-    if (found[k] > 0)
+    if (found[k] > 0) {
       EXPECT_NEAR(slope[k], 0, 1e-8 * scale) << k;
-    else
+    } else {
       EXPECT_GT(slope[k], -1e-8 * scale) << k;
+    }
   }
 }
 
@@ -153,7 +154,7 @@ class LoadWithShapes : public ShapesOnAFace {
         .assemble(options_.tissue.material(std::size_t(face_.mesh.volume.tets.rows()),
                                            options_.model.viscous_form),
                   system);
-    model_.emplace(muscle_model(face_.mesh, face_.landmarks, options_, system.stiffness));
+    model_.emplace(muscle_model(face_.mesh, face_.landmarks, options_, system.stiffness, nullptr));
   }
   /// Static displacement of the outer nodes under a force (3 |nodes|, N).
   Eigen::VectorXd static_response(const Eigen::VectorXd& force) const {
