@@ -49,6 +49,12 @@ bool is_variant_name(const std::string& name) {
          });
 }
 
+std::string name_of_block(const nlohmann::json& block) {
+  for (const char* key : {"name", "preset"})
+    if (block.is_object() && block.contains(key) && block[key].is_string()) return block[key];
+  return "";
+}
+
 std::string variant_folder(const std::string& name, const std::vector<Variant>& others) {
   std::string folder = name;
   for (char& c : folder)

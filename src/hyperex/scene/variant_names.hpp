@@ -11,6 +11,9 @@ namespace hyperex::scene {
 /// digits of ASCII, at least one, spaces and any of -_.,;:+=%&'()[], at most 100 characters.
 bool is_variant_name(const std::string& name);
 
+/// What a [[variant]] is called: by its name, else by its preset; empty where it has neither.
+std::string name_of_block(const nlohmann::json& block);
+
 /// Whether a variant may change this key; and in words which keys it may.
 bool may_vary(const std::string& key);
 std::string what_may_vary();
