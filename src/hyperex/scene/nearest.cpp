@@ -39,6 +39,11 @@ std::string section_of(const std::string& key) {
 
 std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
   const std::string given = lower_case(name).substr(0, 100), given_last = last_of_key(given);
+  const std::string given_section = section_of(given);
+  // Of keys as near as each other, the one whose section is.
+  const auto off_section = [&](const std::string& candidate) {
+    return given_section.empty() ? 0 : slips(given_section, section_of(lower_case(candidate)));
+  };
   std::string best;
   std::size_t best_slips = std::max<std::size_t>(1, given_last.size() / 3) + 1;
   for (const auto& candidate : candidates) {
@@ -48,7 +53,9 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
         std::min(slips(given, lower_case(candidate)), slips(given_last, lower_case(last)) + 1);
     if (!given_last.empty() && last.rfind(given_last + "_", 0) == 0)
       far = std::min<std::size_t>(far, section_of(given) == section_of(candidate) ? 0 : 1);
-    if (far >= best_slips) continue;
+    if (far > best_slips) continue;
+    if (far == best_slips && (best.empty() || off_section(candidate) >= off_section(best)))
+      continue;
     best_slips = far;
     best = candidate;
   }

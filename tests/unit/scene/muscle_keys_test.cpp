@@ -114,6 +114,23 @@ TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
                 "one of side_R, side_L, "));
 }
 
+// Of motion.gain, which is one slip away too, the section is another.
+TEST(MuscleKeys, AMisspeltSectionIsNotTakenForAnother) {
+  const auto meant = HasSubstr("did you mean muscles.gain?");
+  EXPECT_THAT(only_muscle_problem(by_muscles, {"muscle.gain={ side_L = 0.3 }"}), meant);
+  EXPECT_THAT(only_muscle_problem(by_muscles + "[[variant]]\nname = \"v\"\n"
+                                               "muscle.gain = { side_L = 0.3 }\n"),
+              meant);
+  EXPECT_THAT(only_muscle_problem(by_muscles + "[[variant]]\nname = \"v\"\n"
+                                               "muscle.gain.side_L = 0.3\n"),
+              meant);
+  for (const char* name : {"muscle.gain.side_L", "muscles.gain.side_L"})
+    EXPECT_THAT(only_muscle_problem(by_muscles, {std::string(name) + "=0.3"}),
+                HasSubstr("did you mean muscles.gain={side_L=...}?"));
+  EXPECT_EQ(only_muscle_problem(by_muscles + "[muscle]\ngain = { side_L = 0.3 }\n"),
+            "scene.toml:7: muscle: expected a known section (did you mean [muscles]?)");
+}
+
 // Of a name in words, as of one in an inline table: what it means, and no list that is cut off.
 TEST(MuscleKeys, ANameInWordsIsToldWithWhatItMeans) {
   const auto told = [](const std::string& name) {
