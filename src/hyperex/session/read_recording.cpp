@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
@@ -42,6 +44,7 @@ void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
   // By default the recording's first sample shows rest.
   auto rested = motion::with_rest(m, stretch.value_or(motion::RestStretch{}), start_s);
   m = std::move(rested.motion);
+  in.lead_s = rested.lead_s;
   if (rested.lead_s > 0)
     in.notes.push_back(make_note(
         "recording.lead_in",
@@ -111,7 +114,12 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   const bool whole = is_read_whole(scene, extent);
   if (!scene.motion.source.embedded && whole) {
     in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
-    add(in.notes, timing_warning(m));
+    std::optional<Note> doubt = timing_warning(m);
+    for (const auto& [key, file] : {std::pair{"motion.arkit", &scene.motion.arkit},
+                                    {"motion.openface", &scene.motion.openface},
+                                    {"motion.recording", &scene.motion.recording}})
+      if (doubt && !file->empty()) doubt->key = key;
+    add(in.notes, doubt);
   }
   const motion::MendedMotion mended = motion::without_wild_samples(m);
   add(in.notes, wild_samples_warning(mended));
@@ -137,12 +145,20 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   }
   return steady;
 }
+
 void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, Inputs& in) {
   check_point_gains(scene, m);
   m = motion::with_point_gains(m, scene.motion.point_gains);
   settle_jitter(scene, extent, m, in);
   m = motion::time_scaled(m, scene.motion.time_scale);
-  if (is_read_whole(scene, extent)) check_length(scene, m);
+  if (is_read_whole(scene, extent)) {
+    check_length(scene, m);
+    in.lasts_s = m.time_s.back() - m.time_s.front();
+  } else if (in.lasts_s > 0) {  // of the whole recording, as it is
+    in.lead_s = scene.motion.start_s > 0 ? motion::rest_lead_s : 0;
+    in.lasts_s =
+        scene.motion.time_scale * std::max(0.0, in.lasts_s - scene.motion.start_s + in.lead_s);
+  }
 }
 
 void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m, Inputs& in) {
