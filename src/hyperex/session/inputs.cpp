@@ -110,7 +110,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   const scene::MotionOptions& recorded = scene.motion;
   add(in.notes, misfit_warning(in.motion, !recorded.arkit.empty() || !recorded.openface.empty() ||
                                               !recorded.candide.empty()));
-  add(in.notes, start_warning(steady, at_rest));
+  if (!of_weights(scene)) add(in.notes, start_warning(steady, at_rest));
   add(in.notes, exchanged_warning(steady, at_rest));
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "hyperex/expression/weight_doubts.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -22,6 +23,33 @@
 namespace hyperex::session {
 namespace {
 
+/// Weights at rest are known, all 0: whether the recording begins elsewhere is judged by them.
+std::optional<Note> start_of_weights(const scene::MotionOptions& options,
+                                     const expression::BlendShapes& shapes) {
+  const auto rest = expression::rest_in_weights(shapes);
+  if (!rest || !options.rest_s.empty()) return std::nullopt;
+  return make_warning(
+      "recording.starts_in_expression",
+      fmt::format("the recording seems to start in an expression: {} is {:.2g} at the start and "
+                  "{:.2g} from {:.2f} s to {:.2f} s, where the weights are least; displacements "
+                  "are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
+                  rest->shape, rest->weight_at_start, rest->weight_then, rest->from_s, rest->to_s,
+                  rest->from_s, rest->to_s));
+}
+
+void warn_of_weights(const scene::MotionOptions& options, const expression::BlendShapes& shapes,
+                     const expression::FaceModel& model, Inputs& in) {
+  for (const std::string& column : shapes.misspelt)
+    in.notes.push_back(make_warning("recording.column_misspelt", "motion: " + column));
+  const std::string lost = options.arkit.empty() ? "" : expression::lost_shapes(shapes, model);
+  if (!lost.empty())
+    in.notes.push_back(
+        make_warning("recording.shapes_lost",
+                     fmt::format("motion: not reproduced, as the {} face has no such shapes: {}",
+                                 model.name, lost)));
+  add(in.notes, start_of_weights(options, shapes));
+}
+
 /// The points of a face model that recorded expressions move.
 motion::Motion read_expressions(const scene::MotionOptions& options, Inputs& in) {
   const expression::BlendShapes shapes = options.arkit.empty()
@@ -29,10 +57,12 @@ motion::Motion read_expressions(const scene::MotionOptions& options, Inputs& in)
                                              : expression::read_arkit(options.arkit);
   std::vector<std::string> notes = shapes.notes;
   std::optional<expression::FaceModel> own;
-  motion::Motion m = expression::motion_of(shapes, face_model(options, own), notes);
+  const expression::FaceModel& model = face_model(options, own);
+  motion::Motion m = expression::motion_of(shapes, model, notes);
   const char* key = options.arkit.empty() ? "motion.openface" : "motion.arkit";
   for (const auto& note : notes)
     in.notes.push_back(make_note("recording.expressions", "motion: " + note, key));
+  warn_of_weights(options, shapes, model, in);
   return m;
 }
 
@@ -94,6 +124,10 @@ bool is_read_whole(const scene::Scene& scene, Extent extent) {
 
 }  // namespace
 
+bool of_weights(const scene::Scene& scene) {
+  return !scene.motion.arkit.empty() || !scene.motion.openface.empty();
+}
+
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in) {
   if (scene.motion.mirrored && scene.motion.recording.empty())
     throw InputError(
@@ -134,9 +168,8 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   motion::StabiliseOptions options;
   options.rigid_points = scene.motion.rigid_points;
   // Expressions move a face model, whose head stays where it is.
-  const bool expressions = !scene.motion.arkit.empty() || !scene.motion.openface.empty();
-  auto steady = expressions ? motion::with_still_head(filled.motion)
-                            : motion::stabilise(filled.motion, options);
+  auto steady = of_weights(scene) ? motion::with_still_head(filled.motion)
+                                  : motion::stabilise(filled.motion, options);
   motion::check_reach(steady.motion);
   note_head(steady, in);
   if (whole) {
@@ -166,14 +199,15 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
   const bool whole = scene.motion.recording.empty();  // of a camera's only the first face was read
   check_sides(m, average);
   if (whole) {
-    add(in.notes, start_warning(m, average));
+    if (!of_weights(scene)) add(in.notes, start_warning(m, average));
     add(in.notes, exchanged_warning(m, average));
   }
   in.notes.push_back(
-      whole ? make_note("recording.checked_by_average_face",
-                        "whether left and right are exchanged and whether the recording starts at "
-                        "rest was checked against an average face, as the scan's landmarks are not "
-                        "known")
+      whole ? make_note(
+                  "recording.checked_by_average_face",
+                  fmt::format("whether left and right are exchanged{} was checked against an "
+                              "average face, as the scan's landmarks are not known",
+                              of_weights(scene) ? "" : " and whether the recording starts at rest"))
             : make_note("recording.start_unchecked",
                         "not checked: whether the recording starts at rest; a run checks that"));
 }
