@@ -145,6 +145,8 @@ bool Reader::take_text(const std::string& text) {
   try {
     values = parse_toml(text);
   } catch (const TornToml& torn) {
+    if (torn.comma)
+      return fail(torn.line, "decimals behind a point, 0.3 and not 0,3 (" + torn.why + ")");
     return fail(torn.line, "sound TOML (" + torn.why + ")" +
                                (torn.backslash ? "; a backslash between double quotes begins an "
                                                  "escape: put a path of Windows between single "

@@ -56,11 +56,16 @@ std::string name_of_block(const nlohmann::json& block) {
 }
 
 std::string variant_folder(const std::string& name, const std::vector<Variant>& others) {
-  std::string folder = name;
-  for (char& c : folder)
-    if (kAwkward.find(c) != std::string_view::npos) c = '_';
-  for (char* end : {&folder.front(), &folder.back()})  // hidden, or cut by some systems
-    if (*end == '.' || *end == ' ') *end = '_';
+  std::string folder;
+  for (const char c : name) {
+    if (c != ' ' && c != '_' && kAwkward.find(c) == std::string_view::npos)
+      folder += c;
+    else if (!folder.ends_with('_'))
+      folder += '_';
+  }
+  // A point first hides a folder, and some systems cut one last. There is a letter or digit.
+  folder.erase(folder.find_last_not_of("_.") + 1);
+  folder.erase(0, folder.find_first_not_of("_."));
   const auto taken = [&](const std::string& text) {
     return std::any_of(others.begin(), others.end(),
                        [&](const Variant& other) { return other.folder == text; });

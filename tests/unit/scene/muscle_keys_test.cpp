@@ -114,6 +114,23 @@ TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
                 "one of side_R, side_L, "));
 }
 
+TEST(MuscleKeys, APercentageIsToldAsAFactor) {
+  EXPECT_EQ(only_muscle_problem(by_muscles, {"muscles.gain={ zyg_major_L = 30 }"}),
+            "--set: muscles.gain.zyg_major_L = 30: expected a number from 0 to 5 (0.3 for 30 %)");
+  EXPECT_THAT(only_muscle_problem(by_muscles, {"muscles.gain={ zyg_major_L = -1 }"}),
+              Not(HasSubstr("%")));
+}
+
+TEST(MuscleKeys, ADecimalCommaIsToldAsSuch) {
+  for (const char* line : {"[muscles]\ngain = { zyg_major_L = 0,3 }\n",
+                           "[muscles]\ngain.zyg_major_L = 0,3\n", "[time]\nend_s = -1,5 # s\n"})
+    EXPECT_THAT(only_muscle_problem(by_muscles + line),
+                HasSubstr(":8: expected decimals behind a point, 0.3 and not 0,3"))
+        << line;
+  EXPECT_THAT(only_muscle_problem(by_muscles + "[drive]\nlist = [1,2\n"),
+              Not(HasSubstr("decimals")));
+}
+
 // Of motion.gain, which is one slip away too, the section is another.
 TEST(MuscleKeys, AMisspeltSectionIsNotTakenForAnother) {
   const auto meant = HasSubstr("did you mean muscles.gain?");
