@@ -245,7 +245,7 @@ TEST(Keys, NearestAllowsForSlipsUnitsAndSections) {
   EXPECT_EQ(nearest("time.colour_of_the_sky", names), "");
   const std::vector<std::string> gains = {"motion.gain", "muscles.gain"};
   EXPECT_EQ(nearest("muscle.gain", gains), "muscles.gain");
-  EXPECT_EQ(nearest("mucsle.gian", gains), "muscles.gain");
+  EXPECT_EQ(nearest("mucsle.gain", gains), "muscles.gain");
   EXPECT_EQ(nearest("motoin.gain", gains), "motion.gain");
   EXPECT_EQ(nearest("", names), "");
 }
