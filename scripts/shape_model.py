@@ -24,9 +24,14 @@ LEFT_OUT = ("Pupil", "eyeLook")
 LEAST_MM = 0.05
 REST_PERCENTILE = 5  # of a weight: the face at rest
 LEAST_SPREAD = 0.1
+COUPLING = 0.8
+LEAST_EIGENVALUE = 0.03
+ROUNDS = 100
 UPPER_LIP = (191, 80, 81, 82, 13, 312, 311, 310, 415)
 LOWER_LIP = (324, 318, 402, 317, 14, 87, 178, 88, 95)
 AS = {"cheekRaiser": "cheekSquint"}  # shapes that the recording has no weight of: as these
+MIDDLE = ("eyeSquint", "cheekSquint", "cheekRaiser", "noseSneer")  # go with shapes of the mouth, and with each other
+UPPER = ("brow", "eyeBlink", "eyeWide")
 LICENCE = """# SPDX-License-Identifier: GPL-3.0-or-later
 # Made by scripts/shape_model.py from {source}
 """
@@ -115,8 +120,18 @@ def mirrored(name):
     return name.replace("Left", "Right") if "Left" in name else name.replace("Right", "Left")
 
 
+def may_go_together(a, b):
+    """What one person did together by chance, as in blinking while the chin was raised, says nothing of others. Kept is
+    what anatomy knows: cheeks and nose take part in what the mouth does, and a lowered brow in a wrinkled nose."""
+    if a.startswith(UPPER) or b.startswith(UPPER):
+        return {a[:8], b[:8]} == {"browDown", "noseSnee"}
+    return a.startswith(MIDDLE) or b.startswith(MIDDLE)
+
+
 def couplings(names, weights):
-    """Spreads and correlations of the weights about 0, both sides alike, none across."""
+    """Spreads and correlations of the weights about 0, both sides alike, none across. The correlations are of one
+    person who shows a range of motion; of others COUPLING of them is expected. They are then changed as little as makes
+    them possible (a positive definite matrix)."""
     moment = weights.T @ weights / len(weights)
     other = [names.index(mirrored(n)) for n in names]
     moment = (moment + moment[np.ix_(other, other)]) / 2
@@ -124,7 +139,15 @@ def couplings(names, weights):
     correlation = moment / np.maximum(np.outer(spread, spread), 1e-12)
     np.fill_diagonal(correlation, 1)
     side = np.array([{"_L": 1, "_R": -1}.get(n[-2:], 0) for n in names])
-    correlation[np.outer(side, side) < 0] = 0
+    across = np.outer(side, side) < 0
+    kept = np.array([[may_go_together(a, b) for b in names] for a in names])
+    correlation = np.where(kept, COUPLING * correlation, 0)
+    for _ in range(ROUNDS):
+        correlation[across] = 0
+        np.fill_diagonal(correlation, 1)
+        values, vectors = np.linalg.eigh(correlation)
+        correlation = vectors * np.maximum(values, LEAST_EIGENVALUE) @ vectors.T
+    correlation[across] = 0
     return np.maximum(spread, LEAST_SPREAD), correlation
 
 

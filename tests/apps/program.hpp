@@ -4,7 +4,6 @@
 // a folder of its own.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <string>
 
 #include "hyperex/core/files.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex {
 
@@ -22,16 +22,7 @@ class ProgramTest : public testing::Test {
     std::string out, err;
   };
 
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "." + test->name();
-    std::replace(name.begin(), name.end(), '/', '.');
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              ("hyperex_apps_" + std::to_string(::getpid()) + "_" + name);
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_ / "in");
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { std::filesystem::create_directory(folder_ / "in"); }
 
   /// `before` is said to the shell first: a limit, say.
   Outcome call(const std::string& arguments, const std::string& before = "true") const {
@@ -54,7 +45,7 @@ class ProgramTest : public testing::Test {
   std::filesystem::path in(const std::string& name) const { return folder_ / "in" / name; }
 
  private:
-  std::filesystem::path folder_;
+  const TestFolder folder_;
 };
 
 }  // namespace hyperex

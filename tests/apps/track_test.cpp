@@ -8,6 +8,7 @@
 
 #include "apps/malformed.hpp"
 #include "support/face_recording.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex {
 namespace {
@@ -19,13 +20,8 @@ constexpr int kFrames = 7;
 /// Drawn once.
 const fs::path& face_recording() {
   static const struct Made {
-    fs::path folder =
-        fs::path(testing::TempDir()) / ("hyperex_track_" + std::to_string(::getpid()));
+    const TestFolder folder;
     Made() { test::write_face_recording(folder, kFrames); }
-    ~Made() {
-      std::error_code ignored;
-      fs::remove_all(folder, ignored);
-    }
   } made;
   return made.folder;
 }

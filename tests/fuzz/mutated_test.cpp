@@ -12,6 +12,7 @@
 
 #include "fuzz/mutate.hpp"
 #include "fuzz/readers.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::fuzz {
 namespace {
@@ -27,13 +28,7 @@ std::uint64_t mutations() {
 
 class Mutated : public testing::TestWithParam<Reader> {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("hyperex_mutated_" + GetParam().name + "_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_;
+  const TestFolder folder_;
 };
 
 TEST_P(Mutated, InputsAreTakenOrRefusedInOneClearLine) {

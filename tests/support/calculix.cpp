@@ -15,6 +15,7 @@
 
 #include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::test {
 
@@ -22,21 +23,6 @@ namespace fs = std::filesystem;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 namespace {
-
-/// A folder that goes away.
-struct Scratch {
-  fs::path path;
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "hyperex_ccx_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw NumericalError("no folder for CalculiX: " + name);
-    path = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-};
 
 /// ccx reads no more than 20 characters a number.
 std::string number(double x) {
@@ -148,25 +134,24 @@ CalculixRun run_calculix(const CalculixModel& model, double gain, int threads) {
   HX_ASSERT(gain == 1 || !model.hyperelastic);
   const auto ccx = find_calculix();
   if (!ccx) throw NumericalError("ccx is not on the PATH");
-  const Scratch scratch;
+  const TestFolder scratch;
   {
-    auto out = fmt::output_file((scratch.path / "job.inp").string());
+    auto out = fmt::output_file((scratch / "job.inp").string());
     write_mesh(out, model);
     write_motion(out, model, gain);
   }
   const std::string command =
       fmt::format("cd '{}' && OMP_NUM_THREADS={} OPENBLAS_NUM_THREADS=1 '{}' -i job > log 2>&1",
-                  scratch.path.string(), threads, ccx->string());
+                  scratch.path().string(), threads, ccx->string());
   CalculixRun run;
   const auto start = std::chrono::steady_clock::now();
   const int code = std::system(command.c_str());
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (code == 0)
-    run.displacement_m = read_displacements(scratch.path / "job.dat", model.nodes.rows());
+  if (code == 0) run.displacement_m = read_displacements(scratch / "job.dat", model.nodes.rows());
   if (static_cast<Eigen::Index>(run.displacement_m.size()) != model.motion_m.rows())
     throw NumericalError(fmt::format("CalculiX ended with {} after {} of {} steps:{}", code,
                                      run.displacement_m.size(), model.motion_m.rows(),
-                                     last_lines(scratch.path / "log")));
+                                     last_lines(scratch / "log")));
   for (Eigen::VectorXd& d : run.displacement_m) d /= gain;
   return run;
 }

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/expression/shape_model.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <map>
-#include <stdexcept>
 
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/face/canonical_face.hpp"
 
 namespace hyperex::expression {
 namespace {
-
-/// The correlations are of one person who shows a range of motion; of others they hold less.
-constexpr double kCoupling = 0.7;
-/// Correlations that cannot hold together are changed as little as gives these eigenvalues.
-constexpr double kLeastEigenvalue = 0.02;
-
-Eigen::MatrixXd definite(const Eigen::MatrixXd& correlation) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
-  const auto& q = eigen.eigenvectors();
-  return q * eigen.eigenvalues().cwiseMax(kLeastEigenvalue).asDiagonal() * q.transpose();
-}
 
 ShapeModel read_model() {
   ShapeModel model;
@@ -45,9 +31,9 @@ ShapeModel read_model() {
     if (a == b)
       spread[a] = table_number(row.at(2));
     else
-      correlation(a, b) = correlation(b, a) = kCoupling * table_number(row.at(2));
+      correlation(a, b) = correlation(b, a) = table_number(row.at(2));
   }
-  model.covariance = spread.asDiagonal() * definite(correlation) * spread.asDiagonal();
+  model.covariance = spread.asDiagonal() * correlation * spread.asDiagonal();
   return model;
 }
 

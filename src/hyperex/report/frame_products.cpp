@@ -31,6 +31,8 @@ Eigen::MatrixXd frame_products(const std::vector<PointsF>& frames) {
 }
 
 Eigen::MatrixXd leading_eigenvectors(const Eigen::MatrixXd& gram, Eigen::VectorXd& values) {
+  values.resize(0);
+  if (gram.rows() == 0) return gram;  // of a face that does not move
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
   values = eigen.eigenvalues().reverse();
   const Index rank = (values.array() > 1e-15 * values[0]).count() * (values[0] > 0);

@@ -237,7 +237,7 @@ struct MuscleOptions {
   /// their share of the difference, over which length it is smoothed, and how far from the driven
   /// points it begins and is whole.
   bool shape_prior = true;
-  double shape_sigma_m = 0.002, shape_share = 0.7, shape_smoothing_m = 0.008;
+  double shape_sigma_m = 0.0015, shape_share = 0.7, shape_smoothing_m = 0.008;
   double shape_clear_m = 0.0035, shape_reach_m = 0.012;
   bool operator==(const MuscleOptions&) const = default;
 

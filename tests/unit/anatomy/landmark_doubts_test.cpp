@@ -11,6 +11,7 @@
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/scan.hpp"
 #include "support/note_matchers.hpp"
+#include "unit/anatomy/another_face.hpp"
 
 namespace hyperex::anatomy {
 namespace {
@@ -30,21 +31,6 @@ const std::vector<std::string> kSevenNamed = {"exocanthion_R", "endocanthion_R",
                                               "exocanthion_L", "pronasale",      "cheilion_R",
                                               "cheilion_L"};
 
-/// The embedded face, wider, bent and turned: another person, landmarks known.
-EmbeddedFace second_face() {
-  EmbeddedFace face = embedded_face();
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(1.5, Vec3(0.2, 1, -0.4).normalized()).toRotationMatrix();
-  const auto change = [&](const Vec3& p) -> Vec3 {
-    return turn * Vec3(1.06 * p.x(), 0.96 * p.y() + 0.3 * p.x() * p.x(), 0.95 * p.z()) +
-           Vec3(0.1, -0.2, 0.3);
-  };
-  for (Eigen::Index v = 0; v < face.mesh.points.rows(); ++v)
-    face.mesh.points.row(v) = change(face.mesh.points.row(v)).transpose();
-  for (auto& [name, p] : face.landmarks) p = change(p);
-  return face;
-}
-
 TEST(SamePlace, NamesOnePlaceEitherWay) {
   EXPECT_TRUE(face::same_place("cheilion_R", "ibug68_48"));
   EXPECT_TRUE(face::same_place("ibug68_48", "cheilion_R"));
@@ -61,7 +47,7 @@ TEST(SamePlace, NamesOnePlaceEitherWay) {
 }
 
 TEST(LandmarkSurprises, PredictsFromTheOthersAlone) {
-  const EmbeddedFace face = second_face();
+  const EmbeddedFace face = another_face(1.5);
   const auto before = landmark_surprises(face.landmarks);
   io::Landmarks moved = face.landmarks;
   moved["ibug68_48"] += Vec3(0.01, 0.02, 0);
@@ -78,7 +64,7 @@ TEST(LandmarkSurprises, PredictsFromTheOthersAlone) {
 
 TEST(LandmarkSurprises, LeavingOneOutIsSolvingWithoutIt) {
   // Without its neighbours near by, a landmark is known less well: the deviations say so.
-  const EmbeddedFace face = second_face();
+  const EmbeddedFace face = another_face(1.5);
   io::Landmarks seven;
   for (const auto& name : kSevenNamed) seven[name] = face.landmarks.at(name);
   const double d = 0.012;
@@ -93,7 +79,7 @@ TEST(LandmarkSurprises, LeavingOneOutIsSolvingWithoutIt) {
 }
 
 TEST(LandmarkDoubts, NamesTheOneThatSlippedAndHowFar) {
-  const EmbeddedFace face = second_face();
+  const EmbeddedFace face = another_face(1.5);
   EXPECT_THAT(landmark_doubts(face.landmarks, face.mesh), IsEmpty());
   const SurfaceTree tree(face.mesh);
   for (const char* name : {"cheilion_R", "exocanthion_L", "ibug68_30", "ibug68_57", "alare_L"}) {
@@ -110,7 +96,7 @@ TEST(LandmarkDoubts, NamesTheOneThatSlippedAndHowFar) {
 }
 
 TEST(LandmarkDoubts, TellsWhichOfTwoNamesOfOnePlaceIsWrong) {
-  const EmbeddedFace face = second_face();
+  const EmbeddedFace face = another_face(1.5);
   io::Landmarks given = face.landmarks;
   given["cheilion_R"] = face.landmarks.at("cheek_R");
   auto doubts = landmark_doubts(given, face.mesh);

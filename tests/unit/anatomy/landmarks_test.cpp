@@ -13,18 +13,18 @@
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/scan.hpp"
 #include "support/note_matchers.hpp"
+#include "support/refusal.hpp"
+#include "support/sheet_mesh.hpp"
+#include "unit/anatomy/another_face.hpp"
 
 namespace hyperex::anatomy {
 namespace {
 namespace fs = std::filesystem;
 
 void expect_refused(const std::function<void()>& work, const std::vector<std::string>& parts) {
-  try {
-    work();
-    FAIL() << "was not refused";
-  } catch (const InputError& error) {
-    for (const auto& part : parts) EXPECT_THAT(error.what(), ::testing::HasSubstr(part));
-  }
+  const std::string said = test::refusal(work);
+  EXPECT_NE(said, "") << "was not refused";
+  for (const auto& part : parts) EXPECT_THAT(said, ::testing::HasSubstr(part));
 }
 
 std::vector<std::string> all_names() {
@@ -42,23 +42,8 @@ io::Landmarks only(const io::Landmarks& all, const std::vector<std::string>& nam
   return some;
 }
 
-/// The embedded face, wider, longer, bent and turned: another person, landmarks known.
-EmbeddedFace another_face() {
-  EmbeddedFace face = embedded_face();
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.5, Vec3(0.2, 1, -0.4).normalized()).toRotationMatrix();
-  const auto change = [&](const Vec3& p) -> Vec3 {
-    return turn * Vec3(1.06 * p.x(), 0.96 * p.y() + 0.3 * p.x() * p.x(), 0.95 * p.z()) +
-           Vec3(0.1, -0.2, 0.3);
-  };
-  for (Eigen::Index v = 0; v < face.mesh.points.rows(); ++v)
-    face.mesh.points.row(v) = change(face.mesh.points.row(v)).transpose();
-  for (auto& [name, p] : face.landmarks) p = change(p);
-  return face;
-}
-
 TEST(CompleteLandmarks, PlacesTheMissingOnesOnAnotherFace) {
-  const EmbeddedFace face = another_face();
+  const EmbeddedFace face = another_face(0.5);
   const CompletedLandmarks completed =
       complete_landmarks(only(face.landmarks, kSeven), all_names(), face.mesh);
   EXPECT_EQ(completed.placed.size(), face.landmarks.size() - kSeven.size());
@@ -77,7 +62,7 @@ TEST(CompleteLandmarks, PlacesTheMissingOnesOnAnotherFace) {
 }
 
 TEST(CompleteLandmarks, LeavesACompleteSetAlone) {
-  const EmbeddedFace face = another_face();
+  const EmbeddedFace face = another_face(0.5);
   io::Landmarks given = only(face.landmarks, kSeven);
   given["scar"] = face.landmarks.at("cheek_L");  // unknown to the canonical face, and welcome
   const CompletedLandmarks completed = complete_landmarks(given, {"scar", "ibug68_30"}, face.mesh);
@@ -86,7 +71,7 @@ TEST(CompleteLandmarks, LeavesACompleteSetAlone) {
 }
 
 TEST(CompleteLandmarks, RefusesALandmarkOffTheScan) {
-  const EmbeddedFace face = another_face();
+  const EmbeddedFace face = another_face(0.5);
   io::Landmarks given = only(face.landmarks, kSeven);
   given["ibug68_30"] += Vec3(0, 0, 0.1);
   expect_refused([&] { complete_landmarks(given, {}, face.mesh, "l.json"); },
@@ -94,7 +79,7 @@ TEST(CompleteLandmarks, RefusesALandmarkOffTheScan) {
 }
 
 TEST(CompleteLandmarks, RefusesALandmarkThatSlippedAlongTheScan) {
-  const EmbeddedFace face = another_face();
+  const EmbeddedFace face = another_face(0.5);
   io::Landmarks given = only(face.landmarks, kSeven);
   given["ibug68_48"] = face.landmarks.at("ibug68_17");
   expect_refused([&] { complete_landmarks(given, {}, face.mesh, "l.json"); },
@@ -102,7 +87,7 @@ TEST(CompleteLandmarks, RefusesALandmarkThatSlippedAlongTheScan) {
 }
 
 TEST(CompleteLandmarks, RefusesExchangedSides) {
-  const EmbeddedFace face = another_face();
+  const EmbeddedFace face = another_face(0.5);
   io::Landmarks one = only(face.landmarks, kSeven);
   std::swap(one["ibug68_48"], one["ibug68_54"]);
   expect_refused([&] { complete_landmarks(one, {}, face.mesh); },
@@ -174,7 +159,7 @@ TEST(UnknownLandmarks, AreNamedAHandfulAndCounted) {
 }
 
 TEST(CompleteLandmarks, NeedsThreeKnownOnesOffOneLine) {
-  const EmbeddedFace face = another_face();
+  const EmbeddedFace face = another_face(0.5);
   const std::vector<std::string> needed = {"ibug68_8"};
   expect_refused(
       [&] {
@@ -197,7 +182,7 @@ TEST(CompleteLandmarks, NeedsThreeKnownOnesOffOneLine) {
 }
 
 TEST(CompleteLandmarks, AllProblemsAreToldAtOnce) {
-  const EmbeddedFace face = another_face();
+  const EmbeddedFace face = another_face(0.5);
   io::Landmarks given = only(face.landmarks, kSeven);
   given["ibug68_30"] += Vec3(0, 0, 0.1);
   expect_refused([&] { complete_landmarks(given, {"elbow"}, face.mesh, "l.json"); },
@@ -208,22 +193,12 @@ TEST(CompleteLandmarks, AllProblemsAreToldAtOnce) {
 TEST(LipLine, FollowsAGrooveAndFindsNoneOnABulge) {
   const auto curve = [](double x) { return 0.003 * std::sin(x * 60); };
   const auto wall = [&](double depth) {
-    const int n = 120;
-    TriMesh mesh;
-    mesh.points.resize((n + 1) * (n + 1), 3);
-    mesh.triangles.resize(2 * n * n, 3);
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i) {
-        const double x = 0.08 * (double(i) / n - 0.5), y = 0.06 * (double(j) / n - 0.5);
-        const double groove = std::exp(-std::pow((y - curve(x)) / 0.002, 2));
-        mesh.points.row(j * (n + 1) + i) << x, y, 0.1 - 6 * x * x - 4 * y * y - depth * groove;
-      }
-    for (int j = 0, f = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        const int a = j * (n + 1) + i;
-        mesh.triangles.row(f++) << a, a + 1, a + n + 2;
-        mesh.triangles.row(f++) << a, a + n + 2, a + n + 1;
-      }
+    TriMesh mesh = test::sheet_mesh({120, 120}, {1, 1}).mesh;
+    for (auto point : mesh.points.rowwise()) {
+      const double x = 0.08 * (point.x() - 0.5), y = 0.06 * (point.y() - 0.5);
+      const double groove = std::exp(-std::pow((y - curve(x)) / 0.002, 2));
+      point << x, y, 0.1 - 6 * x * x - 4 * y * y - depth * groove;
+    }
     return mesh;
   };
   Points guess(2, 3);

@@ -24,7 +24,7 @@ Camera read(const std::string& text) {
 
 std::string error_of(std::string text, const std::string& from = "", const std::string& to = "") {
   if (!from.empty()) text.replace(text.find(from), from.size(), to);
-  return input_error([&] { read(text); });
+  return refusal([&] { read(text); });
 }
 
 TEST(CameraFile, EveryKeyReachesItsTarget) {
@@ -71,7 +71,7 @@ TEST(GuessedIntrinsics, SpanTheStatedAngleAcrossTheLongerSide) {
   EXPECT_EQ(wide.cx_px, 319.5);
   EXPECT_EQ(wide.cy_px, 239.5);
   EXPECT_EQ(guess_intrinsics(480, 640, 60).fx_px, wide.fx_px);
-  EXPECT_THAT(input_error([] { guess_intrinsics(640, 480, 180); }), HasSubstr("10 to 170"));
+  EXPECT_THAT(refusal([] { guess_intrinsics(640, 480, 180); }), HasSubstr("10 to 170"));
 }
 
 }  // namespace

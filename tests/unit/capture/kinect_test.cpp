@@ -173,7 +173,7 @@ TEST_F(KinectTest, ColourAlone) {
 TEST_F(KinectTest, GivesUpOnADeviceThatIsSilent) {
   record();
   write_text(folder_ / "INDEX.txt", "");
-  EXPECT_THAT(input_error([] { open_kinect()->next(); }), HasSubstr("kinect: "));
+  EXPECT_THAT(refusal([] { open_kinect()->next(); }), HasSubstr("kinect: "));
 }
 
 TEST_F(KinectTest, TakesTheUsersCamera) {
@@ -182,7 +182,7 @@ TEST_F(KinectTest, TakesTheUsersCamera) {
   write_text(folder_ / "vga.toml", "width = 640\nheight = 480\n" + k);
   write_text(folder_ / "hd.toml", "width = 1280\nheight = 720\n" + k);
   EXPECT_EQ(open_kinect({.camera_file = folder_ / "vga.toml"})->intrinsics().fx_px, 517);
-  EXPECT_THAT(input_error([&] { open_kinect({.camera_file = folder_ / "hd.toml"}); }),
+  EXPECT_THAT(refusal([&] { open_kinect({.camera_file = folder_ / "hd.toml"}); }),
               HasSubstr("640 x 480"));
 }
 

@@ -9,7 +9,7 @@
 
 namespace hyperex::capture {
 namespace {
-using test::input_error;
+using test::refusal;
 
 void expect_one_clear_line(const std::string& error, const std::string& name) {
   if (error.empty()) GTEST_SKIP() << "there is a camera";
@@ -18,11 +18,11 @@ void expect_one_clear_line(const std::string& error, const std::string& name) {
 }
 
 TEST(NoDevice, KinectSaysSo) {
-  expect_one_clear_line(input_error([] { open_kinect(); }), "kinect");
+  expect_one_clear_line(refusal([] { open_kinect(); }), "kinect");
 }
 
 TEST(NoDevice, OpenniSaysSo) {
-  expect_one_clear_line(input_error([] { open_openni(); }), "openni");
+  expect_one_clear_line(refusal([] { open_openni(); }), "openni");
 }
 
 }  // namespace

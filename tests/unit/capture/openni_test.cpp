@@ -104,7 +104,7 @@ TEST(OpenniDevice, OpensByNameAndFindsTheOnlyOne) {
   const auto source = open_source("openni");
   EXPECT_TRUE(source->live());
   EXPECT_TRUE(source->next());
-  EXPECT_THAT(input_error([] { open_source("openni:not-here"); }), HasSubstr("openni:not-here: "));
+  EXPECT_THAT(refusal([] { open_source("openni:not-here"); }), HasSubstr("openni:not-here: "));
 }
 
 TEST(OniFile, GivesEveryFrameAsRecorded) {
@@ -148,9 +148,9 @@ TEST(OniFile, ColourAloneAndTheUsersCamera) {
 
 TEST(OniFile, RefusesWhatIsNone) {
   const Folder folder;
-  EXPECT_THAT(input_error([&] { open_oni(folder / "none.oni"); }), HasSubstr("no such file"));
+  EXPECT_THAT(refusal([&] { open_oni(folder / "none.oni"); }), HasSubstr("no such file"));
   write_text(folder / "text.oni", "not a recording");
-  const std::string error = input_error([&] { open_oni(folder / "text.oni"); });
+  const std::string error = refusal([&] { open_oni(folder / "text.oni"); });
   EXPECT_THAT(error, HasSubstr("text.oni: "));
   EXPECT_THAT(error, testing::Not(HasSubstr("\n")));
 }
@@ -163,7 +163,7 @@ TEST(OniFile, ATornRecordingIsReadAsFarAsItGoesOrRefused) {
     tear(folder / "torn.oni", share);
     std::vector<Frame> frames;
     std::vector<std::string> notes;
-    const std::string error = input_error([&] {
+    const std::string error = refusal([&] {
       const auto source = open_oni(folder / "torn.oni");
       frames = read_all(*source);
       notes = source->notes();

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "hyperex/capture/open_source.hpp"
+#include "hyperex/core/files.hpp"
 #include "recording.hpp"
 
 namespace hyperex::capture {
@@ -66,7 +67,7 @@ TEST_F(PlayedTest, ASlowConsumerLosesFramesAndNoTime) {
 }
 
 TEST_F(PlayedTest, AFaultyFrameHoldsNothingUp) {
-  std::string pairs = read_text(folder_ / "associations.txt");
+  std::string pairs = read_file(folder_ / "associations.txt");
   pairs.replace(pairs.find("0.4 rgb"), 3, "7e9");
   write_text(folder_ / "associations.txt", pairs);
   const auto start = Clock::now();
@@ -79,12 +80,11 @@ TEST_F(PlayedTest, AFaultyFrameHoldsNothingUp) {
 TEST(OpenDevice, RefusesWhatIsNone) {
   const Folder folder;
   write_recording(folder.path(), 2);
-  EXPECT_THAT(input_error([&] { open_device(folder.path().string()); }),
+  EXPECT_THAT(refusal([&] { open_device(folder.path().string()); }),
               testing::HasSubstr("no such device; expected kinect, openni"));
-  EXPECT_THAT(input_error([] { open_device("play:kinect"); }),
+  EXPECT_THAT(refusal([] { open_device("play:kinect"); }),
               testing::HasSubstr("expected a recording"));
-  EXPECT_THAT(input_error([] { open_device("play:"); }),
-              testing::HasSubstr("expected a recording"));
+  EXPECT_THAT(refusal([] { open_device("play:"); }), testing::HasSubstr("expected a recording"));
 }
 
 }  // namespace

@@ -1,37 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "recording.hpp"
 
-#include <unistd.h>
-
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
-#include <stdexcept>
 
 #include "hyperex/core/error.hpp"
 
 namespace hyperex::capture::test {
 namespace fs = std::filesystem;
 
-Folder::Folder() {
-  std::string name = (fs::temp_directory_path() / "hyperex_capture_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
-}
-
-std::string read_text(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
 }
 
 void tear(const fs::path& file, double share) {
@@ -84,15 +63,6 @@ std::vector<Frame> read_all(FrameSource& source) {
   std::vector<Frame> frames;
   while (auto frame = source.next()) frames.push_back(std::move(*frame));
   return frames;
-}
-
-std::string input_error(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace hyperex::capture::test

@@ -7,27 +7,17 @@
 #include <vector>
 
 #include "hyperex/capture/source.hpp"
+#include "support/refusal.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::capture::test {
 
 inline constexpr int width_px = 64, height_px = 48;
 
-/// A folder of its own, removed at the end.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using Folder = TestFolder;
+using hyperex::test::refusal;
 
 void write_text(const std::filesystem::path& file, const std::string& text);
-std::string read_text(const std::filesystem::path& file);
 /// Keeps the first `share` of the file.
 void tear(const std::filesystem::path& file, double share);
 
@@ -43,7 +33,5 @@ void write_recording(const std::filesystem::path& folder, int frames);
 
 /// Every frame to the end.
 std::vector<Frame> read_all(FrameSource& source);
-/// The message of the InputError that `act` throws; "" where it throws none.
-std::string input_error(const std::function<void()>& act);
 
 }  // namespace hyperex::capture::test

@@ -45,7 +45,7 @@ TEST(Still, TakesTheUsersCameraWhereItFits) {
   write_text(folder / "large.toml", "width = 640\nheight = 480\n" + k);
   EXPECT_EQ(open_still(file, {.camera_file = folder / "fits.toml"})->intrinsics().fy_px, 71);
   EXPECT_THAT(
-      input_error([&] { open_still(file, {.camera_file = folder / "large.toml"}); }),
+      refusal([&] { open_still(file, {.camera_file = folder / "large.toml"}); }),
       testing::AllOf(HasSubstr("large.toml"), HasSubstr("640 x 480"), HasSubstr("64 x 48")));
 }
 
@@ -53,10 +53,10 @@ TEST(Still, TornOrMissingIsSaidInOneLine) {
   const Folder folder;
   for (const char* name : {"photo.png", "photo.jpg"}) {
     const fs::path file = folder / name;
-    EXPECT_THAT(input_error([&] { open_still(file); }), HasSubstr(name));
+    EXPECT_THAT(refusal([&] { open_still(file); }), HasSubstr(name));
     cv::imwrite(file.string(), colour_picture(0));
     tear(file, 0.5);
-    const std::string error = input_error([&] { open_source(file.string()); });
+    const std::string error = refusal([&] { open_source(file.string()); });
     EXPECT_THAT(error, testing::AllOf(HasSubstr(name), HasSubstr("torn")));
     EXPECT_EQ(error.find('\n'), std::string::npos);
   }

@@ -11,6 +11,7 @@
 
 #include "hyperex/capture/tum_writer.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
 #include "recording.hpp"
 
 namespace hyperex::capture {
@@ -150,7 +151,7 @@ TEST_F(TumFolderTest, ATornPictureCostsOneFrame) {
 TEST_F(TumFolderTest, DamageInsideAPictureIsSeen) {
   for (const char* name : {"rgb/4.jpg", "depth/4.png"}) {
     write_recording(folder_.path(), 12);
-    std::string bytes = read_text(folder_ / name);
+    std::string bytes = read_file(folder_ / name);
     for (std::size_t i = bytes.size() * 7 / 10; i < bytes.size() * 7 / 10 + 20; ++i) bytes[i] = 0;
     write_text(folder_ / name, bytes);
     expect_one_fault(read(), 4, name);
@@ -166,7 +167,7 @@ TEST_F(TumFolderTest, AMissingPictureCostsOneFrame) {
 }
 
 TEST_F(TumFolderTest, AMissingPairLeavesAFaultyFrame) {
-  std::string pairs = read_text(folder_ / "associations.txt");
+  std::string pairs = read_file(folder_ / "associations.txt");
   const auto line = pairs.find("0.4 rgb/4.jpg");
   pairs.erase(line, pairs.find('\n', line) + 1 - line);
   write_text(folder_ / "associations.txt", pairs);
@@ -188,7 +189,7 @@ TEST_F(TumFolderTest, TimeGoingBackCostsTheFramesOutOfOrder) {
   for (const char* wrong :
        {"-5", "7e9", "0.15"}) {  // before the start, far ahead, and between others
     write_recording(folder_.path(), 12);
-    std::string pairs = read_text(folder_ / "associations.txt");
+    std::string pairs = read_file(folder_ / "associations.txt");
     pairs.replace(pairs.find("0.4 rgb"), 3, wrong);
     write_text(folder_ / "associations.txt", pairs);
     expect_one_fault(read(), 4, "is out of order (time must rise)");
@@ -196,7 +197,7 @@ TEST_F(TumFolderTest, TimeGoingBackCostsTheFramesOutOfOrder) {
 }
 
 TEST_F(TumFolderTest, OneOfTwoEqualTimesIsFaulty) {
-  std::string pairs = read_text(folder_ / "associations.txt");
+  std::string pairs = read_file(folder_ / "associations.txt");
   pairs.replace(pairs.find("0.4 rgb"), 3, "0.3");
   write_text(folder_ / "associations.txt", pairs);
   const auto frames = read();
@@ -233,10 +234,10 @@ TEST_F(TumFolderTest, PipesAndFilesOfOtherFoldersCostOneFrame) {
 
 TEST_F(TumFolderTest, ListsAndCamerasThatArePipesAreRefused) {
   for (const char* name : {"associations.txt", "camera.toml"}) {
-    const std::string text = read_text(folder_ / name);
+    const std::string text = read_file(folder_ / name);
     fs::remove(folder_ / name);
     ASSERT_EQ(::mkfifo((folder_ / name).c_str(), 0600), 0);
-    EXPECT_THAT(input_error([&] { read(); }), HasSubstr("is a pipe"));
+    EXPECT_THAT(refusal([&] { read(); }), HasSubstr("is a pipe"));
     fs::remove(folder_ / name);
     write_text(folder_ / name, text);
   }
@@ -254,7 +255,7 @@ TEST_F(TumFolderTest, GoesOnWithATenthButNotWithLess) {
   for (int i = 2; i < 20; ++i) fs::remove(folder_ / ("rgb/" + std::to_string(i) + ".jpg"));
   EXPECT_EQ(read().size(), 20u);
   fs::remove(folder_ / "rgb/1.jpg");
-  const std::string error = input_error([&] { read(); });
+  const std::string error = refusal([&] { read(); });
   EXPECT_THAT(error, HasSubstr("19 of 20 frames cannot be used"));
   EXPECT_THAT(error, HasSubstr("rgb/1.jpg: no such file"));
   EXPECT_THAT(error, testing::Not(HasSubstr("\n")));
@@ -264,7 +265,7 @@ TEST_F(TumFolderTest, RefusesListsThatAreNone) {
   const auto error_with = [&](const std::string& name, const std::string& text) {
     write_recording(folder_.path(), 3);
     write_text(folder_ / name, text);
-    return input_error([&] { read(); });
+    return refusal([&] { read(); });
   };
   EXPECT_THAT(error_with("associations.txt", "# a\n0.1 rgb/1.jpg 0.1\n"),
               HasSubstr("associations.txt:2: "));
@@ -275,40 +276,33 @@ TEST_F(TumFolderTest, RefusesListsThatAreNone) {
 }
 
 TEST_F(TumFolderTest, RefusesAFolderThatIsNone) {
-  EXPECT_THAT(input_error([&] { open_tum_folder(folder_ / "not_here"); }),
-              HasSubstr("no such folder"));
+  EXPECT_THAT(refusal([&] { open_tum_folder(folder_ / "not_here"); }), HasSubstr("no such folder"));
   fs::remove(folder_ / "associations.txt");
   fs::remove(folder_ / "rgb.txt");
-  EXPECT_THAT(input_error([&] { read(); }), HasSubstr("neither rgb.txt nor associations.txt"));
+  EXPECT_THAT(refusal([&] { read(); }), HasSubstr("neither rgb.txt nor associations.txt"));
   write_recording(folder_.path(), 3);
   fs::remove(folder_ / "camera.toml");
-  EXPECT_THAT(input_error([&] { read(); }), HasSubstr("camera.toml: missing"));
+  EXPECT_THAT(refusal([&] { read(); }), HasSubstr("camera.toml: missing"));
 }
 
 TEST_F(TumFolderTest, AFolderOfRecordingsNamesTheChoice) {
   Folder parent;
-  const auto refusal = [&] {
-    try {
-      open_tum_folder(parent.path());
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("not refused");
-  };
-  EXPECT_THAT(refusal(), testing::EndsWith("(docs/tracking.md)"));
+  const auto opened = [&] { open_tum_folder(parent.path()); };
+  EXPECT_THAT(refusal(opened), testing::EndsWith("(docs/tracking.md)"));
   const auto add = [&](const std::string& name) {
     fs::create_directory(parent.path() / name);
     write_recording(parent.path() / name, 1);
   };
   add("talk");
-  EXPECT_THAT(refusal(), testing::EndsWith("; it holds one: " + (parent.path() / "talk").string()));
+  EXPECT_THAT(refusal(opened),
+              testing::EndsWith("; it holds one: " + (parent.path() / "talk").string()));
   add("smile");
   add("open");
-  EXPECT_THAT(refusal(),
+  EXPECT_THAT(refusal(opened),
               testing::EndsWith("; it holds 3 recordings, name one of them: open, smile or talk"));
   for (const char* name : {"a", "b", "c"}) add(name);
   EXPECT_THAT(
-      refusal(),
+      refusal(opened),
       testing::EndsWith("; it holds 6 recordings, name one of them: a, b, c, open, smile ..."));
 }
 

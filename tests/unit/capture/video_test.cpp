@@ -59,7 +59,7 @@ TEST(Video, TakesTheUsersCameraWhereItFits) {
   const auto source = open_video(file, {.camera_file = folder / "fits.toml"});
   EXPECT_EQ(source->intrinsics().fy_px, 71);
   EXPECT_THAT(source->notes(), testing::IsEmpty());
-  EXPECT_THAT(input_error([&] { open_video(file, {.camera_file = folder / "large.toml"}); }),
+  EXPECT_THAT(refusal([&] { open_video(file, {.camera_file = folder / "large.toml"}); }),
               HasSubstr("describes pictures of 640 x 480, but those of"));
 }
 
@@ -69,7 +69,7 @@ TEST(Video, ATornFileIsReadAsFarAsItGoes) {
   tear(file, 0.6);
   std::vector<std::string> notes;
   std::vector<Frame> frames;
-  const std::string error = input_error([&] {
+  const std::string error = refusal([&] {
     const auto source = open_video(file);
     frames = read_all(*source);
     notes = source->notes();
@@ -82,25 +82,25 @@ TEST(Video, ATornFileIsReadAsFarAsItGoes) {
 
 TEST(Video, RefusesWhatIsNone) {
   const Folder folder;
-  EXPECT_THAT(input_error([&] { open_video(folder / "none.mp4"); }), HasSubstr("no such file"));
+  EXPECT_THAT(refusal([&] { open_video(folder / "none.mp4"); }), HasSubstr("no such file"));
   write_text(folder / "text.mp4", "not a video");
-  EXPECT_THAT(input_error([&] { open_video(folder / "text.mp4"); }), HasSubstr("no video"));
+  EXPECT_THAT(refusal([&] { open_video(folder / "text.mp4"); }), HasSubstr("no video"));
   write_text(folder / "empty.avi", "");
-  EXPECT_THAT(input_error([&] { open_video(folder / "empty.avi"); }), HasSubstr("no video"));
+  EXPECT_THAT(refusal([&] { open_video(folder / "empty.avi"); }), HasSubstr("no video"));
 }
 
 TEST(OpenSource, NamesWhatCanBeOpened) {
-  const std::string error = input_error([] { open_source("kinnect"); });
+  const std::string error = refusal([] { open_source("kinnect"); });
   EXPECT_THAT(error, HasSubstr("kinnect: "));
   for (const char* word : {"folder", "video", ".oni", "kinect", "openni", "webcam:N"})
     EXPECT_THAT(error, HasSubstr(word));
-  EXPECT_THAT(input_error([] { open_source(""); }), HasSubstr("expected a recording"));
+  EXPECT_THAT(refusal([] { open_source(""); }), HasSubstr("expected a recording"));
 }
 
 TEST(OpenSource, WebcamsGoByNumber) {
-  EXPECT_THAT(input_error([] { open_source("webcam:255"); }), HasSubstr("no /dev/video255"));
-  EXPECT_THAT(input_error([] { open_source("webcam:x"); }), HasSubstr("webcam:N"));
-  EXPECT_THAT(input_error([] { open_source("webcam:-1"); }), HasSubstr("webcam:N"));
+  EXPECT_THAT(refusal([] { open_source("webcam:255"); }), HasSubstr("no /dev/video255"));
+  EXPECT_THAT(refusal([] { open_source("webcam:x"); }), HasSubstr("webcam:N"));
+  EXPECT_THAT(refusal([] { open_source("webcam:-1"); }), HasSubstr("webcam:N"));
 }
 
 TEST(OpenSource, OpensAFolder) {

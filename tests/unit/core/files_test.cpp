@@ -12,6 +12,8 @@
 #include <fstream>
 
 #include "hyperex/core/error.hpp"
+#include "support/refusal.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex {
 namespace {
@@ -21,14 +23,6 @@ using ::testing::ThrowsMessage;
 
 class Files : public ::testing::Test {
  protected:
-  Files()
-      : folder_(fs::temp_directory_path() /
-                ("hyperex_core_" + std::to_string(::getpid()) + "_" +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~Files() override { fs::remove_all(folder_); }
-
   static void put(const fs::path& file, const std::string& text) {
     write_file_atomically(file, [&](std::ostream& stream) { stream << text; });
   }
@@ -38,7 +32,7 @@ class Files : public ::testing::Test {
       found.push_back(entry.path().filename().string());
     return found;
   }
-  fs::path folder_;
+  const TestFolder folder_;
 };
 
 TEST_F(Files, WrittenWholeAndReplaced) {
@@ -73,12 +67,8 @@ TEST_F(Files, AFullDiskLeavesNothing) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit tiny{1000, before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tiny), 0);
-  std::string what;
-  try {
-    put(folder_ / "big.txt", std::string(100000, 'x'));
-  } catch (const InputError& error) {
-    what = error.what();
-  }
+  const std::string what =
+      test::refusal([&] { put(folder_ / "big.txt", std::string(100000, 'x')); });
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_THAT(what, HasSubstr("cannot be written"));

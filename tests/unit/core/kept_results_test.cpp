@@ -9,19 +9,15 @@
 #include <fstream>
 #include <thread>
 
+#include "support/test_file.hpp"
+
 namespace hyperex {
 namespace {
 namespace fs = std::filesystem;
 
 class Kept : public testing::Test {
  protected:
-  void SetUp() override {
-    folder = fs::path(testing::TempDir()) /
-             (std::string("kept_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-  fs::path folder;
+  const TestFolder folder;
 };
 
 TEST_F(Kept, IsFoundAgainByteForByte) {
@@ -79,7 +75,7 @@ TEST_F(Kept, WhatOthersMayWriteIsPassedOver) {
   const fs::path file = folder / "one.kept";
   kept.keep("one", "a face");
   ASSERT_TRUE(kept.find("one"));
-  for (const fs::path& path : {file, folder}) {
+  for (const fs::path& path : {file, folder.path()}) {
     const fs::perms good = fs::status(path).permissions();
     for (const fs::perms wrong : {fs::perms::group_write, fs::perms::others_write}) {
       fs::permissions(path, wrong, fs::perm_options::add);
@@ -89,7 +85,7 @@ TEST_F(Kept, WhatOthersMayWriteIsPassedOver) {
   }
   EXPECT_TRUE(kept.find("one"));
   if (::geteuid() != 0) return;  // only root can give files away
-  for (const fs::path& path : {file, folder}) {
+  for (const fs::path& path : {file, folder.path()}) {
     ASSERT_EQ(::chown(path.c_str(), 65534, 65534), 0);
     EXPECT_FALSE(kept.find("one")) << path;
     ASSERT_EQ(::chown(path.c_str(), 0, 0), 0);

@@ -10,6 +10,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex {
 namespace {
@@ -28,17 +29,7 @@ std::set<std::string> listed(const fs::path& folder) {
 
 class OutputFolder : public ::testing::Test {
  protected:
-  OutputFolder()
-      : before_(fs::current_path()),
-        folder_(fs::temp_directory_path() /
-                ("hyperex_output_" + std::to_string(::getpid()) + "_" +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~OutputFolder() override {
-    fs::current_path(before_);
-    fs::remove_all(folder_);
-  }
+  ~OutputFolder() override { fs::current_path(before_); }
 
   static void put(const fs::path& file, const std::string& text) {
     fs::create_directories(file.parent_path());
@@ -60,7 +51,8 @@ class OutputFolder : public ::testing::Test {
                 ThrowsMessage<InputError>(HasSubstr(why)));
   }
 
-  fs::path before_, folder_;
+  const fs::path before_ = fs::current_path();
+  const TestFolder folder_;
 };
 
 TEST_F(OutputFolder, AppearsOnCommitOnly) {

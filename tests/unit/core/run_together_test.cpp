@@ -10,16 +10,13 @@
 #include <string>
 #include <thread>
 
+#include "support/refusal.hpp"
+
 namespace hyperex {
 namespace {
 
 std::string thrown_by(const std::function<void()>& first, const std::function<void()>& second) {
-  try {
-    run_together({first, second});
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal<std::exception>([&] { run_together({first, second}); });
 }
 
 TEST(RunTogether, AnExceptionInOneCutsNoLoopOfTheOtherShort) {

@@ -9,20 +9,14 @@
 #include <fstream>
 #include <vector>
 
+#include "support/test_file.hpp"
+
 namespace hyperex {
 namespace {
 namespace fs = std::filesystem;
 
 class Temporary : public ::testing::Test {
  protected:
-  Temporary()
-      : folder_(fs::temp_directory_path() /
-                ("hyperex_temporary_" + std::to_string(::getpid()) + "_" +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~Temporary() override { fs::remove_all(folder_); }
-
   /// The number of a process that has been and gone.
   static long gone() {
     const pid_t child = ::fork();
@@ -35,7 +29,7 @@ class Temporary : public ::testing::Test {
     return folder_ / name;
   }
 
-  fs::path folder_;
+  const TestFolder folder_;
 };
 
 TEST_F(Temporary, OnlyWhatAGoneProcessLeftOfThisTargetIsRemoved) {

@@ -12,6 +12,7 @@
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/expression/face_model.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "support/refusal.hpp"
 #include "support/test_file.hpp"
 
 namespace hyperex::expression {
@@ -59,12 +60,9 @@ TEST(Candide, MalformedFilesAreRefusedByLine) {
       {"2 0.5 0 0", "2 0.5 0 nan", ":17:"},   {"# Jaw drop\n", "", ":14:"},
       {"# END OF FILE\n", "1 2 3\n", ":32:"}, {"0 1 -0.25\n", "", ":6:"}};
   for (const auto& [from, to, line] : faults) {
-    try {
-      read_candide(written(replaced(kSmall, from, to)));
-      ADD_FAILURE() << from << " -> " << to << " was read";
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("small.wfm" + line)) << from << " -> " << to;
-    }
+    EXPECT_THAT(test::refusal([&] { read_candide(written(replaced(kSmall, from, to))); }),
+                HasSubstr("small.wfm" + line))
+        << from << " -> " << to;
   }
   const std::string text = kSmall;
   for (std::size_t end = 0; end < text.find("# ANIMATION PARAMETERS") - 2; end += 7)

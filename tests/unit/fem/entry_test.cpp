@@ -11,25 +11,16 @@
 #include "hyperex/fem.hpp"
 #include "hyperex/fem/solve/complementarity.hpp"
 #include "support/fem_support.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::fem {
 namespace {
 
 using Eigen::VectorXd;
+using test::refusal;
 using testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// The sentence with which `call` is refused.
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 class Entry : public testing::Test {
  protected:

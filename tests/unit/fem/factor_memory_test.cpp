@@ -7,6 +7,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 #include "support/fem_support.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -14,12 +15,8 @@ namespace {
 constexpr double kGib = 1ULL << 30U;
 
 std::string refusal(const FactorForecast& forecast, double available_bytes) {
-  try {
-    check_factor_fits(forecast, available_bytes, "test");
-  } catch (const NumericalError& e) {
-    return e.what();
-  }
-  return "";
+  return test::refusal<NumericalError>(
+      [&] { check_factor_fits(forecast, available_bytes, "test"); });
 }
 
 TEST(FactorMemory, CountsTheFactorItsStackAndItsWorkspace) {
@@ -57,12 +54,9 @@ TEST(FactorMemory, IsCheckedBeforeAFactorIsMade) {
   // The same order with the forecast of a mesh of millions of nodes: nothing of it is allocated.
   auto order = std::make_shared<NodeOrder>(*factor.order());
   order->entries = 1e12;
-  try {
-    const PartitionedFactor refused(system.stiffness, held, "static solution", order);
-    FAIL();
-  } catch (const NumericalError& e) {
-    EXPECT_THAT(e.what(), testing::StartsWith("static solution: the factor of the matrix would"));
-  }
+  EXPECT_THAT(test::refusal<NumericalError>(
+                  [&] { PartitionedFactor(system.stiffness, held, "static solution", order); }),
+              testing::StartsWith("static solution: the factor of the matrix would"));
 }
 
 TEST(FactorMemory, FindsTheMemoryOfThisMachine) {

@@ -10,6 +10,7 @@
 #include "hyperex/fem/time/finite_newton_impl.hpp"
 #include "support/fem_support.hpp"
 #include "support/laws.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -394,15 +395,12 @@ TEST(FiniteNewton, NamesTimeAndPlaceWhereItFailsAndKeepsTheLastState) {
   FiniteNewton newton(form, block.ends, options);
   newton.step(0.01, block.moved(Vec3::Zero()));
   const VectorXd before = newton.displacement();
-  try {
+  const std::string text = test::refusal<NumericalError>([&] {
     newton.step(0.01, block.moved({-0.02, 0.01, 0}));
-    FAIL() << "it must not converge";
-  } catch (const NumericalError& e) {
-    const std::string text = e.what();
-    EXPECT_NE(text.find("t = 0.015 s"), std::string::npos) << text;
-    EXPECT_NE(text.find("node "), std::string::npos) << text;
-    EXPECT_NE(text.find("tetrahedron "), std::string::npos) << text;
-  }
+  });
+  EXPECT_NE(text.find("t = 0.015 s"), std::string::npos) << text;
+  EXPECT_NE(text.find("node "), std::string::npos) << text;
+  EXPECT_NE(text.find("tetrahedron "), std::string::npos) << text;
   EXPECT_EQ(newton.displacement(), before);
   EXPECT_EQ(newton.time_s(), 0.01);
 }

@@ -219,15 +219,9 @@ TEST_F(Gltf, TornAnywhereIsRefused) {
 
 TEST_F(Gltf, FlippedBytesNeverCrash) {
   const std::string bytes = document(sheet(1)).glb();
-  for (std::size_t at = 0; at < bytes.size(); ++at)
-    for (const int flip : {0xff, 0x80, 0x01, 0x04}) {
-      std::string changed = bytes;
-      changed[at] = static_cast<char>(changed[at] ^ flip);
-      try {
-        read_scan(write("flipped.glb", changed));
-      } catch (const InputError&) {  // refused or read, nothing else
-      }
-    }
+  testing::read_flipped(bytes, {0xff, 0x80, 0x01, 0x04}, [&](const std::string& changed) {
+    read_scan(write("flipped.glb", changed));
+  });
 }
 
 }  // namespace

@@ -3,14 +3,18 @@
 // Files for tests: a folder of their own, small meshes, and the check of an InputError's line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/types.hpp"
+#include "support/refusal.hpp"
+#include "support/sheet_mesh.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::io::testing {
 namespace fs = std::filesystem;
@@ -18,14 +22,6 @@ namespace fs = std::filesystem;
 /// A test with a folder that disappears afterwards.
 class FileTest : public ::testing::Test {
  protected:
-  FileTest()
-      : folder_(fs::temp_directory_path() /
-                ("hyperex_io_" + std::to_string(::getpid()) + "_" +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~FileTest() override { fs::remove_all(folder_); }
-
   fs::path path(const std::string& name) const { return folder_ / name; }
   fs::path write(const std::string& name, const std::string& bytes) const {
     std::ofstream(path(name), std::ios::binary) << bytes;
@@ -33,40 +29,36 @@ class FileTest : public ::testing::Test {
   }
 
  private:
-  fs::path folder_;
+  const TestFolder folder_;
 };
 
 /// `call` throws an InputError of one line that begins with the file's name and holds `part`.
 template <class Call>
 void expect_refused(const fs::path& file, const std::string& part, const Call& call) {
-  try {
-    call();
-    ADD_FAILURE() << "accepted; expected an error with \"" << part << "\"";
-  } catch (const InputError& error) {
-    const std::string what = error.what();
-    EXPECT_THAT(what, ::testing::StartsWith(file.string()));
-    EXPECT_THAT(what, ::testing::HasSubstr(part));
-    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-  }
+  const std::string what = test::refusal(call);
+  EXPECT_THAT(what, ::testing::StartsWith(file.string()));
+  EXPECT_THAT(what, ::testing::HasSubstr(part));
+  EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+}
+
+/// A sound file with any one byte changed is refused or read, nothing else.
+inline void read_flipped(const std::string& bytes, const std::vector<int>& flips,
+                         const std::function<void(const std::string&)>& read) {
+  for (std::size_t at = 0; at < bytes.size(); ++at)
+    for (const int flip : flips) {
+      std::string changed = bytes;
+      changed[at] = static_cast<char>(changed[at] ^ flip);
+      test::refusal([&] { read(changed); });
+    }
 }
 
 /// A bulging sheet of n x n squares, 160 x 200 x 30 mm, as a face's size is; metres.
 inline TriMesh sheet(int n) {
-  TriMesh mesh;
-  mesh.points.resize((n + 1) * (n + 1), 3);
-  mesh.triangles.resize(2 * n * n, 3);
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) {
-      const double x = double(i) / n - 0.5, y = double(j) / n - 0.5;
-      mesh.points.row(j * (n + 1) + i) << 0.16 * x, 0.20 * y, 0.06 * (0.5 - x * x - y * y);
-    }
-  int t = 0;
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-      mesh.triangles.row(t++) << a, b, d;
-      mesh.triangles.row(t++) << a, d, c;
-    }
+  TriMesh mesh = test::sheet_mesh({n, n}, {1, 1}).mesh;
+  for (auto point : mesh.points.rowwise()) {
+    const double x = point.x() - 0.5, y = point.y() - 0.5;
+    point << 0.16 * x, 0.20 * y, 0.06 * (0.5 - x * x - y * y);
+  }
   return mesh;
 }
 
@@ -77,11 +69,6 @@ inline std::string png_bytes() {
 
 inline fs::path shared_data() {
   return fs::path(HYPEREX_SHARED_DIR) / "data";
-}
-
-inline std::string file_bytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace hyperex::io::testing

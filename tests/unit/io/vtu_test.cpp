@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/io/vtu.hpp"
 
+#include "hyperex/core/files.hpp"
 #include "support/vtu_reader.hpp"
 #include "unit/io/io_testing.hpp"
 
@@ -17,7 +18,7 @@ TEST_F(Vtu, ArraysComeBackFromTheFile) {
   VtuArray displacement{"displacement (mm)", Eigen::MatrixXf::Random(n, 3)};
   VtuArray strain{"strain & <more>", Eigen::MatrixXf::Random(n - 3, 6)};
   write_vtu(path("a.vtu"), points, tets, {displacement}, {strain});
-  const std::string file = testing::file_bytes(path("a.vtu"));
+  const std::string file = read_file(path("a.vtu"));
   EXPECT_THAT(file, ::testing::HasSubstr("NumberOfPoints=\"50000\" NumberOfCells=\"49997\""));
   EXPECT_THAT(file, ::testing::HasSubstr(
                         "ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" "
@@ -52,7 +53,7 @@ TEST_F(Vtu, RowsMustFit) {
 
 TEST_F(Vtu, SeriesNamesItsFilesWithTimes) {
   write_pvd(path("frames.pvd"), {{0, "frames/0000.vtu"}, {0.5, "frames/a&b.vtu"}});
-  const std::string file = testing::file_bytes(path("frames.pvd"));
+  const std::string file = read_file(path("frames.pvd"));
   EXPECT_THAT(file, ::testing::HasSubstr("timestep=\"0.5\" group=\"\" part=\"0\" "
                                          "file=\"frames/a&amp;b.vtu\""));
 }
@@ -67,7 +68,7 @@ TEST_F(Vtu, FlagsAreBytes) {
   tets << 0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5;
   write_vtu(path("a.vtu"), Points::Random(6, 3), tets, {},
             {{"inverted", Eigen::Vector3f(0, 1, 0), true}});
-  const std::string file = testing::file_bytes(path("a.vtu"));
+  const std::string file = read_file(path("a.vtu"));
   EXPECT_THAT(file, ::testing::HasSubstr("type=\"UInt8\" Name=\"inverted\""));
   EXPECT_THAT(unpacked<std::uint8_t>(file, "inverted"), ::testing::ElementsAre(0, 1, 0));
 }

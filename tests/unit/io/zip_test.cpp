@@ -19,11 +19,7 @@ using ::testing::HasSubstr;
 
 class Unzip : public ::testing::Test {
  protected:
-  Unzip() {
-    fs::remove_all(root_);
-    fs::create_directories(root_ / "in");
-  }
-  ~Unzip() override { fs::remove_all(root_); }
+  Unzip() { fs::create_directories(root_ / "in"); }
   /// "" or the message.
   std::string unpacked(const std::string& bytes, const UnzipLimits& limits = {}) {
     fs::remove_all(into_);
@@ -38,7 +34,7 @@ class Unzip : public ::testing::Test {
     return "";
   }
 
-  const fs::path root_ = test_file("zip");
+  const TestFolder root_;
   const fs::path into_ = root_ / "in" / "a";
 };
 

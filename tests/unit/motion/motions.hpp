@@ -14,6 +14,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::motion::testing {
 
@@ -31,14 +32,10 @@ inline std::vector<std::string> default_points(const Motion& motion) {
 /// `work` throws an InputError of one line that holds every one of `parts`.
 inline void expect_refused(const std::function<void()>& work,
                            const std::vector<std::string>& parts) {
-  try {
-    work();
-    FAIL() << "was not refused";
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-    for (const auto& part : parts) EXPECT_THAT(text, ::testing::HasSubstr(part));
-  }
+  const std::string text = test::refusal(work);
+  EXPECT_NE(text, "") << "was not refused";
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  for (const auto& part : parts) EXPECT_THAT(text, ::testing::HasSubstr(part));
 }
 
 /// `samples` samples `step_s` apart of points whose coordinates are `at(t, point, axis)`.

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/motion/read_motion.hpp"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <fstream>
 
 #include "hyperex/io/trc.hpp"
+#include "support/test_file.hpp"
 #include "unit/motion/motions.hpp"
 
 namespace hyperex::motion {
@@ -18,19 +17,12 @@ using testing::nan;
 
 class ReadMotion : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("hyperex_motion_" + std::to_string(::getpid()) + "_" +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   fs::path path(const std::string& name) const { return folder_ / name; }
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name)) << text;
     return path(name);
   }
-  fs::path folder_;
+  const TestFolder folder_;
 };
 
 TEST_F(ReadMotion, WrittenMotionComesBack) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::muscles {
 namespace {
@@ -97,12 +98,8 @@ TEST(MuscleTemplate, ActsTogetherWithMusclesThatThereAre) {
   const MuscleTable own = {muscle(two, "together = { zyg_major = 0.4 }\n")};
   EXPECT_EQ(changed_table(muscle_template(), own, {}).back(), own[0]);
   const MuscleTable unknown = {muscle(two, "together = { zyg_mayor = 0.4 }\n")};
-  try {
-    changed_table(muscle_template(), unknown, {});
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("muscle own: together"), HasSubstr("zyg_mayor")));
-  }
+  EXPECT_THAT(hyperex::test::refusal([&] { changed_table(muscle_template(), unknown, {}); }),
+              AllOf(HasSubstr("muscle own: together"), HasSubstr("zyg_mayor")));
 }
 
 TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
@@ -177,27 +174,20 @@ TEST(MuscleTemplate, EachBadTextNamesTheMuscleAndTheKey) {
   for (const Bad& b : bad) {
     const std::string own = b.text;
     const bool has_path = std::string(b.key) == "path";
-    try {
-      read("[[muscle]]\nname = \"good\"\n" + path + "[[muscle]]\nname = \"own\"\n" +
-           (has_path ? "" : path) + own + "\n");
-      ADD_FAILURE() << "no error: " << own;
-    } catch (const InputError& e) {
-      EXPECT_THAT(e.what(), AllOf(HasSubstr("own.toml"), HasSubstr("muscle own: "),
-                                  HasSubstr(std::string(b.key) + ": expected ")))
-          << own;
-    }
+    EXPECT_THAT(hyperex::test::refusal([&] {
+                  read("[[muscle]]\nname = \"good\"\n" + path + "[[muscle]]\nname = \"own\"\n" +
+                       (has_path ? "" : path) + own + "\n");
+                }),
+                AllOf(HasSubstr("own.toml"), HasSubstr("muscle own: "),
+                      HasSubstr(std::string(b.key) + ": expected ")))
+        << own;
   }
 }
 
 TEST(MuscleTemplate, AMuscleNeedsANameOfItsOwn) {
   const std::string path = "path = " + two + "\n";
-  const auto message = [&](const std::string& text) -> std::string {
-    try {
-      read(text);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+  const auto message = [](const std::string& text) {
+    return hyperex::test::refusal([&] { read(text); });
   };
   EXPECT_THAT(message("[[muscle]]\n" + path), HasSubstr("muscle without name: name: expected"));
   EXPECT_THAT(message("[[muscle]]\nname = \"\"\n" + path), HasSubstr("name: expected"));

@@ -121,6 +121,8 @@ TEST(DisplacementModes, StillnessAndNothingHaveNoModes) {
   EXPECT_EQ(still.weights.rows(), 5);
   EXPECT_EQ(still.max_error_m, 0);
   EXPECT_TRUE(displacement_modes({}).modes.empty());
+  // A long take that moves as the one that it is compared with.
+  EXPECT_TRUE(displacement_modes(std::vector<PointsF>(600, PointsF::Zero(300, 3))).modes.empty());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hyperex/geometry/cut_surface.hpp"
+#include "support/sheet_mesh.hpp"
 
 namespace hyperex::report {
 namespace {
@@ -30,17 +31,10 @@ struct CutSheet {
     scan.mesh.points.topRows(side * side) = joined;
     for (int j = 0; j < side; ++j)
       scan.mesh.points.row(side * side + j) = joined.row(j * side + seam);
-    TriMesh whole{joined, Triangles(2 * (side - 1) * (side - 1), 3)};
-    Eigen::Index f = 0;
-    for (int j = 0; j + 1 < side; ++j)
-      for (int i = 0; i + 1 < side; ++i) {
-        const int a = j * side + i;
-        whole.triangles.row(f++) << a, a + 1, a + side + 1;
-        whole.triangles.row(f++) << a, a + side + 1, a + side;
-      }
+    const TriMesh whole{joined, test::sheet_mesh({side - 1, side - 1}, {1, 1}).mesh.triangles};
     scan.mesh.triangles = whole.triangles;
-    scan.corner_uv.resize(3 * f, 2);
-    for (Eigen::Index t = 0; t < f; ++t) {
+    scan.corner_uv.resize(3 * whole.triangles.rows(), 2);
+    for (Eigen::Index t = 0; t < whole.triangles.rows(); ++t) {
       const bool right = whole.triangles.row(t).maxCoeff() >= 0 && right_of_seam(whole, t);
       for (int k = 0; k < 3; ++k) {
         int& v = scan.mesh.triangles(t, k);

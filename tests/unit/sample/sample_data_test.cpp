@@ -15,6 +15,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/sample/second_face.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::sample {
 namespace {
@@ -22,17 +23,11 @@ namespace fs = std::filesystem;
 
 class SampleData : public testing::Test {
  protected:
-  SampleData() {
-    Progress::silence(true);
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~SampleData() override { fs::remove_all(folder_); }
+  SampleData() { Progress::silence(true); }
   fs::path in(const std::string& name) const { return folder_ / name; }
 
  private:
-  fs::path folder_ =
-      fs::path(testing::TempDir()) / ("hyperex_sample_" + std::to_string(::getpid()));
+  const TestFolder folder_;
 };
 
 TEST_F(SampleData, IsReadBackAndTheSameEveryTime) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "hyperex/scene/toml_values.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::scene {
 namespace {
@@ -15,8 +16,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 TEST(RecordingKey, IsToldByTheEndingAndTheColumns) {
-  const fs::path folder = fs::path(testing::TempDir()) / "hyperex_recording_key";
-  fs::create_directories(folder);
+  const TestFolder folder;
   const auto key = [&](const char* name, const char* head) {
     std::ofstream(folder / name) << head;
     return recording_key(folder / name);
@@ -27,7 +27,6 @@ TEST(RecordingKey, IsToldByTheEndingAndTheColumns) {
   EXPECT_EQ(key("d.TRC", ""), "motion.file");
   EXPECT_EQ(key("e.mp4", ""), "motion.recording");
   EXPECT_EQ(recording_key(folder), "motion.recording");
-  fs::remove_all(folder);
 }
 
 TEST(NewScene, SaysWhatItIsOfWhateverTheNames) {

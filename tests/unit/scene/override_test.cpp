@@ -8,6 +8,7 @@
 
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/scene/toml_values.hpp"
+#include "support/refusal.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::scene {
@@ -25,12 +26,10 @@ TEST(Override, IsToldWithItsPlaceAndTakesPathsFromItsFolder) {
   EXPECT_EQ(scene.origins.at("tissue.young_kpa").file, "study.toml");
   EXPECT_EQ(problem_at(scene, "tissue.young_kpa", "less").sentence(),
             "study.toml:8: tissue.young_kpa = 30.0: expected less");
-  try {
-    read_scene_with(file, {{"tissue.young_kpa=-3", {"study.toml", 8}, {}}});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::StartsWith("study.toml:8: tissue.young_kpa = -3: expected"));
-  }
+  EXPECT_THAT(test::refusal([&] {
+                read_scene_with(file, {{"tissue.young_kpa=-3", {"study.toml", 8}, {}}});
+              }),
+              testing::StartsWith("study.toml:8: tissue.young_kpa = -3: expected"));
 }
 
 TEST(Override, AStudyInThePlaceOfASceneIsRecognised) {

@@ -1,38 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "hyperex/scene/scene.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::scene {
 
 /// A folder of its own for a test, with what scenes need in it; removed afterwards.
-class SceneFolder {
+class SceneFolder : public TestFolder {
  public:
   SceneFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "hyperex_scene_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
     for (const char* file : {"face.ply", "points.json", "motion.csv"}) write(file, "");
-    std::filesystem::create_directory(folder_ / "sub");
+    std::filesystem::create_directory(*this / "sub");
   }
-  ~SceneFolder() { std::filesystem::remove_all(folder_); }
-  SceneFolder(const SceneFolder&) = delete;
-  SceneFolder& operator=(const SceneFolder&) = delete;
-
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
+    std::ofstream(*this / name, std::ios::binary) << text;
+    return *this / name;
   }
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-
- private:
-  std::filesystem::path folder_;
 };
 
 inline std::string sentences(const std::vector<InputProblem>& problems) {

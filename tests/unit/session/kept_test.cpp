@@ -8,6 +8,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "support/test_file.hpp"
+
 namespace hyperex::session {
 using namespace scene;
 namespace {
@@ -87,15 +89,12 @@ TEST(Kept, BytesOfSomethingElseAreNothing) {
 class KeptRecording : public testing::Test {
  protected:
   void SetUp() override {
-    // Cases run beside each other.
-    folder = fs::path(testing::TempDir()) / ("kept_recording_" + std::to_string(getpid()));
     fs::create_directories(folder / "recording" / "depth");
     write("recording/colour.txt", "one");
     write("recording/depth/1.png", "two");
     scene.motion.recording = folder / "recording";
     scene.kept = KeptResults(folder / "kept");
   }
-  void TearDown() override { fs::remove_all(folder); }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder / name) << text;
   }
@@ -109,7 +108,7 @@ class KeptRecording : public testing::Test {
     EXPECT_EQ(recorded.motion.names.size(), 2u);
     return tracked;
   }
-  fs::path folder;
+  const TestFolder folder;
   Scene scene;
 };
 

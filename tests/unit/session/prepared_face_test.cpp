@@ -10,6 +10,7 @@
 #include "hyperex/fem/solve/node_order.hpp"
 #include "hyperex/session/kept_order.hpp"
 #include "hyperex/session/simulation_options.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::session {
 using namespace scene;
@@ -19,14 +20,11 @@ namespace fs = std::filesystem;
 class PreparedFaces : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("prepared_face_" + std::to_string(getpid()));
-    fs::remove_all(folder_);
     scene_.scan.source.embedded = true;
     scene_.motion.source.embedded = true;
     scene_.mesh.element_size_m = 0.009;
     scene_.kept = KeptResults(folder_);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   PreparedFace prepared() {
     Inputs inputs = read_inputs(scene_);
@@ -42,7 +40,7 @@ class PreparedFaces : public testing::Test {
     return files;
   }
 
-  fs::path folder_;
+  const TestFolder folder_;
   Scene scene_;
 };
 

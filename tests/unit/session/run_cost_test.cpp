@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hyperex/session/prepared_face.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -108,22 +109,13 @@ TEST(RunCost, AboveTheBoundIsRefusedByTheKeyThatRaisesIt) {
   RunCost cost;
   cost.disk_bytes = 3.1e9;
   cost.frames_bytes = 3e9;
-  try {
-    check_disk(scene, cost);
-    FAIL() << "was not refused";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("output.most_gb"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("3.8 or more"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("3.00 GB for ParaView"));
-  }
+  EXPECT_THAT(
+      test::refusal([&] { check_disk(scene, cost); }),
+      testing::AllOf(testing::HasSubstr("output.most_gb"), testing::HasSubstr("3.8 or more"),
+                     testing::HasSubstr("3.00 GB for ParaView")));
   const Note doubt = make_warning("recording.time_unit_doubtful", "milliseconds?", "motion.arkit");
-  try {
-    check_disk(scene, cost, {doubt});
-    FAIL() << "was not refused";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(),
-                testing::HasSubstr("motion.arkit: expected times in seconds (milliseconds?)"));
-  }
+  EXPECT_THAT(test::refusal([&] { check_disk(scene, cost, {doubt}); }),
+              testing::HasSubstr("motion.arkit: expected times in seconds (milliseconds?)"));
   scene.output.most_gb = 3.8;
   EXPECT_NO_THROW(check_disk(scene, cost));
 }

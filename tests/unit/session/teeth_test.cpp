@@ -7,6 +7,7 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "support/note_matchers.hpp"
+#include "support/refusal.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::session {
@@ -41,13 +42,10 @@ class GivenTeeth : public testing::Test {
     io::write_ply(folder_ / name, mesh, unit);
   }
   std::string problem(const std::string& keys, const io::Landmarks& landmarks = kLips) const {
-    try {
+    return test::refusal([&] {
       std::vector<Note> notes;
       read_teeth(scene(keys), io::LengthUnit::millimetre, landmarks, notes);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    });
   }
   SceneFolder folder_;
 };

@@ -11,6 +11,7 @@
 #include "hyperex/geometry/node_areas.hpp"
 #include "hyperex/simulate/drive/support.hpp"
 #include "simulate/small_face.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -200,14 +201,7 @@ TEST_F(BoundaryTest, StifferLayersPullHarder) {
 }
 
 TEST_F(BoundaryTest, UnknownNamesAreRefused) {
-  const auto refusal = [&] {
-    try {
-      boundary();
-    } catch (const InputError& e) {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
+  const auto refusal = [&] { return hyperex::test::refusal([&] { boundary(); }); };
   options_.drive.points = {"nobody"};
   EXPECT_THAT(refusal(), testing::HasSubstr("which is to be driven"));
   options_.drive.points = test::seven_points();

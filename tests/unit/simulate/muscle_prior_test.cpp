@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "hyperex/core/error.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -55,12 +56,8 @@ TEST(MusclePrior, CorrelatesWhatIsNamedTogetherOnBothSidesAndLessAcross) {
 TEST(MusclePrior, RefusesCorrelationsThatCannotHoldTogether) {
   MuscleOptions options = options_with(0.9, 0.9);
   options.own[1].together = {{"puller", -0.9}};
-  try {
-    muscle_prior(lines_of_three(), options);
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("can hold at the same time"));
-  }
+  EXPECT_THAT(hyperex::test::refusal([&] { muscle_prior(lines_of_three(), options); }),
+              testing::HasSubstr("can hold at the same time"));
 }
 
 TEST(MusclePrior, OfTheProgramsOwnMusclesHolds) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hyperex/core/error.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -14,12 +15,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string said_of(const SimulationOptions& options) {
-  try {
-    check(options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return hyperex::test::refusal([&] { check(options); });
 }
 
 TEST(SimulationOptions, DefaultsAreWhatTheProgramRuns) {

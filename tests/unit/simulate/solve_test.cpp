@@ -7,6 +7,7 @@
 #include "hyperex/motion/resample.hpp"
 #include "hyperex/simulate/drive/input_shapes.hpp"
 #include "simulate/small_face.hpp"
+#include "support/layer.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -60,13 +61,6 @@ class SolveFace : public testing::Test {
     options.method = SolverMethod::direct;
     return run(options);
   }
-  static double greatest(const Eigen::MatrixXd& d) {
-    double most = 0;
-    for (Eigen::Index c = 0; c < d.cols(); ++c)
-      for (Eigen::Index n = 0; n < d.rows(); n += 3)
-        most = std::max(most, d.col(c).segment<3>(n).norm());
-    return most;
-  }
 
   const test::SmallFace face_ = test::small_face();
   const AlignedMotion motion_ = test::mouth_opening(face_.landmarks, 12, 13, 30);
@@ -81,7 +75,7 @@ TEST_F(SolveFace, ReducedAgreesWithDirectToItsTolerance) {
   EXPECT_EQ(full.basis_size, 0);
   EXPECT_EQ(full.estimated_error, -1);
   EXPECT_EQ(full.verified_error, -1);
-  const double most = greatest(full.displacement);
+  const double most = hyperex::test::greatest_motion(full.displacement);
   EXPECT_GT(most, 0.01);
   int before = 0;
   for (const double tolerance : {1e-1, 1e-3, 1e-5}) {
@@ -89,7 +83,8 @@ TEST_F(SolveFace, ReducedAgreesWithDirectToItsTolerance) {
     options.tolerance = tolerance;
     options.verify = true;
     const Solution reduced = run(options);
-    const double error = greatest(reduced.displacement - full.displacement) / most;
+    const double error =
+        hyperex::test::greatest_motion(reduced.displacement - full.displacement) / most;
     std::printf("tolerance %.0e: error %.1e, estimated %.1e, %d vectors\n", tolerance, error,
                 reduced.estimated_error, reduced.basis_size);
     EXPECT_TRUE(reduced.converged);
@@ -106,7 +101,7 @@ TEST_F(SolveFace, ReducedAgreesWithDirectToItsTolerance) {
 
 TEST_F(SolveFace, BetaAndGammaReachBothMethods) {
   const Solution full = direct();
-  const double most = greatest(full.displacement);
+  const double most = hyperex::test::greatest_motion(full.displacement);
   for (const auto& [beta, gamma] : {std::pair{0.25, 0.5}, {0.3025, 0.6}, {0.5, 0.9}}) {
     SolverOptions options;
     options.newmark_beta = beta;
@@ -116,12 +111,14 @@ TEST_F(SolveFace, BetaAndGammaReachBothMethods) {
     const Solution reduced = run(options);
     options.method = SolverMethod::direct;
     const Solution other = run(options);
-    EXPECT_LT(greatest(reduced.displacement - other.displacement), options.tolerance * most)
+    EXPECT_LT(hyperex::test::greatest_motion(reduced.displacement - other.displacement),
+              options.tolerance * most)
         << gamma << ": estimated " << reduced.estimated_error << ", " << reduced.basis_size;
     if (gamma > 0.5) {
-      EXPECT_GT(greatest(other.displacement - full.displacement), 5e-6 * most);
+      EXPECT_GT(hyperex::test::greatest_motion(other.displacement - full.displacement),
+                5e-6 * most);
     } else {
-      EXPECT_EQ(greatest(other.displacement - full.displacement), 0);
+      EXPECT_EQ(hyperex::test::greatest_motion(other.displacement - full.displacement), 0);
     }
   }
 }
@@ -142,7 +139,8 @@ TEST_F(SolveFace, GammaAboveAHalfDamps) {
     struck.s.col(0) = struck.s.col(1) = drive_.s.col(40);
     struck.prescribed *= 0;
     const Solution s = solve(system_, prescribed_, struck, steps_, options, kDt);
-    return greatest(s.displacement.rightCols(20)) / greatest(s.displacement);
+    return hyperex::test::greatest_motion(s.displacement.rightCols(20)) /
+           hyperex::test::greatest_motion(s.displacement);
   };
   EXPECT_GT(ringing(0.25, 0.5), 0.1);
   EXPECT_LT(ringing(0.3025, 0.6), 0.5 * ringing(0.25, 0.5));

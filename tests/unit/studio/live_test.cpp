@@ -9,7 +9,7 @@
 #include "hyperex/core/error.hpp"
 #include "open_face.hpp"
 #include "support/rendered_clip.hpp"
-#include "unit/studio/own_folder.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::studio {
 namespace {
@@ -70,7 +70,7 @@ class LiveFace : public testing::Test {
     return nullptr;
   }
 
-  const test::OwnFolder folder_;
+  const TestFolder folder_;
   OpenFace face_;
   std::mutex mutex_;
   std::vector<json> told_;

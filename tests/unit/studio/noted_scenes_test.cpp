@@ -8,7 +8,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "open_face.hpp"
-#include "unit/studio/own_folder.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::studio {
 namespace {
@@ -19,7 +19,7 @@ class NotedInTheStudio : public testing::TestWithParam<NotedScene> {};
 TEST_P(NotedInTheStudio, IsAmongTheRemarksOfThePage) {
   if (GetParam().id == "recording.mirror_unknown")
     GTEST_SKIP() << "a whole video takes long; it is noted when read";
-  const test::OwnFolder folder;
+  const TestFolder folder;
   const auto file = write_noted_scene(GetParam(), folder.path() / "noted");
   OpenFace face(read_file(file), file, {}, [](const std::string&) {});
   face.run({});

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "hyperex/core/error.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::studio {
 namespace {
@@ -14,12 +15,7 @@ using nlohmann::json;
 
 std::string wrong_with(const std::string& text) {
   std::int64_t id = -1;
-  try {
-    read_request(text, id);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return hyperex::test::refusal([&] { read_request(text, id); });
 }
 
 TEST(Protocol, TakesARequestAsItIsDescribed) {

@@ -9,7 +9,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/scene/toml_values.hpp"
-#include "unit/studio/own_folder.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::studio {
 namespace {
@@ -19,7 +19,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 TEST(SceneFiles, TheSceneWithTheSmileIsSound) {
-  const test::OwnFolder folder;
+  const TestFolder folder;
   std::ofstream(folder.path() / "smile_arkit.csv") << embedded_smile();
   const scene::Scene scene = scene::read_scene_text(embedded_scene(), folder.path() / "scene.toml");
   EXPECT_EQ(scene.drive.by, simulate::DriveBy::muscles);
@@ -27,7 +27,7 @@ TEST(SceneFiles, TheSceneWithTheSmileIsSound) {
 }
 
 TEST(SceneFiles, WhatASceneNamesIsFoundFromItsNewPlace) {
-  const test::OwnFolder folder;
+  const TestFolder folder;
   const fs::path from = folder.path() / "from", to = folder.path() / "to",
                  own = folder.path() / "own";
   for (const fs::path& one : {from, to, own}) fs::create_directory(one);
@@ -48,7 +48,7 @@ TEST(SceneFiles, WhatASceneNamesIsFoundFromItsNewPlace) {
 }
 
 TEST(MovedBy, NamesTheStillPointsOfARecordingWithoutTheUsualOnes) {
-  const test::OwnFolder folder;
+  const TestFolder folder;
   const auto with_names = [&](const std::vector<std::string>& names) {
     const fs::path file = folder.path() / "own.csv";
     std::ofstream out(file);

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "hyperex/core/files.hpp"
-#include "unit/studio/own_folder.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::studio {
 namespace {
@@ -107,7 +107,7 @@ class StudioServer : public testing::Test {
     return error ? "" : beast::buffers_to_string(buffer.data());
   }
 
-  const test::OwnFolder folder_;
+  const TestFolder folder_;
   std::atomic<int> requests_ = 0, uploads_ = 0;
   std::unique_ptr<Server> server_;
   std::thread thread_;

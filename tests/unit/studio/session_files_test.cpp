@@ -104,7 +104,7 @@ class StudioSessionLeftovers : public testing::Test {
     return made;
   }
 
-  const test::OwnFolder folder_;
+  const TestFolder folder_;
   std::vector<json> answers;
   const SessionOptions options = with_leftovers();
   Session session{options, [this](const std::string& message, bool binary, const std::string&) {

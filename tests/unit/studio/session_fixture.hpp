@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "session.hpp"
-#include "unit/studio/own_folder.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::studio {
 
@@ -93,7 +93,7 @@ class StudioSession : public testing::Test {
     return 1e3 * most * shape.head["step_m"].get<double>();
   }
 
-  const test::OwnFolder folder_;
+  const TestFolder folder_;
   std::vector<Message> messages_;
   bool ending_ = false;
   std::unique_ptr<Session> session_;

@@ -2,7 +2,6 @@
 #pragma once
 // A study in a folder of its own, and a program that stands in for hyperex.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,18 +9,16 @@
 #include <string>
 
 #include "hyperex/study/study.hpp"
+#include "support/refusal.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::study {
 
 class StudyFiles : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "hyperex_study_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
     write("scene.toml", "[scan]\nfile = \"embedded\"\n[motion]\nfile = \"embedded\"\n");
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((folder_ / name).parent_path());
@@ -39,12 +36,7 @@ class StudyFiles : public testing::Test {
   /// What reading it throws, without the folder.
   template <class Act>
   std::string refusal(Act act) const {
-    std::string said;
-    try {
-      act();
-    } catch (const InputError& error) {
-      said = error.what();
-    }
+    std::string said = test::refusal(act);
     const std::string prefix = (folder_ / "").string();
     for (auto at = said.find(prefix); at != std::string::npos; at = said.find(prefix))
       said.erase(at, prefix.size());
@@ -54,7 +46,7 @@ class StudyFiles : public testing::Test {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  std::filesystem::path folder_;
+  const TestFolder folder_;
 };
 
 }  // namespace hyperex::study

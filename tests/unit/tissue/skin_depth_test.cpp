@@ -15,6 +15,8 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tissue/mesh/on_skin.hpp"
 #include "hyperex/tissue/per_vertex/per_vertex.hpp"
+#include "support/refusal.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::tissue {
 using namespace anatomy;
@@ -24,12 +26,7 @@ namespace fs = std::filesystem;
 
 class SkinDepth : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("skin_depth_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-    options_.element_size_m = 0.006;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { options_.element_size_m = 0.006; }
 
   /// A CSV of a column, a value a vertex of the embedded face; NaN: an empty cell.
   fs::path write(const std::string& name, const std::string& column,
@@ -48,16 +45,11 @@ class SkinDepth : public testing::Test {
     return build_tissue_mesh(face_.mesh, face_.landmarks, options_, "embedded");
   }
   std::string refusal() const {
-    try {
-      notes_on_depth_files(options_, face_.mesh);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal([&] { notes_on_depth_files(options_, face_.mesh); });
   }
 
   const EmbeddedFace face_ = embedded_face();
-  fs::path folder_;
+  const TestFolder folder_;
   TissueMeshOptions options_;
 };
 

@@ -13,6 +13,8 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
+#include "support/refusal.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::tissue {
 using namespace anatomy;
@@ -50,12 +52,7 @@ class Field : public testing::Test {
     return options;
   }
   static std::string refusal(const TissueFieldOptions& options) {
-    try {
-      maker_->make(options);
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal<std::exception>([&] { maker_->make(options); });
   }
 
   static inline io::Landmarks* landmarks_;
@@ -285,9 +282,8 @@ TEST_F(Field, ProblemsAreFoundBeforeAnythingIsBuilt) {
 }
 
 TEST_F(Field, IsReadFromFilesOfVertices) {
-  const std::filesystem::path folder = testing::TempDir();
-  const std::string stem = "hyperex_tissue_" + std::to_string(::getpid());
-  const std::filesystem::path csv = folder / (stem + ".csv"), ply = folder / (stem + ".ply");
+  const TestFolder folder;
+  const std::filesystem::path csv = folder / "young.csv", ply = folder / "young.ply";
   const Eigen::Index count = mesh_->scan_vertices;
   Eigen::VectorXf young_kpa(count);
   std::ofstream table(csv);
@@ -321,14 +317,11 @@ TEST_F(Field, IsReadFromFilesOfVertices) {
                 io::LengthUnit::metre, {{"young_kpa", young_kpa}});
   options.per_vertex = ply;
   EXPECT_THAT(refusal(options), HasSubstr("young_kpa = -1 at vertex 5"));
-  std::filesystem::remove(csv);
-  std::filesystem::remove(ply);
 }
 
 TEST_F(Field, APaintedRegionChangesAsMuchAsItIsPainted) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::string stem = "hyperex_paint_" + std::to_string(::getpid());
-  const std::filesystem::path csv = folder / (stem + ".csv"), ply = folder / (stem + ".ply");
+  const TestFolder folder;
+  const std::filesystem::path csv = folder / "paint.csv", ply = folder / "paint.ply";
   const Eigen::Index count = mesh_->scan_vertices;
   const TriMesh scan{mesh_->skin.points.topRows(count), embedded_face().mesh.triangles};
   io::VertexColours colours(count, 4);
@@ -369,8 +362,6 @@ TEST_F(Field, APaintedRegionChangesAsMuchAsItIsPainted) {
   const auto problems = problems_of(options, *landmarks_);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].key, "region[0].painted");
-  std::filesystem::remove(csv);
-  std::filesystem::remove(ply);
 }
 
 TEST(PaintedLips, PaintOfOneLipDoesNotRunOverToTheOther) {

@@ -13,6 +13,8 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/tissue/per_vertex/per_vertex.hpp"
 #include "support/note_matchers.hpp"
+#include "support/refusal.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::tissue {
 using namespace anatomy;
@@ -100,24 +102,14 @@ TEST(VertexMatch, RefusesAnotherMeshWithCountAndDistance) {
   const TriMesh scan = face();
   TriMesh own = reordered(scan, shuffled(scan.points.rows()));
   own.points.row(0).x() += 0.004;
-  try {
-    VertexMatch("own.ply", own, scan);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("own.ply: 1 of the scan's"));
-    EXPECT_THAT(error.what(), HasSubstr("vertex 0, counted from 0, is 1.1 mm from the nearest"));
-  }
+  const std::string said = test::refusal([&] { VertexMatch("own.ply", own, scan); });
+  EXPECT_THAT(said, HasSubstr("own.ply: 1 of the scan's"));
+  EXPECT_THAT(said, HasSubstr("vertex 0, counted from 0, is 1.1 mm from the nearest"));
 }
 
 class VertexFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("hyperex_vertex_files_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_;
+  const TestFolder folder_;
 };
 
 TEST_F(VertexFiles, PaintInAnotherOrderGoesWhereItWasPainted) {

@@ -11,6 +11,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/tracking/network/face_mesh_network.hpp"
 #include "hyperex/tracking/network/model_bytes.hpp"
+#include "support/refusal.hpp"
 #include "tflite_maker.hpp"
 
 namespace hyperex::tracking {
@@ -173,12 +174,7 @@ std::vector<std::uint8_t> sound_file() {
 }
 
 std::string refusal(const std::vector<std::uint8_t>& file) {
-  try {
-    read_tflite(file, "made.tflite");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal([&] { read_tflite(file, "made.tflite"); });
 }
 
 TEST(TfliteNetwork, TornFilesAreRefused) {
