@@ -113,9 +113,11 @@ TEST(RunCost, AboveTheBoundIsRefusedByTheKeyThatRaisesIt) {
       test::refusal([&] { check_disk(scene, cost); }),
       testing::AllOf(testing::HasSubstr("output.most_gb"), testing::HasSubstr("3.8 or more"),
                      testing::HasSubstr("3.00 GB for ParaView")));
+  scene.motion.arkit = "weights.csv";
   const Note doubt = make_warning("recording.time_unit_doubtful", "milliseconds?", "motion.arkit");
   EXPECT_THAT(test::refusal([&] { check_disk(scene, cost, {doubt}); }),
-              testing::HasSubstr("motion.arkit: expected times in seconds (milliseconds?)"));
+              testing::HasSubstr("motion.arkit = \"weights.csv\": expected times in seconds "
+                                 "(milliseconds?)"));
   scene.output.most_gb = 3.8;
   EXPECT_NO_THROW(check_disk(scene, cost));
 }
