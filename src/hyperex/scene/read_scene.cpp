@@ -378,29 +378,19 @@ std::map<std::string, json> Reader::changes_with_preset(const json& block, const
 }
 
 std::optional<std::string> Reader::name_of_variant(const json& block, const std::string& at) {
-  const bool own = block.contains("name");
-  const std::string place = at + (own ? ".name" : ".preset");
-  const json name = block.value(own ? "name" : "preset", json());  // a preset is a sound name
-  const auto refuse = [&](const std::string& expected) {
-    complain(in_file(place), place, name, expected);
-    return std::nullopt;
-  };
-  if (!own && !block.contains("preset")) {
-    complain(in_file(at), at + ".name", nullptr,
-             "a name in quotes, required (a preset gives its own)");
+  const bool by_preset = !block.contains("name") && block.contains("preset");
+  const std::string place = at + (by_preset ? ".preset" : ".name");
+  const json name = block.value(by_preset ? "preset" : "name", json());
+  const std::string expected = by_preset ? "" : expected_variant_name(name);
+  if (!expected.empty()) {
+    complain(in_file(name.is_null() ? at : place), place, name, expected);
     return std::nullopt;
   }
-  if (own && (!name.is_string() || !is_variant_name(name.get<std::string>())))
-    return refuse(
-        "a name of letters, digits, spaces and any of -_.,;:+=%&'()[], at most 100, a letter "
-        "or digit among them");
-  if (own && name == "base")
-    return refuse("another name, as \"base\" is the scene without a variant");
   for (const Variant& other : scene.variants)
     if (other.name == name)
       complain(in_file(place), place, name,
-               own ? "a name that no other variant has"
-                   : "a name beside it, as another variant is called so");
+               by_preset ? "a name beside it, as another variant is called so"
+                         : "a name that no other variant has");
   return name.get<std::string>();
 }
 

@@ -49,6 +49,14 @@ bool is_variant_name(const std::string& name) {
          });
 }
 
+std::string expected_variant_name(const nlohmann::json& name) {
+  if (name.is_null()) return "a name in quotes, required (a preset gives its own)";
+  if (!name.is_string() || !is_variant_name(name.get<std::string>()))
+    return "a name of letters, digits, spaces and any of -_.,;:+=%&'()[], at most 100, a letter or "
+           "digit among them";
+  return name == "base" ? "another name, as \"base\" is the scene without a variant" : "";
+}
+
 std::string name_of_block(const nlohmann::json& block) {
   for (const char* key : {"name", "preset"})
     if (block.is_object() && block.contains(key) && block[key].is_string()) return block[key];

@@ -11,6 +11,9 @@ namespace hyperex::scene {
 /// digits of ASCII, at least one, spaces and any of -_.,;:+=%&'()[], at most 100 characters.
 bool is_variant_name(const std::string& name);
 
+/// What is expected in the place of a value that is no name for a variant; empty where it is one.
+std::string expected_variant_name(const nlohmann::json& name);
+
 /// What a [[variant]] is called: by its name, else by its preset; empty where it has neither.
 std::string name_of_block(const nlohmann::json& block);
 
