@@ -3,6 +3,7 @@
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 #include "hyperex/session/thinned_scan.hpp"
+#include "hyperex/session/unknown_names.hpp"
 #include "hyperex/simulate/options.hpp"
 #include "meshes.hpp"
 #include "options_class.hpp"
@@ -15,7 +16,11 @@ using namespace tissue;
 void refuse_if_any(const std::vector<FieldProblem>& found) {
   std::vector<InputProblem> problems;
   for (const FieldProblem& p : found)
-    problems.push_back({{}, 0, "tissue." + p.key, "", p.expected});
+    problems.push_back({{},
+                        0,
+                        "tissue." + p.key,
+                        p.value,
+                        p.expected + session::did_you_mean_region(p.key, p.value)});
   if (!problems.empty()) throw InputError(problems);
 }
 

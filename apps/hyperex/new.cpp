@@ -7,9 +7,11 @@
 #include <string>
 
 #include "commands.hpp"
+#include "hyperex/capture/open_source.hpp"
 #include "hyperex/capture/tum_folder.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -38,6 +40,29 @@ void refuse_other_encoding(const std::string& name) {
                      "another name");
 }
 
+/// Files that no reader of recordings takes, and files in the places of each other.
+void refuse_no_recording(const std::string& scan, const std::string& motion) {
+  const std::string kind = motion == "embedded" ? "" : scene::other_kind(motion);
+  if (kind == "scan" && scene::other_kind(scan) == "recording")
+    throw InputError(fmt::format(
+        "{0} is a recording and {1} a scan: the scan comes first, then the recording; expected "
+        "hyperex new {1} {0}",
+        scan, motion));
+  if (kind == "scan")
+    throw InputError(motion,
+                     "is a scan; expected a recording: the scan comes first, then the "
+                     "recording");
+  if (motion == "embedded" || kind == "recording" || fs::is_directory(motion)) return;
+  if (ending_of(motion) == ".c3d") motion::read_motion(motion);  // says what to export it as
+  try {                                                          // a video of another kind
+    capture::open_source(motion);
+  } catch (const InputError&) {
+    throw InputError(motion,
+                     "is no recording that can be read; expected a CSV, a TRC, a video, an .oni "
+                     "file or a folder with a depth camera's pictures");
+  }
+}
+
 void write_scene(const std::string& scan, const std::string& motion, fs::path to) {
   const auto refuse_missing = [](const char* what, const std::string& path) {
     if (path != "embedded" && !fs::exists(path))
@@ -47,6 +72,7 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   for (const std::string& name : {scan, motion, to.string()}) refuse_other_encoding(name);
   refuse_missing("a scan", scan);
   refuse_missing("a recording", motion);
+  refuse_no_recording(scan, motion);
   if (fs::is_directory(motion)) capture::open_tum_folder(motion);  // says what is missing in it
   scene::NewScene made;
   if (scan != "embedded") {

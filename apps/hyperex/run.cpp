@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/printable.hpp"
@@ -40,6 +41,10 @@ void run(const RunOptions& options) {
   auto overrides = options.overrides;
   if (options.verify) overrides.push_back("solver.verify=true");
   scene::Scene scene = scene::read_scene(options.scene, overrides);
+  // After the scene: what is wrong with that matters more.
+  if (options.out.empty())
+    throw InputError("--out is required: the folder for the outputs, as in --out out/" +
+                     options.scene.stem().string());
   if (options.no_variants) scene.variants.clear();
   if (!options.no_cache) scene.kept = KeptResults(user_cache_folder());
   const auto summary = run::run_scene(scene, options.out);
@@ -81,11 +86,9 @@ void add_run(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("run", "Re-enact a recorded expression on a scanned face");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
-  command
-      ->add_option("--out", options->out,
-                   "Folder for the outputs: new, empty, or from an earlier run. It is written "
-                   "completely or not at all")
-      ->required();
+  command->add_option("--out", options->out,
+                      "Folder for the outputs, required: new, empty, or from an earlier run. It is "
+                      "written completely or not at all");
   command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

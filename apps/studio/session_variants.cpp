@@ -19,7 +19,7 @@ void check_face_name(const std::string& name, const std::vector<json>& others) {
   if (name == "base")
     throw InputError("a face's name: expected another; \"base\" is the scene itself");
   for (const json& other : others)
-    if (other.is_object() && other.value("name", "") == name)
+    if (scene::name_of_block(other) == name)
       throw InputError(fmt::format("another face is called \"{}\": expected another name", name));
 }
 

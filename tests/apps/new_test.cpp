@@ -53,6 +53,26 @@ TEST_F(NewCommand, PrintsNoControlCharacters) {
       << checked.out;
 }
 
+TEST_F(NewCommand, RefusesWhatIsNoRecording) {
+  put(in("notes.md"), "# What was recorded\n");
+  const Outcome text = call("new face.ply notes.md --out a.toml");
+  EXPECT_EQ(text.status, 2);
+  EXPECT_THAT(text.err, HasSubstr("notes.md: is no recording that can be read; expected a CSV"));
+  const Outcome swapped = call("new motion.csv face.ply --out a.toml");
+  EXPECT_EQ(swapped.status, 2);
+  EXPECT_THAT(swapped.err, HasSubstr("the scan comes first, then the recording; expected hyperex "
+                                     "new face.ply motion.csv"));
+  const Outcome twice = call("new face.ply face.ply --out a.toml");
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("face.ply: is a scan; expected a recording"));
+  put(in("results.csv"), "point,excursion_L_mm\nalare,1.5\n");
+  const Outcome results = call("new face.ply results.csv --out a.toml");
+  EXPECT_EQ(results.status, 2);
+  EXPECT_THAT(results.err,
+              HasSubstr("results.csv: this is no recording: it has no column of time"));
+  EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
+}
+
 TEST_F(NewCommand, OverwritesNothingAndRefusesWhatIsNotThere) {
   put(in("face.toml"), "mine");
   const Outcome again = call("new face.ply motion.csv");

@@ -212,10 +212,10 @@ TEST_F(Outputs, AFolderWhoseNameIsNoUtf8WillDo) {
 TEST_F(Outputs, AVariantsNameMayHoldAComma) {
   add_variant("stiff, both (x2)");
   expect_run("out");
-  EXPECT_TRUE(fs::exists(in("out/variants/stiff_ both _x2_/skin_peak.ply")));
+  EXPECT_TRUE(fs::exists(in("out/variants/stiff_both_x2/skin_peak.ply")));
   EXPECT_THAT(read_file(in("out/variants.csv")), HasSubstr("\n\"stiff, both (x2)\","));
   const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
-  EXPECT_EQ(summary["variants"]["table"][1]["folder"], "variants/stiff_ both _x2_");
+  EXPECT_EQ(summary["variants"]["table"][1]["folder"], "variants/stiff_both_x2");
 }
 
 TEST_F(Outputs, WhatIsWrongIsSaidInWordsOfTheUsers) {
@@ -245,6 +245,10 @@ TEST_F(Outputs, WhatIsNoCommandOrSceneIsToldAsSuch) {
   expect_refused("simmetry motion.csv", "did you mean symmetry?");
   expect_refused("run face.ply --out out",
                  "this is a scan. hyperex new face.ply MOTION writes one");
+  // What is wrong with the scene is said before the folder that is not named.
+  expect_refused("run face.ply", "this is a scan. hyperex new face.ply MOTION writes one");
+  expect_refused("run sceen.toml", "sceen.toml: expected an existing scene file");
+  expect_refused("run scene.toml", "--out is required");
 }
 
 }  // namespace

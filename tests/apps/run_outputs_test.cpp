@@ -102,7 +102,8 @@ TEST_F(RunOutputs, AreStatedBeforeAndBounded) {
       "[[variant]]\nname = \"stiff\"\ntissue.young_kpa = 300\n");
   const Outcome checked = call("check x.toml");
   ASSERT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(checked.out, testing::ContainsRegex("a run: 80 frames, about [0-9]+ MB on disk"));
+  EXPECT_THAT(checked.out, testing::ContainsRegex("a run: 80 frames, from 0 s to [0-9.]+ s of the "
+                                                  "recording; about [0-9]+ MB on disk"));
   EXPECT_THAT(checked.out, testing::HasSubstr("without its variant, "));
   for (const char* command : {"check x.toml", "run x.toml --out o"}) {
     const Outcome refused =

@@ -65,6 +65,15 @@ void start_with_the_mouth_open(const fs::path& folder) {
   write_opening(folder, 40, 41);
 }
 
+/// A smile; a shape that the canonical face lacks; a column whose name is not quite one.
+void write_weights(const fs::path& folder) {
+  std::ostringstream table;
+  table << "time_s,mouthSmileLeft,mouthClose,mouthSmilRight\n";
+  for (int k = 0; k < 16; ++k)
+    table << k / 30.0 << ',' << k / 15.0 << ',' << 0.6 * k / 15 << ',' << k / 15.0 << '\n';
+  put(folder / "weights.csv", table.str());
+}
+
 void enlarge_the_motion(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     for (Points& sample : m.positions) sample *= 1.5;
@@ -104,6 +113,9 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.wild_samples", true, "", let_a_marker_jump},
       {"recording.nothing_moves", true, "", hold_still},
       {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
+      {"recording.column_misspelt", true, "motion.file=\nmotion.arkit=\"weights.csv\"",
+       write_weights},
+      {"recording.shapes_lost", true, "motion.file=\nmotion.arkit=\"weights.csv\"", write_weights},
       {"recording.fits_badly", true, "", enlarge_the_motion},
       {"sides.exchanged_pair", true, "", exchange_the_corners},
       {"law.idle", true, "tissue.law=\"yeoh\"", nullptr},

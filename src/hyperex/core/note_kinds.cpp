@@ -35,6 +35,11 @@ constexpr NoteKind kKinds[] = {
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",
     "The face is nearer to rest later than at the start, and displacements count from the start."),
+  warning("recording.column_misspelt", "motion.arkit",
+    "A column of a table of weights is no blend shape and is at most two letters from one; it is "
+    "left out."),
+  warning("recording.shapes_lost", "motion.arkit",
+    "A blend shape that the face model does not have reaches a weight above 0.3."),
   warning("recording.fits_badly", "motion.unit",
     "After alignment the common points are more than 10 mm rms apart, 5 mm where there are at least "
     "20, or the scale is outside 0.8 to 1.25."),

@@ -11,6 +11,8 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/lower_case.hpp"
+#include "hyperex/core/slips.hpp"
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/expression/timecode.hpp"
 #include "hyperex/io/csv.hpp"
@@ -48,6 +50,35 @@ const std::set<std::string>& all_blend_shapes() {
     return all;
   }();
   return names;
+}
+
+/// The blend shape that a column was probably meant to be, of those without a column; else empty.
+std::string shape_meant(const std::string& column, const std::vector<std::string>& there) {
+  constexpr std::size_t most_slips = 2, shortest = 6;
+  std::string best;
+  std::size_t least = most_slips + 1;
+  for (const std::string& name : all_blend_shapes()) {
+    const std::size_t far = slips(lower_case(column), lower_case(name));
+    if (column.size() < shortest || far >= least ||
+        std::find(there.begin(), there.end(), name) != there.end())
+      continue;
+    least = far;
+    best = name;
+  }
+  return best;
+}
+
+/// Says which columns were left out.
+void note_left_out(const std::vector<std::string>& columns, BlendShapes& out) {
+  std::vector<std::string> others;
+  for (const std::string& column : columns)
+    if (const std::string meant = shape_meant(column, out.names); !meant.empty())
+      out.misspelt.push_back(fmt::format(
+          "column {} is no blend shape of ARKit and is left out; did you mean {}?", column, meant));
+    else
+      others.push_back(column);
+  if (!others.empty())
+    out.notes.push_back(fmt::format("columns left out: {}", fmt::join(others, ", ")));
 }
 
 }  // namespace
@@ -93,8 +124,7 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
   }
   if (columns.empty())
     throw InputError(file, "has no column named after a blend shape of ARKit, such as jawOpen");
-  if (!left_out.empty())
-    out.notes.push_back(fmt::format("columns left out: {}", fmt::join(left_out, ", ")));
+  note_left_out(left_out, out);
   out.weights.resize(rows, static_cast<Eigen::Index>(columns.size()));
   for (Eigen::Index k = 0; k < rows; ++k)
     for (std::size_t c = 0; c < columns.size(); ++c) {

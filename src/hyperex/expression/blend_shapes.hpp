@@ -17,13 +17,16 @@ struct BlendShapes {
   Eigen::MatrixXd weights;  ///< N x |names|, 0 to 1; a row of NaN where the face was not seen
   std::filesystem::path file;
   std::vector<std::string> notes;  ///< what was assumed or left out: a sentence each
+  /// Columns left out that look misspelt: "column mouthSmilRight is no ...; did you mean ...?"
+  std::vector<std::string> misspelt;
 };
 
 /// A CSV of blend-shape weights: a column of time (`time_s`, `time` or `timestamp` in seconds, or
 /// `Timecode` as Live Link Face writes it) and columns named after blend shapes, the first letter
-/// small or capital; others are left out and named in a note. Throws InputError naming the file:
-/// no time, no blend shape, time that does not rise, a weight below -0.05 or above 1.5 (percent,
-/// perhaps). Weights a little beyond 0 to 1, as smoothing leaves them, are kept to that range.
+/// small or capital; others are left out and named in a note, in `misspelt` where a blend shape
+/// that the file lacks is at most two letters away. Throws InputError naming the file: no time, no
+/// blend shape, time that does not rise, a weight below -0.05 or above 1.5 (percent, perhaps).
+/// Weights a little beyond 0 to 1, as smoothing leaves them, are kept to that range.
 BlendShapes read_arkit(const std::filesystem::path& file);
 
 /// A CSV of OpenFace 2: `timestamp`, `success` and intensities `AU01_r` ... from 0 to 5, made

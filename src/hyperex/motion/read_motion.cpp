@@ -104,9 +104,31 @@ void refuse_other_tables(const io::CsvTable& table) {
                       "arkit", "");
 }
 
+constexpr const char* kNoTime =
+    "this is no recording: it has no column of time (time_s, time or timestamp)";
+
+/// A table, as one of results; of one of texts, not of numbers, that matters more than its texts.
+io::CsvTable read_table(const fs::path& file) {
+  try {
+    return io::read_csv(file);
+  } catch (const InputError&) {
+    const std::string text = lower_case(read_file(file).substr(0, 65536));
+    const std::string header = text.substr(0, text.find_first_of("\r\n"));
+    const bool of_words =
+        !header.empty() && header.find_first_of(",;\t") != std::string::npos &&
+        header.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-.,;\t\" ") ==
+            std::string::npos;
+    if (of_words && header.find("time") == std::string::npos) throw InputError(file, kNoTime);
+    throw;
+  }
+}
+
 Columns find_columns(const io::CsvTable& table) {
   refuse_other_tables(table);
   static const std::set<std::string> time_names = {"time_s", "time", "timestamp", "timestamp_s"};
+  if (std::none_of(table.names.begin(), table.names.end(),
+                   [](const std::string& name) { return time_names.contains(lower_case(name)); }))
+    throw InputError(table.file, kNoTime);
   Columns columns;
   for (int c = 0; c < int(table.names.size()); ++c) {
     const std::string name = lower_case(table.names[std::size_t(c)]);
@@ -119,8 +141,6 @@ Columns find_columns(const io::CsvTable& table) {
       columns.time = c;
     }
   }
-  if (columns.time < 0)
-    throw InputError(table.file, "there is no column of time: expected time_s, time or timestamp");
   if (columns.points.empty())
     throw InputError(table.file,
                      "there are no points: expected NAME_x, NAME_y, NAME_z or x0, y0, "
@@ -217,7 +237,7 @@ void refuse_live_link(const fs::path& file) {
 
 Motion from_csv(const fs::path& file, std::optional<LengthUnit> stated) {
   refuse_live_link(file);
-  const io::CsvTable table = io::read_csv(file);
+  const io::CsvTable table = read_table(file);
   Columns columns = find_columns(table);
   name_ibug68(columns);
   if (table.values.rows() == 0) throw InputError(file, "there are no samples");

@@ -127,7 +127,7 @@ Json run_scene(const scene::Scene& scene, const std::filesystem::path& directory
     const tissue::TissueMesh& mesh = session.mesh();
     if (const auto cost =
             session::expected_cost(scene, session.inputs(), session::Extent::full, &mesh.volume)) {
-      session::check_disk(scene, *cost);
+      session::check_disk(scene, *cost, session.inputs().notes);
       spdlog::info("{}", session::sentence_of(*cost));
     }
     spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),

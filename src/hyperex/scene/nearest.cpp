@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <numeric>
 
 #include "hyperex/core/lower_case.hpp"
+#include "hyperex/core/slips.hpp"
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::scene {
@@ -10,24 +10,6 @@ namespace {
 
 std::string last_of_key(const std::string& key) {
   return key.substr(key.rfind('.') + 1);
-}
-
-/// Insertions, deletions, changes and swaps of neighbours that turn a into b.
-std::size_t slips(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), row(b.size() + 1);
-  std::iota(previous.begin(), previous.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] =
-          std::min({previous[j] + 1, row[j - 1] + 1, previous[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before = previous;
-    previous = row;
-  }
-  return previous.back();
 }
 
 }  // namespace
@@ -39,6 +21,11 @@ std::string section_of(const std::string& key) {
 
 std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
   const std::string given = lower_case(name).substr(0, 100), given_last = last_of_key(given);
+  const std::string given_section = section_of(given);
+  // Of keys as near as each other, the one whose section is.
+  const auto off_section = [&](const std::string& candidate) {
+    return given_section.empty() ? 0 : slips(given_section, section_of(lower_case(candidate)));
+  };
   std::string best;
   std::size_t best_slips = std::max<std::size_t>(1, given_last.size() / 3) + 1;
   for (const auto& candidate : candidates) {
@@ -48,7 +35,9 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
         std::min(slips(given, lower_case(candidate)), slips(given_last, lower_case(last)) + 1);
     if (!given_last.empty() && last.rfind(given_last + "_", 0) == 0)
       far = std::min<std::size_t>(far, section_of(given) == section_of(candidate) ? 0 : 1);
-    if (far >= best_slips) continue;
+    if (far > best_slips) continue;
+    if (far == best_slips && (best.empty() || off_section(candidate) >= off_section(best)))
+      continue;
     best_slips = far;
     best = candidate;
   }

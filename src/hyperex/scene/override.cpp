@@ -10,6 +10,20 @@
 namespace hyperex::scene {
 using nlohmann::json;
 
+namespace {
+
+/// "muscles.gain={side_L=...}" for a name in a table of factors, "muscle.gain.side_L"; else empty.
+std::string in_table_of_factors(const std::string& name, const std::vector<std::string>& all) {
+  const auto last = name.rfind('.');
+  if (last == std::string::npos || section_of(name).size() == last) return "";
+  const std::string table = name.substr(0, last);
+  const Key* key = find_key(find_key(table) ? table : nearest(table, all));
+  if (!key || key->kind != Kind::factors) return "";
+  return fmt::format("{}={{{}=...}}", key->name, name.substr(last + 1));
+}
+
+}  // namespace
+
 std::string unknown_key(const std::string& name) {
   if (const std::string other = in_place_of(name); !other.empty()) return other;
   std::vector<std::string> all;
@@ -19,7 +33,8 @@ std::string unknown_key(const std::string& name) {
     if (!section_of(name).empty() && section_of(key.name) == section_of(name))
       siblings += (siblings.empty() ? "" : ", ") + key.name.substr(section_of(name).size() + 1);
   }
-  const std::string near = nearest(name, all);
+  std::string near = in_table_of_factors(name, all);
+  if (near.empty()) near = nearest(name, all);
   if (!near.empty()) return "a known key (did you mean " + near + "?)";
   if (!siblings.empty())
     return fmt::format("a known key ([{}] has {})", section_of(name), siblings);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/muscles/muscle_names.hpp"
@@ -59,6 +60,9 @@ class Reader {
  private:
   void take_section(const std::string& name, const json& value);
   void settle_variant(const json& block, const std::string& at);
+  /// The variant's own name, or that of its preset, which is known; nothing where it may not be
+  /// called so.
+  std::optional<std::string> name_of_variant(const json& block, const std::string& at);
   /// The variant's keys, over those of the preset that it names; nothing where there is no such.
   std::map<std::string, json> changes_with_preset(const json& block, const std::string& at);
   void take(const std::string& key, const GivenValue& given);
@@ -141,6 +145,8 @@ bool Reader::take_text(const std::string& text) {
   try {
     values = parse_toml(text);
   } catch (const TornToml& torn) {
+    if (torn.comma)
+      return fail(torn.line, "decimals behind a point, 0.3 and not 0,3 (" + torn.why + ")");
     return fail(torn.line, "sound TOML (" + torn.why + ")" +
                                (torn.backslash ? "; a backslash between double quotes begins an "
                                                  "escape: put a path of Windows between single "
@@ -371,36 +377,40 @@ std::map<std::string, json> Reader::changes_with_preset(const json& block, const
   return changes;
 }
 
+std::optional<std::string> Reader::name_of_variant(const json& block, const std::string& at) {
+  const bool by_preset = !block.contains("name") && block.contains("preset");
+  const std::string place = at + (by_preset ? ".preset" : ".name");
+  const json name = block.value(by_preset ? "preset" : "name", json());
+  const std::string expected = by_preset ? "" : expected_variant_name(name);
+  if (!expected.empty()) {
+    complain(in_file(name.is_null() ? at : place), place, name, expected);
+    return std::nullopt;
+  }
+  for (const Variant& other : scene.variants)
+    if (other.name == name)
+      complain(in_file(place), place, name,
+               by_preset ? "a name beside it, as another variant is called so"
+                         : "a name that no other variant has");
+  return name.get<std::string>();
+}
+
 void Reader::settle_variant(const json& block, const std::string& at) {
   if (!block.is_object()) {
     complain(in_file(at), at, block, "a table, [[variant]]");
     return;
   }
-  const json name = block.value("name", json());
-  if (!name.is_string() || !is_variant_name(name.get<std::string>())) {
-    complain(in_file(name.is_null() ? at : at + ".name"), at + ".name", name,
-             "a name of letters, digits, spaces and any of -_.,;:+=%&'()[], at most 100, a letter "
-             "or digit among them");
-    return;
-  }
-  if (name == "base") {
-    complain(in_file(at + ".name"), at + ".name", name,
-             "another name, as \"base\" is the scene without a variant");
-    return;
-  }
-  for (const Variant& other : scene.variants)
-    if (other.name == name)
-      complain(in_file(at + ".name"), at + ".name", name, "a name that no other variant has");
+  const std::size_t wrong = problems.size();
+  const std::map<std::string, json> changes = changes_with_preset(block, at);
+  if (problems.size() > wrong) return;
+  const std::optional<std::string> name = name_of_variant(block, at);
+  if (!name) return;
   Reader varied = *this;
   varied.problems.clear();
   varied.scene.variants.clear();
   Variant variant;
-  variant.name = name;
+  variant.name = *name;
   variant.folder = variant_folder(variant.name, scene.variants);
   variant.changes = json::object();
-  const std::size_t wrong = problems.size();
-  const std::map<std::string, json> changes = changes_with_preset(block, at);
-  if (problems.size() > wrong) return;
   for (const auto& [key, value] : changes) {
     const bool of_preset = !lines_.count(at + "." + key) && block.contains("preset");
     const std::string place = at + "." + (of_preset ? "preset" : key);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/scene/toml_values.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -47,11 +48,26 @@ json convert(const toml::node& node, const std::string& name, std::map<std::stri
 }  // namespace
 
 namespace {
-bool has_backslash(const std::string& text, int line) {
+std::string line_of(const std::string& text, int line) {
   std::istringstream lines(text);
   std::string found;
   for (int n = 0; n < line; ++n) std::getline(lines, found);
-  return found.find('\\') != std::string::npos;
+  return found;
+}
+
+/// "gain = 0,3": decimals behind a comma, as many languages write them.
+bool has_decimal_comma(const std::string& line) {
+  for (auto comma = line.find(','); comma != std::string::npos; comma = line.find(',', comma + 1)) {
+    const auto is_digit = [&](std::size_t at) {
+      return at < line.size() && std::isdigit((unsigned char)line[at]);
+    };
+    auto first = comma;
+    while (first > 0 && is_digit(first - 1)) --first;
+    const auto before = first == 0 ? std::string::npos : line.find_last_not_of(" +-", first - 1);
+    if (first < comma && is_digit(comma + 1) && before != std::string::npos && line[before] == '=')
+      return true;
+  }
+  return false;
 }
 }  // namespace
 
@@ -74,7 +90,8 @@ TomlValues parse_toml(const std::string& text) {
          why.find("end-of-file") != std::string::npos ||
          why.find("line-break") != std::string::npos))
       why = "a string that does not end: its closing quote is missing";
-    throw TornToml{line, why, has_backslash(text, line)};
+    const std::string torn = line_of(text, line);
+    throw TornToml{line, why, torn.find('\\') != std::string::npos, has_decimal_comma(torn)};
   }
 }
 

@@ -17,6 +17,7 @@ struct TornToml {
   int line = 0;            ///< 1-based
   std::string why;         ///< one line
   bool backslash = false;  ///< there is one in that line
+  bool comma = false;      ///< in that line one stands in a number, "0,3"
 };
 
 /// Throws TornToml where `text` is no TOML.

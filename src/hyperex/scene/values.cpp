@@ -224,6 +224,20 @@ std::string expected_gain(const std::string& name, const std::vector<std::string
   return misspelt ? one_of_names(name, names) : muscles::gain_expected(name, table);
 }
 
+namespace {
+
+/// Of a percentage in the place of a factor: " (0.3 for 30 %)".
+std::string of_percent(const Bounds& range, const json& factor) {
+  if (!factor.is_number()) return "";
+  const double given = factor.get<double>();
+  constexpr double least = 10;  // below, it need not be one
+  return given > range.most && given >= least && given <= 100 && range.holds(given / 100)
+             ? fmt::format(" ({:g} for {:g} %)", given / 100, given)
+             : "";
+}
+
+}  // namespace
+
 Complaints check_factors(const Given& given) {
   // A date comes as a table of this one name.
   if (!given.value.is_object() || given.value.contains("date or time")) return wrong(given);
@@ -235,7 +249,8 @@ Complaints check_factors(const Given& given) {
     if (!of_a_side && std::find(names.begin(), names.end(), name) == names.end())
       complaints.push_back({"." + name, factor, expected_gain(name, names)});
     else if (!holds(given.key.range, factor))
-      complaints.push_back({"." + name, factor, given.key.range.expected()});
+      complaints.push_back(
+          {"." + name, factor, given.key.range.expected() + of_percent(given.key.range, factor)});
   }
   return complaints;
 }

@@ -49,12 +49,31 @@ bool is_variant_name(const std::string& name) {
          });
 }
 
+std::string expected_variant_name(const nlohmann::json& name) {
+  if (name.is_null()) return "a name in quotes, required (a preset gives its own)";
+  if (!name.is_string() || !is_variant_name(name.get<std::string>()))
+    return "a name of letters, digits, spaces and any of -_.,;:+=%&'()[], at most 100, a letter or "
+           "digit among them";
+  return name == "base" ? "another name, as \"base\" is the scene without a variant" : "";
+}
+
+std::string name_of_block(const nlohmann::json& block) {
+  for (const char* key : {"name", "preset"})
+    if (block.is_object() && block.contains(key) && block[key].is_string()) return block[key];
+  return "";
+}
+
 std::string variant_folder(const std::string& name, const std::vector<Variant>& others) {
-  std::string folder = name;
-  for (char& c : folder)
-    if (kAwkward.find(c) != std::string_view::npos) c = '_';
-  for (char* end : {&folder.front(), &folder.back()})  // hidden, or cut by some systems
-    if (*end == '.' || *end == ' ') *end = '_';
+  std::string folder;
+  for (const char c : name) {
+    if (c != ' ' && c != '_' && kAwkward.find(c) == std::string_view::npos)
+      folder += c;
+    else if (!folder.ends_with('_'))
+      folder += '_';
+  }
+  // A point first hides a folder, and some systems cut one last. There is a letter or digit.
+  folder.erase(folder.find_last_not_of("_.") + 1);
+  folder.erase(0, folder.find_first_not_of("_."));
   const auto taken = [&](const std::string& text) {
     return std::any_of(others.begin(), others.end(),
                        [&](const Variant& other) { return other.folder == text; });

@@ -11,12 +11,19 @@ namespace hyperex::scene {
 /// digits of ASCII, at least one, spaces and any of -_.,;:+=%&'()[], at most 100 characters.
 bool is_variant_name(const std::string& name);
 
+/// What is expected in the place of a value that is no name for a variant; empty where it is one.
+std::string expected_variant_name(const nlohmann::json& name);
+
+/// What a [[variant]] is called: by its name, else by its preset; empty where it has neither.
+std::string name_of_block(const nlohmann::json& block);
+
 /// Whether a variant may change this key; and in words which keys it may.
 bool may_vary(const std::string& key);
 std::string what_may_vary();
 
-/// The name of the folder of a variant's outputs: `name`, with '_' for what a path holds badly, and
-/// a number at its end where one of `others` has the same.
+/// The name of the folder of a variant's outputs: `name`, with one '_' for each stretch of spaces
+/// and of what a path holds badly, "left_zygomaticus_at_30" of "left zygomaticus at 30 %", and a
+/// number at its end where one of `others` has the same.
 std::string variant_folder(const std::string& name, const std::vector<Variant>& others);
 
 }  // namespace hyperex::scene

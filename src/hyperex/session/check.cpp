@@ -14,7 +14,7 @@ std::vector<Note> check(const scene::Scene& scene, std::string* cost) {
   Progress progress("reading scan and recording", 0);
   Inputs inputs = read_inputs(scene, Extent::quick);
   if (const auto expected = expected_cost(scene, inputs, Extent::quick)) {
-    check_disk(scene, *expected);
+    check_disk(scene, *expected, inputs.notes);
     if (cost) *cost = sentence_of(*expected);
   }
   std::vector<Note> notes = std::move(inputs.notes);

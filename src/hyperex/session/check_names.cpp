@@ -68,13 +68,22 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
   for (const auto& problem : tissue::problems_of(scene.tissue, in.landmarks))
     all.push_back(scene::problem_at(scene, "tissue." + problem.key, problem.expected));
   for (InputProblem& problem : all) {
-    const bool of_region =
-        problem.key.starts_with("tissue.region[") && problem.key.ends_with("].name");
-    if (const std::string near = of_region ? nearest_region(problem.value) : ""; !near.empty())
-      problem.expected += "; did you mean " + near + "?";
+    problem.expected += did_you_mean_region(problem.key, problem.value);
     if (problem.key.starts_with("tissue."))
       problem.expected += did_you_mean(unknown_landmark(problem), landmarks_of(in));
     problem.key = owner + problem.key;
+  }
+  if (!all.empty()) throw InputError(all);
+}
+
+void check_regions(const scene::Scene& scene, const std::string& owner) {
+  std::vector<InputProblem> all;
+  for (const auto& field : tissue::problems_of(scene.tissue, {})) {
+    InputProblem problem = scene::problem_at(scene, "tissue." + field.key, field.expected);
+    if (!field.key.starts_with("region[") || !unknown_landmark(problem).empty()) continue;
+    problem.expected += did_you_mean_region(problem.key, problem.value);
+    problem.key = owner + problem.key;
+    all.push_back(std::move(problem));
   }
   if (!all.empty()) throw InputError(all);
 }

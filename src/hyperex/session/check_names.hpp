@@ -10,6 +10,9 @@ namespace hyperex::session {
 /// tissue. `owner` precedes the keys: "variant[0].".
 void check_names(const scene::Scene& scene, const Inputs& in, const std::string& owner = "");
 
+/// What of check_names() can be told without landmarks: names of regions.
+void check_regions(const scene::Scene& scene, const std::string& owner = "");
+
 /// Throws InputError where the elements are longer than a third of the mouth's width: lips move
 /// apart only where several elements lie between its corners.
 void check_element_size(const scene::Scene& scene, const Inputs& in);

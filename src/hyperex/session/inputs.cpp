@@ -62,6 +62,8 @@ Inputs joined(const scene::Scene& scene, Extent extent, Files& files, Problems& 
   append(in.notes, recording.notes);
   in.head_shift_uncertainty_mm = recording.head_shift_uncertainty_mm;
   in.head_turn_uncertainty_deg = recording.head_turn_uncertainty_deg;
+  in.lasts_s = recording.lasts_s;
+  in.lead_s = recording.lead_s;
   problems.add(files.scan.problems);
   problems.add(files.recording.problems);
   const bool to_find =
@@ -108,7 +110,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   const scene::MotionOptions& recorded = scene.motion;
   add(in.notes, misfit_warning(in.motion, !recorded.arkit.empty() || !recorded.openface.empty() ||
                                               !recorded.candide.empty()));
-  add(in.notes, start_warning(steady, at_rest));
+  if (!of_weights(scene)) add(in.notes, start_warning(steady, at_rest));
   add(in.notes, exchanged_warning(steady, at_rest));
 }
 
@@ -133,6 +135,12 @@ Inputs read_inputs(const scene::Scene& scene, Extent extent) {
   problems.throw_if_any();
   if (files.given.empty()) {
     check_unaligned(scene, files.steady, in);
+    problems.attempt([&] { check_regions(scene); });
+    problems.throw_if_any();
+    for (std::size_t i = 0; i < scene.variants.size(); ++i)
+      problems.attempt(
+          [&] { check_regions(scene.variants[i].scene, fmt::format("variant[{}].", i)); });
+    problems.throw_if_any();
     return in;
   }
   align_recording(scene, files.given, files.steady->motion, in);

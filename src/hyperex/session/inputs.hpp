@@ -22,6 +22,10 @@ struct Inputs {
   /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
+  /// How long the recording is in the run, from time.start_s on; 0: unknown. Of a camera's
+  /// recording in a quick reading by its number of frames.
+  double lasts_s = 0;
+  double lead_s = 0;  ///< of which it is led in from rest, in the recording's own seconds
   std::vector<std::string> driven;  ///< names of the driven points
   /// What was guessed, placed or filled, and probable mistakes with their remedies, in the order in
   /// which they were found.

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
+#include <utility>
 
+#include "hyperex/expression/weight_doubts.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -20,6 +23,33 @@
 namespace hyperex::session {
 namespace {
 
+/// Weights at rest are known, all 0: whether the recording begins elsewhere is judged by them.
+std::optional<Note> start_of_weights(const scene::MotionOptions& options,
+                                     const expression::BlendShapes& shapes) {
+  const auto rest = expression::rest_in_weights(shapes);
+  if (!rest || !options.rest_s.empty()) return std::nullopt;
+  return make_warning(
+      "recording.starts_in_expression",
+      fmt::format("the recording seems to start in an expression: {} is {:.2g} at the start and "
+                  "{:.2g} from {:.2f} s to {:.2f} s, where the weights are least; displacements "
+                  "are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
+                  rest->shape, rest->weight_at_start, rest->weight_then, rest->from_s, rest->to_s,
+                  rest->from_s, rest->to_s));
+}
+
+void warn_of_weights(const scene::MotionOptions& options, const expression::BlendShapes& shapes,
+                     const expression::FaceModel& model, Inputs& in) {
+  for (const std::string& column : shapes.misspelt)
+    in.notes.push_back(make_warning("recording.column_misspelt", "motion: " + column));
+  const std::string lost = options.arkit.empty() ? "" : expression::lost_shapes(shapes, model);
+  if (!lost.empty())
+    in.notes.push_back(
+        make_warning("recording.shapes_lost",
+                     fmt::format("motion: not reproduced, as the {} face has no such shapes: {}",
+                                 model.name, lost)));
+  add(in.notes, start_of_weights(options, shapes));
+}
+
 /// The points of a face model that recorded expressions move.
 motion::Motion read_expressions(const scene::MotionOptions& options, Inputs& in) {
   const expression::BlendShapes shapes = options.arkit.empty()
@@ -27,10 +57,12 @@ motion::Motion read_expressions(const scene::MotionOptions& options, Inputs& in)
                                              : expression::read_arkit(options.arkit);
   std::vector<std::string> notes = shapes.notes;
   std::optional<expression::FaceModel> own;
-  motion::Motion m = expression::motion_of(shapes, face_model(options, own), notes);
+  const expression::FaceModel& model = face_model(options, own);
+  motion::Motion m = expression::motion_of(shapes, model, notes);
   const char* key = options.arkit.empty() ? "motion.openface" : "motion.arkit";
   for (const auto& note : notes)
     in.notes.push_back(make_note("recording.expressions", "motion: " + note, key));
+  warn_of_weights(options, shapes, model, in);
   return m;
 }
 
@@ -42,6 +74,7 @@ void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
   // By default the recording's first sample shows rest.
   auto rested = motion::with_rest(m, stretch.value_or(motion::RestStretch{}), start_s);
   m = std::move(rested.motion);
+  in.lead_s = rested.lead_s;
   if (rested.lead_s > 0)
     in.notes.push_back(make_note(
         "recording.lead_in",
@@ -91,6 +124,10 @@ bool is_read_whole(const scene::Scene& scene, Extent extent) {
 
 }  // namespace
 
+bool of_weights(const scene::Scene& scene) {
+  return !scene.motion.arkit.empty() || !scene.motion.openface.empty();
+}
+
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in) {
   if (scene.motion.mirrored && scene.motion.recording.empty())
     throw InputError(
@@ -111,7 +148,12 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   const bool whole = is_read_whole(scene, extent);
   if (!scene.motion.source.embedded && whole) {
     in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
-    add(in.notes, timing_warning(m));
+    std::optional<Note> doubt = timing_warning(m);
+    for (const auto& [key, file] : {std::pair{"motion.arkit", &scene.motion.arkit},
+                                    {"motion.openface", &scene.motion.openface},
+                                    {"motion.recording", &scene.motion.recording}})
+      if (doubt && !file->empty()) doubt->key = key;
+    add(in.notes, doubt);
   }
   const motion::MendedMotion mended = motion::without_wild_samples(m);
   add(in.notes, wild_samples_warning(mended));
@@ -126,9 +168,8 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   motion::StabiliseOptions options;
   options.rigid_points = scene.motion.rigid_points;
   // Expressions move a face model, whose head stays where it is.
-  const bool expressions = !scene.motion.arkit.empty() || !scene.motion.openface.empty();
-  auto steady = expressions ? motion::with_still_head(filled.motion)
-                            : motion::stabilise(filled.motion, options);
+  auto steady = of_weights(scene) ? motion::with_still_head(filled.motion)
+                                  : motion::stabilise(filled.motion, options);
   motion::check_reach(steady.motion);
   note_head(steady, in);
   if (whole) {
@@ -137,12 +178,20 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   }
   return steady;
 }
+
 void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, Inputs& in) {
   check_point_gains(scene, m);
   m = motion::with_point_gains(m, scene.motion.point_gains);
   settle_jitter(scene, extent, m, in);
   m = motion::time_scaled(m, scene.motion.time_scale);
-  if (is_read_whole(scene, extent)) check_length(scene, m);
+  if (is_read_whole(scene, extent)) {
+    check_length(scene, m);
+    in.lasts_s = m.time_s.back() - m.time_s.front();
+  } else if (in.lasts_s > 0) {  // of the whole recording, as it is
+    in.lead_s = scene.motion.start_s > 0 ? motion::rest_lead_s : 0;
+    in.lasts_s =
+        scene.motion.time_scale * std::max(0.0, in.lasts_s - scene.motion.start_s + in.lead_s);
+  }
 }
 
 void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m, Inputs& in) {
@@ -150,14 +199,15 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
   const bool whole = scene.motion.recording.empty();  // of a camera's only the first face was read
   check_sides(m, average);
   if (whole) {
-    add(in.notes, start_warning(m, average));
+    if (!of_weights(scene)) add(in.notes, start_warning(m, average));
     add(in.notes, exchanged_warning(m, average));
   }
   in.notes.push_back(
-      whole ? make_note("recording.checked_by_average_face",
-                        "whether left and right are exchanged and whether the recording starts at "
-                        "rest was checked against an average face, as the scan's landmarks are not "
-                        "known")
+      whole ? make_note(
+                  "recording.checked_by_average_face",
+                  fmt::format("whether left and right are exchanged{} was checked against an "
+                              "average face, as the scan's landmarks are not known",
+                              of_weights(scene) ? "" : " and whether the recording starts at rest"))
             : make_note("recording.start_unchecked",
                         "not checked: whether the recording starts at rest; a run checks that"));
 }

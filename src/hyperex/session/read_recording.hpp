@@ -7,6 +7,10 @@ namespace hyperex::session {
 
 /// The parts of read_inputs() that concern the recording. Notes go into `in`.
 
+/// Whether the recording is one of expressions' weights (motion.arkit, motion.openface), which are
+/// 0 at rest.
+bool of_weights(const scene::Scene& scene);
+
 /// Reads the motion that the scene's [motion] names, other than the embedded one. Throws
 /// InputError.
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in);

@@ -19,8 +19,13 @@ constexpr double kNodesOfArea = 0.51, kTrianglesOfNodes = 1.93;
 /// Bytes of a compressed frame for ParaView: for each node; for each tetrahedron its corners and
 /// stress; its strain; at finite strain stress and stretches besides.
 constexpr double kNodeBytes = 12.5, kTetBytes = 13.2, kStrainBytes = 24, kFiniteBytes = 60;
-/// What else each face's folder holds, and each frame of it.
-constexpr double kFaceBytes = 4e6, kMotionBytes = 5.4e3;
+/// What else each face's folder holds, measured on faces of 7,000 and 36,000 vertices: pictures;
+/// tables, a frame (5 to 80 kB, by the number of points and muscles); a vertex of a PLY file; of a
+/// pose of performance.glb, with so many poses where the motion is long.
+constexpr double kPictureBytes = 1.7e6, kTableBytes = 20e3, kPlyBytes = 46;
+constexpr double kPoseBytes = 22, kPoses = 24;
+/// The report's page; of each face in it each vertex and each frame.
+constexpr double kPageBytes = 0.7e6, kPageVertexBytes = 150, kPageFrameBytes = 8e3;
 constexpr double kOwnMemory = 0.25e9, kNodeMemory = 95e3;
 constexpr double kNodeSeconds = 6e-4, kFrameNodeSeconds = 8e-7, kWriteNodeSeconds = 6e-7;
 
@@ -37,6 +42,15 @@ MeshSize size_of(const scene::Scene& scene, const Inputs& inputs,
   const double surface = kNodesOfArea * triangle_areas(inputs.scan.mesh).sum() /
                          (mesh.element_size_m * mesh.element_size_m);
   return {surface * (mesh.layers + 1), 3 * mesh.layers * kTrianglesOfNodes * surface, skin};
+}
+
+/// Of all faces, without frames/.
+double files_bytes(const scene::OutputOptions& output, double frames, double skin, double faces) {
+  double each = kPictureBytes + kTableBytes * frames + kPlyBytes * skin;
+  if (output.glb)
+    each += std::min(1e6 * output.glb_max_mb, kPoseBytes * skin * (1 + std::min(frames, kPoses)));
+  if (output.report) each += kPageVertexBytes * skin + kPageFrameBytes * frames;
+  return faces * each + (output.report ? kPageBytes : 0);
 }
 
 std::string size_text(double bytes) {
@@ -57,8 +71,9 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
                                      const tissue::VolumeMesh* volume) {
   const auto& times = inputs.motion.motion.time_s;
   const bool whole = scene.motion.recording.empty() || extent == Extent::full;
-  if (scene.time.end_s <= 0 && (!whole || times.size() < 2)) return std::nullopt;
-  const double end_s = scene.time.end_s > 0 ? scene.time.end_s : times.back() - times.front();
+  const double lasts_s = whole && times.size() > 1 ? times.back() - times.front() : inputs.lasts_s;
+  if (scene.time.end_s <= 0 && lasts_s <= 0) return std::nullopt;
+  const double end_s = scene.time.end_s > 0 ? scene.time.end_s : lasts_s;
   const MeshSize mesh = size_of(scene, inputs, volume);
   const scene::OutputOptions& output = scene.output;
   const bool finite = scene.model.strain == simulate::Strain::finite;
@@ -66,6 +81,9 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
   RunCost cost;
   cost.frames = std::max(1.0, std::ceil(end_s * scene.time.frame_rate_hz - 1e-6));
   cost.variants = double(scene.variants.size());
+  cost.from_s = scene.motion.start_s;
+  const double shown_s = (lasts_s > 0 ? std::min(end_s, lasts_s) : end_s) / scene.motion.time_scale;
+  cost.to_s = cost.from_s + std::max(0.0, shown_s - inputs.lead_s);
   const double faces = 1 + cost.variants;
   if (output.vtu) {
     const double strain = output.vtu_strain ? finite ? kFiniteBytes : kStrainBytes : 0;
@@ -73,7 +91,7 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
     cost.frames_bytes =
         each * std::ceil(cost.frames / output.vtu_every) * (output.variants_vtu ? faces : 1);
   }
-  cost.disk_bytes = cost.frames_bytes + faces * (kFaceBytes + kMotionBytes * cost.frames);
+  cost.disk_bytes = cost.frames_bytes + files_bytes(output, cost.frames, mesh.skin, faces);
   // In single precision, of skin and nodes; twins keep the skin alone.
   cost.memory_bytes =
       kOwnMemory + kNodeMemory * mesh.nodes + 12 * faces * cost.frames * (mesh.skin + mesh.nodes);
@@ -86,8 +104,9 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
 }
 
 std::string sentence_of(const RunCost& cost) {
-  std::string text = fmt::format("a run: {:.0f} frames, about {} on disk", cost.frames,
-                                 size_text(cost.disk_bytes));
+  std::string text = fmt::format(
+      "a run: {:.0f} frames, from {:.4g} s to {:.4g} s of the recording; about {} on disk",
+      cost.frames, cost.from_s, cost.to_s, size_text(cost.disk_bytes));
   if (cost.frames_bytes > 0.5 * cost.disk_bytes)
     text += fmt::format(" (frames/, for ParaView: {})", size_text(cost.frames_bytes));
   text += fmt::format(", {} of memory", size_text(cost.memory_bytes));
@@ -100,16 +119,23 @@ std::string sentence_of(const RunCost& cost) {
   return text;
 }
 
-void check_disk(const scene::Scene& scene, const RunCost& cost) {
+void check_disk(const scene::Scene& scene, const RunCost& cost, const std::vector<Note>& notes) {
   const double most = 1e9 * scene.output.most_gb;
   if (cost.disk_bytes <= most) return;
+  // Of a recording in milliseconds the size is not what is wrong.
+  for (const Note& note : notes)
+    if (note.id == "recording.time_unit_doubtful")
+      throw InputError(scene::problem_at(scene, note.key, "times in seconds (" + note.text + ")"));
+  const std::string frames = fmt::format(
+      ", of them {} for ParaView (output.vtu = false leaves these out, output.vtu_every = 10 takes "
+      "a tenth; time.start_s and time.end_s shorten the run)",
+      size_text(cost.frames_bytes));
   throw InputError(scene::problem_at(
       scene, "output.most_gb",
-      fmt::format("{:.3g} or more, as the run would write about {}, of them {} for ParaView "
-                  "(output.vtu = false leaves these out, output.vtu_every = 10 takes a tenth; "
-                  "time.start_s and time.end_s shorten the run)",
-                  std::ceil(1.2e-8 * cost.disk_bytes) / 10, size_text(cost.disk_bytes),
-                  size_text(cost.frames_bytes))));
+      fmt::format(
+          "{:.3g} or more, as the run would write about {}{}",
+          std::ceil(1.2e-8 * cost.disk_bytes) / 10, size_text(cost.disk_bytes),
+          cost.frames_bytes > 0 ? frames : " (time.start_s and time.end_s shorten the run)")));
 }
 
 }  // namespace hyperex::session

@@ -2,7 +2,9 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "hyperex/core/note.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/tissue/mesh/volume_mesh.hpp"
@@ -13,6 +15,7 @@ namespace hyperex::session {
 struct RunCost {
   double frames = 0;                        ///< of each face
   double variants = 0;                      ///< besides base
+  double from_s = 0, to_s = 0;              ///< what is run of the recording, from its start
   double disk_bytes = 0, frames_bytes = 0;  ///< in all; of them frames/, for ParaView
   double memory_bytes = 0;
   /// On two idle processors, correct to a factor of about two, and the part of the variants; 0:
@@ -21,15 +24,17 @@ struct RunCost {
 };
 
 /// `volume`: of the face, once it is meshed; null: its size is estimated from the area of the scan.
-/// Nothing where the length of the run is unknown, as for a camera's recording that was not read
-/// whole.
+/// Nothing where the length of the run is unknown.
 std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& inputs, Extent extent,
                                      const tissue::VolumeMesh* volume = nullptr);
 
-/// "a run takes about 1201 frames, 0.97 GB on disk (0.94 GB of it frames/, for ParaView), ..."
+/// "a run: 1201 frames, from 0 s to 40 s of the recording; about 0.97 GB on disk (frames/, for
+/// ParaView: 0.94 GB), ..."
 std::string sentence_of(const RunCost& cost);
 
-/// Throws InputError where the run would write more than output.most_gb.
-void check_disk(const scene::Scene& scene, const RunCost& cost);
+/// Throws InputError where the run would write more than output.most_gb; where one of `notes`
+/// doubts the unit of the recording's times, about that.
+void check_disk(const scene::Scene& scene, const RunCost& cost,
+                const std::vector<Note>& notes = {});
 
 }  // namespace hyperex::session

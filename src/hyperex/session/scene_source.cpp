@@ -9,6 +9,7 @@
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/override.hpp"
 #include "hyperex/scene/scene_text.hpp"
+#include "hyperex/scene/variant_names.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -60,7 +61,7 @@ json parsed(const Value& value) {
 /// The block of this name; appended where there is none.
 json& block_of(std::vector<json>& blocks, const std::string& name) {
   for (json& block : blocks)
-    if (block.value("name", "") == name) return block;
+    if (scene::name_of_block(block) == name) return block;
   blocks.push_back({{"name", name}});
   return blocks.back();
 }

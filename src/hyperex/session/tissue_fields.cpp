@@ -4,6 +4,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/session/thinned_scan.hpp"
+#include "hyperex/session/unknown_names.hpp"
 
 namespace hyperex::session {
 
@@ -15,6 +16,7 @@ Made TissueFields::made(const scene::Scene& scene, const std::string& owner,
   if (!problems.empty()) {
     InputProblem first =
         scene::problem_at(scene, "tissue." + problems[0].key, problems[0].expected);
+    first.expected += did_you_mean_region(first.key, first.value);
     first.key = owner + first.key;
     throw InputError(first);
   }

@@ -8,6 +8,7 @@
 #include "hyperex/capture/mirrored.hpp"
 #include "hyperex/capture/open_source.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/session/kept.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
 
@@ -75,6 +76,21 @@ tracking::Tracking tracked(const scene::MotionOptions& options, capture::FrameSo
   }
 }
 
+/// By the number of frames and the median distance of the first ones; 0 where that is not known.
+double expected_length_s(const scene::MotionOptions& options) {
+  constexpr std::size_t most_read = 12;
+  const auto source = open_recording(options);
+  const std::optional<std::size_t> count = source->frame_count();
+  if (!count || *count < 2) return 0;
+  std::vector<double> times;
+  for (std::size_t k = 0; k < std::min(*count, most_read); ++k) {
+    const auto frame = source->next();
+    if (!frame) break;
+    if (frame->valid) times.push_back(frame->time_s);
+  }
+  return times.size() < 2 ? 0 : double(*count - 1) * median_step(times);
+}
+
 /// The face that a camera has recorded; with the tracked mesh where skin is to follow it.
 RecordedFace track_face(const scene::Scene& scene, Extent extent) {
   RecordedFace recorded;
@@ -111,6 +127,7 @@ motion::Motion track_recording(const scene::Scene& scene, Extent extent, Inputs&
                               ? track_face(scene, extent)
                               : recorded_face(scene, [&] { return track_face(scene, extent); });
   append(in.notes, recorded.notes);
+  if (extent == Extent::quick) in.lasts_s = expected_length_s(scene.motion);
   if (capture::source_kind(scene.motion.recording.string()) == capture::SourceKind::video &&
       !scene.origins.contains("motion.mirrored"))
     in.notes.push_back(make_warning(

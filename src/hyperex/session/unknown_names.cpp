@@ -71,6 +71,12 @@ std::string nearest_region(std::string name) {
   return near.empty() ? "" : near + given.side;
 }
 
+std::string did_you_mean_region(const std::string& key, const std::string& name) {
+  const bool of_region = key.find("region[") != std::string::npos && key.ends_with("].name");
+  const std::string near = of_region ? nearest_region(name) : "";
+  return near.empty() ? "" : "; did you mean " + near + "?";
+}
+
 std::string nearest_landmark(const std::string& name) {
   const auto& known = face::canonical_face().landmarks;
   if (known.contains(name)) return "";

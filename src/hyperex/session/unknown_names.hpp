@@ -14,6 +14,10 @@ namespace hyperex::session {
 /// name are ignored.
 std::string nearest_region(std::string name);
 
+/// The end of a message on a field of the tissue, "; did you mean cheek_R?", where `key` names a
+/// region, "region[0].name"; empty where no region is similar.
+std::string did_you_mean_region(const std::string& key, const std::string& name);
+
 /// Among the landmarks that the canonical face knows; "ibug_48" and "48" are ibug68_48.
 std::string nearest_landmark(const std::string& name);
 

@@ -6,6 +6,7 @@
 
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/expression/timecode.hpp"
+#include "hyperex/expression/weight_doubts.hpp"
 #include "unit/io/io_testing.hpp"
 
 namespace hyperex::expression {
@@ -62,6 +63,57 @@ TEST_F(BlendShapesFile, ReadsWhatLiveLinkFaceWrites) {
   ASSERT_EQ(shapes.notes.size(), 2u);
   EXPECT_NE(shapes.notes[0].find("60 frames"), std::string::npos);
   EXPECT_NE(shapes.notes[1].find("BlendShapeCount, HeadYaw"), std::string::npos);
+}
+
+TEST_F(BlendShapesFile, NamesTheShapeThatAColumnWasMeantToBe) {
+  const auto shapes = read_arkit(write(
+      "a.csv",
+      "time_s,jawOpen,mouthSmilRight,jawOpn,browdownleft,HeadYaw\n0,0,0,0,0,0\n1,1,1,1,1,1\n"));
+  ASSERT_EQ(shapes.misspelt.size(), 2u) << "jawOpen is there already";
+  EXPECT_EQ(shapes.misspelt[0],
+            "column mouthSmilRight is no blend shape of ARKit and is left out; did you mean "
+            "mouthSmileRight?");
+  EXPECT_NE(shapes.misspelt[1].find("did you mean browDownLeft?"), std::string::npos);
+  ASSERT_EQ(shapes.notes.size(), 1u);
+  EXPECT_EQ(shapes.notes[0], "columns left out: jawOpn, HeadYaw");
+}
+
+TEST_F(BlendShapesFile, NamesTheShapesThatTheFaceLacks) {
+  const auto shapes = read_arkit(write("a.csv",
+                                       "time_s,jawOpen,mouthClose,mouthDimpleLeft,eyeLookUpLeft\n"
+                                       "0,0.9,0.1,0.2,0\n82.5,0,0.65,0.3,0.9\n83,0,0.2,0,0\n"));
+  EXPECT_EQ(lost_shapes(shapes, canonical_model()), "mouthClose up to 0.65 at 82.5 s");
+}
+
+/// 4 s at 10 Hz: a smile over the first second, a pucker from the third second on.
+BlendShapes smile_then_pucker(double smile, double pucker) {
+  BlendShapes shapes;
+  shapes.names = {"mouthSmileLeft", "mouthPucker", "eyeLookUpLeft"};
+  shapes.weights = Eigen::MatrixXd::Zero(41, 3);
+  for (int k = 0; k < 41; ++k) {
+    shapes.time_s.push_back(7 + 0.1 * k);
+    if (k < 10) shapes.weights(k, 0) = smile;
+    if (k >= 30) shapes.weights(k, 1) = pucker;
+    if (k < 20) shapes.weights(k, 2) = 1;
+  }
+  return shapes;
+}
+
+TEST(RestInWeights, IsWhereTheyAreLeast) {
+  const auto rest = rest_in_weights(smile_then_pucker(0.8, 0.6));
+  ASSERT_TRUE(rest);
+  EXPECT_NEAR(rest->from_s, 1, 0.11) << "from the first sample; gaze does not count";
+  EXPECT_NEAR(rest->to_s - rest->from_s, 0.3, 1e-9);
+  EXPECT_EQ(rest->shape, "mouthSmileLeft");
+  EXPECT_NEAR(rest->weight_at_start, 0.8, 1e-9);
+  EXPECT_NEAR(rest->weight_then, 0, 1e-9);
+}
+
+TEST(RestInWeights, IsNotProposedWithoutNeed) {
+  EXPECT_FALSE(rest_in_weights(smile_then_pucker(0.2, 0.6))) << "nearly at rest at the start";
+  BlendShapes held = smile_then_pucker(0.8, 0.6);
+  held.weights.col(1).setConstant(0.4);
+  EXPECT_FALSE(rest_in_weights(held)) << "nowhere at rest";
 }
 
 TEST(Timecode, TellsItsRateByItsFrames) {

@@ -100,6 +100,11 @@ TEST_F(ReadMotion, FaultsAreNamedInOneLine) {
                  {"a_y_cm", "one unit"});
   expect_refused([&] { read_motion(write("f.csv", "time_s\n0\n")); }, {"no points"});
   expect_refused([&] { read_motion(write("f.csv", "a_x,a_y,a_z\n0,1,2\n")); }, {"column of time"});
+  // Tables of results, with words and of numbers.
+  expect_refused([&] { read_motion(write("f.csv", "point,excursion_L_mm\nalare,1\n")); },
+                 {"this is no recording: it has no column of time"});
+  expect_refused([&] { read_motion(write("f.csv", "xi_L,xi_R\n1,1\n")); },
+                 {"this is no recording: it has no column of time"});
   expect_refused([&] { read_motion(write("f.csv", "time_s,time,a_x,a_y,a_z\n0,0,0,1,2\n")); },
                  {"one column of time"});
   expect_refused([&] { read_motion(write("f.csv", "time_s,smile\n0,1\n")); }, {"smile"});

@@ -243,6 +243,10 @@ TEST(Keys, NearestAllowsForSlipsUnitsAndSections) {
   EXPECT_EQ(nearest("mesh.young_kpa", names), "tissue.young_kpa");
   EXPECT_EQ(nearest("mesh.Thickness", names), "mesh.thickness_mm");
   EXPECT_EQ(nearest("time.colour_of_the_sky", names), "");
+  const std::vector<std::string> gains = {"motion.gain", "muscles.gain"};
+  EXPECT_EQ(nearest("muscle.gain", gains), "muscles.gain");
+  EXPECT_EQ(nearest("mucsle.gain", gains), "muscles.gain");
+  EXPECT_EQ(nearest("motoin.gain", gains), "motion.gain");
   EXPECT_EQ(nearest("", names), "");
 }
 

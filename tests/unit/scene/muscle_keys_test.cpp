@@ -114,6 +114,40 @@ TEST(MuscleKeys, ANameThatIsNoneIsToldWithTheNearest) {
                 "one of side_R, side_L, "));
 }
 
+TEST(MuscleKeys, APercentageIsToldAsAFactor) {
+  EXPECT_EQ(only_muscle_problem(by_muscles, {"muscles.gain={ zyg_major_L = 30 }"}),
+            "--set: muscles.gain.zyg_major_L = 30: expected a number from 0 to 5 (0.3 for 30 %)");
+  EXPECT_THAT(only_muscle_problem(by_muscles, {"muscles.gain={ zyg_major_L = -1 }"}),
+              Not(HasSubstr("%")));
+}
+
+TEST(MuscleKeys, ADecimalCommaIsToldAsSuch) {
+  for (const char* line : {"[muscles]\ngain = { zyg_major_L = 0,3 }\n",
+                           "[muscles]\ngain.zyg_major_L = 0,3\n", "[time]\nend_s = -1,5 # s\n"})
+    EXPECT_THAT(only_muscle_problem(by_muscles + line),
+                HasSubstr(":8: expected decimals behind a point, 0.3 and not 0,3"))
+        << line;
+  EXPECT_THAT(only_muscle_problem(by_muscles + "[drive]\nlist = [1,2\n"),
+              Not(HasSubstr("decimals")));
+}
+
+// Of motion.gain, which is one slip away too, the section is another.
+TEST(MuscleKeys, AMisspeltSectionIsNotTakenForAnother) {
+  const auto meant = HasSubstr("did you mean muscles.gain?");
+  EXPECT_THAT(only_muscle_problem(by_muscles, {"muscle.gain={ side_L = 0.3 }"}), meant);
+  EXPECT_THAT(only_muscle_problem(by_muscles + "[[variant]]\nname = \"v\"\n"
+                                               "muscle.gain = { side_L = 0.3 }\n"),
+              meant);
+  EXPECT_THAT(only_muscle_problem(by_muscles + "[[variant]]\nname = \"v\"\n"
+                                               "muscle.gain.side_L = 0.3\n"),
+              meant);
+  for (const char* name : {"muscle.gain.side_L", "muscles.gain.side_L"})
+    EXPECT_THAT(only_muscle_problem(by_muscles, {std::string(name) + "=0.3"}),
+                HasSubstr("did you mean muscles.gain={side_L=...}?"));
+  EXPECT_EQ(only_muscle_problem(by_muscles + "[muscle]\ngain = { side_L = 0.3 }\n"),
+            "scene.toml:7: muscle: expected a known section (did you mean [muscles]?)");
+}
+
 // Of a name in words, as of one in an inline table: what it means, and no list that is cut off.
 TEST(MuscleKeys, ANameInWordsIsToldWithWhatItMeans) {
   const auto told = [](const std::string& name) {

@@ -215,7 +215,7 @@ TEST(ReadScene, VariantsThatCannotBe) {
   EXPECT_THAT(only_problem(base + "name = \"a\"\n"),
               HasSubstr("variant[0]: expected at least one key that it changes"));
   EXPECT_THAT(only_problem(base + "tissue = { young_kpa = 4 }\n"),
-              HasSubstr("variant[0].name: expected a name of letters"));
+              HasSubstr("variant[0].name: expected a name in quotes, required"));
   EXPECT_THAT(only_problem(base + "name = \"../a\"\ntissue = { young_kpa = 4 }\n"),
               HasSubstr("variant[0].name = \"../a\""));
   EXPECT_THAT(only_problem(base + "name = \"a\"\ntissue = { young_kpa = -4 }\n"),
@@ -228,6 +228,22 @@ TEST(ReadScene, VariantsThatCannotBe) {
   const std::string one = "name = \"a\"\ntissue = { young_kpa = 4 }\n";
   EXPECT_THAT(only_problem(base + one + "[[variant]]\n" + one),
               HasSubstr("variant[1].name = \"a\": expected a name that no other variant has"));
+}
+
+/// As in the block that `hyperex new` leaves commented out.
+TEST(ReadScene, AVariantWithoutANameIsCalledAsItsPreset) {
+  const SceneFolder folder;
+  const std::string palsy = std::string(smallest) + "[[variant]]\npreset = \"palsy_complete_R\"\n";
+  const Scene scene = read_scene(folder.write("scene.toml", palsy));
+  ASSERT_EQ(scene.variants.size(), 1u);
+  EXPECT_EQ(scene.variants[0].name, "palsy_complete_R");
+  EXPECT_EQ(scene.variants[0].folder, "palsy_complete_R");
+  EXPECT_FALSE(scene.variants[0].scene.muscles.gains.empty());
+  EXPECT_THAT(only_problem(palsy + "[[variant]]\npreset = \"palsy_complete_R\"\n"),
+              HasSubstr("variant[1].preset = \"palsy_complete_R\": expected a name beside it"));
+  EXPECT_THAT(only_problem(std::string(smallest) + "[[variant]]\npreset = \"palsy_complet_R\"\n"),
+              HasSubstr("variant[0].preset = \"palsy_complet_R\": expected another name; did you "
+                        "mean palsy_complete_R?"));
 }
 
 TEST(ReadScene, KeysThatDependOnEachOther) {

@@ -16,6 +16,12 @@ TEST(VariantNames, HoldWhatPeopleWrite) {
   EXPECT_FALSE(is_variant_name(std::string(101, 'a')));
 }
 
+TEST(VariantNames, OfABlockAreItsOwnOrItsPresets) {
+  EXPECT_EQ(name_of_block({{"name", "a"}, {"preset", "aged"}}), "a");
+  EXPECT_EQ(name_of_block({{"preset", "aged"}}), "aged");
+  EXPECT_EQ(name_of_block({{"tissue", 1}}), "");
+}
+
 TEST(VariantNames, EachHasAFolderOfItsOwn) {
   std::vector<Variant> others;
   const auto next = [&](const std::string& name) {
@@ -25,13 +31,15 @@ TEST(VariantNames, EachHasAFolderOfItsOwn) {
     others.push_back(variant);
     return variant.folder;
   };
-  EXPECT_EQ(next("stiff right cheek"), "stiff right cheek");
+  EXPECT_EQ(next("stiff right cheek"), "stiff_right_cheek");
   EXPECT_EQ(next("a,b"), "a_b");
   EXPECT_EQ(next("a;b"), "a_b-2");
   EXPECT_EQ(next("a_b-2"), "a_b-2-2");
   EXPECT_EQ(next("a=b"), "a_b-3");
-  EXPECT_EQ(next("..a."), "_.a_");
-  EXPECT_EQ(next("b "), "b_");
+  EXPECT_EQ(next("..a."), "a");
+  EXPECT_EQ(next("b "), "b");
+  EXPECT_EQ(next("left zygomaticus at 30 %"), "left_zygomaticus_at_30");
+  EXPECT_EQ(next("E = 400 kPa (x2)"), "E_400_kPa_x2");
 }
 
 }  // namespace

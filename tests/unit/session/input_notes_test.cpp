@@ -6,6 +6,7 @@
 #include <random>
 
 #include "apps/good_inputs.hpp"
+#include "hyperex/core/files.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "support/note_matchers.hpp"
@@ -95,6 +96,30 @@ TEST_F(InputNotes, SayHowBadlyTheRecordingFits) {
     for (auto& sample : m.positions) sample *= 1.5;
   });
   EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.fits_badly"), says("0.667"))));
+}
+
+TEST_F(InputNotes, ComeAfterNamesOfRegionsWhereLandmarksAreNotKnown) {
+  replace_in(folder_ / "scene.toml", "landmarks = \"face_landmarks.json\"\n", "");
+  const auto refusal = [&](const std::vector<std::string>& overrides) -> std::string {
+    try {
+      notes(overrides);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal({"tissue.region=[{name=\"cheek_left\", young_factor=5}]"}),
+              testing::HasSubstr("tissue.region[0].name = \"cheek_left\": expected the name of a "
+                                 "region (hyperex presets lists them); did you mean cheek_L?"));
+  EXPECT_EQ(refusal({"tissue.region=[{scar=[\"cheilion_R\", \"alare_R\"], width_mm=8, "
+                     "young_factor=5}]"}),
+            "")
+      << "whether the scan has these landmarks is not known";
+  put(folder_ / "scene.toml", read_file(folder_ / "scene.toml") +
+                                  "[[variant]]\nname = \"v\"\ntissue.region = [{ name = "
+                                  "\"nosse\", young_factor = 5 }]\n");
+  EXPECT_THAT(refusal({}), AllOf(testing::HasSubstr("variant[0].tissue.region[0].name = "),
+                                 testing::HasSubstr("did you mean nose?")));
 }
 
 TEST_F(InputNotes, NameMisspeltAndOwnLandmarks) {

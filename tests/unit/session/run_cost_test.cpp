@@ -50,17 +50,58 @@ TEST(RunCost, GrowsWithWhatARunWrites) {
   EXPECT_THAT(sentence_of(cost()), testing::HasSubstr("without its variants"));
   scene.model.strain = simulate::Strain::finite;
   EXPECT_EQ(cost().seconds, 0);
-  EXPECT_THAT(sentence_of(cost()), testing::HasSubstr("not known beforehand"));
+  EXPECT_THAT(sentence_of(cost()), testing::HasSubstr("not known in advance"));
 }
 
 TEST(RunCost, OfACamerasRecordingIsNotKnownBeforeItIsRead) {
   scene::Scene scene = embedded();
-  const Inputs inputs = read_inputs(scene);
+  Inputs inputs = read_inputs(scene);
   scene.motion.recording = "talk";
+  inputs.lasts_s = 0;
   EXPECT_FALSE(expected_cost(scene, inputs, Extent::quick));
   EXPECT_TRUE(expected_cost(scene, inputs, Extent::full));
+  inputs.lasts_s = 4;  // by the number of its frames
+  EXPECT_EQ(expected_cost(scene, inputs, Extent::quick)->frames, 120);
   scene.time.end_s = 1;
-  EXPECT_TRUE(expected_cost(scene, inputs, Extent::quick));
+  EXPECT_EQ(expected_cost(scene, inputs, Extent::quick)->frames, 30);
+}
+
+/// Landmarks are not searched for in a quick reading, and nothing is aligned.
+TEST(RunCost, IsKnownOfAScanWithoutLandmarks) {
+  Inputs inputs;
+  inputs.scan = read_inputs(embedded()).scan;
+  inputs.lasts_s = 3;
+  const auto cost = expected_cost(embedded(), inputs, Extent::quick);
+  ASSERT_TRUE(cost);
+  EXPECT_EQ(cost->frames, 90);
+}
+
+TEST(RunCost, SaysWhatOfTheRecordingIsRun) {
+  scene::Scene scene = embedded();
+  const auto sentence = [&] {
+    return sentence_of(*expected_cost(scene, read_inputs(scene), Extent::quick));
+  };
+  EXPECT_THAT(sentence(), testing::HasSubstr("from 0 s to 2.667 s of the recording"));
+  scene.motion.start_s = 1;
+  scene.time.end_s = 1.5;  // half a second of it leads from rest to where the run begins
+  EXPECT_THAT(sentence(), testing::HasSubstr("from 1 s to 2 s of the recording"));
+  scene.time.end_s = 1;
+  scene.motion.time_scale = 0.5;
+  EXPECT_THAT(sentence(), testing::HasSubstr("from 1 s to 2.5 s of the recording"));
+}
+
+/// What a clinic's scan wrote: five faces of 135 frames, no frames for ParaView, 166 MB.
+TEST(RunCost, OfAFineScanIsThatOfItsVertices) {
+  scene::Scene scene = embedded();
+  scene.output.vtu = false;
+  scene.variants.resize(4);
+  Inputs inputs;
+  inputs.scan.mesh.points = Points::Zero(36326, 3);
+  inputs.scan.mesh.triangles = Triangles::Zero(1, 3);
+  inputs.lasts_s = 4.5;
+  const auto cost = expected_cost(scene, inputs, Extent::quick);
+  ASSERT_TRUE(cost);
+  EXPECT_NEAR(cost->disk_bytes, 166e6, 50e6);
 }
 
 TEST(RunCost, AboveTheBoundIsRefusedByTheKeyThatRaisesIt) {
@@ -72,6 +113,11 @@ TEST(RunCost, AboveTheBoundIsRefusedByTheKeyThatRaisesIt) {
       test::refusal([&] { check_disk(scene, cost); }),
       testing::AllOf(testing::HasSubstr("output.most_gb"), testing::HasSubstr("3.8 or more"),
                      testing::HasSubstr("3.00 GB for ParaView")));
+  scene.motion.arkit = "weights.csv";
+  const Note doubt = make_warning("recording.time_unit_doubtful", "milliseconds?", "motion.arkit");
+  EXPECT_THAT(test::refusal([&] { check_disk(scene, cost, {doubt}); }),
+              testing::HasSubstr("motion.arkit = \"weights.csv\": expected times in seconds "
+                                 "(milliseconds?)"));
   scene.output.most_gb = 3.8;
   EXPECT_NO_THROW(check_disk(scene, cost));
 }

@@ -34,6 +34,13 @@ TEST(NearestRegion, KeepsTheSide) {
   EXPECT_EQ(nearest_region("elbow"), "");
 }
 
+TEST(DidYouMeanRegion, IsSaidOfNamesOfRegionsAlone) {
+  EXPECT_EQ(did_you_mean_region("tissue.region[0].name", "\"cheek_left\""),
+            "; did you mean cheek_L?");
+  EXPECT_EQ(did_you_mean_region("tissue.region[0].scar", "\"cheek_left\""), "");
+  EXPECT_EQ(did_you_mean_region("tissue.region[0].name", "\"elbow\""), "");
+}
+
 TEST(MisspeltLandmarks, AreTakenOutOfTheUnknown) {
   std::vector<std::string> unknown = {"cheilon_L", "my_own_mark"};
   EXPECT_THAT(misspelt_landmarks(unknown),

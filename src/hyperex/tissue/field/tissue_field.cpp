@@ -86,7 +86,8 @@ void check_region(const TissueFieldOptions& options, std::size_t index,
     if (region.value[p] && region.factor[p])
       complain("", fmt::format("either {} or its factor", parameter_info(p).key));
   if (!region.name.empty() && !is_region(region.name))
-    complain(".name", "the name of a region (hyperex presets lists them)");
+    problems.push_back({key + ".name", "the name of a region (hyperex presets lists them)",
+                        '"' + region.name + '"'});
   if (region.scar.size() == 1) complain(".scar", "two landmarks or more");
   if (region.scar_points_m.size() == 1) complain(".scar_points_mm", "two points or more");
   for (const std::string& name : region.scar)

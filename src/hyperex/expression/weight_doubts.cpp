@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/expression/weight_doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace hyperex::expression {
+namespace {
+
+constexpr double kLarge = 0.3, kStretch_s = 0.3, kStart_s = 0.1, kSlack_s = 1e-9;
+
+bool is_gaze(const std::string& shape) {
+  return shape.starts_with("eyeLook");
+}
+
+/// Means of all weights but those of gaze over an interval; empty where no face was seen in it.
+std::optional<Eigen::RowVectorXd> mean_weights(const BlendShapes& shapes, double from_s,
+                                               double to_s) {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(shapes.weights.cols());
+  int count = 0;
+  const auto& t = shapes.time_s;
+  const auto first = std::lower_bound(t.begin(), t.end(), t.front() + from_s - kSlack_s);
+  const auto last = std::upper_bound(t.begin(), t.end(), t.front() + to_s + kSlack_s);
+  for (auto k = first - t.begin(); k < last - t.begin(); ++k) {
+    if (!shapes.weights.row(k).allFinite()) continue;
+    sum += shapes.weights.row(k);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  for (std::size_t c = 0; c < shapes.names.size(); ++c)
+    if (is_gaze(shapes.names[c])) sum[static_cast<Eigen::Index>(c)] = 0;
+  return sum / count;
+}
+
+}  // namespace
+
+std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model) {
+  std::set<std::string> made;
+  for (const DeformationUnit& unit : model.animation_units)
+    for (const std::string& pattern : {unit.arkit, unit.arkit_negative})
+      for (const std::string& name : arkit_names(pattern)) made.insert(name);
+  std::string text;
+  for (std::size_t c = 0; c < shapes.names.size(); ++c) {
+    if (made.contains(shapes.names[c]) || is_gaze(shapes.names[c])) continue;
+    double most = 0, at_s = 0;
+    for (std::size_t k = 0; k < shapes.time_s.size(); ++k)
+      if (const double w =
+              shapes.weights(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c));
+          w > most) {
+        most = w;
+        at_s = shapes.time_s[k];
+      }
+    if (most > kLarge)
+      text += fmt::format("{}{} up to {:.2g} at {:.4g} s", text.empty() ? "" : "; ",
+                          shapes.names[c], most, at_s);
+  }
+  return text;
+}
+
+std::optional<RestInWeights> rest_in_weights(const BlendShapes& shapes) {
+  const double length_s = shapes.time_s.back() - shapes.time_s.front();
+  const auto start = mean_weights(shapes, 0, kStart_s);
+  if (!start || length_s < 2 * kStretch_s) return std::nullopt;
+  double least = start->sum(), from_s = 0;
+  Eigen::RowVectorXd there = *start;
+  double tried_s = -std::numeric_limits<double>::infinity();
+  for (const double time_s : shapes.time_s) {
+    const double t = time_s - shapes.time_s.front();
+    if (t + kStretch_s > length_s + kSlack_s) break;
+    if (t - tried_s < kStretch_s / 3 - kSlack_s) continue;
+    tried_s = t;
+    const auto here = mean_weights(shapes, t, t + kStretch_s);
+    if (!here || here->sum() >= least) continue;
+    least = here->sum();
+    there = *here;
+    from_s = t;
+  }
+  Eigen::Index shape = 0;
+  const double falls = (*start - there).maxCoeff(&shape);
+  if (falls < kLarge || there.maxCoeff() > kLarge) return std::nullopt;
+  return RestInWeights{from_s, from_s + kStretch_s, shapes.names[static_cast<std::size_t>(shape)],
+                       (*start)[shape], there[shape]};
+}
+
+}  // namespace hyperex::expression
