@@ -94,6 +94,7 @@ TEST_F(DrivenByForces, MusclesMeetTheDrivenPoints) {
 TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
   options_.muscles.own = muscles::muscle_template();
   for (muscles::TemplateMuscle& muscle : options_.muscles.own) muscle.few_share = -1;
+  options_.muscles.shape_prior = false;  // it acts between the points, in the patches too
   const SimulationOptions plain = options_;
   options_.drive.by = DriveBy::displacement;
   const SimulationResult field = made(options_).run();

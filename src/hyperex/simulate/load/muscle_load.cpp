@@ -71,6 +71,14 @@ struct Driven {
   Eigen::Index below_nose_ = 0;
 };
 
+/// Displacements of the driven points at the samples: 3 P x samples, m.
+Eigen::MatrixXd displacements_of(const Driven& driven, const motion::Motion& motion, double gain) {
+  Eigen::MatrixXd out(3 * Eigen::Index(driven.rows.size()), Eigen::Index(motion.time_s.size()));
+  for (Eigen::Index k = 0; k < out.cols(); ++k)
+    out.col(k) = driven.of(gain * (motion.positions[std::size_t(k)] - motion.positions.front()));
+  return out;
+}
+
 MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const Driven& driven,
                  const MuscleOptions& options) {
   const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
@@ -265,13 +273,10 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   resize(muscle, count, members.rows(), samples);
   Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
   Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
-  Eigen::MatrixXd seen(left_over.rows(), samples);
+  const Eigen::MatrixXd seen = displacements_of(driven, motion.motion, options.drive.gain);
   for (Eigen::Index k = 0; k < samples; ++k) {
     if (between) between();
     load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
-    const Points moved = options.drive.gain * (motion.motion.positions[std::size_t(k)] -
-                                               motion.motion.positions.front());
-    seen.col(k) = driven.of(moved);
     const FitResult fitted = fit.fit(seen.col(k));
     muscle.activation.col(k) = fitted.activation;
     muscle.sigma.col(k) = fitted.covariance.diagonal().cwiseSqrt();
