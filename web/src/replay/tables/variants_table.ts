@@ -7,6 +7,7 @@ import { chooseFace } from '../face/face_chooser';
 import { faceColour } from '../../page/face_colour';
 import { columnNotes, figureCard, figureCell, figureText, headCell, isNumber, type Column } from './figure_table';
 import { landmarkName } from '../../page/format';
+import { farthestSentences } from '../farthest';
 import type { Shown } from '../shown';
 import { changesOf, variantsOf, type VariantRow, type Variants } from '../variants';
 
@@ -79,12 +80,6 @@ function fitted(column: Column, rows: VariantRow[]): Column {
   return { ...column, digits: Math.min(Math.max(column.digits, 1 - Math.floor(Math.log10(most))), 9) };
 }
 
-/** Where the face differs most, and the displacement there at the peak, here and in base. */
-function placeOf({ farthest_near: near, displacement_there_mm: here, base_displacement_there_mm: there }: VariantRow): string[] {
-  if (typeof near !== 'string' || near === '' || !isNumber(here) || !isNumber(there)) return [];
-  return [`differs most near ${landmarkName(near)}, which moves ${here.toFixed(2)} instead of ${there.toFixed(2)} mm`];
-}
-
 /** Stands below what a variant adds to ξL − ξR. */
 function floorOf({ added_xi_floor: floor, added_xi_decided: decided }: VariantRow, column: Column): HTMLElement {
   const text = `floor ${figureText(floor, column)}`;
@@ -99,7 +94,7 @@ function nameCell(
   const face = button('', 'face', press);
   face.title = 'Show this face';
   face.append(element('i'), replay.faces[i].name);
-  const changes = i === 0 ? ['the scene without a variant'] : [...changesOf(replay, i), ...placeOf(row)];
+  const changes = i === 0 ? ['the scene without a variant'] : [...changesOf(replay, i), ...farthestSentences(replay, i, row)];
   cell.append(face, ...changes.map((change) => element('small', change)));
   return { cell, face };
 }
