@@ -338,7 +338,7 @@ describe('figures that are rare', () => {
       rows.map((row) => [...row.querySelectorAll('th small')].map((s) => s.textContent)));
     const place = told[1].slice(-2);
     assert.match(place[0], /^Differs most at a vertex of the skin (near|(\d+|less than 1) mm from) corner of the mouth \(cheilion\), right: by \d+\.\d mm at \d\.\d{3} s\.$/);
-    assert.match(place[1], /^At the peak, \d\.\d{3} s, that vertex moves 16\.00 instead of 20\.00 mm\. The corner’s own figures are those above\.$/);
+    assert.match(place[1], /^At the peak, \d\.\d{3} s, that vertex moves 16\.00 instead of 20\.00 mm\. The corner’s own figures are those above, under “Corners of the mouth”\.$/);
     assert.deepEqual(told.slice(0, 4).map((lines) => lines.filter((line) => !/vertex/.test(line))), [
       ['the scene without a variant'],
       ['Young’s modulus 1,000 instead of 192.4 kPa', 'Solver: method direct instead of reduced',

@@ -51,6 +51,6 @@ export function farthestSentences(replay: Replay, i: number, row: VariantRow): s
   return [
     `Differs most at a vertex of the skin ${place}: by ${mm(maxDifferenceMm)} at ${when(maxDifferenceFrame)}.`,
     `At the peak, ${when(replay.peakFrame)}, that vertex moves ${here.toFixed(2)} instead of ${there.toFixed(2)} mm.` +
-      (isCorner(near) ? ' The corner’s own figures are those above.' : ''),
+      (isCorner(near) ? ' The corner’s own figures are those above, under “Corners of the mouth”.' : ''),
   ];
 }

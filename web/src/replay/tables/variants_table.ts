@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The variants side by side in figures (summary.variants); pressing a name shows that face.
 import type { Replay } from '../data';
-import { button, element } from '../../page/dom';
+import { button, element, unbroken } from '../../page/dom';
 import type { Undoing } from '../../page/listeners';
 import { chooseFace } from '../face/face_chooser';
 import { faceColour } from '../../page/face_colour';
@@ -95,7 +95,11 @@ function nameCell(
   face.title = 'Show this face';
   face.append(element('i'), replay.faces[i].name);
   const changes = i === 0 ? ['the scene without a variant'] : [...changesOf(replay, i), ...farthestSentences(replay, i, row)];
-  cell.append(face, ...changes.map((change) => element('small', change)));
+  cell.append(face, ...changes.map((change) => {
+    const line = element('small');
+    line.append(...unbroken(change));
+    return line;
+  }));
   return { cell, face };
 }
 
