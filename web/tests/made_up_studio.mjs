@@ -56,7 +56,9 @@ function replayOf(block, { faces, remarks }) {
   const { points, triangles, mirror } = skin();
   const names = ['cheilion_L', 'cheilion_R', 'endocanthion_L', 'endocanthion_R'];
   const at = [[0.02, -0.03, 0.07], [-0.02, -0.03, 0.07], [0.02, 0.03, 0.07], [-0.02, 0.03, 0.07]];
-  const landmarks = () => block.add('float32', new Float32Array([0, 1, 2].flatMap(() => at.flat())));
+  // The corners of the mouth rise by so much in each step.
+  const landmarks = (stepM) => block.add('float32', new Float32Array([0, 1, 2].flatMap((f) =>
+    at.flatMap(([x, y, z], i) => [x, y + (i < 2 ? f * stepM : 0), z]))));
   const { modes, weights } = motionOf(block, { points });
   return {
     version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), peak_time_s: 1, head_shift_uncertainty_mm: 2.6, head_turn_uncertainty_deg: 1.3 },
@@ -64,13 +66,13 @@ function replayOf(block, { faces, remarks }) {
     scan_vertices: side * side,
     skin: { points: block.add('float32', points), triangles: block.add('int32', triangles) },
     motion: { time_s: [0, 0.5, 1], peak_frame: 2, modes, weights, max_error_mm: 0, max_displacement_mm: 2 },
-    landmarks: { names, time_s: [0, 0.5, 1], positions: landmarks() },
+    landmarks: { names, time_s: [0, 0.5, 1], positions: landmarks(0.004) },
     driven: { names: ['cheilion_L'], points: [at[0]] }, held: [at[2]], lip_cut: [], symmetry: null,
     mirror: { normal: [1, 0, 0], vertices: block.add('int32', mirror), weights: block.add('uint8', new Uint8Array(mirror.length).fill(255)) },
     point_words: {}, openings: [], eyeballs: [{ centre: [0.03, 0.03, 0.05], gaze: [0, 0, 1], radius_m: 0.012 }],
     variants: faces.slice(1).map(({ name }) => ({
       name, changes: [], difference: { ...motionOf(block, { points }), max_error_mm: 0 },
-      max_displacement_mm: 2, max_difference_mm: 1, max_difference_frame: 2, symmetry: null, landmarks: landmarks(), tissue: [],
+      max_displacement_mm: 2, max_difference_mm: 1, max_difference_frame: 2, symmetry: null, landmarks: landmarks(0.0025), tissue: [],
     })),
   };
 }

@@ -88,7 +88,7 @@ async function dragged(change) {
   const [base, own] = data.summary.variants.table;
   const sides = (right, left) => ({ R: right, L: left });
   const pair = (right, left) => [{
-    point: 'cheilion', excursion_mm: sides(right, left), path_mm: sides(1, 1), peak_speed_mm_s: sides(1, 1), speed_correlation: 1, undecided: false, floor_mm: 0.1,
+    point: 'cheilion', excursion_mm: sides(right, left), path_mm: sides(1, 1), peak_speed_mm_s: sides(1, 1), speed_correlation: 1, undecided: Math.abs(right - left) < 0.1, floor_mm: 0.1,
   }];
   data.summary.symmetry = { ...data.summary.symmetry, excursions: pair(6.74, 6.71) };
   Object.assign(base, { commissure_R_mm: 6.74, commissure_L_mm: 6.71 });
@@ -103,27 +103,45 @@ async function dragged(change) {
   const { page, close } = await openPage(browser, file);
   await page.locator('#chips button').nth(1).click();
   const [headline, line] = [await page.locator('#headline').textContent(), await page.locator('.variant-lines li').first().textContent()];
+  const questions = await page.locator('.answers dt').allTextContents();
+  const [changed, apart] = await page.locator('.answers dd').allTextContents();
+  const below = await page.locator('.corners .floor').textContent();
   await close();
   await rm(dirname(file), { recursive: true });
-  return { headline, line: line.split(': ').slice(1).join(': ') };
+  return { headline, questions, change: changed, apart, below, line: line.split(': ').slice(1).join(': ') };
 }
 
 test('a weak corner that goes farther is dragged; the healthy one is not called less', async () => {
-  const { headline, line } = await dragged({ right: 8.91 });
-  assert.equal(headline, 'right 8.9 mm, left 6.8 mm: right is dragged 2.2 mm farther than in base');
+  const { headline, change, line } = await dragged({ right: 8.91 });
+  assert.equal(headline, 'right 8.9 mm, left 6.8 mm');
+  assert.equal(change, 'right is dragged 2.2 mm farther than in base (± 0.7 mm)');
   assert.equal(line, 'right corner 8.9 mm, is dragged 2.2 mm farther than in base (± 0.7 mm)');
 });
 
 test('a weak corner moves less, one in stiff tissue follows less', async () => {
-  assert.match((await dragged({ right: 4.1 })).headline, /: right moves 2\.6 mm less than in base$/);
-  assert.match((await dragged({ right: 4.1, weaker: [] })).headline, /: right follows 2\.6 mm less than in base$/);
+  assert.equal((await dragged({ right: 4.1 })).change, 'right moves 2.6 mm less than in base (± 0.7 mm)');
+  assert.equal((await dragged({ right: 4.1, weaker: [] })).change, 'right follows 2.6 mm less than in base (± 0.7 mm)');
 });
 
 test('what is compared lies along the way of base', async () => {
-  assert.match((await dragged({ right: 7.0, along: 3.5 })).headline, /: right moves 3\.2 mm less than in base, along its way there$/);
-  assert.match((await dragged({ right: 5.9, along: -4.2 })).headline, /: right goes 4\.2 mm the other way$/);
+  assert.equal((await dragged({ right: 7.0, along: 3.5 })).change, 'right moves 3.2 mm less than in base, along its way there (± 0.7 mm)');
+  assert.equal((await dragged({ right: 5.9, along: -4.2 })).change, 'right goes 4.2 mm the other way (± 0.7 mm)');
 });
 
 test('a change within its band is undecided', async () => {
-  assert.match((await dragged({ right: 7.2 })).headline, /undecided \(below 0\.7 mm\)$/);
+  assert.match((await dragged({ right: 7.2 })).change, /undecided \(below 0\.7 mm\)$/);
+});
+
+test('what a variant changes and whether its sides differ are two answers, each with its name', async () => {
+  const { questions, change, apart, below } = await dragged({ right: 4.1 });
+  assert.deepEqual(questions, ['Change against base', 'Difference of the sides']);
+  assert.match(change, /than in base/);
+  assert.equal(apart, '2.7 mm apart');
+  assert.match(below, /^These are the largest distances of both corners from rest in .+\. /, 'a sentence says what the figures are');
+});
+
+test('a figure and the limit that it is below do not print alike', async () => {
+  // 0.66 mm farther with a band of 0.7 mm.
+  assert.match((await dragged({ right: 7.4 })).change, /0\.66 mm farther than in base: undecided \(below 0\.70 mm\)$/);
+  assert.equal((await dragged({ right: 8.91, left: 8.83 })).apart, '0.08 mm apart: undecided (below 0.10 mm)');
 });

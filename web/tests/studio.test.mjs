@@ -75,7 +75,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.ok(ownR < baseR - 1 && ownR > 0.5 * baseR, `${baseR} to ${ownR} mm`);
     // Error bands follow by themselves.
     await page.waitForFunction(() => document.documentElement.dataset.bands === 'true');
-    assert.match(await page.locator('.corner-table tr[data-face="1"] td[data-side=right]').innerText(), /−\d\.\d mm \(± \d\.\d\) to base/);
+    assert.match(await page.locator('.corner-table tr[data-face="1"] td[data-side=right]').innerText(), /\d\.\d+ mm less than base\s+\(± \d\.\d+ mm\)/);
     assert.ok(!(await page.locator('.no-band').count()));
 
     // Where it differs most, by either button.

@@ -44,7 +44,7 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     const box = (name) => page.locator(`.rigid-points input[value=${name}]`);
     const press = (name) => box(name).evaluate((input) => input.click());
     const apply = page.locator('.rigid-points button');
-    assert.equal(await page.locator('.rigid-points summary').textContent(), 'Head pose: from 3 points named');
+    assert.equal(await page.locator('.rigid-points summary').textContent(), 'Head pose: from 3 chosen points');
     assert.equal(await page.locator('.rigid-points input:checked').count(), 3);
     await press('band_3');
     assert.equal(await apply.isDisabled(), true, 'two are too few');
@@ -88,6 +88,23 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await pull('side_R', 'PageDown');
     await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('"side_R":0.4'));
     assert.deepEqual(await names(), ['Base', 'visit A', 'right side 80 %']);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('what if: the slider of the strength that was changed comes into view, and the change reads as a sentence', async () => {
+    const { page, complaints, close } = await openMadeUp(browser, () => []);
+    await page.locator('#tab-scene').dispatchEvent('click');
+    await page.locator('#what-if').dispatchEvent('click');
+    await page.locator('.weaker select').selectOption('zyg_major_L');
+    await page.locator('.weaker input').fill('30');
+    await page.locator('.weaker .primary').dispatchEvent('click');
+    const slider = page.locator('[data-gain=zyg_major_L]');
+    await slider.waitFor();
+    const [panel, own] = [await page.locator('#panels').boundingBox(), await slider.boundingBox()];
+    assert.ok(own.y >= panel.y && own.y + own.height <= panel.y + panel.height, `${own.y} is outside of ${panel.y} to ${panel.y + panel.height}`);
+    await page.waitForFunction(() => document.querySelector('.corner-table tr[data-face="1"] small.change'));
+    assert.equal(await page.locator('.corner-table tr[data-face="1"] td[data-side=left] small.change').textContent(), '3.0 mm less than base');
     assert.deepEqual(complaints, []);
     await close();
   });

@@ -10,6 +10,11 @@ export function element<K extends keyof HTMLElementTagNameMap>(tag: K, text = ''
   return made;
 }
 
+/** A text for a paragraph whose numbers stay beside their units, "(± 0.6 mm)", where it breaks into lines. */
+export const unbroken = (text: string): (string | HTMLElement)[] =>
+  text.split(/(\(?(?:± )?\d[\d.]* (?:mm|s|%)(?![\p{L}\d])[).,:;]*)/u)
+    .map((part, i) => (i % 2 === 1 ? element('span', part, 'unbroken') : part));
+
 export function button(text: string, className: string, press: () => void): HTMLButtonElement {
   const made = element('button', text, className);
   made.type = 'button';

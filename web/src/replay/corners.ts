@@ -56,6 +56,24 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
 
 export const mm = (value: number): string => `${roundedMm(value).toFixed(1)} mm`;
 
+/** Decimals with which two lengths do not print alike, so that "0.1 mm, below 0.1 mm" is not written: one, where that
+ *  will do. `aMm` is as it is shown with one decimal, `exactMm` is not rounded. */
+function digitsApart(aMm: number, exactMm: number, bMm: number): number {
+  const less = Math.abs(exactMm) < bMm;
+  const agrees = (digits: number) => {
+    const [a, b] = [Math.abs(digits === 1 ? aMm : exactMm).toFixed(digits), bMm.toFixed(digits)].map(Number);
+    return less ? a < b : a > b;
+  };
+  return [1, 2, 3].find(agrees) ?? 3;
+}
+
+/** A length and what it is held against, "0.07 mm" and "0.14 mm": with as many decimals as tell them apart. */
+export function heldAgainst(shownMm: number, exactMm: number, limitMm: number): { own: string; limit: string } {
+  const digits = digitsApart(shownMm, exactMm, limitMm);
+  const own = digits === 1 ? shownMm : exactMm;
+  return { own: `${Math.abs(own).toFixed(digits)} mm`, limit: `${limitMm.toFixed(digits)} mm` };
+}
+
 /** A difference from base below this counts as none, mm: half of the last digit shown. */
 export const sameMm = 0.05;
 
@@ -81,6 +99,8 @@ export interface CornerChange {
   toMm: number;
   /** How much farther it moves than in base, along its path in base. */
   byMm: number;
+  /** The same, not rounded. */
+  exactMm: number;
   /** How far it moves along that path, signed. */
   alongMm: number;
   /** Its distance along base's path is close to that from rest, so that the figures above are complete. */
@@ -107,7 +127,7 @@ export function cornerChange(replay: Replay, face: number, side: Side): CornerCh
   const bandMm = changeBandMm(replay, face, side);
   const weak = row?.weaker_sides;
   return {
-    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, alongMm: roundedMm(alongMm), sameWay, bandMm,
+    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, exactMm: sameWay ? to - from : alongMm - from, alongMm: roundedMm(alongMm), sameWay, bandMm,
     weaker: Array.isArray(weak) && weak.includes(letterOf[side]),
     undecided: bandMm !== null && Math.abs(sameWay ? to - from : byMm) < bandMm,
   };
@@ -123,26 +143,34 @@ export function valueAt(timeS: number[], values: (number | null)[], t: number): 
 
 /** "is dragged 2.1 mm farther than in base": farther against its muscles, where these are weaker; less than others of
  *  its tissue make it follow. */
-export function changeSentence({ byMm, alongMm, sameWay, weaker }: CornerChange): string {
+export function changeSentence({ byMm, exactMm, bandMm, alongMm, sameWay, weaker }: CornerChange): string {
   if (byMm === 0) return 'goes as in base';
   if (!sameWay && alongMm < 0) return `goes ${mm(-alongMm)} the other way`;
-  const how = byMm < 0 ? `${weaker ? 'moves' : 'follows'} ${mm(-byMm)} less` : `${weaker ? 'is dragged' : 'moves'} ${mm(byMm)} farther`;
+  const by = bandMm === null ? mm(Math.abs(byMm)) : heldAgainst(byMm, exactMm, bandMm).own;
+  const how = byMm < 0 ? `${weaker ? 'moves' : 'follows'} ${by} less` : `${weaker ? 'is dragged' : 'moves'} ${by} farther`;
   return `${how} than in base${sameWay ? '' : ', along its way there'}`;
 }
 
+/** The error of a change as it is shown beside it, "0.6 mm"; empty where it is not known. */
+export const bandWords = ({ byMm, exactMm, bandMm }: CornerChange): string =>
+  bandMm === null ? '' : heldAgainst(byMm, exactMm, bandMm).limit;
+
 /** "is dragged 2.1 ± 0.4 mm farther than in base" */
 function changeFigures(change: CornerChange): string {
-  const { byMm, bandMm, undecided } = change;
+  const { byMm, exactMm, bandMm, undecided } = change;
   if (byMm === 0) return 'as base';
-  if (undecided) return `undecided: ${Math.abs(byMm).toFixed(1)} ± ${bandMm!.toFixed(1)} mm ${byMm < 0 ? 'less' : 'more'} than base`;
-  return `${changeSentence(change)}, ±${bandMm === null ? ' not known' : ` ${mm(bandMm)}`}`;
+  if (undecided) {
+    const { own, limit } = heldAgainst(byMm, exactMm, bandMm!);
+    return `undecided: ${own.replace(' mm', '')} ± ${limit} ${byMm < 0 ? 'less' : 'more'} than base`;
+  }
+  return `${changeSentence(change)}, ±${bandMm === null ? ' not known' : ` ${bandWords(change)}`}`;
 }
 
 /** "sides differ by 1.2 ± 0.4 mm" */
 function sidesFigures(corners: Corners): string {
-  const { floorMm, undecided } = corners;
-  const band = floorMm > 0 ? ` ± ${floorMm.toFixed(1)}` : '';
-  return `sides differ by ${apartMm(corners).toFixed(1)}${band} mm${undecided ? ', undecided' : ''}`;
+  const { own, limit } = apartAgainstFloor(corners);
+  const band = corners.floorMm > 0 ? ` ± ${limit.replace(' mm', '')}` : '';
+  return `sides differ by ${own.replace(' mm', '')}${band} mm${corners.undecided ? ', undecided' : ''}`;
 }
 
 /** How far the corners of the mouth are from rest at the time shown, and at most in the whole motion, with what is
@@ -166,11 +194,18 @@ export function cornerFigures(replay: Replay, face: number, t: number): string[]
 }
 
 /** Of the figures shown. */
-const apartMm = ({ leftMm, rightMm }: Corners): number => Math.abs(roundedMm(leftMm) - roundedMm(rightMm));
+export const apartMm = ({ leftMm, rightMm }: Corners): number => Math.abs(roundedMm(leftMm) - roundedMm(rightMm));
 
 /** "8.1 mm apart": the figures do not show which side is the healthy one. */
 export function differenceWords(corners: Corners): string {
-  const apart = apartMm(corners);
-  if (corners.undecided) return `${mm(apart)} apart: undecided (below ${mm(corners.floorMm)})`;
-  return apart < sameMm ? 'no difference' : `${mm(apart)} apart`;
+  const { own, limit } = apartAgainstFloor(corners);
+  if (corners.undecided) return `${own} apart: undecided (below ${limit})`;
+  return apartMm(corners) < sameMm ? 'no difference' : `${own} apart`;
+}
+
+/** How far the sides are apart, and the floor of that, so that the two do not print alike. */
+export function apartAgainstFloor(corners: Corners): { own: string; limit: string } {
+  const { leftMm, rightMm, floorMm } = corners;
+  if (!(floorMm > 0)) return { own: mm(apartMm(corners)), limit: mm(floorMm) };
+  return heldAgainst(apartMm(corners), leftMm - rightMm, floorMm);
 }

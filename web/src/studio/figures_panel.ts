@@ -4,13 +4,15 @@ import type { Chart } from '../charts/chart_options';
 import { TimeChart } from '../charts/time_chart';
 import { button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
-import { landmarkName, signed } from '../page/format';
 import { sides, type Side } from '../page/side_words';
-import { changeBandMm, cornerChange, cornersOf, farthestMm, mm, sameMm, valueAt, type CornerChange, type Corners } from '../replay/corners';
+import { apartAgainstFloor, bandWords, changeBandMm, cornerChange, cornersOf, farthestMm, heldAgainst, mm, sameMm, valueAt, type CornerChange, type Corners } from '../replay/corners';
 import { cornerCurves } from '../replay/curves/corner_card';
 import { symmetryCurves } from '../replay/curves/symmetry_charts';
+import { disagreement, plainFigures } from '../replay/curves/symmetry_words';
 import { chooseFace } from '../replay/face/face_chooser';
 import { nearestVertex } from '../replay/face/deform';
+import { placeWords } from '../replay/farthest';
+import { headUncertainty, headWords } from '../replay/head_pose';
 import { isNumber } from '../replay/tables/figure_table';
 import { variantsOf } from '../replay/variants';
 import { dark } from '../page/theme';
@@ -23,8 +25,6 @@ const unsureMm = 0.5;
 
 /** Remarks on the inputs of the figures. */
 const restOn = /^(landmarks|recording|sides|skin|head|symmetry|forces)\./;
-
-const plus = (value: number): string => signed(`${value > 0 ? '+' : ''}${value.toFixed(1)} mm`);
 
 export class FiguresPanel {
   private readonly table = element('table', '', 'corner-table');
@@ -58,8 +58,8 @@ export class FiguresPanel {
     this.refresh();
     const { state } = this;
     const { replay } = state.source;
-    const add = (title: string, heightPx: number, made: () => Omit<Chart, 'title'>[]) => {
-      const compact = () => made().map((chart) => ({ ...chart, caption: '', heightPx }));
+    const add = (title: string, heightPx: number, made: () => Omit<Chart, 'title'>[], caption = () => '') => {
+      const compact = () => made().map((chart) => ({ ...chart, caption: caption(), heightPx }));
       const [first] = compact();
       if (!first) return;
       const card = element('article', '', 'plot-card');
@@ -67,7 +67,8 @@ export class FiguresPanel {
       this.plots.push({ chart: new TimeChart(card, { ...first, title }, (t) => state.playback.seek(t)), made: compact });
     };
     add(words.corners, 130, () => cornerCurves(replay, state.shown));
-    add(words.symmetry, 140, () => symmetryCurves(replay, state.shown));
+    add(words.symmetry, 140, () => symmetryCurves(replay, state.shown),
+      () => [plainFigures(replay, state.shown), disagreement(replay, state.shown)].filter(Boolean).join(' '));
   }
 
   /** Called after a new motion. */
@@ -194,12 +195,16 @@ export class FiguresPanel {
   }
 
   private against(change: CornerChange): HTMLElement {
-    const { byMm, bandMm, sameWay, weaker, undecided } = change;
+    const { byMm, exactMm, bandMm, sameWay, weaker, undecided } = change;
     const sure = bandMm === null ? Math.abs(byMm) >= unsureMm : !undecided;
-    const text = bandMm === null ? words.againstBase(plus(byMm))
-      : sure ? words.againstBaseWithin(plus(byMm), bandMm.toFixed(1)) : words.undecidedChange(plus(byMm), bandMm.toFixed(1));
+    const by = bandMm === null ? mm(Math.abs(byMm)) : heldAgainst(byMm, exactMm, bandMm).own;
+    const text = words.againstBase(by, byMm > 0);
     const how = !sameWay ? words.alongBase : sure && weaker && byMm > 0 ? words.dragged : '';
-    const small = element('small', byMm === 0 ? words.asBase : [text, how].filter(Boolean).join(', '), byMm !== 0 && sure ? 'change' : 'same');
+    const parts = byMm === 0 ? [words.asBase]
+      : [bandMm !== null && !sure ? words.undecidedChange(text) : text, bandMm === null ? '' : words.band(bandWords(change)), how].filter(Boolean);
+    const small = element('small', '', byMm !== 0 && sure ? 'change' : 'same');
+    // A line breaks between the parts, not inside of them.
+    parts.forEach((part, i) => small.append(...(i > 0 ? [' '] : []), element('span', part)));
     if (bandMm !== null) small.title = words.bandHint;
     return small;
   }
@@ -212,19 +217,17 @@ export class FiguresPanel {
     const { replay } = this.state.source;
     const most = replay.faces[i].maxDifferenceMm;
     if (i === 0 || !(most >= sameMm)) return '';
-    const near = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[i].name)?.farthest_near;
-    const place = typeof near === 'string' && near ? ` ${words.nearPoint(landmarkName(near))}` : '';
+    const place = placeWords(replay, i, variantsOf(replay)?.table.find(({ name }) => name === replay.faces[i].name));
     const when = words.atTime((replay.timeS[replay.faces[i].maxDifferenceFrame] ?? 0).toFixed(3));
-    return `${words.most}: ${mm(most)}${place} ${when}`;
+    return words.most(mm(most), place, when);
   }
 
   /** Remarks on the inputs of the figures: scan, landmarks, recording, the head's pose. */
   private tellDoubts(): void {
-    const { summary } = this.state.source.replay;
-    const [shiftMm, turnDeg] = [summary.head_shift_uncertainty_mm, summary.head_turn_uncertainty_deg];
-    const floorMm = this.corners[0]?.floorMm ?? 0;
-    const head = isNumber(shiftMm) && isNumber(turnDeg) && shiftMm >= sameMm && shiftMm > floorMm
-      ? [words.headUncertain(mm(shiftMm), turnDeg.toFixed(1))] : [];
+    const { replay } = this.state.source;
+    const { summary } = replay;
+    const pose = headUncertainty(replay);
+    const head = pose ? [headWords(pose)] : [];
     const inputs = remarksOf(summary).filter(({ severity, variant, id }) => severity === 'warning' && variant === '' && restOn.test(id));
     this.doubts.replaceChildren(...[...inputs.map((remark) => sentenceOf(remark, words.remarks)), ...head].map((text) => element('li', text)));
     this.doubts.hidden = this.doubts.children.length === 0;
@@ -233,7 +236,10 @@ export class FiguresPanel {
   private tellRemark(): void {
     const own = this.corners[this.state.edited];
     if (!this.corners[0]) this.remark.textContent = words.noCorners;
-    else this.remark.textContent = own?.undecided && isNumber(own.floorMm) && own.floorMm > 0 ? words.undecided(mm(own.floorMm)) : '';
+    else if (own?.undecided && isNumber(own.floorMm) && own.floorMm > 0) {
+      const { own: apart, limit } = apartAgainstFloor(own);
+      this.remark.textContent = words.undecided(apart, limit);
+    } else this.remark.textContent = '';
     this.remark.hidden = this.remark.textContent === '';
   }
 }

@@ -44,7 +44,10 @@ class Studio {
   private readonly paint = new PaintPanel(this.state, this.edits, this.connection);
   private readonly scene = new ScenePanel(this.state, this.edits);
   private readonly figures = new FiguresPanel(this.state, at('figures-body'));
-  private readonly tabs = new Tabs(this.state, this.connection, this.edits);
+  private readonly tabs = new Tabs(this.state, this.connection, this.edits, (gain) => {
+    this.panels.show('muscles');
+    this.muscles.reveal(gain);
+  });
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'));
   private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null);
   private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null, (face, shape) => this.figures.showLive(face, shape));
@@ -52,6 +55,7 @@ class Studio {
   private readonly progress = new Progress(at('progress'));
   private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.add('note', text));
   private readonly remarks: RemarkPlaces;
+  private readonly panels: Panels;
   private stage: Stage | null = null;
   /** The scene that the motion shown is of. */
   private movedText: string | null = null;
@@ -59,7 +63,7 @@ class Studio {
   private readonly showTransport = wireTransport(this.state.source, this.state.playback, this.state.shown);
 
   constructor() {
-    new Panels(this.state, [
+    this.panels = new Panels(this.state, [
       { key: 'muscles', title: words.muscles, element: this.muscles.element },
       { key: 'tissue', title: words.tissue, element: this.tissue.element },
       { key: 'paint', title: words.paint, element: this.paint.element, seen: (now) => this.paint.seen(now) },

@@ -99,6 +99,15 @@ export class MusclesPanel implements RemarkPanel {
     });
   }
 
+  /** Brings the slider of a strength into view: "zyg_major_L". */
+  reveal(gain: string): void {
+    const handle = this.handles.get(gain);
+    if (!handle) return;
+    const group = handle.row.closest('details');
+    if (group) group.open = true;
+    handle.row.scrollIntoView({ block: 'center' });
+  }
+
   private head(): HTMLElement {
     const head = element('div', '', 'strength-head');
     head.append(element('span', words.strengths));

@@ -41,6 +41,10 @@ export class Panels {
     state.shown.onChange(() => this.showWhose());
   }
 
+  show(key: string): void {
+    this.choose(this.panels.findIndex((panel) => panel.key === key));
+  }
+
   private choose(chosen: number): void {
     const scroller = at('panels');
     const before = this.panels.findIndex(({ element: panel }) => !panel.hidden);

@@ -21,7 +21,11 @@ export class Tabs {
   private faceMenus: Menu[] = [];
   private built = '';
 
-  constructor(private readonly state: StudioState, private readonly connection: Connection, private readonly edits: Edits) {
+  /** `strengthChanged`: a face was made with another strength of what muscles.gain so names. */
+  constructor(
+    private readonly state: StudioState, private readonly connection: Connection, private readonly edits: Edits,
+    private readonly strengthChanged: (gain: string) => void,
+  ) {
     state.sceneChanged.add(() => this.build());
     state.shown.onChange(() => this.show());
     // Colours come with the first face.
@@ -174,6 +178,7 @@ export class Tabs {
         const face = await this.edits.addFace(briefName(changes, values, this.state.muscles) || words.newVariant, 0);
         this.focus(face);
         await this.edits.change(face, changes);
+        this.strengthChanged(gain);
       });
     });
     return form;

@@ -1,33 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first figures of the page: both corners of the mouth in words and over time, and a line for each variant.
 import type { Chart } from '../../charts/chart_options';
-import { changeSentence, cornerChange, cornersOf, differenceWords, farthestMm, mm, sameMm, type CornerChange, type Corners } from '../corners';
+import { apartAgainstFloor, bandWords, changeSentence, cornerChange, cornersOf, differenceWords, farthestMm, mm, sameMm, type CornerChange, type Corners } from '../corners';
 import type { Replay } from '../data';
-import { button, element } from '../../page/dom';
+import { button, element, unbroken } from '../../page/dom';
 import type { Undo } from '../../page/listeners';
 import { faceColour, leftHue, rightHue } from '../../page/face_colour';
-import { faceWords, landmarkName } from '../../page/format';
+import { faceWords } from '../../page/format';
 import { letterOf, sides, type Side } from '../../page/side_words';
 import { chooseFace } from '../face/face_chooser';
+import { farthestSentences } from '../farthest';
+import { headUncertainty, headWords } from '../head_pose';
 import type { Shown } from '../shown';
 import { isNumber } from '../tables/figure_table';
 import { variantsOf, type VariantRow } from '../variants';
 
 /** Where the floor comes from, in words. */
-function floorWords(replay: Replay, { floorMm, undecided }: Corners): string {
+function floorWords(replay: Replay, corners: Corners): string {
+  const { floorMm, undecided } = corners;
   const jitter = replay.symmetry?.jitter_mm ?? 0;
-  const mesh = meshFloorWhy(replay);
-  if (!(floorMm > 0)) return mesh || 'Largest distance from rest. No floor is known: the recording is exact.';
+  if (!(floorMm > 0)) return meshFloorWhy(replay) || 'No floor is known: the recording is exact.';
+  const { limit } = apartAgainstFloor(corners);
   const made = jitter > 0 ? 'what jitter and the mesh make' : 'what the mesh makes';
   const why = jitter > 0 ? `Jitter of the recorded points: ${jitter.toFixed(2)} mm; the notes say where it comes from.` : 'No jitter of the recording was weighed: none is stated, and none shows.';
-  const verdict = undecided ? `Undecided: a difference of the sides below ${mm(floorMm)} cannot be told from ${made}.`
-    : `The sides differ by more than ${made}, ${mm(floorMm)}. Repeated smiles of one person differ, too: by how much this floor does not say.`;
-  return `Largest distance from rest. ${verdict} ${why}`;
+  const verdict = undecided ? `Undecided: a difference of the sides below ${limit} cannot be told from ${made}.`
+    : `The sides differ by more than ${made}, ${limit}. Repeated smiles of one person differ, too: by how much this floor does not say.`;
+  return `${verdict} ${why}`;
 }
 
 function meshFloorWhy(replay: Replay): string {
   const floor = (replay.summary.symmetry as { mesh_floor?: { known?: boolean; why?: string } } | undefined)?.mesh_floor;
-  return floor?.known === false && floor.why ? `Largest distance from rest. ${floor.why}` : '';
+  return (floor?.known === false && floor.why) || '';
 }
 
 function sideWords(side: Side, valueMm: number): HTMLElement {
@@ -42,26 +45,54 @@ function mostChanged(replay: Replay, face: number): CornerChange | null {
   return changes.sort((a, b) => Math.abs(b.byMm) - Math.abs(a.byMm))[0] ?? null;
 }
 
-/** For base the difference of the sides; for a variant its change, and of which side: a weak side that is dragged
- *  farther must not make the other one look weak. */
-function verdictOf(replay: Replay, face: number, corners: Corners): { text: string; undecided: boolean } {
-  const change = face > 0 ? mostChanged(replay, face) : null;
-  if (!change) return { text: differenceWords(corners), undecided: corners.undecided };
-  if (change.byMm === 0) return { text: 'both corners go as in base', undecided: false };
-  const text = `${change.side} ${changeSentence(change)}`;
-  return { text: change.undecided ? `${text}: undecided (below ${mm(change.bandMm!)})` : text, undecided: change.undecided };
+interface Verdict {
+  text: string;
+  undecided: boolean;
 }
 
-function headline(replay: Replay, face: number, corners: Corners): HTMLElement {
+/** What a variant changes, and of which side: a weak side that is dragged farther must not make the other one look
+ *  weak. Null for base. */
+function changeVerdict(replay: Replay, face: number): Verdict | null {
+  const change = face > 0 ? mostChanged(replay, face) : null;
+  if (!change) return null;
+  if (change.byMm === 0) return { text: 'both corners go as in base', undecided: false };
+  const text = `${change.side} ${changeSentence(change)}`;
+  if (change.undecided) return { text: `${text}: undecided (below ${bandWords(change)})`, undecided: true };
+  return { text: change.bandMm === null ? text : `${text} (± ${bandWords(change)})`, undecided: false };
+}
+
+function strong({ text, undecided }: Verdict): HTMLElement {
+  const made = element('strong');
+  made.append(...unbroken(text));
+  made.classList.toggle('undecided', undecided);
+  return made;
+}
+
+/** Both corners and, for base, their difference. A variant answers two questions, which are told apart by their names:
+ *  what it changes, and whether its sides differ. */
+function headlines(replay: Replay, face: number, corners: Corners): HTMLElement[] {
   const line = element('p', '', 'headline');
   line.id = 'headline';
-  const { text, undecided } = verdictOf(replay, face, corners);
-  const verdict = element('strong', text);
-  verdict.classList.toggle('undecided', undecided);
   const [right, left] = sides.map((side) => sideWords(side, farthestMm(corners, side)));
-  line.append(right, ', ', left, ': ', verdict);
-  return line;
+  line.append(right, ', ', left);
+  const apart: Verdict = { text: differenceWords(corners), undecided: corners.undecided };
+  const change = changeVerdict(replay, face);
+  if (!change) {
+    line.append(': ', strong(apart));
+    return [line];
+  }
+  const answers = element('dl', '', 'answers');
+  for (const [question, verdict] of [['Change against base', change], ['Difference of the sides', apart]] as const) {
+    const answer = element('dd');
+    answer.append(strong(verdict));
+    answers.append(element('dt', question), answer);
+  }
+  return [line, answers];
 }
+
+/** A sentence on what the figures above are. */
+const whatWords = (replay: Replay, face: number): string =>
+  `These are the largest distances of both corners from rest${replay.faces.length > 1 ? ` in ${faceWords(replay.faces, face)}` : ''}.`;
 
 /** "up to 3.7 mm from base at 1.93 s" of the side with the larger distance, which greatest excursions may hide. */
 function onTheWay(row: VariantRow | undefined, changeMm: number): string {
@@ -79,15 +110,14 @@ function againstBase(replay: Replay, face: number, row: VariantRow | undefined):
   if (!change) return '';
   const path = onTheWay(row, change.byMm);
   if (Math.abs(change.byMm) < sameMm) return path && `greatest excursions as in base; ${path}`;
-  const band = change.bandMm === null ? '' : ` (± ${mm(change.bandMm)}${change.undecided ? ', undecided' : ''})`;
+  const band = change.bandMm === null ? '' : ` (± ${bandWords(change)}${change.undecided ? ', undecided' : ''})`;
   return `${change.side} corner ${mm(change.toMm)}, ${changeSentence(change)}${band}${path && `; ${path}`}`;
 }
 
 /** Where the tissue shows when the corners are driven. */
-function elsewhere(row: VariantRow): string {
-  const { farthest_near: near, displacement_there_mm: here, base_displacement_there_mm: there } = row;
-  if (typeof near !== 'string' || near === '' || !isNumber(here) || !isNumber(there)) return 'moves as base';
-  return `corners as base; most changed near ${landmarkName(near)}: ${mm(here)} instead of ${mm(there)}`;
+function elsewhere(replay: Replay, face: number, row: VariantRow): string {
+  const [where] = farthestSentences(replay, face, row);
+  return where ? `corners as base. ${where}` : 'moves as base';
 }
 
 function variantLines(replay: Replay, shown: Shown, base: Corners): HTMLElement | null {
@@ -104,7 +134,7 @@ function variantLines(replay: Replay, shown: Shown, base: Corners): HTMLElement 
     const dot = element('i');
     dot.style.background = faceColour(i);
     face.append(dot, name);
-    item.append(face, ': ', words[i] || (row ? elsewhere(row) : 'corners as base'));
+    item.append(face, ': ', ...unbroken(words[i] || (row ? elsewhere(replay, i, row) : 'corners as base')));
     list.append(item);
   });
   const box = element('div');
@@ -124,11 +154,11 @@ export function cornerCurves(replay: Replay, shown: Shown): Omit<Chart, 'title'>
     caption: '', unit: ' mm', digits: 1, timeS: base.timeS, yLabel: 'from rest (mm)', heightPx: 165,
     curves: faces.flatMap((face, k) => {
       const own = cornersOf(replay, face)!;
-      const of = faces.length > 1 ? ` of ${faceWords(replay.faces, face)}` : '';
-      const file = several ? ` of ${replay.faces[face].name} (mm)` : ' (mm)';
+      const whose = faces.length > 1 ? `${faceWords(replay.faces, face)}: ` : '';
+      const file = several ? `${replay.faces[face].name}: ` : '';
       return [
-        { label: `right${of}`, column: `right${file}`, values: own.right, hue: rightHue(), broken: k > 0 },
-        { label: `left${of}`, column: `left${file}`, values: own.left, hue: leftHue(), broken: k > 0 },
+        { label: `${whose}right corner`, column: `${file}right corner (mm)`, values: own.right, hue: rightHue(), broken: k > 0 },
+        { label: `${whose}left corner`, column: `${file}left corner (mm)`, values: own.left, hue: leftHue(), broken: k > 0 },
       ];
     }),
   }];
@@ -140,16 +170,19 @@ export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement)
   card.classList.add('corners');
   const line = element('div', '', 'said');
   const floor = element('p', '', 'floor');
+  const pose = headUncertainty(replay);
+  const head = element('p', '', 'head-pose');
+  head.append(...unbroken(pose ? headWords(pose) : ''));
+  head.hidden = !pose;
   const show = () => {
     const face = shown.visible[shown.visible.length - 1];
     const corners = cornersOf(replay, face)!;
-    line.replaceChildren(headline(replay, face, corners));
-    const whose = replay.faces.length > 1 ? `Of ${faceWords(replay.faces, face)}. ` : '';
-    floor.textContent = whose + floorWords(replay, corners);
+    line.replaceChildren(...headlines(replay, face, corners));
+    floor.replaceChildren(...unbroken(`${whatWords(replay, face)} ${floorWords(replay, corners)}`));
   };
   show();
   const unfollow = shown.onChange(show);
-  card.querySelector('.plot-head')!.after(line, floor);
+  card.querySelector('.plot-head')!.after(line, head, floor);
   const lines = variantLines(replay, shown, cornersOf(replay, 0)!);
   if (lines) card.append(lines);
   return unfollow;

@@ -2,7 +2,7 @@
 // How far one corner of the mouth is from rest, in base and in each of its variants, so that their losses can be
 // compared.
 import type { Chart } from '../../charts/chart_options';
-import { cornersOf, farthestMm, type Corners } from '../corners';
+import { cornersOf, type Corners } from '../corners';
 import type { Replay } from '../data';
 import { element } from '../../page/dom';
 import { faceHue } from '../../page/face_colour';
@@ -10,14 +10,26 @@ import { faceWords } from '../../page/format';
 import { sides, type Side } from '../../page/side_words';
 import type { Shown } from '../shown';
 
+/** How far apart two curves are at most, mm. */
+const apartMm = (a: (number | null)[], b: (number | null)[]): number =>
+  Math.max(0, ...a.map((v, f) => (v === null || b[f] == null ? 0 : Math.abs(v - b[f]))));
 
-/** Begins with the side that variants change more. */
+/** Until the reader chooses a side, that whose curve the variants shown change most; of base, that which any does. */
 export class ExcursionCurves {
-  side: Side;
+  private chosen: Side | null = null;
 
-  private constructor(private readonly replay: Replay, private readonly shown: Shown, private readonly faces: Corners[]) {
-    const change = (side: Side) => Math.max(...faces.map((own) => Math.abs(farthestMm(own, side) - farthestMm(faces[0], side))));
-    this.side = change('left') > change('right') ? 'left' : 'right';
+  private constructor(private readonly replay: Replay, private readonly shown: Shown, private readonly faces: Corners[]) {}
+
+  get side(): Side {
+    if (this.chosen) return this.chosen;
+    const variants = this.shown.visible.filter((i) => i > 0);
+    const of = variants.length > 0 ? variants.map((i) => this.faces[i]) : this.faces;
+    const change = (side: Side) => Math.max(...of.map((own) => apartMm(own[side], this.faces[0][side])));
+    return change('left') > change('right') ? 'left' : 'right';
+  }
+
+  choose(side: Side): void {
+    this.chosen = side;
   }
 
   /** Null without variants, and where the run has no points at the corners. */
@@ -32,15 +44,15 @@ export class ExcursionCurves {
       caption: `Distance of the ${this.side} corner from where it was in the first frame.`,
       unit: ' mm', digits: 1, timeS: this.faces[0].timeS, yLabel: 'from rest (mm)', heightPx: 210,
       curves: this.faces.map((own, i) => ({
-        label: faceWords(this.replay.faces, i), column: `${this.side} corner of ${this.replay.faces[i].name} (mm)`,
+        label: faceWords(this.replay.faces, i), column: `${this.replay.faces[i].name}: ${this.side} corner (mm)`,
         values: own[this.side], hue: faceHue(i), strong: this.shown.visible.includes(i),
       })),
     };
   }
 }
 
-/** `changed` is called after each choice. */
-export function sideChooser(curves: ExcursionCurves, changed: () => void): HTMLElement {
+/** `changed` is called after each choice. The second function shows the side that the curves are of. */
+export function sideChooser(curves: ExcursionCurves, changed: () => void): { box: HTMLElement; show: () => void } {
   const label = element('label', '', 'one-of-chooser');
   const select = document.createElement('select');
   for (const side of sides) {
@@ -48,11 +60,12 @@ export function sideChooser(curves: ExcursionCurves, changed: () => void): HTMLE
     option.setAttribute('value', side);
     select.append(option);
   }
-  select.value = curves.side;
+  const show = () => void (select.value = curves.side);
+  show();
   select.addEventListener('change', () => {
-    curves.side = select.value as Side;
+    curves.choose(select.value as Side);
     changed();
   });
   label.append(element('span', 'Corner'), select);
-  return label;
+  return { box: label, show };
 }

@@ -38,11 +38,11 @@ export class MuscleCurves {
       caption: caption.trim(), unit: '', digits: 2, timeS: this.muscles.timeS, yLabel: 'activation', heightPx: 200,
       curves: visible.flatMap((face, k) => {
         const { left, right } = this.faces[face].muscles[this.order[this.chosen]];
-        const of = visible.length > 1 ? ` of ${faceWords(this.faces, face)}` : '';
-        const file = several ? ` of ${this.faces[face].name} (1)` : ' (1)';
+        const whose = visible.length > 1 ? `${faceWords(this.faces, face)}: ` : '';
+        const file = `${several ? `${this.faces[face].name}: ` : ''}${name}`;
         return [
-          { label: `right${of}`, column: `${name}, right${file}`, values: right, hue: rightHue(), broken: k > 0 },
-          { label: `left${of}`, column: `${name}, left${file}`, values: left, hue: leftHue(), broken: k > 0 },
+          { label: `${whose}right`, column: `${file}, right (1)`, values: right, hue: rightHue(), broken: k > 0 },
+          { label: `${whose}left`, column: `${file}, left (1)`, values: left, hue: leftHue(), broken: k > 0 },
         ];
       }),
     };

@@ -58,7 +58,9 @@ export class Plots {
     const curves = ExcursionCurves.of(replay, this.shown);
     if (!curves) return;
     const plot = this.add('A corner of the mouth in all variants', () => [curves.now])!;
-    plot.card.append(sideChooser(curves, () => plot.change(curves.now)));
+    const { box, show } = sideChooser(curves, () => plot.change(curves.now));
+    plot.card.append(box);
+    this.undoing.add(this.shown.onChange(show));
   }
 
   private addMuscles({ muscles, faces }: Replay): void {

@@ -7,6 +7,7 @@ import { faceHue, leftHue, rightHue } from '../../page/face_colour';
 import { faceWords, signed } from '../../page/format';
 import type { SymmetryCurve } from '../manifest';
 import type { Shown } from '../shown';
+import { disagreement, plainFigures } from './symmetry_words';
 
 type Part = Omit<Chart, 'title'>;
 
@@ -69,14 +70,17 @@ export function symmetryCurves(replay: Replay, shown: Shown): Part[] {
   const floor = floorOf(replay.faces[shown.first].symmetry ?? own);
   const faces = facesWithCurve(replay);
   return [{
-    caption: `S = ln |ξL − ξR|: smaller is more symmetric; it does not say which side moves more. ${floor.caption}`,
+    caption: [
+      plainFigures(replay, shown), disagreement(replay, shown),
+      `S = ln |ξL − ξR|: smaller is more symmetric; it does not say which side moves more. ${floor.caption}`,
+    ].filter(Boolean).join(' '),
     unit: '', digits: 2, timeS: own.time_s, yLabel: 'S (natural logarithm)', heightPx: several ? 250 : 200,
     range: rangeOf(own, [floor.curve.values, ...faces.map(({ curve }) => curve.s)]),
     curves: [
       floor.curve,
       ...faces.map(({ i, curve }) => ({
         label: several ? faceWords(replay.faces, i) : 'S',
-        column: several ? `S (ln) of ${replay.faces[i].name}` : 'S (ln)',
+        column: several ? `${replay.faces[i].name}: S (ln)` : 'S (ln)',
         values: curve.s, hue: faceHue(i), strong: several && shown.visible.includes(i),
       })),
     ],
@@ -96,11 +100,11 @@ export function stretchCurves(replay: Replay, shown: Shown): Part[] {
     unit: '', digits: 4, timeS: own.time_s, yLabel: 'ξ (relative change)', heightPx: 200,
     curves: faces.flatMap(({ i, curve }) => {
       const broken = !one && i !== shown.first;
-      const of = one ? '' : ` of ${faceWords(replay.faces, i)}`;
-      const file = several ? ` of ${replay.faces[i].name} (1)` : ' (1)';
+      const whose = one ? '' : `${faceWords(replay.faces, i)}: `;
+      const file = several ? `${replay.faces[i].name}: ` : '';
       return [
-        { label: `ξR${of}`, column: `ξR${file}`, values: curve.xi_right, hue: rightHue(), broken },
-        { label: `ξL${of}`, column: `ξL${file}`, values: curve.xi_left, hue: leftHue(), broken },
+        { label: `${whose}ξR`, column: `${file}ξR (1)`, values: curve.xi_right, hue: rightHue(), broken },
+        { label: `${whose}ξL`, column: `${file}ξL (1)`, values: curve.xi_left, hue: leftHue(), broken },
       ];
     }),
   }];
@@ -120,7 +124,7 @@ export function addedCurves(replay: Replay, shown: Shown): Part[] {
       'This is what tissue changes; S(t) of a simulated face also holds what its mesh makes uneven (docs/symmetry.md).',
     unit: '', digits: 4, timeS: own.time_s, yLabel: 'Δ(ξL − ξR) (relative change)', heightPx: 210,
     curves: faces.map(({ i, curve }) => ({
-      label: faceWords(replay.faces, i), column: `Delta(xi_L - xi_R) of ${replay.faces[i].name} (1)`,
+      label: faceWords(replay.faces, i), column: `${replay.faces[i].name}: Delta(xi_L - xi_R) (1)`,
       values: apart(curve).map((d, f) => (d === null || itself[f] === null ? null : d - itself[f]!)),
       hue: faceHue(i), strong: i > 0 && shown.visible.includes(i),
     })),

@@ -72,10 +72,10 @@ export class TrackCurves {
     const which =
       second !== undefined && second !== first
         ? ` Solid: ${faceWords(faces, first)}; dashed: ${faceWords(faces, second)}.`
-        : faces.length > 1 ? ` Of ${faceWords(faces, first)}.` : '';
+        : faces.length > 1 ? ` These are the tracks of ${faceWords(faces, first)}.` : '';
     const curves = this.curvesOf(first, '', false);
     if (second !== undefined && second !== first)
-      curves.push(...this.curvesOf(second, `, ${faceWords(faces, second)}`, true));
+      curves.push(...this.curvesOf(second, `${faceWords(faces, second)}: `, true));
     return {
       caption: `Distance of points on the skin from where they were in the first frame.${which}`,
       unit: ' mm', digits: 2, yLabel: 'distance (mm)', heightPx: 210, timeS: this.replay.landmarks.timeS, curves,
@@ -88,16 +88,16 @@ export class TrackCurves {
     return known;
   }
 
-  private curvesOf(face: number, ending: string, broken: boolean): Curve[] {
+  private curvesOf(face: number, whose: string, broken: boolean): Curve[] {
     const { faces, landmarks } = this.replay;
     const tracks = this.of(face);
-    const file = faces.length > 1 ? ` of ${faces[face].name} (mm)` : ' (mm)';
+    const file = faces.length > 1 ? `${faces[face].name}: ` : '';
     let others = 0;
     return [...this.chosen].map((point) => {
       const name = landmarks.names[point];
       const side = sideOfCorner(name);
       const hue = side === 'L' ? leftHue() : side === 'R' ? rightHue() : otherHue(others++);
-      return { label: landmarkName(name) + ending, column: name + file, values: tracks[point], hue, broken };
+      return { label: whose + landmarkName(name), column: `${file}${name} (mm)`, values: tracks[point], hue, broken };
     });
   }
 }

@@ -27,6 +27,8 @@ export interface Painting {
   fill(shape: FaceShape, out: Float32Array, other: FaceShape | null): void;
   /** Whether a face's colours depend on the other face, too. */
   together?: boolean;
+  /** What the colours must not be taken for. */
+  caution?: string;
   /** Explains the colours of a face where they need it. */
   note(face: Face): string;
 }
@@ -101,6 +103,7 @@ function asymmetryOfMotion(replay: Replay, mirror: NonNullable<Replay['mirror']>
     return {
       scale: { ramp: 'plum', title: 'Asymmetry of the motion', unit: 'mm', least: 0, greatest, remark },
       fill: (shape, out) => asymmetry(mirror, shape.displacement, 1e3 / greatest, out),
+      caution: 'The map cannot show which side is weak.',
       note: without,
     };
   };

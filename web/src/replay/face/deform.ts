@@ -79,6 +79,13 @@ export function displace(replay: Replay, scene: SceneMotion, face: Face, frame: 
   addModes(face.difference.modes, face.difference.weights, frame, replay.timeS.length, out);
 }
 
+/** What a face's displacements in a frame are more than those of base, metres. */
+export function differenceAt({ points, timeS }: Replay, { difference }: Face, frame: number): Float32Array {
+  const out = new Float32Array(points.length);
+  if (difference) addModes(difference.modes, difference.weights, frame, timeS.length, out);
+  return out;
+}
+
 /** One face's skin at any time. */
 export class FaceShape {
   readonly displacement: Float32Array; // metres

@@ -18,14 +18,19 @@ export interface PictureParts {
   /** Where two faces are divided, from 0 to 1. */
   divided: number | null;
   colours: Scale | null;
+  /** What a reader of the figures must know, a line each. */
+  cautions: string[];
 }
 
 const margin = 18;
 const headHeight = 58;
-const footHeight = 76;
+const barWidth = 340;
+const barHeight = 76;
 const remarkHeight = 16;
-/** Of what a face changes; the face is below. */
-const mostLines = 8;
+/** Of the words in the foot, and of those below a face. */
+const lineHeight = 16;
+/** Of what is told of a face. */
+const mostLines = 14;
 const bandWords = '±: from jitter (95 %) and mesh (one sample) alone.';
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
@@ -91,83 +96,99 @@ function drawBackground(pen: Pen, stageHeight: number): void {
   on.restore();
 }
 
-function drawName(pen: Pen, face: PictureParts['faces'][number], x: number, most: number, right: boolean): void {
-  const { on } = pen;
-  const y = headHeight + 12;
-  const small = most < 220; // no room for what differs
-  const px = small ? 12 : 14;
-  on.font = `600 ${px}px ${family}`;
-  const nameWidth = on.measureText(face.name).width + 19;
-  on.font = `400 12px ${family}`;
-  const lines = small ? [] : face.changes.flatMap((text) => linesOf(on, text, most - 20));
-  if (lines.length > mostLines) lines.splice(mostLines - 1, Infinity, `${lines[mostLines - 1]} …`);
-  const inner = Math.min(Math.max(nameWidth, ...lines.map((line) => on.measureText(line).width)), most - 20);
-  const left = right ? x + most - inner - 20 : x;
-  on.globalAlpha = 0.85;
-  pen.fill(pen.colour('--card'), left, y, inner + 20, lines.length > 0 ? 30 + 16 * lines.length : 29, 8);
-  on.globalAlpha = 1;
-  pen.fill(face.colour, left + 10, y + 9, 11, 11, 5.5);
-  pen.text(face.name, left + 29, y + 15, px, pen.colour('--ink'), { weight: 600, most: inner - 18 });
-  lines.forEach((line, i) => pen.text(line, left + 10, y + 34 + 16 * i, 12, pen.colour('--ink-soft'), { most: inner + 1 }));
+/** What is told of a face below it: its name and its figures. */
+interface Caption {
+  face: PictureParts['faces'][number];
+  lines: string[];
+}
+
+/** `most`: the width for each, in pixels. */
+const captionsOf = (pen: Pen, faces: PictureParts['faces'], most: number): Caption[] =>
+  faces.map((face) => {
+    pen.on.font = `400 12px ${family}`;
+    const lines = face.changes.flatMap((text) => linesOf(pen.on, text, most));
+    if (lines.length > mostLines) lines.splice(mostLines - 1, Infinity, `${lines[mostLines - 1]} …`);
+    return { face, lines };
+  });
+
+const captionHeight = (captions: Caption[]): number =>
+  captions.length > 0 ? 36 + lineHeight * Math.max(...captions.map(({ lines }) => lines.length)) : 0;
+
+function drawCaption(pen: Pen, { face, lines }: Caption, x: number, top: number, most: number): void {
+  pen.fill(face.colour, x, top + 12, 11, 11, 5.5);
+  pen.text(face.name, x + 19, top + 18, 14, pen.colour('--ink'), { weight: 600, most: most - 19 });
+  lines.forEach((line, i) => pen.text(line, x, top + 38 + lineHeight * i, 12, pen.colour('--ink-soft')));
 }
 
 function drawScale(pen: Pen, scale: Scale, top: number): void {
   const { on, width } = pen;
-  const barWidth = Math.min(340, width - 2 * margin);
-  const x = width - margin - barWidth;
-  const fade = on.createLinearGradient(x, 0, x + barWidth, 0);
+  const long = Math.min(barWidth, width - 2 * margin);
+  const x = width - margin - long;
+  const fade = on.createLinearGradient(x, 0, x + long, 0);
   const stops = rampStops(scale.ramp);
   stops.forEach((stop, i) => fade.addColorStop(i / (stops.length - 1), stop));
-  pen.text(`${scale.title}, ${scale.unit}`, x, top + 15, 13, pen.colour('--ink'), { weight: 600, most: barWidth });
-  pen.fill(fade, x, top + 27, barWidth, 11, 3);
+  pen.text(`${scale.title}, ${scale.unit}`, x, top + 15, 13, pen.colour('--ink'), { weight: 600, most: long });
+  pen.fill(fade, x, top + 27, long, 11, 3);
   ticksOf(scale).forEach(({ text, share }) => {
     const align = share === 0 ? 'left' : share === 1 ? 'right' : 'center';
-    pen.text(text, x + share * barWidth, top + 50, 12, pen.colour('--ink-soft'), { align });
+    pen.text(text, x + share * long, top + 50, 12, pen.colour('--ink-soft'), { align });
   });
-  pen.text(scale.remark, x, top + 68, 12, pen.colour('--ink-soft'), { most: barWidth });
+  pen.text(scale.remark, x, top + 68, 12, pen.colour('--ink-soft'), { most: long });
 }
 
+/** The words in the foot, as lines; beside the colour bar where there is room for both. */
+function footOf(pen: Pen, { faces, colours, cautions }: PictureParts): { lines: string[]; below: number; height: number } {
+  const narrow = pen.width < 620;
+  const uncertain = faces.some(({ changes }) => changes.some((text) => text.includes('±')));
+  const words = [
+    ...(narrow ? ['Made by Hyperex, a research tool and no medical device.'] : ['Made by Hyperex', 'A research tool and no medical device.']),
+    ...(uncertain ? [bandWords] : []), ...cautions,
+  ];
+  pen.on.font = `400 12px ${family}`;
+  const room = pen.width - 2 * margin - (colours && !narrow ? barWidth + margin : 0);
+  const lines = words.flatMap((text) => linesOf(pen.on, text, room));
+  const bar = colours ? barHeight + (colours.remark ? remarkHeight : 0) : 0;
+  const below = narrow ? bar : 0;
+  return { lines, below, height: Math.max(bar, below + 24 + lineHeight * lines.length) };
+}
+
+/** A line between two faces, through the stage alone. */
+function drawDivision(pen: Pen, divided: number, stageHeight: number): void {
+  const x = Math.min(Math.max(divided * pen.width, 2), pen.width - 2);
+  pen.on.globalAlpha = 0.65;
+  pen.fill(pen.colour('--card'), x - 1.75, headHeight, 3.5, stageHeight);
+  pen.on.globalAlpha = 1;
+  pen.fill(pen.colour('--ink'), x - 0.75, headHeight, 1.5, stageHeight);
+}
+
+/** From the top: title and time, the stage, what is told of each face, the foot. Nothing lies over a face. */
 export function drawPicture(parts: PictureParts): HTMLCanvasElement {
   const { stage, scale, faces, divided } = parts;
   const width = stage.width / scale;
   const stageHeight = stage.height / scale;
-  // Beside the bar there is no room for words in a narrow picture.
-  const narrow = width < 620;
-  const foot = footHeight + (narrow && parts.colours ? 30 : 0) + (parts.colours?.remark ? remarkHeight : 0);
-  const pen = new Pen(width, headHeight + stageHeight + foot, scale);
+  const column = faces.length > 1 ? width / 2 : width;
+  const most = column - 2 * margin;
+  // Its size depends on how the texts break, which a pen must measure.
+  const measuring = new Pen(width, 1, 1);
+  const captions = captionsOf(measuring, faces, most);
+  const foot = footOf(measuring, parts);
+  const captionTop = headHeight + stageHeight;
+  const footTop = captionTop + captionHeight(captions);
+  const pen = new Pen(width, footTop + foot.height, scale);
   drawBackground(pen, stageHeight);
   pen.on.drawImage(stage, 0, headHeight, width, stageHeight);
 
-  const ink = pen.colour('--ink');
+  const [ink, soft] = [pen.colour('--ink'), pen.colour('--ink-soft')];
   drawSideMarks(pen.on, parts.marks.map((mark) => ({ ...mark, y: headHeight + mark.y })), ink, pen.colour('--card'));
-  const soft = pen.colour('--ink-soft');
   pen.on.font = `400 14px ${family}`;
   const timeWidth = pen.on.measureText(parts.time).width;
-  pen.text(parts.title, margin, headHeight / 2, narrow ? 16 : 19, ink, { weight: 650, most: width - 3 * margin - timeWidth });
+  pen.text(parts.title, margin, headHeight / 2, width < 620 ? 16 : 19, ink, { weight: 650, most: width - 3 * margin - timeWidth });
   pen.text(parts.time, width - margin, headHeight / 2, 14, soft, { align: 'right' });
-
-  if (divided !== null) {
-    const x = Math.min(Math.max(divided * width, 2), width - 2);
-    pen.on.globalAlpha = 0.65;
-    pen.fill(pen.colour('--card'), x - 1.75, headHeight, 3.5, stageHeight);
-    pen.on.globalAlpha = 1;
-    pen.fill(ink, x - 0.75, headHeight, 1.5, stageHeight);
-  }
-  const room = (faces.length > 1 ? width / 2 : width) - 24;
-  faces.forEach((face, i) => drawName(pen, face, i === 0 ? 12 : width / 2 + 12, room, i > 0));
-
-  const top = headHeight + stageHeight;
-  if (parts.colours) drawScale(pen, parts.colours, top);
-  const uncertain = faces.some(({ changes }) => changes.some((text) => text.includes('±')));
-  const words = narrow && parts.colours ? top + foot - 18 : top + 24;
-  if (narrow) {
-    pen.text('Made by Hyperex, a research tool and no medical device.', margin, words, 11, soft, { most: width - 2 * margin });
-    if (uncertain) pen.text(bandWords, margin, words + 13, 11, soft);
-  } else {
-    pen.text('Made by Hyperex', margin, words, 12, soft);
-    pen.text('A research tool and no medical device.', margin, words + 20, 12, soft);
-    if (uncertain) pen.text(bandWords, margin, words + 40, 12, soft);
-  }
+  if (divided !== null) drawDivision(pen, divided, stageHeight);
+  captions.forEach((caption, i) => drawCaption(pen, caption, margin + i * column, captionTop, most));
+  if (captions.length > 0) pen.fill(pen.colour('--line'), margin, footTop - 0.5, width - 2 * margin, 1);
+  if (parts.colours) drawScale(pen, parts.colours, footTop);
+  foot.lines.forEach((line, i) => pen.text(line, margin, footTop + foot.below + 20 + lineHeight * i, 12, soft));
   return pen.canvas;
 }
 

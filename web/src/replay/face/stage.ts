@@ -10,6 +10,7 @@ import { faceHue } from '../../page/face_colour';
 import { faceWords } from '../../page/format';
 import type { Key } from '../keys';
 import { cornerFigures } from '../corners';
+import { headCaption, headUncertainty } from '../head_pose';
 import { drawPicture, pngOf } from './picture';
 import type { Playback } from '../playback';
 import { fileName, save, subject } from '../../page/save';
@@ -23,6 +24,9 @@ import { FaceViewer } from './viewer';
 import { WipeHandle } from './wipe_handle';
 
 const pictureScale = 2;
+
+/** What the pointer does, which stands in the list of keys for want of another. */
+const byPointer = { when: () => false, act: () => {} };
 
 export class Stage {
   private viewer: FaceViewer | null = null;
@@ -146,6 +150,9 @@ export class Stage {
         shown: 'Shift and arrows', does: 'turn the face',
         when: (event) => event.shiftKey && turns.has(event.key), act: (event) => turns.get(event.key)!(),
       },
+      { shown: 'Drag', does: 'turn the face', ...byPointer },
+      { shown: 'Right-drag', does: 'move the picture; on a touch screen with two fingers', ...byPointer },
+      { shown: 'Wheel', does: 'nearer, farther where the pointer is; of faces side by side in their middle', ...byPointer },
       { shown: '+ or -', does: 'nearer, farther', when: ['+', '=', '-'], act: ({ key }) => viewer.view.zoom(key === '-' ? 1 / 1.15 : 1.15) },
       { shown: 'f', does: 'from the front', when: ['f'], act: () => at('views').querySelector('button')!.click() },
       {
@@ -202,6 +209,9 @@ export class Stage {
     this.painting = painting;
     this.viewer!.paintAs(painting);
     drawColourBar(at('colour-bar'), painting.scale);
+    const caution = at('colour-caution');
+    caution.textContent = painting.caution ?? '';
+    caution.hidden = !painting.caution;
     this.sayOfFaces((face) => painting.note(face));
   }
 
@@ -261,6 +271,7 @@ export class Stage {
     const { replay, shown, timeS, wipe } = this;
     const { palette } = theme();
     const named = replay.faces.length > 1 ? shown.visible : [];
+    const pose = headUncertainty(replay);
     const picture = drawPicture({
       stage: this.viewer!.snapshot(pictureScale),
       scale: pictureScale,
@@ -274,6 +285,7 @@ export class Stage {
       })),
       divided: shown.mode === 'single' ? null : shown.mode === 'wipe' ? wipe!.at : 0.5,
       colours: this.painting.scale,
+      cautions: [...(pose ? [headCaption(pose)] : []), ...(this.painting.caution ? [this.painting.caution] : [])],
     });
     const faces = named.map((i) => replay.faces[i].name);
     save(await pngOf(picture), fileName(subject(), ...faces, `${timeS.toFixed(3)} s`, 'png'));

@@ -23,6 +23,12 @@ export class ViewCamera {
     this.controls.addEventListener('change', moved);
   }
 
+  /** Whether the wheel zooms about the pointer. Where two faces are side by side it cannot: the controls take the whole
+   *  canvas for one picture. */
+  set zoomsAtPointer(on: boolean) {
+    this.controls.zoomToCursor = on;
+  }
+
   lookFrom(view: View): void {
     const yaw = radians(yawDegrees[view]);
     const from = new Vector3(Math.sin(yaw), 0.04, Math.cos(yaw)).normalize();

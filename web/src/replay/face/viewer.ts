@@ -272,6 +272,7 @@ export class FaceViewer {
     if (width === 0 || height === 0) return;
     this.renderer.setPixelRatio(this.pace.ratio);
     this.renderer.setSize(width, height, false);
+    this.view.zoomsAtPointer = this.shown.mode !== 'side-by-side';
     this.view.fit((this.shown.mode === 'side-by-side' ? width / 2 : width) / height);
   }
 

@@ -165,7 +165,7 @@ export function excursionTable(replay: Replay, shown: Shown, undoing: Undoing): 
     body.replaceChildren();
     hidden.replaceChildren();
     for (const pair of pairs) addRow(first.includes(pair) ? body : hidden, pair);
-    whose.textContent = replay.faces.length > 1 ? `Of ${faceWords(replay.faces, face)}.` : '';
+    whose.textContent = replay.faces.length > 1 ? `These are the figures of ${faceWords(replay.faces, face)}.` : '';
     label();
   };
   fill();

@@ -80,7 +80,10 @@ export function figureCard(
   scroller.setAttribute('role', 'region');
   scroller.setAttribute('aria-label', title);
   scroller.append(table);
-  body.append(scroller);
+  body.append(element('p', 'More columns to the right: scroll the table, or use the arrow keys in it.', 'more-columns'), scroller);
+  const sizes = new ResizeObserver(() => body.classList.toggle('wider', scroller.scrollWidth > scroller.clientWidth + 1));
+  sizes.observe(scroller);
+  sizes.observe(table);
   card.append(body, tools);
   return { card, body };
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The variants side by side in figures (summary.variants); pressing a name shows that face.
 import type { Replay } from '../data';
-import { button, element } from '../../page/dom';
+import { button, element, unbroken } from '../../page/dom';
 import type { Undoing } from '../../page/listeners';
 import { chooseFace } from '../face/face_chooser';
 import { faceColour } from '../../page/face_colour';
 import { columnNotes, figureCard, figureCell, figureText, headCell, isNumber, type Column } from './figure_table';
 import { landmarkName } from '../../page/format';
+import { farthestSentences } from '../farthest';
 import type { Shown } from '../shown';
 import { changesOf, variantsOf, type VariantRow, type Variants } from '../variants';
 
@@ -79,12 +80,6 @@ function fitted(column: Column, rows: VariantRow[]): Column {
   return { ...column, digits: Math.min(Math.max(column.digits, 1 - Math.floor(Math.log10(most))), 9) };
 }
 
-/** Where the face differs most, and the displacement there at the peak, here and in base. */
-function placeOf({ farthest_near: near, displacement_there_mm: here, base_displacement_there_mm: there }: VariantRow): string[] {
-  if (typeof near !== 'string' || near === '' || !isNumber(here) || !isNumber(there)) return [];
-  return [`differs most near ${landmarkName(near)}, which moves ${here.toFixed(2)} instead of ${there.toFixed(2)} mm`];
-}
-
 /** Stands below what a variant adds to ξL − ξR. */
 function floorOf({ added_xi_floor: floor, added_xi_decided: decided }: VariantRow, column: Column): HTMLElement {
   const text = `floor ${figureText(floor, column)}`;
@@ -99,8 +94,12 @@ function nameCell(
   const face = button('', 'face', press);
   face.title = 'Show this face';
   face.append(element('i'), replay.faces[i].name);
-  const changes = i === 0 ? ['the scene without a variant'] : [...changesOf(replay, i), ...placeOf(row)];
-  cell.append(face, ...changes.map((change) => element('small', change)));
+  const changes = i === 0 ? ['the scene without a variant'] : [...changesOf(replay, i), ...farthestSentences(replay, i, row)];
+  cell.append(face, ...changes.map((change) => {
+    const line = element('small');
+    line.append(...unbroken(change));
+    return line;
+  }));
   return { cell, face };
 }
 

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What stands beside S(t): the plain millimetres of the corners first, and where S and these disagree about which of
+// two faces is more symmetric.
+import { apartMm, cornersOf, mm } from '../corners';
+import type { Replay } from '../data';
+import { faceWords, signed } from '../../page/format';
+import type { Shown } from '../shown';
+
+/** "0.5 mm apart, right/left 95 %": of the corners' largest distances from rest. Empty where these are not known. */
+function plainFigure(replay: Replay, face: number): string {
+  const corners = cornersOf(replay, face);
+  if (!corners) return '';
+  const { leftMm, rightMm } = corners;
+  const ratio = leftMm > 0 ? `, right/left ${(100 * rightMm / leftMm).toFixed(0)} %` : '';
+  return `${mm(apartMm(corners))} apart${ratio}`;
+}
+
+/** Of the faces shown, else of the only one. */
+export function plainFigures(replay: Replay, shown: Shown): string {
+  const faces = [...new Set(shown.visible)];
+  const figures = faces.flatMap((face) => {
+    const figure = plainFigure(replay, face);
+    return figure ? [replay.faces.length > 1 ? `${faceWords(replay.faces, face)}: ${figure}` : figure] : [];
+  });
+  return figures.length > 0 ? `Corners of the mouth – ${figures.join('; ')}.` : '';
+}
+
+/** The largest S of a face's curve; null where it has none. */
+function largestS(replay: Replay, face: number): number | null {
+  const values = (replay.faces[face].symmetry?.s ?? []).filter((s) => s !== null);
+  return values.length > 0 ? Math.max(...values) : null;
+}
+
+/** S and the millimetres, as they are shown, order two faces differently. */
+function disagree(replay: Replay, a: number, b: number): { symmetric: number; other: number } | null {
+  const [sA, sB] = [largestS(replay, a), largestS(replay, b)];
+  const [cornersA, cornersB] = [cornersOf(replay, a), cornersOf(replay, b)];
+  if (sA === null || sB === null || !cornersA || !cornersB) return null;
+  const byS = Number(sA.toFixed(2)) - Number(sB.toFixed(2));
+  const byMm = Number((apartMm(cornersA) - apartMm(cornersB)).toFixed(1));
+  if (byS * byMm >= 0) return null;
+  return byS < 0 ? { symmetric: a, other: b } : { symmetric: b, other: a };
+}
+
+/** The two faces shown; of one, that and base; of base alone, the first variant that is ordered differently. */
+function pairsOf(replay: Replay, shown: Shown): [number, number][] {
+  const [first, second] = shown.visible;
+  if (second !== undefined && second !== first) return [[first, second]];
+  if (first > 0) return [[0, first]];
+  return replay.faces.slice(1).map((_, i) => [0, i + 1]);
+}
+
+/** One sentence; empty where both say the same. */
+export function disagreement(replay: Replay, shown: Shown): string {
+  for (const [a, b] of pairsOf(replay, shown)) {
+    const found = disagree(replay, a, b);
+    if (!found) continue;
+    const [one, other] = [found.symmetric, found.other].map((face) => ({
+      name: faceWords(replay.faces, face), s: signed(largestS(replay, face)!.toFixed(2)), apart: mm(apartMm(cornersOf(replay, face)!)),
+    }));
+    return `By its largest S “${one.name}” is more symmetric than “${other.name}” (${one.s}, not ${other.s}), by the millimetres of the corners less so ` +
+      `(${one.apart} apart, not ${other.apart}): the two measure different things, S the stretches to eye, lid, nose and lip.`;
+  }
+  return '';
+}

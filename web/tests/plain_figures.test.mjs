@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a reader takes away from a report: figures with what they do not include, in words that cannot be read as
+// something else, on the page and in the picture that is saved of it.
+//   SCREENSHOTS=/tmp/pictures node --test web/tests/plain_figures.test.mjs
+import assert from 'node:assert/strict';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch, openPage, tooWide } from './browser.mjs';
+import { fixture } from './fixtures.mjs';
+import { rarePage } from './made_up_page.mjs';
+import { readPage, withData } from './page_data.mjs';
+
+const pictures = process.env.SCREENSHOTS;
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser?.close());
+
+/** The page of variants with other data, which `change` makes. */
+async function changedPage(change, options = {}) {
+  const { html, data } = await readPage(fixture('variants.html'));
+  change(data);
+  const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'changed.html');
+  await writeFile(file, withData(html, data));
+  const { page, complaints, close } = await openPage(browser, file, options);
+  return { page, data, complaints, close: () => close().then(() => rm(dirname(file), { recursive: true })) };
+}
+
+const pair = (right, left, floorMm = 0.1) => [{
+  point: 'cheilion', excursion_mm: { R: right, L: left }, path_mm: { R: 1, L: 1 }, peak_speed_mm_s: { R: 1, L: 1 }, speed_correlation: 1,
+  undecided: Math.abs(right - left) < floorMm, floor_mm: floorMm,
+}];
+const uncertainHead = ({ summary }, shiftMm = 2.6) =>
+  Object.assign(summary, { head_shift_uncertainty_mm: shiftMm, head_turn_uncertainty_deg: 1.8 });
+
+/** Texts and their places in the pixels of the page, as they are written into the next picture that is saved. */
+async function savedWords(page) {
+  await page.evaluate(() => {
+    window.written = [];
+    const write = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+      window.written.push({ text, x, y });
+      return write.call(this, text, x, y);
+    };
+  });
+  const [saved] = await Promise.all([page.waitForEvent('download'), page.locator('#save-picture').click()]);
+  if (pictures) await saved.saveAs(join(pictures, 'plain_saved.png'));
+  await readFile(await saved.path());
+  return page.evaluate(() => window.written);
+}
+
+test('the uncertainty of the head’s pose stands below the headline, where it exceeds the floor', async () => {
+  const { page, close } = await changedPage((data) => {
+    uncertainHead(data);
+    data.summary.symmetry = { excursions: pair(6.7, 6.2) };
+  });
+  const head = page.locator('.corners .head-pose');
+  assert.match(await head.textContent(), /pose is uncertain by up to 2\.6 mm and 1\.8° \(95 %\)/);
+  assert.equal(await head.isVisible(), true);
+  await close();
+  const small = await changedPage((data) => {
+    uncertainHead(data, 0.3);
+    data.summary.symmetry = { excursions: pair(6.7, 6.2, 0.4) };
+  });
+  assert.equal(await small.page.locator('.corners .head-pose').isVisible(), false);
+  await small.close();
+});
+
+test('a saved picture tells figures below the faces, with their limits, and no number leaves its unit', async () => {
+  const { page, close } = await changedPage((data) => {
+    uncertainHead(data);
+    data.summary.symmetry = { excursions: pair(6.7, 6.2) };
+  }, { viewport: { width: 1180, height: 700 } });
+  await page.keyboard.press('2');
+  await page.keyboard.press('s');
+  await page.locator('#colouring [data-colouring=asymmetry]').click();
+  await page.waitForSelector('#face[data-faces="0 1"][data-at-rest="true"]');
+  const stageHeight = await page.locator('#canvas-host').evaluate((host) => host.clientHeight);
+  const written = await savedWords(page);
+  const figures = written.filter(({ text }) => /mm\b/.test(text) && !/^Asymmetry/.test(text));
+  assert.ok(figures.length > 3, written.map(({ text }) => text).join('\n'));
+  for (const { text, y } of figures) assert.ok(y > 58 + stageHeight, `${text} lies over the stage, at ${y}`);
+  for (const { text } of written) {
+    assert.doesNotMatch(text, /^(mm|%|s)\b/, 'a unit begins a line');
+    assert.doesNotMatch(text, /±$/, 'a sign ends a line');
+  }
+  const all = written.map(({ text }) => text).join(' ');
+  assert.match(all, /Head’s pose uncertain by up to 2\.6 mm and 1\.8° \(95 %\); ± does not include this\./);
+  assert.match(all, /The map cannot show which side is weak\./);
+  await close();
+});
+
+test('the map of asymmetry says what it cannot show, and no other map does', async () => {
+  const { page, close } = await openPage(browser, fixture('variants.html'));
+  const caution = page.locator('#colour-caution');
+  assert.equal(await caution.isVisible(), false);
+  await page.locator('#colouring [data-colouring=asymmetry]').click();
+  assert.equal(await caution.textContent(), 'The map cannot show which side is weak.');
+  assert.equal(await caution.isVisible(), true);
+  await page.locator('#colouring [data-colouring=displacement]').click();
+  assert.equal(await caution.isVisible(), false);
+  await close();
+});
+
+test('beside S(t) stand the millimetres, and where both order two faces differently', async () => {
+  const caption = (page) => page.locator('.plot-card').filter({ has: page.getByRole('heading', { name: 'Symmetry of motion, S(t)' }) }).locator('p').first();
+  const made = (left) => changedPage((data) => {
+    const { summary, symmetry, variants } = data;
+    summary.symmetry = { excursions: pair(6, 8) };
+    summary.variants.table[1].excursions = pair(6, left);
+    variants[0].symmetry.s = symmetry.s.map((s) => (s === null ? null : s + 0.5));
+  });
+  const { page, data, close } = await made(7);
+  const { name } = data.variants[0];
+  assert.match(await caption(page).textContent(), new RegExp(`^Corners of the mouth – base: 2\\.0 mm apart, right/left 75 %\\. By its largest S “base” is more symmetric than “${name}”`));
+  await page.keyboard.press('2');
+  assert.match(await caption(page).textContent(), /by the millimetres of the corners less so \(2\.0 mm apart, not 1\.0 mm\)/);
+  await close();
+  const agreed = await made(9);
+  await agreed.page.keyboard.press('2');
+  assert.match(await caption(agreed.page).textContent(), /3\.0 mm apart, right\/left 67 %\. S = ln/);
+  await agreed.close();
+});
+
+test('curves and columns are called after their face first, and then after the side', async () => {
+  const { page, close } = await openPage(browser, fixture('variants.html'));
+  await page.keyboard.press('2');
+  await page.keyboard.press('s');
+  const name = await page.locator('#chips button').nth(1).textContent();
+  const legend = await page.locator('.corners .u-series button').allTextContents();
+  assert.deepEqual(legend, ['base: right corner', 'base: left corner', `${name}: right corner`, `${name}: left corner`]);
+  const [saved] = await Promise.all([page.waitForEvent('download'), page.locator('.corners').getByRole('button', { name: /^CSV/ }).click()]);
+  const [head] = (await readFile(await saved.path(), 'utf8')).split('\r\n');
+  assert.equal(head, `time (s),base: right corner (mm),base: left corner (mm),${name}: right corner (mm),${name}: left corner (mm)`);
+  await close();
+});
+
+test('the plot of one corner opens on the side that the variant shown changes most', async () => {
+  const { data, floats } = await readPage(fixture('variants.html'));
+  const { names, time_s } = data.landmarks;
+  const corner = (side) => names.findIndex((name) => name === `cheilion_${side}` || name === { L: 'ibug68_54', R: 'ibug68_48' }[side]);
+  const most = (stretch, side) => {
+    const [own, base] = [floats(stretch), floats(data.landmarks.positions)];
+    const travel = (p, f) => Math.hypot(...[0, 1, 2].map((k) => p[3 * (f * names.length + corner(side)) + k] - p[3 * corner(side) + k]));
+    return Math.max(...time_s.map((_, f) => Math.abs(travel(own, f) - travel(base, f))));
+  };
+  const { page, close } = await openPage(browser, fixture('variants.html'));
+  const chooser = page.locator('.one-of-chooser').filter({ hasText: 'Corner' }).locator('select');
+  for (const [i, { landmarks }] of data.variants.entries()) {
+    await page.locator('#chips button').nth(i + 1).click();
+    assert.equal(await chooser.inputValue(), most(landmarks, 'L') > most(landmarks, 'R') ? 'left' : 'right');
+  }
+  // What the reader chooses stays.
+  const other = (await chooser.inputValue()) === 'left' ? 'right' : 'left';
+  await chooser.selectOption(other);
+  await page.locator('#chips button').nth(1).click();
+  assert.equal(await chooser.inputValue(), other);
+  await close();
+});
+
+test('tables that are wider than the window say so and scroll in a box of their own', async () => {
+  const file = await rarePage();
+  const { page, close } = await openPage(browser, file, { viewport: { width: 820, height: 1180 } });
+  assert.ok(await tooWide(page) <= 0);
+  for (const card of ['.variants', '.excursions']) {
+    const scroller = page.locator(`${card} .scroller`);
+    const wide = await scroller.evaluate((s) => s.scrollWidth - s.clientWidth);
+    assert.equal(await page.locator(`${card} .more-columns`).isVisible(), wide > 1, `${card}: ${wide} px more`);
+    if (card === '.variants') assert.ok(wide > 100);
+    const [box, outer] = [await scroller.boundingBox(), await page.locator(card).boundingBox()];
+    if (wide > 1) assert.ok(box.x > outer.x + 5 && box.x + box.width < outer.x + outer.width - 5, 'its box ends before the card does');
+    if (pictures) await page.locator(card).screenshot({ path: join(pictures, `tables_820_${card.slice(1)}.png`) });
+  }
+  await close();
+  const roomy = await openPage(browser, file);
+  assert.equal(await roomy.page.locator('.variants .more-columns').isVisible(), false);
+  await roomy.close();
+  await rm(dirname(file), { recursive: true });
+});
+
+test('the wheel zooms about the pointer, and the list of keys tells what the pointer does', async () => {
+  const { page, close } = await openPage(browser, fixture('plain.html'));
+  const box = await page.locator('#face').boundingBox();
+  const [x, y] = [box.x + 0.6 * box.width, box.y + 0.6 * box.height];
+  await page.mouse.click(x, y);
+  const dot = page.locator('.place');
+  await dot.waitFor();
+  const place = async () => {
+    const at = await dot.boundingBox();
+    return [at.x + at.width / 2, at.y + at.height / 2];
+  };
+  const before = await place();
+  await page.mouse.wheel(0, -600);
+  await page.waitForFunction(() => document.getElementById('face').dataset.atRest === 'true');
+  await page.waitForTimeout(300);
+  const [dx, dy] = (await place()).map((v, i) => v - before[i]);
+  assert.ok(Math.hypot(dx, dy) < 4, `the place under the pointer moved by ${dx}, ${dy} px`);
+  await page.locator('#open-help').click();
+  const keys = await page.locator('#help dt').allTextContents();
+  for (const key of ['Drag', 'Right-drag', 'Wheel']) assert.ok(keys.includes(key), keys.join());
+  await close();
+});
