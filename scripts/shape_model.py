@@ -139,15 +139,16 @@ def couplings(names, weights):
     correlation = moment / np.maximum(np.outer(spread, spread), 1e-12)
     np.fill_diagonal(correlation, 1)
     side = np.array([{"_L": 1, "_R": -1}.get(n[-2:], 0) for n in names])
-    across = np.outer(side, side) < 0
     kept = np.array([[may_go_together(a, b) for b in names] for a in names])
-    correlation = np.where(kept, COUPLING * correlation, 0)
+    correlation = COUPLING * correlation
+    apart = (np.outer(side, side) < 0) | ~kept
+    np.fill_diagonal(apart, False)
     for _ in range(ROUNDS):
-        correlation[across] = 0
+        correlation[apart] = 0
         np.fill_diagonal(correlation, 1)
         values, vectors = np.linalg.eigh(correlation)
         correlation = vectors * np.maximum(values, LEAST_EIGENVALUE) @ vectors.T
-    correlation[across] = 0
+    correlation[apart] = 0
     return np.maximum(spread, LEAST_SPREAD), correlation
 
 

@@ -56,10 +56,12 @@ void refuse_no_recording(const std::string& scan, const std::string& motion) {
   if (ending_of(motion) == ".c3d") motion::read_motion(motion);  // says what to export it as
   try {                                                          // a video of another kind
     capture::open_source(motion);
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
     throw InputError(motion,
-                     "is no recording that can be read; expected a CSV, a TRC, a video, an .oni "
-                     "file or a folder with a depth camera's pictures");
+                     fmt::format("is no recording that can be read; expected a CSV, a TRC, a "
+                                 "video, an .oni file or a folder with a depth camera's pictures "
+                                 "(as a video: {})",
+                                 error.what()));
   }
 }
 

@@ -11,7 +11,7 @@ namespace hyperex::expression {
 /// recording of one person). Tables and their sources: data/expression_shapes.csv and
 /// data/expression_couplings.csv, made by scripts/shape_model.py.
 struct ShapeModel {
-  std::vector<std::string> names;  ///< as ARKit's; "_L", "_R": the subject's own sides
+  std::vector<std::string> names;  ///< ICT-FaceKit's; "_L", "_R": the subject's own sides
   /// 3 |vertices| x |names|, m: displacement of the canonical face's vertices (x, y, z of each, in
   /// its frame and size) where a shape's weight is 1.
   Eigen::MatrixXd displacement;

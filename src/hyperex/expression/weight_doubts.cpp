@@ -25,8 +25,9 @@ std::optional<Eigen::RowVectorXd> mean_weights(const BlendShapes& shapes, double
   const auto first = std::lower_bound(t.begin(), t.end(), t.front() + from_s - kSlack_s);
   const auto last = std::upper_bound(t.begin(), t.end(), t.front() + to_s + kSlack_s);
   for (auto k = first - t.begin(); k < last - t.begin(); ++k) {
-    if (!shapes.weights.row(k).allFinite()) continue;
-    sum += shapes.weights.row(k);
+    const Eigen::RowVectorXd row = shapes.weights.row(k);
+    if (row.array().isNaN().all()) continue;
+    sum += row.array().isNaN().select(0, row.array()).matrix();  // a column that is empty there
     ++count;
   }
   if (count == 0) return std::nullopt;
@@ -51,10 +52,10 @@ std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model) {
               shapes.weights(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c));
           w > most) {
         most = w;
-        at_s = shapes.time_s[k];
+        at_s = shapes.time_s[k] - shapes.time_s.front();
       }
     if (most > kLarge)
-      text += fmt::format("{}{} up to {:.2g} at {:.4g} s", text.empty() ? "" : "; ",
+      text += fmt::format("{}{} up to {:.2g} at {:.2f} s", text.empty() ? "" : "; ",
                           shapes.names[c], most, at_s);
   }
   return text;

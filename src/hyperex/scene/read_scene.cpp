@@ -339,6 +339,7 @@ void Reader::check_together() {
   const bool by_muscles = scene.drive.by == simulate::DriveBy::muscles || drive_is_open();
   for (const auto& [key, given] : {std::pair{"muscles.gain", !scene.muscles.gains.empty()},
                                    {"muscles.mirrored", scene.muscles.mirrored},
+                                   {"muscles.shape_prior", !scene.muscles.shape_prior},
                                    {"muscles.file", !scene.muscles_file.empty()},
                                    {"muscles.without", !scene.muscles_without.empty()}})
     if (!by_muscles && given)

@@ -125,7 +125,10 @@ void check_disk(const scene::Scene& scene, const RunCost& cost, const std::vecto
   // Of a recording in milliseconds the size is not what is wrong.
   for (const Note& note : notes)
     if (note.id == "recording.time_unit_doubtful")
-      throw InputError(scene::problem_at(scene, note.key, "times in seconds (" + note.text + ")"));
+      throw InputError(scene::problem_at(
+          scene, note.key,
+          fmt::format("times in seconds ({}); where they are, output.most_gb = {:.3g} or more",
+                      note.text, std::ceil(1.2e-8 * cost.disk_bytes) / 10)));
   const std::string frames = fmt::format(
       ", of them {} for ParaView (output.vtu = false leaves these out, output.vtu_every = 10 takes "
       "a tenth; time.start_s and time.end_s shorten the run)",

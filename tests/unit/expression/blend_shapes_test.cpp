@@ -82,7 +82,7 @@ TEST_F(BlendShapesFile, NamesTheShapesThatTheFaceLacks) {
   const auto shapes = read_arkit(write("a.csv",
                                        "time_s,jawOpen,mouthClose,mouthDimpleLeft,eyeLookUpLeft\n"
                                        "0,0.9,0.1,0.2,0\n82.5,0,0.65,0.3,0.9\n83,0,0.2,0,0\n"));
-  EXPECT_EQ(lost_shapes(shapes, canonical_model()), "mouthClose up to 0.65 at 82.5 s");
+  EXPECT_EQ(lost_shapes(shapes, canonical_model()), "mouthClose up to 0.65 at 82.50 s");
 }
 
 /// 4 s at 10 Hz: a smile over the first second, a pucker from the third second on.

@@ -66,6 +66,8 @@ TEST(ShapeModel, SidesAreNotCoupled) {
         EXPECT_EQ(model.covariance(Eigen::Index(a), Eigen::Index(b)), 0)
             << model.names[a] << ", " << model.names[b];
       }
+  EXPECT_EQ(model.covariance(place_of("mouthShrugLower"), place_of("jawForward")), 0);
+  EXPECT_EQ(model.covariance(place_of("mouthFrown_L"), place_of("eyeBlink_L")), 0);
   EXPECT_GT(model.covariance(place_of("mouthSmile_L"), place_of("cheekSquint_L")), 0);
   EXPECT_EQ(model.covariance(place_of("mouthSmile_L"), place_of("cheekSquint_L")),
             model.covariance(place_of("mouthSmile_R"), place_of("cheekSquint_R")));

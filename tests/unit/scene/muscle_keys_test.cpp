@@ -208,6 +208,11 @@ TEST(MuscleKeys, MistakesInOwnMusclesAreTold) {
   EXPECT_THAT(only_muscle_problem(std::string(smallest) + "[muscles]\nwithout = [\"risorius\"]\n",
                                   {"drive.by=displacement"}),
               HasSubstr("expected drive.by = \"muscles\" in the scene"));
+  EXPECT_THAT(only_muscle_problem(std::string(smallest) + "[muscles]\nshape_prior = false\n",
+                                  {"drive.by=displacement"}),
+              HasSubstr("expected drive.by = \"muscles\" in the scene"));
+  EXPECT_THAT(problem("[[variant]]\nname = \"other\"\nmuscles.shape_prior = false\n"),
+              HasSubstr("variant[0].muscles.shape_prior"));
   EXPECT_THAT(problem("[[variant]]\nname = \"other\"\nmuscles.without = [\"risorius\"]\n"),
               HasSubstr("variant[0].muscles.without"));
 }

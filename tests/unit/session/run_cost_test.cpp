@@ -117,7 +117,7 @@ TEST(RunCost, AboveTheBoundIsRefusedByTheKeyThatRaisesIt) {
   const Note doubt = make_warning("recording.time_unit_doubtful", "milliseconds?", "motion.arkit");
   EXPECT_THAT(test::refusal([&] { check_disk(scene, cost, {doubt}); }),
               testing::HasSubstr("motion.arkit = \"weights.csv\": expected times in seconds "
-                                 "(milliseconds?)"));
+                                 "(milliseconds?); where they are, output.most_gb = 3.8 or more"));
   scene.output.most_gb = 3.8;
   EXPECT_NO_THROW(check_disk(scene, cost));
 }

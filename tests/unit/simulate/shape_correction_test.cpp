@@ -188,6 +188,40 @@ TEST_F(LoadWithShapes, HoldingForcesMakeTheDisplacementThatTheyStateInEquilibriu
   }
 }
 
+/// The nodes that carry a point may lie far from it where elements are large.
+TEST_F(LoadWithShapes, APointBetweenFarNodesEndsWhereItDidWithout) {
+  const Triangles& triangles = face_.mesh.skin.triangles;
+  const Points& skin = face_.mesh.skin.points;
+  Eigen::Index at = 0;
+  double nearest = 1;
+  const auto middle = [&](Eigen::Index f) -> Vec3 {
+    return (skin.row(triangles(f, 0)) + skin.row(triangles(f, 1)) + skin.row(triangles(f, 2)))
+               .transpose() /
+           3;
+  };
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    if (const double d = (middle(f) - face_.landmarks.at("ibug68_8")).norm(); d < nearest) {
+      nearest = d;
+      at = f;
+    }
+  io::Landmarks moved_landmarks = face_.landmarks;
+  moved_landmarks["ibug68_8"] = middle(at);
+  ASSERT_GT((skin.row(triangles(at, 0)).transpose() - middle(at)).norm(),
+            options_.muscles.shape_clear_m);
+  const AlignedMotion motion =
+      test::motion_of(moved_landmarks, 2, 30, [](const std::string& name, const Vec3&, int k) {
+        return Vec3(k * (name == "ibug68_8" ? Vec3(0.002, -0.006, 0) : Vec3(0, -0.002, 0.001)));
+      });
+  Vec3 ends[2];
+  for (const bool with_shapes : {false, true}) {
+    const HeldLoad load = this->load(motion, with_shapes);
+    const Eigen::VectorXd nodes = static_response(load.force * load.course.rightCols<1>());
+    ends[with_shapes] = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) ends[with_shapes] += nodes.segment<3>(3 * triangles(at, k)) / 3;
+  }
+  EXPECT_LT((ends[true] - ends[false]).norm(), 1e-5);
+}
+
 /// A smile with the cheek's raising, of one side, seen at seven points.
 TEST_F(LoadWithShapes, TheFaceComesNearerToARealOneAndThePointsStayWhereTheyAreDriven) {
   const Eigen::VectorXd truth = weights({{"mouthSmile_L", 0.7}, {"cheekSquint_L", 0.4}});

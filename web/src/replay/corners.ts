@@ -99,7 +99,7 @@ export interface CornerChange {
   toMm: number;
   /** How much farther it moves than in base, along its path in base. */
   byMm: number;
-  /** The same, not rounded. */
+  /** The same, not rounded where the corner goes the same way: what `undecided` compares with the band. */
   exactMm: number;
   /** How far it moves along that path, signed. */
   alongMm: number;
@@ -127,7 +127,7 @@ export function cornerChange(replay: Replay, face: number, side: Side): CornerCh
   const bandMm = changeBandMm(replay, face, side);
   const weak = row?.weaker_sides;
   return {
-    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, exactMm: sameWay ? to - from : alongMm - from, alongMm: roundedMm(alongMm), sameWay, bandMm,
+    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, exactMm: sameWay ? to - from : byMm, alongMm: roundedMm(alongMm), sameWay, bandMm,
     weaker: Array.isArray(weak) && weak.includes(letterOf[side]),
     undecided: bandMm !== null && Math.abs(sameWay ? to - from : byMm) < bandMm,
   };

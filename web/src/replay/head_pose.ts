@@ -26,4 +26,4 @@ export const headWords = (pose: HeadPose): string =>
 
 /** In a picture, where there is less room. */
 export const headCaption = (pose: HeadPose): string =>
-  `Head’s pose uncertain by ${atMost(pose)}; ± does not include this.`;
+  `Head’s pose uncertain by ${atMost(pose)}; no ± includes this.`;

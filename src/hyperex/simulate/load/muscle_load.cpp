@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
+#include <set>
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
@@ -202,10 +203,10 @@ Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
   return svd.matrixU().leftCols(kept);
 }
 
-/// Places over the skull that hardly move in any expression: beside the ears, at the root of the
-/// nose and under the brows' middles, without those near a driven point.
-std::vector<Vec3> skull_places(const std::vector<DrivenPoint>& points,
-                               const io::Landmarks& landmarks) {
+/// Places that what the shapes leave over at the points does not move: beside the ears, the root of
+/// the nose and the middles of the brows, without those near a driven point.
+std::vector<Vec3> unmoved_places(const std::vector<DrivenPoint>& points,
+                                 const io::Landmarks& landmarks) {
   constexpr double near_m = 0.015;
   std::vector<Vec3> places;
   for (const int k : {0, 16, 27, 19, 24}) {
@@ -219,6 +220,15 @@ std::vector<Vec3> skull_places(const std::vector<DrivenPoint>& points,
   return places;
 }
 
+/// Outer nodes that carry the driven points, rising: there the skin ends where the points are
+/// driven.
+std::vector<int> carrying(const CarrierMatrix& carrier) {
+  std::set<int> nodes;
+  for (Eigen::Index i = 0; i < carrier.rows(); ++i)
+    for (CarrierMatrix::InnerIterator it(carrier, i); it; ++it) nodes.insert(int(it.col()));
+  return {nodes.begin(), nodes.end()};
+}
+
 /// Adds forces that lead the skin between the points from where `skin` has it towards where shapes
 /// of real faces would have it. They stay as they are when muscles change.
 void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
@@ -226,11 +236,14 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                 const MuscleModel& model, const Driven& driven, const LoadedSkin& skin,
                 const std::function<void()>& between, HeldLoad& load) {
   const Vec3 up = face::face_frame(landmarks).y;
-  const DriveField field(driven.points, skull_places(driven.points, landmarks), mesh, up,
+  const DriveField field(driven.points, unmoved_places(driven.points, landmarks), mesh, up,
                          lip_parting(motion, driven.rows, up));
   const CarriedShapes shapes(mesh, landmarks, driven.points, options.muscles.shape_sigma_m);
-  const SkinCorrection correction =
-      shape_correction(mesh, shapes, field, skin, model.boundary().prescribed(), options.muscles);
+  if (between) between();
+  const SkinCorrection correction = shape_correction(
+      mesh, shapes, field, skin,
+      with_nodes(model.boundary().prescribed(), carrying(driven.carrier)), options.muscles);
+  if (between) between();
   if (correction.course.rows() == 0) return;
   const std::vector<int> nodes = united(correction.nodes, load.patch_nodes);
   Eigen::MatrixXd displaced =
@@ -305,8 +318,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   load.force = std::move(held.force);
   load.patch_nodes = patches.nodes;
   if (options.muscles.shape_prior)
-    add_shapes(mesh, landmarks, motion, options, model, driven, {held.moved, load.course, seen},
-               between, load);
+    add_shapes(mesh, landmarks, motion, options, model, driven,
+               {std::move(held.moved), load.course, seen}, between, load);
   return load;
 }
 

@@ -6,12 +6,15 @@ import type { Replay } from '../data';
 import { faceWords, signed } from '../../page/format';
 import type { Shown } from '../shown';
 
+/** Of a side that hardly moves a ratio says nothing. */
+const leastForRatioMm = 0.5;
+
 /** "0.5 mm apart, right/left 95 %": of the corners' largest distances from rest. Empty where these are not known. */
 function plainFigure(replay: Replay, face: number): string {
   const corners = cornersOf(replay, face);
   if (!corners) return '';
   const { leftMm, rightMm } = corners;
-  const ratio = leftMm > 0 ? `, right/left ${(100 * rightMm / leftMm).toFixed(0)} %` : '';
+  const ratio = Math.min(leftMm, rightMm) >= leastForRatioMm ? `, right/left ${(100 * rightMm / leftMm).toFixed(0)} %` : '';
   return `${mm(apartMm(corners))} apart${ratio}`;
 }
 
@@ -36,6 +39,7 @@ function disagree(replay: Replay, a: number, b: number): { symmetric: number; ot
   const [sA, sB] = [largestS(replay, a), largestS(replay, b)];
   const [cornersA, cornersB] = [cornersOf(replay, a), cornersOf(replay, b)];
   if (sA === null || sB === null || !cornersA || !cornersB) return null;
+  if (cornersA.undecided && cornersB.undecided) return null;
   const byS = Number(sA.toFixed(2)) - Number(sB.toFixed(2));
   const byMm = Number((apartMm(cornersA) - apartMm(cornersB)).toFixed(1));
   if (byS * byMm >= 0) return null;
