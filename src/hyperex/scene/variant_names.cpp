@@ -29,7 +29,8 @@ const std::vector<std::string>& variant_sections() {
 bool may_vary(const std::string& key) {
   const auto& sections = variant_sections();
   // Variants answer the forces that the scene's muscles were found to make.
-  if (key == "muscles.file" || key == "muscles.without" || key == "muscles.shape_prior") return false;
+  if (key == "muscles.file" || key == "muscles.without" || key == "muscles.shape_prior")
+    return false;
   return key == "motion.gain" ||
          std::find(sections.begin(), sections.end(), section_of(key)) != sections.end();
 }
