@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace hyperex::cli {
 namespace {
 
 struct RunOptions {
-  std::filesystem::path scene, out;
+  std::filesystem::path scene;
+  std::optional<std::filesystem::path> out;
   std::vector<std::string> overrides;
   bool verify = false, no_cache = false, no_variants = false;
 };
@@ -42,12 +44,12 @@ void run(const RunOptions& options) {
   if (options.verify) overrides.push_back("solver.verify=true");
   scene::Scene scene = scene::read_scene(options.scene, overrides);
   // After the scene: what is wrong with that matters more.
-  if (options.out.empty())
+  if (!options.out)
     throw InputError("--out is required: the folder for the outputs, as in --out out/" +
                      options.scene.stem().string());
   if (options.no_variants) scene.variants.clear();
   if (!options.no_cache) scene.kept = KeptResults(user_cache_folder());
-  const auto summary = run::run_scene(scene, options.out);
+  const auto summary = run::run_scene(scene, *options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
       "{}{}{}"
@@ -55,7 +57,7 @@ void run(const RunOptions& options) {
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
-      run::variant_lines(summary), printable(options.out.string()));
+      run::variant_lines(summary), printable(options.out->string()));
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},
@@ -75,7 +77,7 @@ void run(const RunOptions& options) {
       {"asymmetry.png", "the face against its reflection"},
       {"summary.json", "counts, times, options"}};
   for (const auto& [name, use] : files)
-    if (std::filesystem::exists(options.out / name))
+    if (std::filesystem::exists(*options.out / name))
       std::cout << fmt::format("  {:<22} {}\n", name, use);
 }
 

@@ -22,7 +22,7 @@ TEST_P(Warnings, AreShownByTheProgram) {
   }
   write_noted_scene(noted, in(""));
   if (noted.id == "recording.mirror_unknown") {  // a run would have to track a whole video
-    EXPECT_THAT(call("check scene.toml").out, HasSubstr("motion.mirrored = true, or false"));
+    EXPECT_THAT(call("check scene.toml").out, HasSubstr("set motion.mirrored to true or false"));
     return;
   }
   const Outcome run = call("run scene.toml --out out");

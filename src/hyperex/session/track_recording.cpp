@@ -133,8 +133,8 @@ motion::Motion track_recording(const scene::Scene& scene, Extent extent, Inputs&
     in.notes.push_back(make_warning(
         "recording.mirror_unknown",
         "the video is assumed not mirrored, as the file has no such flag; if it is mirrored (as "
-        "many "
-        "selfie videos are), left and right are exchanged: set motion.mirrored to true or false"));
+        "many selfie videos are), left and right are exchanged: set motion.mirrored to true or "
+        "false"));
   recorded.motion.source = scene.motion.recording.string();
   return std::move(recorded.motion);
 }
