@@ -22,8 +22,8 @@ class FaceSessions(unittest.TestCase):
         for name in names:
             if name != "Value":  # Python has values of its own
                 self.assertTrue(hasattr(hyperex, name), name)
-        asking = header[header.index("// ----- asking"):header.index("// ----- stage by stage")]
-        calls = re.findall(r"^  [\w:<>& ]+ (\w+)\(", asking, re.M)
+        section = header[header.index("// ----- changes and their results"):header.index("// ----- stage by stage")]
+        calls = re.findall(r"^  [\w:<>& ]+ (\w+)\(", section, re.M)
         self.assertEqual(set(calls), {"run", "set", "variant", "performance", "measures", "notes", "warnings"})
         for call in calls:
             self.assertTrue(callable(getattr(hyperex.FaceSession, call)), call)
