@@ -21,9 +21,9 @@ std::string name_of_block(const nlohmann::json& block);
 bool may_vary(const std::string& key);
 std::string what_may_vary();
 
-/// The name of the folder of a variant's outputs: `name`, with one '_' for each stretch of spaces
-/// and of what a path holds badly, "left_zygomaticus_at_30" of "left zygomaticus at 30 %", and a
-/// number at its end where one of `others` has the same.
+/// The folder of a variant's outputs. It is `name` with each run of spaces and of characters that
+/// are awkward in paths replaced by one '_', and none at its ends: "left zygomaticus at 30 %" gives
+/// "left_zygomaticus_at_30". A number is appended where one of `others` has the same folder.
 std::string variant_folder(const std::string& name, const std::vector<Variant>& others);
 
 }  // namespace hyperex::scene

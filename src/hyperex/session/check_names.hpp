@@ -10,7 +10,8 @@ namespace hyperex::session {
 /// tissue. `owner` precedes the keys: "variant[0].".
 void check_names(const scene::Scene& scene, const Inputs& in, const std::string& owner = "");
 
-/// What of check_names() can be told without landmarks: names of regions.
+/// The part of check_names() that needs no landmarks: throws InputError for regions that do not
+/// exist.
 void check_regions(const scene::Scene& scene, const std::string& owner = "");
 
 /// Throws InputError where the elements are longer than a third of the mouth's width: lips move

@@ -25,7 +25,9 @@ struct Inputs {
   /// How long the recording is in the run, from time.start_s on; 0: unknown. Of a camera's
   /// recording in a quick reading by its number of frames.
   double lasts_s = 0;
-  double lead_s = 0;  ///< of which it is led in from rest, in the recording's own seconds
+  /// The part of lasts_s before time.start_s, in which the run leads the face from rest into the
+  /// recording; in the recording's own seconds.
+  double lead_s = 0;
   std::vector<std::string> driven;  ///< names of the driven points
   /// What was guessed, placed or filled, and probable mistakes with their remedies, in the order in
   /// which they were found.

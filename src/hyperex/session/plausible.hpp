@@ -50,9 +50,9 @@ std::optional<Note> wild_samples_warning(const motion::MendedMotion& mended);
 std::optional<Note> stillness_warning(const motion::Motion& stabilised);
 
 /// `sides.exchanged_pair`: names the pairs of points (face::mirrored_landmark) that are exchanged
-/// in the first sample: the vector from one to the other points against that of the face, rotated
-/// by the fit of the common points. Nothing where there are none, or at least as many as right ones
-/// (check_sides reports those).
+/// in the first sample. A pair is exchanged where the vector between its points is opposite to the
+/// same vector on the face, after a rotation fitted to the common points. Returns nothing where no
+/// pair is exchanged, or where at least half of the pairs are (check_sides reports that).
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `law.idle`: names given keys that only finite strain uses, where neither the scene nor a variant

@@ -19,9 +19,9 @@ constexpr double kNodesOfArea = 0.51, kTrianglesOfNodes = 1.93;
 /// Bytes of a compressed frame for ParaView: for each node; for each tetrahedron its corners and
 /// stress; its strain; at finite strain stress and stretches besides.
 constexpr double kNodeBytes = 12.5, kTetBytes = 13.2, kStrainBytes = 24, kFiniteBytes = 60;
-/// What else each face's folder holds, measured on faces of 7,000 and 36,000 vertices: pictures;
-/// tables, a frame (5 to 80 kB, by the number of points and muscles); a vertex of a PLY file; of a
-/// pose of performance.glb, with so many poses where the motion is long.
+/// Other files of each face, measured on faces of 7,000 and 36,000 vertices, in bytes: pictures;
+/// tables per frame (5 to 80 kB, by the number of points and muscles); a PLY file per vertex;
+/// performance.glb per vertex and pose, of which it holds at most kPoses.
 constexpr double kPictureBytes = 1.7e6, kTableBytes = 20e3, kPlyBytes = 46;
 constexpr double kPoseBytes = 22, kPoses = 24;
 /// The report's page; of each face in it each vertex and each frame.

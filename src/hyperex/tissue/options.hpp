@@ -166,7 +166,7 @@ struct TissueFieldOptions {
 /// Something wrong with one of the options: `key` is "preset", "point[1].side", "region[0].name".
 struct FieldProblem {
   std::string key, expected;
-  std::string value = {};  ///< as given, in quotes; empty: not told
+  std::string value = {};  ///< the value given, in quotes; empty: not stated in the message
 };
 
 }  // namespace hyperex::tissue

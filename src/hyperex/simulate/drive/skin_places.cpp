@@ -10,14 +10,18 @@ namespace {
 constexpr double kLeastWeight = 1e-6;
 }  // namespace
 
+std::vector<int> lip_sides(const std::vector<double>& upper_margin) {
+  constexpr double sure_m = 0.002;
+  std::vector<int> sides;
+  for (const double m : upper_margin) sides.push_back(m > sure_m ? 1 : m < -sure_m ? -1 : 0);
+  return sides;
+}
+
 std::vector<Match> skin_places(const tissue::TissueMesh& mesh,
                                const std::vector<std::string>& names, const Points& places) {
-  constexpr double sure_m = 0.002;  // nearer to both lips, a vertex is of neither
-  std::vector<int> side, vertex_side;
+  std::vector<int> side;
   for (const std::string& name : names) side.push_back(anatomy::lip_of(name));
-  for (const double m : mesh.skin_upper_margin)
-    vertex_side.push_back(m > sure_m ? 1 : m < -sure_m ? -1 : 0);
-  return match(places, mesh.skin, side, vertex_side);
+  return match(places, mesh.skin, side, lip_sides(mesh.skin_upper_margin));
 }
 
 CarrierMatrix carriers(const tissue::TissueMesh& mesh, const std::vector<Match>& places) {
@@ -32,6 +36,15 @@ CarrierMatrix carriers(const tissue::TissueMesh& mesh, const std::vector<Match>&
   CarrierMatrix matrix(static_cast<Eigen::Index>(places.size()), mesh.volume.surface_nodes());
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
+}
+
+Eigen::MatrixXd at_places(const CarrierMatrix& weights, const Eigen::MatrixXd& nodal) {
+  Eigen::MatrixXd out(3 * weights.rows(), nodal.cols());
+  for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
+    const Points moved = weights * Eigen::Map<const Points>(nodal.col(c).data(), weights.cols(), 3);
+    out.col(c) = Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
+  }
+  return out;
 }
 
 }  // namespace hyperex::simulate

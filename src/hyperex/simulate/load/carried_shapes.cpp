@@ -8,13 +8,12 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/muscles/bounded_least_squares.hpp"
-#include "hyperex/simulate/drive/matching.hpp"
+#include "hyperex/simulate/drive/skin_places.hpp"
 
 namespace hyperex::simulate {
 namespace {
 
 constexpr double kOnSkin_m = 0.004, kOffSkin_m = 0.010;  // the cover falls from 1 to 0 in between
-constexpr double kSureOfLip_m = 0.002;  // nearer to both lips, a node is of neither
 
 /// The canonical face on this one.
 struct CarriedFace {
@@ -43,7 +42,7 @@ struct CarriedFace {
 };
 
 /// Per vertex of the canonical face: -1 on the inner border of the lower lip, 1 on the upper's.
-std::vector<int> lip_sides() {
+std::vector<int> contour_sides() {
   std::vector<int> side(std::size_t(face::canonical_face().mesh.points.rows()), 0);
   const std::vector<int>& contour =
       face::lip_contour();  // from the right corner over the upper lip
@@ -69,7 +68,7 @@ CarriedShapes::CarriedShapes(const tissue::TissueMesh& mesh, const io::Landmarks
                              const std::vector<DrivenPoint>& points, double sigma_m)
     : sigma_m_(sigma_m) {
   const CarriedFace face(landmarks);
-  const std::vector<int> vertex_side = lip_sides();
+  const std::vector<int> vertex_side = contour_sides();
   Points rest(Eigen::Index(points.size()), 3);
   std::vector<int> side;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -77,10 +76,8 @@ CarriedShapes::CarriedShapes(const tissue::TissueMesh& mesh, const io::Landmarks
     side.push_back(anatomy::lip_of(points[i].name));
   }
   at_points_ = shapes_at(match(rest, face.mesh, side, vertex_side), face.turn);
-  side.clear();
-  for (const double m : mesh.upper_margin)
-    side.push_back(m > kSureOfLip_m ? 1 : m < -kSureOfLip_m ? -1 : 0);
-  const std::vector<Match> nodes = match(mesh.volume.outer.points, face.mesh, side, vertex_side);
+  const std::vector<Match> nodes =
+      match(mesh.volume.outer.points, face.mesh, lip_sides(mesh.upper_margin), vertex_side);
   at_nodes_ = shapes_at(nodes, face.turn);
   cover_.resize(Eigen::Index(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)

@@ -25,16 +25,6 @@ namespace {
 /// Of what is left over at the points, this share of the greatest may be lost between its shapes.
 constexpr double kLeftOverLost = 1e-4;
 
-/// Displacements at the points (3 P x n) of nodal ones (3 |nodes| x n).
-Eigen::MatrixXd at_points(const CarrierMatrix& carrier, const Eigen::MatrixXd& nodal) {
-  Eigen::MatrixXd out(3 * carrier.rows(), nodal.cols());
-  for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
-    const Points moved = carrier * Eigen::Map<const Points>(nodal.col(c).data(), carrier.cols(), 3);
-    out.col(c) = Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
-  }
-  return out;
-}
-
 /// The points that drive.
 struct Driven {
   std::vector<int> rows;
@@ -90,8 +80,8 @@ MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const
     ring.push_back(muscle.kind == muscles::MuscleKind::ring);
   }
   return MuscleFit(
-      {at_points(driven.carrier, model.response()), at_points(driven.carrier, model.jaw_response()),
-       at_points(driven.carrier, model.wide_response()), options.half},
+      {at_places(driven.carrier, model.response()), at_places(driven.carrier, model.jaw_response()),
+       at_places(driven.carrier, model.wide_response()), options.half},
       JawKinematics(landmarks), muscle_prior(model.lines(), options), sigma, std::move(tone),
       std::move(ring));
 }
@@ -115,7 +105,7 @@ Eigen::MatrixXd field_in_patches(const DrivenSkin& patches, const Driven& driven
 /// (3 |nodes| x n) make of them, the points being where these have them.
 Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& driven,
                                   const Eigen::MatrixXd& nodal, Eigen::Index points) {
-  Eigen::MatrixXd out = field_in_patches(patches, driven, at_points(driven.carrier, nodal), points);
+  Eigen::MatrixXd out = field_in_patches(patches, driven, at_places(driven.carrier, nodal), points);
   for (std::size_t j = 0; j < patches.nodes.size(); ++j)
     out.middleRows<3>(3 * Eigen::Index(j)) -= nodal.middleRows<3>(3 * patches.nodes[j]);
   return out;

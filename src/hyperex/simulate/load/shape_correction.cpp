@@ -2,14 +2,11 @@
 #include "hyperex/simulate/load/shape_correction.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
 
 namespace hyperex::simulate {
 namespace {
-
-using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// Directions that carry less than this share of the greatest are left out.
 constexpr double kDirectionLost = 1e-3;
@@ -28,8 +25,8 @@ Eigen::VectorXd shares(const Points& nodes, const CarriedShapes& shapes, const P
 }
 
 /// Means over the neighbourhood of each of `rows` (rows) of values at all nodes, times its share.
-Weights smoothing(const Points& opened, const std::vector<int>& rows, const Eigen::VectorXd& share,
-                  double sigma_m) {
+CarrierMatrix smoothing(const Points& opened, const std::vector<int>& rows,
+                        const Eigen::VectorXd& share, double sigma_m) {
   constexpr double reach = 2.5;  // in sigma
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -45,19 +42,8 @@ Weights smoothing(const Points& opened, const std::vector<int>& rows, const Eige
     for (std::size_t e = first; e < entries.size(); ++e)
       entries[e] = {int(i), entries[e].col(), entries[e].value() * share[rows[i]] / sum};
   }
-  Weights out(Eigen::Index(rows.size()), opened.rows());
+  CarrierMatrix out(Eigen::Index(rows.size()), opened.rows());
   out.setFromTriplets(entries.begin(), entries.end());
-  return out;
-}
-
-/// `weights` times vectors at the nodes: 3 |nodes| x n to 3 |rows| x n.
-Eigen::MatrixXd smoothed(const Weights& weights, const Eigen::MatrixXd& nodal) {
-  Eigen::MatrixXd out(3 * weights.rows(), nodal.cols());
-  for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
-    const Points column =
-        weights * Eigen::Map<const Points>(nodal.col(c).data(), weights.cols(), 3);
-    out.col(c) = Eigen::Map<const Eigen::VectorXd>(column.data(), column.size());
-  }
   return out;
 }
 
@@ -112,7 +98,7 @@ SkinCorrection shape_correction(const tissue::TissueMesh& mesh, const CarriedSha
   for (Eigen::Index i = 0; i < share.size(); ++i)
     if (share[i] > 0 && !std::binary_search(prescribed.begin(), prescribed.end(), 3 * int(i)))
       out.nodes.push_back(int(i));
-  const Weights weights = smoothing(opened, out.nodes, share, options.shape_smoothing_m);
+  const CarrierMatrix weights = smoothing(opened, out.nodes, share, options.shape_smoothing_m);
 
   const Eigen::Index samples = load.points.cols();
   Eigen::MatrixXd amounts(shapes.count() + load.points.rows() + load.course.rows(), samples);
@@ -121,9 +107,9 @@ SkinCorrection shape_correction(const tissue::TissueMesh& mesh, const CarriedSha
     amounts.col(k) << w, seen - shapes.at_points() * w, -load.course.col(k);
   }
   Eigen::MatrixXd basis(3 * weights.rows(), amounts.rows());
-  basis << smoothed(weights, shapes.at_nodes()),
+  basis << at_places(weights, shapes.at_nodes()),
       along_axes(weights * field.weights(nodes, mesh.upper_margin).leftCols(driven)),
-      smoothed(weights, load.moved);
+      at_places(weights, load.moved);
   as_directions(basis, amounts, out);
   return out;
 }

@@ -24,12 +24,13 @@ struct SkinCorrection {
   Eigen::MatrixXd course;     ///< directions x samples, m
 };
 
-/// Between the driven points there are two estimates of the skin's displacement. One is the tissue
-/// under the fitted muscles. The other is the shapes of real faces whose weights the points say,
-/// with the field (DriveField) of what these leave over at the points. Their errors differ: tissue
-/// knows the fold and the bones, shapes know where cheeks and lids go. The correction leads from
-/// the first towards the second by MuscleOptions::shape_share of the difference, smoothed over the
-/// skin, so that what is finer than the shapes (a fold) stays as the tissue makes it:
+/// Between the driven points there are two estimates of the skin's displacement. The first is the
+/// displacement of the tissue under the fitted muscles. The second is the sum of the shapes of real
+/// faces, with the weights fitted to the points, and of their residual at the points, interpolated
+/// by a DriveField. The errors of the two differ: the first contains folds and the effect of bones,
+/// the second the motion of cheeks and lids. The correction is MuscleOptions::shape_share of their
+/// difference, smoothed over the skin. Details finer than the smoothing, such as a fold, therefore
+/// remain those of the first estimate:
 ///   d(x) = cover(x) near(x) share sum_y g(|x - y|) (S w + F (u - S_p w) - u_load)(y),
 /// g: a Gaussian of 1 sigma shape_smoothing_m, of sum 1, on the face with the mouth opened; near:
 /// from 0 within shape_clear_m of a driven point to 1 at shape_reach_m.

@@ -15,8 +15,8 @@
 
 namespace hyperex::tissue {
 
-/// Faults of the options that show without a scan, and faults of what they say about the scan's
-/// landmarks where `landmarks` holds any.
+/// Invalid options. Names of landmarks in the options are checked only if `landmarks` is not empty;
+/// all else is checked without a scan.
 std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
                                       const io::Landmarks& landmarks);
 
