@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The targets of libFuzzer: run as fuzz_NAME, by a link, it feeds the reader NAME.
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -21,6 +22,10 @@ std::filesystem::path make_folder() {
 
 struct Folder {
   std::filesystem::path path = make_folder();
+  /// The same folder by a path that is the same in every process: messages quote it, and libFuzzer
+  /// takes words for its inputs from what it sees there.
+  std::filesystem::path same_path =
+      "/proc/self/fd/" + std::to_string(::open(path.c_str(), O_PATH | O_DIRECTORY));
   ~Folder() {
     std::error_code ignored;
     std::filesystem::remove_all(path, ignored);
@@ -38,7 +43,7 @@ extern "C" int LLVMFuzzerInitialize(int*, char*** arguments) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Folder folder;
-  hyperex::fuzz::try_input(*fed, folder.path,
+  hyperex::fuzz::try_input(*fed, folder.same_path,
                            std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }

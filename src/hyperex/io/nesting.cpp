@@ -10,7 +10,9 @@ namespace {
 
 class Scanner {
  public:
-  explicit Scanner(std::string_view text) : text_(text) {}
+  explicit Scanner(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+  }
 
   int json() {
     while (at_ < text_.size()) {
@@ -31,7 +33,6 @@ class Scanner {
   }
 
   int bare_non_ascii() {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
     do {
       if (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) >= 0x80) return line_;
     } while (next_toml());
@@ -40,8 +41,15 @@ class Scanner {
 
  private:
   void step() {
-    if (text_[at_] == '\n') ++line_;
-    ++at_;
+    const char c = text_[at_++];
+    if (c == '\n') ++line_;
+    if (c != ' ' && c != '\t') before_ = c;
+  }
+
+  /// Whether a key or value of TOML can begin here. A quote within a bare one opens no string: the
+  /// parser reads on, and so must we.
+  bool can_begin() const {
+    return std::string_view("\n=[{,.").find(before_) != std::string_view::npos;
   }
 
   /// Past a comment, a string or a character; false at the end.
@@ -52,7 +60,7 @@ class Scanner {
       while (at_ < text_.size() && text_[at_] != '\n') step();
       return true;
     }
-    if (c == '"' || c == '\'') {
+    if ((c == '"' || c == '\'') && can_begin()) {
       skip_toml_string(c);
       return true;
     }
@@ -100,6 +108,7 @@ class Scanner {
   std::string_view text_;
   std::size_t at_ = 0;
   int line_ = 1, depth_ = 0, dots_ = 0;
+  char before_ = '\n';  // the last character that is no space or tab
   bool too_deep_ = false;
 };
 
