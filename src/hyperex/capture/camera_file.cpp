@@ -88,8 +88,7 @@ class Reader {
 Camera read_camera_file(const fs::path& file) {
   toml::table table;
   const std::string text = read_file(file);
-  if (const auto refusal = io::refusal_of_toml(text); refusal.line > 0)
-    throw InputError(InputProblem{file, refusal.line, "", "", "plain keys: " + refusal.why});
+  io::check_nesting_toml(file, text);
   try {
     table = toml::parse(text);
   } catch (const toml::parse_error& error) {

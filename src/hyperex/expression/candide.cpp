@@ -142,11 +142,12 @@ std::vector<CandideUnit> read_units(Reader& reader, std::string_view section,
     CandideUnit& unit = units[k];
     unit.name =
         reader.comment(fmt::format("'# NAME' of unit {} of {} ({})", k + 1, units.size(), section));
-    unit.displacement.resize(reader.count("vertices that unit '" + unit.name + "' moves"), 3);
+    const std::string quoted = io::quotable(unit.name);
+    unit.displacement.resize(reader.count("vertices that unit '" + quoted + "' moves"), 3);
     for (Eigen::Index i = 0; i < unit.displacement.rows(); ++i) {
       const std::string expected =
           fmt::format("entry {} of {} of unit '{}': a vertex, 0 to {}, and dx dy dz", i + 1,
-                      unit.displacement.rows(), unit.name, vertices - 1);
+                      unit.displacement.rows(), quoted, vertices - 1);
       const auto row = reader.numbers(4, expected);
       unit.vertices.push_back(reader.index(row[0], vertices, expected));
       unit.displacement.row(i) << row[1], row[2], row[3];

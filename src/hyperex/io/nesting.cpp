@@ -10,9 +10,7 @@ namespace {
 
 class Scanner {
  public:
-  explicit Scanner(std::string_view text) : text_(text) {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
-  }
+  explicit Scanner(std::string_view text) : text_(text) {}
 
   int json() {
     while (at_ < text_.size()) {
@@ -32,24 +30,10 @@ class Scanner {
     return 0;
   }
 
-  int bare_non_ascii() {
-    do {
-      if (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) >= 0x80) return line_;
-    } while (next_toml());
-    return 0;
-  }
-
  private:
   void step() {
-    const char c = text_[at_++];
-    if (c == '\n') ++line_;
-    if (c != ' ' && c != '\t') before_ = c;
-  }
-
-  /// Whether a key or value of TOML can begin here. A quote within a bare one opens no string: the
-  /// parser reads on, and so must we.
-  bool can_begin() const {
-    return std::string_view("\n=[{,.").find(before_) != std::string_view::npos;
+    if (text_[at_] == '\n') ++line_;
+    ++at_;
   }
 
   /// Past a comment, a string or a character; false at the end.
@@ -60,7 +44,7 @@ class Scanner {
       while (at_ < text_.size() && text_[at_] != '\n') step();
       return true;
     }
-    if ((c == '"' || c == '\'') && can_begin()) {
+    if (c == '"' || c == '\'') {
       skip_toml_string(c);
       return true;
     }
@@ -108,7 +92,6 @@ class Scanner {
   std::string_view text_;
   std::size_t at_ = 0;
   int line_ = 1, depth_ = 0, dots_ = 0;
-  char before_ = '\n';  // the last character that is no space or tab
   bool too_deep_ = false;
 };
 
@@ -122,23 +105,17 @@ int line_nested_too_deep_toml(std::string_view text) {
   return Scanner(text).toml();
 }
 
-int line_of_bare_non_ascii_toml(std::string_view text) {
-  return Scanner(text).bare_non_ascii();
-}
-
-TomlRefusal refusal_of_toml(std::string_view text) {
-  if (const int line = line_nested_too_deep_toml(text); line > 0) return {line, too_deep()};
-  if (const int line = line_of_bare_non_ascii_toml(text); line > 0)
-    return {line, "a key with other characters than A-Z, a-z, 0-9, _ and - needs quotes"};
-  return {};
-}
-
 std::string too_deep() {
   return fmt::format("nested deeper than {} levels", most_nested);
 }
 
 void check_nesting_json(const std::filesystem::path& file, std::string_view text) {
   if (const int line = line_nested_too_deep_json(text); line > 0)
+    throw InputError(file, fmt::format("line {} is {}", line, too_deep()));
+}
+
+void check_nesting_toml(const std::filesystem::path& file, std::string_view text) {
+  if (const int line = line_nested_too_deep_toml(text); line > 0)
     throw InputError(file, fmt::format("line {} is {}", line, too_deep()));
 }
 

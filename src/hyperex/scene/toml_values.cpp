@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/scene/toml_values.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <sstream>
@@ -45,14 +46,18 @@ json convert(const toml::node& node, const std::string& name, std::map<std::stri
   return nullptr;
 }
 
-}  // namespace
-
-namespace {
 std::string line_of(const std::string& text, int line) {
   std::istringstream lines(text);
   std::string found;
   for (int n = 0; n < line; ++n) std::getline(lines, found);
   return found;
+}
+
+/// "größe = 2": a letter beyond ASCII in a key without quotes.
+bool has_bare_letter(const std::string& line) {
+  const std::string key = line.substr(0, line.find('='));
+  return key.find_first_of("\"'#") == std::string::npos &&
+         std::any_of(key.begin(), key.end(), [](char c) { return (unsigned char)c >= 0x80; });
 }
 
 /// "gain = 0,3": decimals behind a comma, as many languages write them.
@@ -72,8 +77,8 @@ bool has_decimal_comma(const std::string& line) {
 }  // namespace
 
 TomlValues parse_toml(const std::string& text) {
-  if (const auto refusal = io::refusal_of_toml(text); refusal.line > 0)
-    throw TornToml{refusal.line, refusal.why};
+  if (const int line = io::line_nested_too_deep_toml(text); line > 0)
+    throw TornToml{line, io::too_deep()};
   try {
     const toml::table table = toml::parse(text);
     TomlValues values;
@@ -91,12 +96,14 @@ TomlValues parse_toml(const std::string& text) {
          why.find("line-break") != std::string::npos))
       why = "a string that does not end: its closing quote is missing";
     const std::string torn = line_of(text, line);
+    if (has_bare_letter(torn))
+      why = "a key with other characters than A-Z, a-z, 0-9, _ and - needs quotes";
     throw TornToml{line, why, torn.find('\\') != std::string::npos, has_decimal_comma(torn)};
   }
 }
 
 std::optional<json> parse_toml_value(const std::string& value) {
-  if (io::refusal_of_toml(value).line > 0) return std::nullopt;
+  if (io::line_nested_too_deep_toml(value) > 0) return std::nullopt;
   try {
     const toml::table table = toml::parse("value = " + value);
     std::map<std::string, int> ignored;

@@ -39,22 +39,6 @@ TEST(Nesting, CountsThePartsOfDottedKeys) {
   EXPECT_EQ(line_nested_too_deep_toml(repeated("a.b = 1.5\n", 1000)), 0);
 }
 
-TEST(BareNonAscii, IsFoundOutsideOfStringsAndComments) {
-  EXPECT_EQ(line_of_bare_non_ascii_toml("a = 1\ngr\u00f6\u00dfe = 2\n"), 2);
-  EXPECT_EQ(line_of_bare_non_ascii_toml("\u0299 = 1"), 1);
-  EXPECT_EQ(line_of_bare_non_ascii_toml("a = \u00e4"), 1);
-  EXPECT_EQ(line_of_bare_non_ascii_toml("\xEF\xBB\xBF\"\u00e4\" = '\u00e4' # \u00e4\n"
-                                        "b = \"\"\"\n\u00e4\"\u00e4\"\"\"\n"),
-            0);
-  // A quote within a bare key or value opens no string.
-  EXPECT_EQ(line_of_bare_non_ascii_toml("a = 5\"\uFCFF\""), 1);
-  EXPECT_EQ(line_of_bare_non_ascii_toml("a'\u00e4' = 5"), 1);
-  EXPECT_EQ(line_of_bare_non_ascii_toml("[ \"\u00e4\" . '\u00e4']\na = [\n'\u00e4',\t'\u00e4']\n"
-                                        "b = {'\u00e4' = '\u00e4', c.'\u00e4' = 1}\n"),
-            0);
-  EXPECT_NE(refusal_of_toml("gr\u00f6\u00dfe = 2").why.find("needs quotes"), std::string::npos);
-}
-
 class DeepFiles : public testing::FileTest {};
 
 TEST_F(DeepFiles, LandmarksAreRefused) {
