@@ -143,10 +143,10 @@ class BodyReader {
     } catch (const Torn&) {
       throw InputError(file_,
                        fmt::format("is torn: it ends within \"{}\" {} of {} (counted from 0)",
-                                   element.name, row_, element.count));
+                                   quotable(element.name), row_, element.count));
     } catch (const BadWord& bad) {
-      throw InputError(
-          {file_, bad.line, fmt::format("\"{}\" {}", element.name, row_), bad.word, "a number"});
+      throw InputError({file_, bad.line, fmt::format("\"{}\" {}", quotable(element.name), row_),
+                        bad.word, "a number"});
     }
   }
 
@@ -251,7 +251,7 @@ class BodyReader {
     if (!(n >= 0 && n <= 1e9) || n != std::floor(n))
       throw InputError(file_, fmt::format("row {} (counted from 0) of \"{}\" says {} values; "
                                           "expected a whole number, 0 or more",
-                                          row_, property.name, n));
+                                          row_, quotable(property.name), n));
     return static_cast<std::int64_t>(n);
   }
 

@@ -170,7 +170,7 @@ PlyHeader read_ply_header(const std::filesystem::path& file, const std::string& 
       throw InputError(file,
                        fmt::format("is torn, or its header is wrong: it says {} rows of \"{}\", "
                                    "of {} bytes or more each; only {} bytes follow the header",
-                                   element.count, element.name, row, body));
+                                   element.count, quotable(element.name), row, body));
     left -= row * static_cast<std::size_t>(element.count);
   }
   return header;

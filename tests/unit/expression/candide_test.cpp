@@ -64,10 +64,11 @@ TEST(Candide, MalformedFilesAreRefusedByLine) {
                 HasSubstr("small.wfm" + line))
         << from << " -> " << to;
   }
-  EXPECT_THAT(test::refusal([&] {
-                read_candide(written(replaced(kSmall, "Jaw drop\n2", std::string(300, 'x') + "\nx")));
-              }),
-              HasSubstr("unit '" + std::string(40, 'x') + "...' moves"));
+  EXPECT_THAT(
+      test::refusal([&] {
+        read_candide(written(replaced(kSmall, "Jaw drop\n2", std::string(300, 'x') + "\nx")));
+      }),
+      HasSubstr("unit '" + std::string(40, 'x') + "...' moves"));
   const std::string text = kSmall;
   for (std::size_t end = 0; end < text.find("# ANIMATION PARAMETERS") - 2; end += 7)
     EXPECT_THROW(read_candide(written(text.substr(0, end))), InputError) << end;

@@ -158,6 +158,8 @@ TEST_F(Ply, RefusesEachFaultWithOneLine) {
       {head + "property float x\nend_header\n", "an element before its properties"},
       {head + "elephant vertex 3\n", "format, comment"},
       {head + "element vertex 1000000000000\n" + xyz + "end_header\n0 0 0\n", "is torn"},
+      {head + "element " + std::string(300, 'x') + " 9000\n" + xyz + "end_header\n",
+       "rows of \"" + std::string(40, 'x') + "...\""},
       {head + "element vertex 9223372036854775807\n" + xyz + "end_header\n0 0 0\n", "is torn"},
       {head + "element vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
        "no x, y and z"},
