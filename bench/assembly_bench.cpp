@@ -22,7 +22,7 @@ void label(benchmark::State& state, fem::ElementKind kind, const fem::System& sy
   state.counters["nonzeros"] = static_cast<double>(system.stiffness.nonZeros());
 }
 
-/// Values anew, patterns kept. Arguments: element kind, threads.
+/// New values with existing patterns. Arguments: element kind, threads.
 void reassemble(benchmark::State& state) {
   const auto kind = static_cast<fem::ElementKind>(state.range(0));
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What finite strain costs on a face: the embedded one on springs, its mouth opened by patches
+// The cost of finite strain on a face: the embedded face on springs, its mouth opened by patches
 // around seven points, by 2 cm at the chin in a second.
 //   finite_bench [element size in mm]
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ struct Face {
   tissue::VolumeMesh mesh;
   fem::Material material;
   std::vector<int> prescribed;
-  VectorXd way;  // of the prescribed unknowns, m
+  VectorXd way;  // displacement of the prescribed unknowns, m
   fem::SparseMatrix springs;
 };
 
@@ -44,7 +44,8 @@ Face make_face(double element_size_m) {
   face.material.viscosity_pa_s.assign(tets, 476.8);
   face.material.density_kg_m3.assign(tets, 1100);
 
-  // Landmark and way (mm): down at the chin and the lower lip, corners inwards.
+  // Landmarks and their displacements (mm): down at the chin and the lower lip, inwards at the
+  // corners.
   const std::vector<std::pair<int, Vec3>> points{
       {48, {3, -5, -2}}, {54, {-3, -5, -2}}, {51, {0, 1, 0}},    {57, {0, -17, -5}},
       {8, {0, -20, -7}}, {58, {1, -15, -4}}, {56, {-1, -15, -4}}};
@@ -68,7 +69,7 @@ Face make_face(double element_size_m) {
   }
   face.way = Eigen::Map<VectorXd>(way.data(), static_cast<Eigen::Index>(way.size()));
 
-  // Springs to the bone at every node below the tissue, stiff ones at its border (N/m).
+  // Springs to the bone at every node below the tissue, stiffer at the border (N/m).
   std::vector<Eigen::Triplet<double>> springs;
   for (int v = 0; v < surface; ++v) {
     const int n = face.mesh.layers * surface + v;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One size of the embedded face: time and peak memory of each stage, from the mesh to the basis.
-// A process for each, so that no size sees another's memory.
+// Each size needs its own process, so that the peak memory of one does not affect another.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -30,14 +30,14 @@ fem::ElementKind kind_of(const std::string& name) {
   throw CLI::ValidationError("--element", name);
 }
 
-/// Times stages and the memory that each needs on top of what stays.
+/// Measures the time of each stage, and its memory beyond what is in use already.
 class Stages {
  public:
   explicit Stages(Json& out, std::string file) : out_(out), file_(std::move(file)) {}
   template <class Work>
   auto operator()(const char* name, Work work) {
     out_["stopped_at"] = name;
-    if (file_ != "-") write_json(out_, file_);  // what is known should this stage be the last
+    if (file_ != "-") write_json(out_, file_);  // save the results so far, in case this stage fails
     reset_peak_memory();
     Stopwatch watch;
     auto result = work();
@@ -51,7 +51,7 @@ class Stages {
   std::string file_;
 };
 
-/// Moves a full model `steps` steps; seconds a step.
+/// Runs a full model for `steps` steps; returns seconds per step.
 double steps_of(fem::Newmark& newmark, const fem::Drive& drive, int steps) {
   std::vector<double> s;
   for (int step = 1; step <= steps; ++step)
@@ -64,7 +64,7 @@ void measure(const Request& request, Json& out) {
   out["element"] = request.element;
   const fem::ElementKind kind = kind_of(request.element);
   const FaceCase face = stage("mesh", [&] { return FaceCase(Face::embedded, request.size); });
-  // The scan's reading and the boundary's making are not the mesh.
+  // Reading the scan and making the boundary do not belong to the mesh.
   out["stages"]["mesh"]["seconds"] = face.mesh_seconds();
   const auto& volume = face.mesh().volume;
   out["nodes"] = volume.nodes.rows();
@@ -99,7 +99,7 @@ void measure(const Request& request, Json& out) {
   out["estimated_error"] = response.estimated_error;
 }
 
-/// 0, or 1 where a stage failed: what came before stands in the file.
+/// Returns 0, or 1 where a stage failed; the file contains the results of the stages before.
 int run(const Request& request) {
   const auto bytes = static_cast<rlim_t>(request.memory_gib * (1 << 30));
   const rlimit limit{bytes, bytes};

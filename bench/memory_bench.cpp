@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// No leak in what is done again and again: resident memory after 100 and after 1,000 cycles of
+// Checks that repeated work does not leak: resident memory after 100 and after 1,000 cycles of
 // set_tissue() and run() on a small face, through the library's own calls.
 //   memory_bench RESULT.json
-// Ends with 1 where memory has grown by more than kMostGrowth in between.
+// Exit status 1 where memory has grown by more than kMostGrowth in between.
 #include <malloc.h>
 #include <unistd.h>
 
@@ -22,8 +22,8 @@ namespace {
 constexpr int kEarly = 100, kLate = 1000;
 constexpr double kMostGrowth = 1.02;
 
-/// Of this process, bytes; what is free is given back before, or what the allocator keeps would be
-/// counted.
+/// Of this process, in bytes. Free memory is returned to the system first; otherwise memory kept by
+/// the allocator would be counted.
 double resident_bytes() {
   ::malloc_trim(0);
   std::ifstream file("/proc/self/statm");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The reduced model: its basis, its error as estimated and against the full model at every step,
-// and what an edit of the tissue costs a program, up to all frames of the skin.
+// The reduced model: its basis, its estimated error and its error against the full model at every
+// step, and the time from an edit of the tissue to all frames of the skin.
 #include <cmath>
 #include <numeric>
 
@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Tolerance of the drive that the truth is run with: its shapes leave out next to nothing.
+/// Tolerance of the drive for the reference run; its shapes are practically exact.
 constexpr double kExact = 1e-7;
 
 /// All unknowns at all steps of the full model.
@@ -29,8 +29,8 @@ Eigen::MatrixXd full_run(const FaceCase& face, const fem::System& system, const 
 }
 
 struct TrueError {
-  double error = 0;  ///< greatest distance of any node at any step, over the greatest displacement
-  Eigen::Index step = 0;  ///< at which
+  double error = 0;       ///< greatest distance of any node at any step / greatest displacement
+  Eigen::Index step = 0;  ///< the step of that distance
 };
 TrueError true_error(const fem::Response& response, const Eigen::MatrixXd& truth) {
   constexpr Eigen::Index kChunk = 90;
@@ -48,8 +48,8 @@ TrueError true_error(const fem::Response& response, const Eigen::MatrixXd& truth
   return worst;
 }
 
-/// Basis size and errors as the tolerance falls. `drive_of`: the drive as the program makes it for
-/// a tolerance.
+/// Basis size and errors for decreasing tolerances. `drive_of`: makes the drive for a tolerance, as
+/// the program does.
 template <class DriveOf>
 Json sweep(const FaceCase& face, const fem::System& system, DriveOf drive_of,
            const std::vector<double>& tolerances) {
@@ -78,8 +78,8 @@ Json sweep(const FaceCase& face, const fem::System& system, DriveOf drive_of,
   return {{"greatest_displacement_m", greatest(truth)}, {"rows", rows}};
 }
 
-/// From other tissue values on the same face to all frames of the skin, through the Simulator that
-/// programs use, and a run once more with nothing changed: reading out alone.
+/// Time from other tissue values on the same face to all frames of the skin, through the Simulator
+/// that programs use; and of a run without changes, which only reads out the results.
 Json edit_to_frames(const FaceCase& face, fem::ElementKind kind, int repeats) {
   simulate::Simulator simulator = face.simulator();
   simulate::SimulationOptions options = simulator.options();
@@ -113,8 +113,9 @@ Json edit_to_frames(const FaceCase& face, fem::ElementKind kind, int repeats) {
           {"skin_vertices", face.mesh().skin.points.rows()}};
 }
 
-/// The same face driven by muscles: the forces of a recording once the muscles' unit responses are
-/// there, and what another strength of the busiest muscle costs, up to all frames of the skin.
+/// The same face driven by muscles: time of finding the forces of a recording once the muscles'
+/// unit responses exist, and time from another strength of the busiest muscle to all frames of the
+/// skin.
 Json muscles(const FaceCase& face, int repeats) {
   simulate::Simulator simulator = face.simulator();
   simulate::SimulationOptions options = simulator.options();
@@ -198,8 +199,8 @@ Json measure(bool quick) {
 }  // namespace
 }  // namespace hyperex::bench
 
-/// reduced_bench FILE.json [--quick | --edit | --muscles]; --edit: what an edit costs, --muscles:
-/// what muscles cost, alone
+/// reduced_bench FILE.json [--quick | --edit | --muscles]; --edit: only the cost of an edit,
+/// --muscles: only the cost of muscles
 int main(int argc, char** argv) {
   using namespace hyperex::bench;
   if (argc > 2 && std::string(argv[2]) == "--edit") {

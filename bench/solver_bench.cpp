@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The full model: factor and step, part by part, against the rate at which memory can be read;
-// orderings, number types and several right-hand sides; CalculiX on the same mesh.
+// The full model: times of factorisation and of the parts of a step, compared with the rate at
+// which memory can be read; orderings, number types and several right-hand sides; CalculiX on the
+// same mesh.
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -30,14 +31,14 @@ struct Effort {
   int repeats, ccx_few, ccx_many;
 };
 
-/// A of Newmark's average acceleration, as fem::Newmark factors it.
+/// The matrix A of Newmark's method with average acceleration, as fem::Newmark factors it.
 fem::SparseMatrix step_matrix(const fem::System& system, double h) {
   return fem::combined(system, 2 / h, 4 / (h * h));
 }
 
 struct StepTimes {
   double step_s;      ///< median
-  double cores_busy;  ///< processor time over time: whether the threads ran at once
+  double cores_busy;  ///< processor time divided by elapsed time: the mean number of busy threads
 };
 
 /// Every step of the motion, timed one by one.
@@ -65,8 +66,7 @@ StepTimes step_times(const FaceCase& face, fem::Newmark& newmark, const fem::Dri
   return {median(s), cpu_s / all.lap()};
 }
 
-/// The parts of a step in turn, as they follow each other in it, so that each finds the caches as
-/// it does there.
+/// Times the parts of a step in their order in the step, so that the caches are in the same state.
 Json step_parts(const fem::System& system, fem::PartitionedFactor& factor, int repeats) {
   const fem::InertiaRows inertia(system);
   const fem::SparseMatrix coupling = fem::coupling(system.stiffness, factor.partition());
@@ -85,7 +85,7 @@ Json step_parts(const fem::System& system, fem::PartitionedFactor& factor, int r
     solve_s.push_back(watch.lap());
     x = x.normalized();
   }
-  // Of InertiaRows: nine dampings, a mass and a place for each pair of nodes.
+  // InertiaRows stores nine damping values, a mass and an index for each pair of nodes.
   return {{"product_s", median(product_s)},
           {"product_bytes", static_cast<double>(system.mass.nonZeros()) / 9 * 88},
           {"coupling_s", median(coupling_s)},
@@ -117,8 +117,8 @@ Json full_model(const FaceCase& face, const fem::System& system, const fem::Driv
     const StepTimes times = step_times(face, newmark, drive);
     Json t{{"threads", threads}, {"step_s", times.step_s}, {"cores_busy", times.cores_busy}};
     t.update(step_parts(system, factor, effort.repeats));
-    // What no solver that reads L twice can beat: where memory is slow, and as it would be if the
-    // factor's bytes could be read at the rate of an array as large.
+    // The read rate of an array as large as the factor. It gives a lower bound on the time of every
+    // solver that reads L twice, where memory limits the speed.
     t["read_like_factor"] = read_rate(static_cast<std::size_t>(8 * entries), threads);
     out["steps"].push_back(t);
   }
@@ -133,7 +133,7 @@ Json full_model(const FaceCase& face, const fem::System& system, const fem::Driv
   return out;
 }
 
-/// Orderings, each solved by CHOLMOD and by the library's kernel.
+/// Compares orderings, each solved by CHOLMOD and by the library's kernel.
 Json orderings(const fem::SparseMatrix& lower, int repeats) {
   Json out = Json::array();
   for (const auto& [name, ordering] :
@@ -162,7 +162,8 @@ Json orderings(const fem::SparseMatrix& lower, int repeats) {
   return out;
 }
 
-/// A symmetric matrix, both triangles stored, times a vector; rows shared among the threads.
+/// Product of a symmetric matrix, both triangles stored, and a vector; the rows are divided among
+/// the threads.
 void multiply(const fem::SparseMatrix& a, const Eigen::VectorXd& x, Eigen::VectorXd& out) {
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, a.cols(), 512), [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
@@ -173,8 +174,8 @@ void multiply(const fem::SparseMatrix& a, const Eigen::VectorXd& x, Eigen::Vecto
   });
 }
 
-/// Solves x = A^-1 b with a copy of the factor in T: once, once more for what is left, or for the
-/// change since a guess alone.
+/// Solves x = A^-1 b with a copy of the factor in T: once, with one step of iterative refinement,
+/// or only for the change from a guess.
 template <class T>
 class Refined {
  public:
@@ -210,8 +211,8 @@ class Refined {
   Eigen::VectorXd rest_;
 };
 
-/// Steps of the real motion to solve again: right-hand side, what is expected from the state before
-/// (d + h v + h^2/2 a), and the answer.
+/// Steps of the real motion to be solved again: right-hand side, prediction from the previous state
+/// (d + h v + h^2/2 a), and solution.
 struct Solved {
   Eigen::VectorXd b, guess, x;
 };
@@ -274,8 +275,8 @@ Json number_types(const FaceCase& face, const fem::System& system, const fem::Dr
   return out;
 }
 
-/// The same mesh, driven nodes and step in CalculiX: held at the fixed nodes, without the springs
-/// of bones and foundation (which cost it nothing), Rayleigh damping.
+/// The same mesh, driven nodes and time step in CalculiX, held at the fixed nodes, with Rayleigh
+/// damping. The springs of bones and foundation, which would hardly cost time, are left out.
 Json calculix(const FaceCase& face, const fem::Drive& drive, const Effort& effort) {
   if (!test::find_calculix()) return nullptr;
   test::CalculixModel model;

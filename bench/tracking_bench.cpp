@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What tracking a face costs, by stage, and with the measured deformation of a scan after it:
-// tracking_bench OUT.json RECORDING... [--scan SCAN --landmarks FILE]
-// On one core: the networks' library is kept to one thread, and the time of the process beside the
-// time that passed tells whether another program had a share of the core.
+// The time of tracking a face, by stage, and of the measured deformation of a scan after it:
+//   tracking_bench OUT.json RECORDING... [--scan SCAN --landmarks FILE]
+// Measured on one core: the networks' library uses one thread. Comparing the processor time of the
+// process with the elapsed time shows whether another program used the core.
 #include <CLI/CLI.hpp>
 #include <ctime>
 #include <opencv2/core.hpp>
@@ -51,7 +51,7 @@ class Follower {
   }
 
   Eigen::Index vertices() const { return skin_.rows(); }
-  /// Where the skin goes with a frame whose vertices were at `rest` in the first.
+  /// Moves the skin with a frame whose vertices were at `rest` in the first frame.
   void follow(const Points& rest, const Points& now) {
     const Points displacement =
         scan_from_model_.scale * (now - rest) * scan_from_model_.rotation.transpose();
@@ -66,7 +66,7 @@ class Follower {
   std::vector<simulate::Match> matches_;
 };
 
-/// One pass over a source; frames that are tracked are followed where there is a follower.
+/// One pass over a source. If there is a follower, the skin follows the tracked frames.
 struct Pass {
   double wall_s = 0, process_s = 0, follow_s = 0;
   tracking::TrackerTimes times;
@@ -122,7 +122,7 @@ Json measure(const std::string& recording, Follower* follower) {
   Stopwatch watch;
   while (auto frame = source->next()) decoded.push_back(std::move(*frame));
   out["decode_s"] = watch.lap() / double(decoded.size());
-  constexpr int kRepeats = 3;  // the quickest: other programs only ever add
+  constexpr int kRepeats = 3;  // the fastest counts, since other programs can only add time
   const auto quickest = [&](auto pass_of) {
     Pass best = pass_of();
     for (int i = 1; i < kRepeats; ++i)

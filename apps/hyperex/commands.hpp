@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One file a subcommand: parse, call, print. Each function adds its subcommand to the program;
-// what the subcommand does is its callback, run once all options are parsed. Wrong input: throw
-// InputError (exit status 2); a computation that failed: any other exception (exit status 1).
+// There is one file per subcommand; it parses the options, calls the library and prints. Each
+// function below adds its subcommand to the program. The work of a subcommand is done by its
+// callback, which runs once all options are parsed. On wrong input, throw InputError (exit status
+// 2). If a computation fails, throw any other exception (exit status 1).
 #include <CLI/CLI.hpp>
 #include <string>
 

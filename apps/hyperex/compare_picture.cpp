@@ -20,7 +20,7 @@ double rounded_up(double value) {
   return 10 * decade;
 }
 
-// Millimetres for every vertex: one that was not scored takes the mean of its scored neighbours.
+// Distance in millimetres for every vertex. A vertex without one takes the mean of its neighbours.
 Eigen::VectorXf scalar_of(const ComparePicture& picture) {
   const TriMesh& mesh = picture.surface;
   const Eigen::Index scored = picture.distance_m.size();

@@ -8,15 +8,16 @@
 
 namespace hyperex::cli {
 
-/// A surface coloured by distance, from the front and three-quarter.
+/// A surface coloured by distance, drawn from the front and in three-quarter view.
 struct ComparePicture {
   const TriMesh& surface;
-  const Eigen::VectorXd&
-      distance_m;                ///< of its first vertices; those beyond take their neighbours'
-  std::vector<int> framed = {};  ///< vertices to fill the picture with; all where empty
+  /// Distances of the first vertices of the surface. Every other vertex gets the mean of those of
+  /// its neighbours that have one.
+  const Eigen::VectorXd& distance_m;
+  std::vector<int> framed = {};  ///< vertices that fill the picture; empty: all
   Eigen::Matrix3d face_from_scan = Eigen::Matrix3d::Identity();  ///< rows: left, up, forward
   std::string title = {}, note = {};
-  double top_mm = 1;  ///< about where the colour bar ends (rounded up)
+  double top_mm = 1;  ///< the colour bar ends near this value (rounded up)
 };
 
 render::Image draw(const ComparePicture& picture);

@@ -42,7 +42,7 @@ class Reader {
   std::set<io::LengthUnit> guessed_;
 };
 
-// A distance between surfaces of quite another size means that a unit is wrong.
+// If the sizes of the two surfaces differ by a large factor, one of the units is wrong.
 void check_sizes(const CompareOptions& options, const ComparedSurfaces& surfaces) {
   constexpr double most = 5;
   const double a = io::across(surfaces.a.points);
@@ -59,8 +59,9 @@ void check_sizes(const CompareOptions& options, const ComparedSurfaces& surfaces
   check(options.rest.empty() ? options.a : options.rest, surfaces.rest);
 }
 
-// An STL repeats each corner; joined again, vertices are numbered by their first appearance, and
-// where two of them touch they are one.
+// STL stores the corners of each triangle separately. After joining, the vertices are numbered by
+// first appearance, and distinct vertices at the same place have become one. The original numbering
+// is lost.
 void refuse_stl(const CompareOptions& options) {
   for (const auto& file : {options.a, options.b})
     if (ending_of(file) == ".stl")
@@ -69,7 +70,8 @@ void refuse_stl(const CompareOptions& options) {
                        "PLY, OBJ or glTF; without it the closest points are compared");
 }
 
-// Scored by corresponding vertices, all three must begin with the vertices at rest.
+// For a comparison of corresponding vertices, all three surfaces must begin with the vertices of
+// the rest surface.
 void check_counts(const CompareOptions& options, ComparedSurfaces& surfaces) {
   const Eigen::Index a = surfaces.a.points.rows(), b = surfaces.b.points.rows();
   if (options.rest.empty()) {

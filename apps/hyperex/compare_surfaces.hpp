@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `hyperex compare` reads.
+// The input of `hyperex compare`.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -16,12 +16,13 @@ struct CompareOptions {
 };
 
 struct ComparedSurfaces {
-  TriMesh a, b, rest;       ///< rest: that of --rest, else a
-  Eigen::Index scored = 0;  ///< the first n vertices of a
+  TriMesh a, b, rest;       ///< rest: the surface given by --rest, or `a` without it
+  Eigen::Index scored = 0;  ///< number of vertices at the beginning of `a` that are compared
   std::vector<std::string> notes;
 };
 
-/// Throws InputError: surfaces of quite different size, or vertices that cannot correspond.
+/// Throws InputError if the sizes of the surfaces differ too much, or if their vertices cannot
+/// correspond.
 ComparedSurfaces read_surfaces(const CompareOptions& options);
 
 }  // namespace hyperex::cli

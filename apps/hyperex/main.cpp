@@ -30,7 +30,7 @@
 
 namespace {
 
-// One line a problem, each with the program's name.
+// Prints one line per problem, each beginning with the program's name.
 void print_error(const std::string& message) {
   hyperex::wait_if_interrupted();
   const std::string text = hyperex::first_lines(hyperex::printable(message));
@@ -42,7 +42,7 @@ void print_error(const std::string& message) {
   }
 }
 
-/// "%*": what is said, fit for a terminal.
+/// Flag "%*": the message made printable, so that it is safe for a terminal.
 class PrintableMessage : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&,
@@ -90,7 +90,8 @@ std::string words_of(const std::filesystem::filesystem_error& error) {
   return (path.empty() ? "" : path + ": ") + error.code().message();
 }
 
-// CLI11 alone says of a misspelt command that one is required.
+// For a misspelt command, CLI11 reports only that a command is required. This names the unknown
+// one.
 void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc >= 2 && argv[1][0] == '-') return;
   std::vector<std::string> names;
@@ -115,8 +116,8 @@ void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
        "a subcommand (" + list + ")" + (near.empty() ? "" : "; did you mean " + near + "?")});
 }
 
-// The stages of a run make and free the same large arrays over and over: by default each of them is
-// taken from the system and given back, page by page, which took a tenth of a run.
+// The stages of a run allocate and free the same large arrays repeatedly. By default, glibc returns
+// each array to the system and requests it again, page by page. That took a tenth of a run's time.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
@@ -125,7 +126,7 @@ void keep_freed_memory() {
 #endif
 }
 
-// What the command comes to: 0, 2 for a mistake in the input, 1 for a computation that failed.
+// The exit status of the command: 0, 2 for wrong input, 1 for a failed computation.
 int status_of(CLI::App& program, int argc, char** argv) {
   try {
     refuse_unknown_command(program, argc, argv);
@@ -164,15 +165,16 @@ int status_of(CLI::App& program, int argc, char** argv) {
 int main(int argc, char** argv) {
   keep_freed_memory();
   hyperex::open_standard_streams();
-  // A file that may grow no further is then a failed write with a message, not the end. So is a
-  // pipe whose reader has left: a message that nobody reads is no reason to end.
+  // With SIGXFSZ ignored, exceeding a file size limit becomes a failed write with a message instead
+  // of the end of the program. With SIGPIPE ignored, the same holds for a pipe whose reader has
+  // closed it.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   hyperex::end_cleanly_when_interrupted();
-  // Standard output is for results alone: what is said on the way goes beside it.
+  // Standard output is for results only; log messages go to standard error.
   log_to_standard_error();
   hyperex::Progress::silence(false);
-  // Its own failures to write a message are none of the user's.
+  // If spdlog fails to write a message, this is not reported to the user.
   spdlog::set_error_handler([](const std::string&) {});
   CLI::App program{
       "Recorded expressions, re-enacted on scanned faces through simulated soft tissue.",
@@ -184,7 +186,7 @@ int main(int argc, char** argv) {
   add_subcommands(program);
   const int status = status_of(program, argc, argv);
   const hyperex::Printed printed = hyperex::flush_standard_output();
-  // Libraries that were short of memory may wait for ever for threads of theirs at the end.
+  // After memory has run out, some libraries may wait for their threads for ever at exit.
   if (status == 1) std::_Exit(status);
   if (status != 0 || printed.whole) return status;
   if (!printed.reader_left)

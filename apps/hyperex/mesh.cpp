@@ -40,7 +40,7 @@ std::filesystem::path landmarks_beside(const std::filesystem::path& scan) {
   return {};
 }
 
-/// Read, or found where there are none.
+/// Reads the landmarks from `file`; if there is no file, finds them on the scan.
 io::Landmarks landmarks_of(const io::Scan& scan, const std::filesystem::path& file) {
   if (!file.empty()) return io::read_landmarks(file);
   std::vector<Note> notes;

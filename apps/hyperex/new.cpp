@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As seen from the scene's folder, where that is shorter.
+/// The path relative to the scene's folder, if that is shorter.
 std::string seen_from(const fs::path& folder, const std::string& path) {
   if (path == "embedded") return path;
   const fs::path whole = fs::absolute(path).lexically_normal();
@@ -32,7 +32,7 @@ std::string seen_from(const fs::path& folder, const std::string& path) {
   return near.starts_with("../../..") ? whole.generic_string() : near;
 }
 
-/// A scene is TOML, which holds UTF-8 alone.
+/// A scene is a TOML file, and TOML allows UTF-8 only.
 void refuse_other_encoding(const std::string& name) {
   if (!is_utf8(name))
     throw InputError(printable(name) +
@@ -40,7 +40,8 @@ void refuse_other_encoding(const std::string& name) {
                      "another name");
 }
 
-/// Files that no reader of recordings takes, and files in the places of each other.
+/// Refuses files that cannot be read as a recording, and a scan and a recording given in each
+/// other's place.
 void refuse_no_recording(const std::string& scan, const std::string& motion) {
   const std::string kind = motion == "embedded" ? "" : scene::other_kind(motion);
   if (kind == "scan" && scene::other_kind(scan) == "recording")
@@ -53,8 +54,9 @@ void refuse_no_recording(const std::string& scan, const std::string& motion) {
                      "is a scan; expected a recording: the scan comes first, then the "
                      "recording");
   if (motion == "embedded" || kind == "recording" || fs::is_directory(motion)) return;
-  if (ending_of(motion) == ".c3d") motion::read_motion(motion);  // says what to export it as
-  try {                                                          // a video of another kind
+  // throws, naming the format to export to.
+  if (ending_of(motion) == ".c3d") motion::read_motion(motion);
+  try {  // perhaps a video with another extension
     capture::open_source(motion);
   } catch (const InputError& error) {
     throw InputError(motion,
@@ -75,7 +77,8 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   refuse_missing("a scan", scan);
   refuse_missing("a recording", motion);
   refuse_no_recording(scan, motion);
-  if (fs::is_directory(motion)) capture::open_tum_folder(motion);  // says what is missing in it
+  // Throws if the folder is incomplete.
+  if (fs::is_directory(motion)) capture::open_tum_folder(motion);
   scene::NewScene made;
   if (scan != "embedded") {
     const io::Scan read = io::read_scan(scan);
@@ -93,7 +96,7 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   if (made.motion_key == "motion.file" && motion != "embedded")
     made.rigid_points = motion::proposed_rigid_points(motion::read_motion(motion));
   const std::string text = scene::new_scene_text(made);
-  scene::read_scene_text(text, to);  // what is wrong is said now, and nothing is written
+  scene::read_scene_text(text, to);  // throws before anything is written
   write_file_atomically(to, [&](std::ostream& out) { out << text; });
   std::cout << fmt::format(
       "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n",  //

@@ -9,7 +9,7 @@ namespace hyperex::cli {
 
 void add_notes_reference(CLI::App& program) {
   program.add_subcommand("notes-reference", "Print the reference page of notes and warnings")
-      ->group("")  // not in --help: for those who change them
+      ->group("")  // not in --help: it is for developers who change the notes
       ->footer("Example: hyperex notes-reference > docs/notes.md")
       ->callback([] { std::cout << session::notes_reference_markdown(); });
 }

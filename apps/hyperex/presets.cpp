@@ -25,7 +25,7 @@ std::string values_of(const tissue::GivenParameters& given, const char* ending) 
   return text;
 }
 
-/// What muscles.gain may name.
+/// Prints the names that muscles.gain accepts.
 void print_muscles() {
   std::cout
       << "\nMuscles, for muscles.gain; with _L or _R the subject's own side. The branch of the "

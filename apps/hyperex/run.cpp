@@ -43,7 +43,7 @@ void run(const RunOptions& options) {
   auto overrides = options.overrides;
   if (options.verify) overrides.push_back("solver.verify=true");
   scene::Scene scene = scene::read_scene(options.scene, overrides);
-  // After the scene: what is wrong with that matters more.
+  // This is checked after the scene, because errors in the scene are more important.
   if (!options.out)
     throw InputError("--out is required: the folder for the outputs, as in --out out/" +
                      options.scene.stem().string());

@@ -15,7 +15,8 @@ namespace hyperex::cli {
 
 namespace {
 
-/// Whether a colour picture is mirrored cannot be seen in it, and left and right depend on it.
+/// Left and right depend on whether the picture is mirrored. This cannot be detected in a colour
+/// picture.
 void check_device(const std::string& device, const std::string& mirrored) {
   if (device.empty()) {
     if (!mirrored.empty()) throw InputError("studio: --mirrored is for a camera: give --device");

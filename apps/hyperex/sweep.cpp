@@ -35,7 +35,7 @@ struct SweepOptions {
   bool list = false, collect = false, slurm = false, snakemake = false;
 };
 
-/// A line beside the bar that may stand there.
+/// Prints a line. On a terminal it first erases the progress bar that may be there.
 void say(const std::string& line) {
   std::fputs(fmt::format("{}{}\n", ::isatty(2) ? "\r\x1b[K" : "", printable(line)).c_str(), stderr);
 }
@@ -60,7 +60,7 @@ void check(const study::Study& study, const std::vector<std::size_t>& cases) {
   study::check_inputs(study, cases, [&](std::size_t done) { progress.update(long(done)); });
 }
 
-/// The case of --case: a number from 1, a name or the name of the folder.
+/// Index of the case given by --case: a number counted from 1, a name, or a folder name.
 std::size_t index_of(const study::Study& study, const std::vector<study::PlannedCase>& planned,
                      const std::string& one) {
   const bool number = one.find_first_not_of("0123456789") == std::string::npos;
@@ -73,7 +73,7 @@ std::size_t index_of(const study::Study& study, const std::vector<study::Planned
                                 study.cases.size())});
 }
 
-/// The cases that are not finished, of all or of one.
+/// The cases that are not finished yet, among all or only the one named by `one`.
 std::vector<std::size_t> to_run(const study::Study& study,
                                 const std::vector<study::PlannedCase>& planned,
                                 const std::string& one) {
@@ -97,7 +97,7 @@ study::Called called(const SweepOptions& options, const study::Study& study) {
   return {fs::read_symlink("/proc/self/exe"), whole(options.study), whole(study.out)};
 }
 
-/// Waits for cases that other processes run. Those that did not finish, as lines for the end.
+/// Waits for cases that other processes are running. Returns one line for each that did not finish.
 std::vector<std::string> wait_for_others(const study::Study& study,
                                          const std::vector<study::PlannedCase>& planned,
                                          const std::vector<std::size_t>& cases,
@@ -116,7 +116,7 @@ std::vector<std::string> wait_for_others(const study::Study& study,
   return unfinished;
 }
 
-/// Runs them with a line each; what failed, as lines for the end.
+/// Runs the cases and prints one line for each. Returns one line for each that failed.
 std::vector<std::string> run_all(const study::Study& study,
                                  const std::vector<study::PlannedCase>& planned,
                                  const std::vector<std::size_t>& cases, int jobs,
@@ -172,8 +172,8 @@ void print_end(const study::Study& study, const std::vector<State>& states, std:
       printable(study.out.string()), "study.csv", "cases/", "logs/");
 }
 
-/// Driven points follow the recording in every case, whatever its tissue: a flat line that may be
-/// taken for a finding.
+/// In every case, the driven points follow the recording whatever the tissue is. Their curves are
+/// then equal in all cases, which might be mistaken for a result.
 void warn_of_own_forces(const study::Study& study) {
   const study::Case& first = study.cases.front();
   const bool tissue = std::any_of(first.cells.begin(), first.cells.end(), [](const auto& cell) {

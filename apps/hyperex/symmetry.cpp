@@ -43,7 +43,7 @@ struct SymmetryOptions {
   bool keep_head = false;
 };
 
-/// The jitter that the run judged its figures by; none where its summary has no such number.
+/// The jitter that the run itself used; nothing if its summary contains no such number.
 std::optional<double> jitter_of_run(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   if (!fs::exists(file)) return std::nullopt;
@@ -54,7 +54,7 @@ std::optional<double> jitter_of_run(const fs::path& folder) {
   return 1e-3 * summary[at].get<double>();
 }
 
-/// The number of --jitter-mm; none where it is "auto".
+/// The number given by --jitter-mm; nothing for "auto".
 std::optional<double> stated_jitter_mm(const SymmetryOptions& options) {
   if (options.jitter_mm == "auto") return std::nullopt;
   const auto value = io::parse_number(options.jitter_mm);
@@ -64,7 +64,7 @@ std::optional<double> stated_jitter_mm(const SymmetryOptions& options) {
   return value;
 }
 
-/// `steady`: head pose out. `run`: the folder of a run, or empty.
+/// `steady`: the motion without the head pose. `run`: the folder of a run, or empty.
 session::RecordedJitter jitter_of(const SymmetryOptions& options, const motion::Motion& steady,
                                   const fs::path& run) {
   const auto stated = stated_jitter_mm(options);
@@ -83,7 +83,7 @@ session::RecordedJitter jitter_of(const SymmetryOptions& options, const motion::
                       : "points taken as exact, as --jitter-mm 0 states it"};
 }
 
-/// One loud line where no figure can be called undecided.
+/// Warns if the jitter is unknown: then no figure can be classed as undecided.
 void warn_of_unknown(const session::RecordedJitter& jitter) {
   if (!jitter.known)
     spdlog::warn(
@@ -126,7 +126,7 @@ void write_map(const SymmetryOptions& options, const SurfaceFrames& frames,
     io::write_ply(options.map_ply, moved, frames.unit, {{"asymmetry_mm", map_mm}});
 }
 
-/// Writes the files asked for and prints the rest.
+/// Writes the requested files and prints the remaining results.
 void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all,
             const session::RecordedJitter& jitter) {
   for (const std::string& stand_in : all.curve.stand_ins)
@@ -163,7 +163,7 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
   report(options, all, jitter);
 }
 
-/// The files of a folder, each of which may be a frame.
+/// The files of a folder. Each of them may be a frame.
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
@@ -180,7 +180,7 @@ void check_outputs_of(const SymmetryOptions& options, const std::vector<fs::path
                       {options.map_ply, {".ply"}, "ply", {" asymmetry_mm\n"}}});
 }
 
-/// Without the samples after `end_s`.
+/// The motion without the samples after `end_s`.
 motion::Motion until(motion::Motion motion, double end_s) {
   const auto end = std::upper_bound(motion.time_s.begin(), motion.time_s.end(), end_s);
   const auto kept = std::size_t(end - motion.time_s.begin());
@@ -197,7 +197,7 @@ motion::Motion until(motion::Motion motion, double end_s) {
 }
 
 void run(const SymmetryOptions& options) {
-  stated_jitter_mm(options);  // refused before the work, not after
+  stated_jitter_mm(options);  // throws before the work begins
   std::optional<io::LengthUnit> unit;
   if (!options.unit.empty()) unit = io::length_unit(options.unit);
   fs::path file = options.motion, run_folder;

@@ -10,22 +10,24 @@
 
 namespace hyperex::cli {
 
-/// A surface over time: the same vertices in every frame, the first at rest.
+/// A surface over time. All frames have the same vertices; the first frame is at rest.
 struct SurfaceFrames {
   TriMesh rest;
   io::LengthUnit unit = io::LengthUnit::millimetre;
-  std::vector<Points> positions;  ///< a frame each, m
+  std::vector<Points> positions;  ///< one entry per frame, m
   io::Landmarks landmarks;
-  motion::Motion tracks;  ///< the landmarks, carried by the triangles that they lie on at rest
+  /// The landmarks over time. Each moves with the triangle on which it lies at rest.
+  motion::Motion tracks;
 };
 
-/// The PLY and OBJ files of a folder in the order of their names, `rate_hz` a second, and the
-/// landmarks of the first. Throws InputError: fewer than two files, other numbers of vertices.
+/// Reads the PLY and OBJ files of a folder in the order of their names, as frames at `rate_hz` per
+/// second, and the landmarks of the first frame. Throws InputError if there are fewer than two
+/// files or if their numbers of vertices differ.
 SurfaceFrames read_surface_frames(const std::filesystem::path& folder,
                                   const std::filesystem::path& landmarks,
                                   std::optional<io::LengthUnit> unit, double rate_hz);
 
-/// Takes the head's pose, as the tracks give it, out of everything.
+/// Removes the head's rigid motion, estimated from the tracks, from positions and tracks.
 void steady(SurfaceFrames& frames);
 
 }  // namespace hyperex::cli

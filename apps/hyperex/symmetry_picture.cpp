@@ -21,7 +21,7 @@ std::vector<metrics::PairExcursion> farthest(const metrics::Excursions& excursio
   std::vector<metrics::PairExcursion> pairs = excursions.pairs;
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto& a, const auto& b) { return reach(a) > reach(b); });
-  // A landmark under two names, cheilion and ibug68_48/54, is drawn once.
+  // The same landmark under two names (cheilion and ibug68_48/54) is drawn only once.
   const auto same = [](const metrics::PairExcursion& a, const metrics::PairExcursion& b) {
     constexpr double alike_mm = 1e-6;
     return std::abs(a.left_side.excursion_mm - b.left_side.excursion_mm) < alike_mm &&

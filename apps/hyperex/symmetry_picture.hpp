@@ -7,8 +7,8 @@
 
 namespace hyperex::cli {
 
-/// xi of both sides and S with its noise floor over time, and bars of the excursions of both sides:
-/// of at most ten pairs of points, those that move farthest.
+/// Draws xi of both sides and S with its noise floor over time, and bars of the excursions of both
+/// sides. The bars show at most ten pairs of points: those with the largest excursions.
 render::Image draw(const metrics::SymmetryMeasures& measures, const std::string& title);
 
 }  // namespace hyperex::cli

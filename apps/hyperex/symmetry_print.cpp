@@ -19,7 +19,7 @@ std::string cell(double value, int digits) {
                               : fmt::format("{:>10}", "-");
 }
 
-/// Which figures of a pair jitter alone may have made.
+/// Names the figures of a pair that may be due to jitter alone.
 std::string undecided_note(const metrics::PairExcursion& p) {
   std::vector<std::string> figures;
   if (p.undecided) figures.push_back("excursion");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `hyperex symmetry` prints.
+// The text output of `hyperex symmetry`.
 #pragma once
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 
 namespace hyperex::cli {
 
-/// As many samples as fit on a screen, evenly spaced.
+/// Prints as many evenly spaced samples as fit on a screen.
 void print_curve(const metrics::SymmetryCurve& curve);
 /// One row per pair of points.
 void print_excursions(const metrics::Excursions& excursions);

@@ -30,7 +30,7 @@ struct TrackOptions {
   std::string recording, device, model = "canonical";
   TrackOutputs outputs;
   std::filesystem::path score, camera, plots;
-  std::string mirrored;  ///< "yes", "no", or empty: not said
+  std::string mirrored;  ///< "yes", "no", or empty: not stated
   bool no_depth = false, json = false;
   double eye_distance_mm = 90;
   std::optional<double> seconds;
@@ -109,8 +109,9 @@ void say_what_was_tracked(const tracking::Tracking& tracking) {
       1e3 * times.neutral_s);
 }
 
-/// Whether the pictures are to be mirrored back. It cannot be seen in a colour picture, and a
-/// mirrored one would silently swap left and right: for a webcam the user must say it.
+/// Whether the pictures must be mirrored back. This cannot be detected in a colour picture, and a
+/// mirrored picture would swap left and right without a warning. For a webcam, the user must state
+/// it.
 bool asked_mirrored(const TrackOptions& options, const std::string& spec) {
   if (!options.mirrored.empty()) return options.mirrored == "yes";
   if (capture::source_kind(spec) == capture::SourceKind::webcam)
@@ -120,7 +121,7 @@ bool asked_mirrored(const TrackOptions& options, const std::string& spec) {
   return false;
 }
 
-/// Said only of a video that could be opened.
+/// Prints the warning only for a video that could be opened.
 void warn_of_video(const TrackOptions& options, const std::string& recording) {
   if (options.mirrored.empty() && !options.json &&
       capture::source_kind(recording) == capture::SourceKind::video)
@@ -144,7 +145,7 @@ std::vector<std::filesystem::path> outputs_of(const TrackOptions& options) {
   return files;
 }
 
-/// The files that are read: of a folder those that lie in it, its pictures aside.
+/// The files that are read. For a folder, these are the files in it except the pictures.
 std::vector<std::filesystem::path> inputs_of(const TrackOptions& options) {
   std::vector<std::filesystem::path> files = {options.camera};
   std::string played = options.device;
@@ -194,7 +195,7 @@ void run(const TrackOptions& options) {
   tracking::TrackerOptions tracker;
   tracker.neutral.eye_distance_m = options.eye_distance_mm * 1e-3;
   tracker.use_depth = !options.no_depth;
-  tracker.network.mirrored_too = !source->live();  // a camera does not wait
+  tracker.network.mirrored_too = !source->live();  // not live: twice the time per frame
   const auto preview = preview_of(options.outputs, model, source->intrinsics());
   const tracking::FrameVisitor visit = visitor_of(preview.get());
   const tracking::Tracking tracking =

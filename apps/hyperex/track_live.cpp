@@ -15,7 +15,7 @@
 namespace hyperex::cli {
 namespace {
 
-/// One line that is written over, on a terminal only.
+/// One line that is overwritten again and again; shown on a terminal only.
 class StatusLine {
  public:
   StatusLine() : terminal_(::isatty(2) != 0) {}

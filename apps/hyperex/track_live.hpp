@@ -4,10 +4,10 @@
 
 namespace hyperex::cli {
 
-/// Follows the face before a camera until the camera ends, `seconds` (where given) are over or the
-/// user ends it with Ctrl-C: what was tracked until then is then given, and a second Ctrl-C ends
-/// the program. One line on the terminal shows the progress, and some at the end what was dropped
-/// and how long frames took.
+/// Tracks the face in front of a camera. Tracking ends when the camera ends, when `seconds` (if
+/// given) have passed, or at Ctrl-C. In each case the frames tracked so far are returned; a second
+/// Ctrl-C ends the program. One line on the terminal shows the progress. At the end, some lines
+/// report the number of dropped frames and the time per frame.
 tracking::Tracking track_live(capture::FrameSource& source, const expression::FaceModel& model,
                               const tracking::TrackerOptions& options,
                               std::optional<double> seconds,

@@ -49,11 +49,12 @@ std::vector<OutputFile> TrackOutputs::kinds(const expression::FaceModel& model) 
           {table("units"), {".csv"}, "time_s,valid,"},
           {table("arkit"), {".csv"}, "time_s,browDownLeft,"},
           {trc, {".trc"}, "PathFileType", {"\t" + point + "\t"}},
-          // A video says nothing of who made it, and a recording is worth more than a preview, so
-          // none is replaced. Its name is looked at with the video plugin.
+          // A video does not show which program wrote it, and it might be a recording. So an
+          // existing video is never replaced. Its name is checked together with the video library.
           {preview, {""}, ""},
           {glb, {".glb"}, "glTF", {"\"generator\"", "\"hyperex\""}},
-          // A phone's own recordings have that first line too; they start at the time of day.
+          // Recordings by the phone app have the same first line, but they start at the time of
+          // day.
           {live_link, {".csv"}, "Timecode,BlendShapeCount,", {"\n00:00:00:00.000,"}}};
 }
 

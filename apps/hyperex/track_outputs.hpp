@@ -12,15 +12,15 @@
 
 namespace hyperex::cli {
 
-/// The files that `hyperex track` writes, each where it is named.
+/// The files that `hyperex track` writes. An empty path means that this file is not written.
 struct TrackOutputs {
-  std::filesystem::path motion;  ///< CSV, with tables beside it
+  std::filesystem::path motion;  ///< CSV; its tables are written beside it
   std::filesystem::path trc, preview, glb, live_link;
-  bool vertices = false;  ///< in the motion too
+  bool vertices = false;  ///< whether the motion file also contains the vertices
 
-  /// Every file, those beside the motion among them; some empty.
+  /// All output files, including the tables beside the motion. Some paths may be empty.
   std::vector<std::filesystem::path> files() const;
-  /// The same, with what distinguishes earlier outputs from other files.
+  /// The same files, with the marks by which an earlier output is distinguished from other files.
   std::vector<OutputFile> kinds(const expression::FaceModel& model) const;
   bool any() const {
     return !motion.empty() || !trc.empty() || !preview.empty() || !glb.empty() ||
@@ -30,13 +30,13 @@ struct TrackOutputs {
 
 void add_output_options(CLI::App& command, TrackOutputs& outputs);
 
-/// Draws while tracking runs; null where no preview is requested. Throws InputError for a name that
-/// is none of a video.
+/// The preview video, which is drawn while tracking runs; null if none is requested. Throws
+/// InputError if the file name does not belong to a video.
 std::unique_ptr<tracking::PreviewMovie> preview_of(const TrackOutputs& outputs,
                                                    const expression::FaceModel& model,
                                                    const capture::Intrinsics& camera);
 
-/// All but the preview; says what was written unless `quiet`.
+/// Writes all files except the preview. Prints what was written unless `quiet` is set.
 void write_outputs(const TrackOutputs& outputs, const expression::FaceModel& model,
                    const tracking::Tracking& tracking, const capture::Intrinsics& camera,
                    bool quiet);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What --version says: the release, its commit, and the libraries whose results the program's
-// depend on.
+// The output of --version: the release, its commit, and the libraries on which the program's
+// results depend.
 #include "hyperex/core/version.hpp"
 
 #include <cholmod.h>
@@ -15,7 +15,8 @@
 
 #include "commands.hpp"
 
-extern "C" char* openblas_get_config(void);  // its header stands in a folder that differs by build
+// The header's folder differs between builds of OpenBLAS.
+extern "C" char* openblas_get_config(void);
 
 namespace {
 
@@ -36,7 +37,7 @@ std::string cholmod() {
   return fmt::format("{}.{}.{}", version[0], version[1], version[2]);
 }
 
-// A decimal number that holds two digits a part: 90100 is 9.1.0.
+// Decodes a version number with two decimal digits per part: 90100 is 9.1.0.
 std::string of_decimal(int number, int step) {
   return fmt::format("{}.{}.{}", number / (step * step), number / step % step, number % step);
 }

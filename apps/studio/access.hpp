@@ -10,7 +10,7 @@ namespace hyperex::studio {
 /// Whether a Host header names this machine by a loopback name, with the served port.
 bool own_host(std::string_view host, unsigned short port);
 
-/// Whether an Origin header is http and own_host(). An empty one is not.
+/// Whether an Origin header is "http://" followed by an own_host(). An empty one is not.
 bool own_origin(std::string_view origin, unsigned short port);
 
 }  // namespace hyperex::studio

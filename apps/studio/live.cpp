@@ -16,9 +16,9 @@ using nlohmann::json;
 namespace {
 
 constexpr auto kTellEach = std::chrono::milliseconds(200);
-/// A page that is out of sight draws nothing: what it was sent counts as lost after this.
+/// A page that is not visible draws nothing. A shape not drawn within this time counts as lost.
 constexpr auto kLostAfter = std::chrono::seconds(1);
-/// A gap of more samples than this is stepped over in as many.
+/// A gap is bridged by at most this number of steps.
 constexpr int kMostStepsOfLive = 4;
 constexpr std::size_t kDelays = 90;
 
@@ -69,7 +69,7 @@ void Live::run() {
   std::thread reenacting([this] { reenact_all(); });
   try {
     tracking::TrackerOptions options;
-    options.network.mirrored_too = false;  // a camera does not wait
+    options.network.mirrored_too = false;  // with a camera there is no time for it
     tracking::LiveOptions live;
     live.keep = false;
     live.stop = [this] { return stopping_.load(); };
@@ -106,7 +106,7 @@ void Live::run() {
   changed_.notify_all();
 }
 
-/// On the tracker's thread: the next frame is tracked while this one is re-enacted.
+/// Runs on the tracker's thread: the next frame is tracked while this one is re-enacted.
 void Live::take(const tracking::TrackedFrame& frame, Clock::time_point arrived) {
   LiveSample sample{frame.time_s,
                     expression::landmarks_on(expression::canonical_model(), frame.vertices_m)};
@@ -164,7 +164,7 @@ void Live::begin(const std::deque<LiveSample>& recent) {
   neutral_ = motion_->neutral();
 }
 
-/// What was asked from other threads, between two frames.
+/// Carries out what other threads have requested, between two frames.
 void Live::take_wishes(const std::deque<LiveSample>& recent) {
   std::optional<simulate::SimulationOptions> options;
   bool neutral = false;
@@ -190,7 +190,7 @@ void Live::take_wishes(const std::deque<LiveSample>& recent) {
   problem_ = problem;
 }
 
-/// Frames that were dropped are stepped through on the line between those that were seen.
+/// Dropped frames are replaced by linear interpolation between the tracked ones.
 void Live::reenact(const Tracked& tracked) {
   const auto begun = Clock::now();
   const LiveSample& sample = tracked.sample;
@@ -273,7 +273,8 @@ motion::Motion Live::take(double from_s, double to_s) const {
   return motion_of_take(names_, take_, neutral_, from_s, to_s);
 }
 
-/// Of each sample how far its points are from the neutral face, in the mean: what to trim by.
+/// For each sample, the largest distance of a point from the neutral face, by which the user trims
+/// the take.
 void Live::send_take() {
   json event = {{"event", "take"}, {"time_s", json::array()}, {"moved_mm", json::array()}};
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A face that follows a camera, or a recording played as one, while frames come in.
+// A face that follows a camera, or a recording played in its place, while frames arrive.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -27,21 +27,21 @@ struct LiveSetup {
   std::shared_ptr<const tissue::TissueMesh> mesh;
   io::Landmarks landmarks;
   simulate::AlignmentMethod method = simulate::AlignmentMethod::nonrigid;
-  simulate::SimulationOptions options;  ///< live_options() of what the face is
-  std::size_t face = 0;                 ///< which is drawn
+  simulate::SimulationOptions options;  ///< from live_options()
+  std::size_t face = 0;                 ///< the number of the face that is drawn
 };
 
-/// Options as a stream takes them: driven by displacements, of small strain, without contact.
+/// Options suitable for a stream: driven by displacements, small strain, no contact.
 simulate::SimulationOptions live_options(simulate::SimulationOptions options);
 
-/// Names of what is tracked.
+/// The names of the points that are tracked.
 std::vector<std::string> live_points();
 
-/// Tracks, re-enacts and sends each frame (event live_shape) on two threads of its own, and tells
-/// how it goes (event live). Nothing queues up: the source drops what the tracker is too slow for,
-/// of tracked frames the newest is re-enacted, and of shapes at most kAhead wait to be drawn, later
-/// ones are not sent. The neutral face is the mean of the first kFirst frames, which the tracker
-/// takes to be at rest, until it is set.
+/// Tracks, re-enacts and sends each frame (event live_shape) on two threads of its own, and reports
+/// its state (event live). Nothing queues up: the source drops frames while the tracker is busy,
+/// only the newest tracked frame is re-enacted, and at most kAhead shapes wait to be drawn; further
+/// ones are not sent. The neutral face is the mean of the first kFirst frames, in which the face is
+/// assumed to be at rest, until set_neutral() is called.
 class Live {
  public:
   using Send = std::function<void(std::string message, bool binary, const std::string& replaces)>;
@@ -49,22 +49,23 @@ class Live {
   static constexpr double kLongestTake_s = 300;
 
   Live(LiveSetup setup, Send send);
-  ~Live();  ///< ends it, after the frame it is at
+  ~Live();  ///< stops, after the current frame
   Live(const Live&) = delete;
 
   // From any thread:
   void stop();
   void wait();  ///< until it has ended
   bool ended() const;
-  /// The mean of the last kNeutral frames is the neutral face from now on.
+  /// From now on the neutral face is the mean of the last kNeutral frames.
   void set_neutral();
-  /// Another take begins, or the one that is recorded ends and is told (event take).
+  /// Starts another take, or ends the one that is being recorded and sends it (event take).
   void record(bool on);
-  /// The page has drawn a shape, by its number.
+  /// The page has drawn the shape of this number.
   void drawn(std::int64_t frame);
-  /// The face is another, or of other tissue.
+  /// Sets another face, or another tissue.
   void set_options(simulate::SimulationOptions options, std::size_t face);
-  /// The last take as a scene's motion. Throws InputError where there is none.
+  /// The part of the last take from `from_s` to `to_s` as a scene's motion. Throws InputError where
+  /// there is none.
   motion::Motion take(double from_s, double to_s) const;
   void tell();
 
@@ -92,27 +93,27 @@ class Live {
   const std::vector<std::string> names_;
   std::atomic<bool> stopping_{false}, ended_{false};
 
-  Clock::time_point told_{};  // of the tracker's thread
-  // Of the thread that re-enacts:
+  Clock::time_point told_{};  // time of the last event live; tracker's thread only
+  // Used only by the thread that re-enacts:
   std::optional<LiveMotion> motion_;
   std::optional<simulate::Simulator> simulator_;
   Points last_;  // displacement
   double last_s_ = 0, interval_s_ = 0;
   std::int64_t frame_ = 0;
 
-  mutable std::mutex mutex_;  // of all below
+  mutable std::mutex mutex_;  // protects all members below
   std::condition_variable changed_;
   bool tracked_ = false, want_neutral_ = false, recording_ = false;
-  std::deque<LiveSample> first_, recent_;  // kFirst, and the last kNeutral at most
-  std::optional<Tracked> newest_;          // waits to be re-enacted
+  std::deque<LiveSample> first_, recent_;  // the first kFirst, and the last kNeutral samples
+  std::optional<Tracked> newest_;          // the next one to be re-enacted
   std::optional<simulate::SimulationOptions> want_options_;
   std::size_t face_ = 0;
   Points neutral_;  // of the motion
   std::vector<LiveSample> take_;
   tracking::LiveStatus status_;
   std::deque<Sent> ahead_;
-  std::deque<Clock::time_point> drawn_at_;  // in the last second
-  std::deque<double> delays_s_;             // to pixels, of the last frames
+  std::deque<Clock::time_point> drawn_at_;  // times at which shapes were drawn, in the last second
+  std::deque<double> delays_s_;             // from a frame's arrival to its drawing
   std::size_t behind_ = 0, not_sent_ = 0, drawn_ = 0;
   double step_s_ = 0;
   std::string problem_;

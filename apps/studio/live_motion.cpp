@@ -75,7 +75,7 @@ motion::Motion motion_of_take(const std::vector<std::string>& names,
   motion::Motion seen;
   seen.names = names;
   seen.source = "take";
-  // The neutral face first, as what the head's pose is measured against.
+  // The neutral face comes first, since the head pose is relative to the first sample.
   seen.time_s = {0};
   seen.positions = {neutral};
   for (const LiveSample& one : samples) {
@@ -88,7 +88,7 @@ motion::Motion motion_of_take(const std::vector<std::string>& names,
     throw InputError("take", "fewer than two frames with a face are left: expected a longer one");
   motion::Motion steady = motion::stabilise(seen).motion;
   steady.head_pose.clear();
-  // And last, where with_rest() finds the stretch at rest.
+  // Then it is moved to the end, as the stretch at rest for with_rest().
   const auto rotate = [](auto& list) {
     list.push_back(list.front());
     list.erase(list.begin());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Points of a face that is tracked live, brought to a scan as a run brings those of a recording.
+// Points of a face that is tracked live, transferred to a scan in the same way as those of a
+// recording in a run.
 #include <deque>
 #include <string>
 #include <vector>
@@ -12,27 +13,26 @@
 
 namespace hyperex::studio {
 
-/// What a tracker sees of named points in one frame.
+/// The positions of named points in one frame, as tracked.
 struct LiveSample {
   double time_s = 0;
-  Points positions;  ///< P x 3, m, finite, in the head's frame as the tracker has it
+  Points positions;  ///< P x 3, m, finite, in the tracker's frame of the head
 };
 
-/// Takes samples one after the other to displacements since the neutral face in the scan's frame:
-/// what is left of the head's pose is taken out (motion::ExpressivePoseStream), the face at rest is
-/// aligned to the scan's landmarks and displacements are turned and scaled with it
-/// (simulate::align).
+/// Converts samples one after another to displacements from the neutral face, in the scan's frame.
+/// The remaining head pose is removed (motion::ExpressivePoseStream). The face at rest is aligned
+/// to the scan's landmarks, and displacements are rotated and scaled with it (simulate::align).
 class LiveMotion {
  public:
-  /// The neutral face is the mean of `neutral`, of which the jitter is taken too; at least one.
-  /// Throws InputError as simulate::align().
+  /// The neutral face is the mean of `neutral` (at least one sample), from which the jitter is
+  /// estimated too. Throws InputError as simulate::align() does.
   LiveMotion(std::vector<std::string> names, const std::deque<LiveSample>& neutral,
              io::Landmarks landmarks, simulate::AlignmentMethod method);
 
   const Points& neutral() const { return neutral_; }
-  /// The points at rest, twice, `interval_s` apart: what a Simulator begins with.
+  /// The points at rest in two samples, `interval_s` apart, with which a Simulator starts.
   simulate::AlignedMotion at_rest(double interval_s) const;
-  /// Displacements since rest, P x 3, m, scan frame. Times rise.
+  /// Displacements from rest, P x 3, m, scan frame. Times must rise from call to call.
   Points displacement(const LiveSample& sample);
 
  private:
@@ -43,9 +43,9 @@ class LiveMotion {
   motion::ExpressivePoseStream poses_;
 };
 
-/// A recorded take as the motion of a scene: samples from `from_s` to `to_s` after the first, head
-/// pose out, beginning at rest, which is the neutral face (motion::with_rest). Throws InputError
-/// where fewer than two samples are left.
+/// A recorded take as the motion of a scene: the samples from `from_s` to `to_s` after the first,
+/// without head pose, starting at rest, that is, with the neutral face (motion::with_rest). Throws
+/// InputError where fewer than two samples are left.
 motion::Motion motion_of_take(const std::vector<std::string>& names,
                               const std::vector<LiveSample>& samples, const Points& neutral,
                               double from_s, double to_s);

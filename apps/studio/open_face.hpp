@@ -15,14 +15,14 @@
 
 namespace hyperex::studio {
 
-/// The face that is open: a scene's text, the session of that scene, and what the page draws of it.
-/// Face 0 is base, 1, 2 ... its variants. One thread at a time.
+/// The open face: a scene's text, the session of that scene, and the data that the page draws. Face
+/// 0 is the base case, 1, 2 ... are its variants. Not thread-safe.
 class OpenFace {
  public:
   using Stage = std::function<void(const std::string&)>;  ///< called as each stage begins
 
-  /// Reads and meshes; simulates nothing yet. `file`: where the scene's text belongs: relative
-  /// paths are taken from its folder, messages name it. Throws InputError.
+  /// Reads and meshes; simulates nothing yet. `file`: the place of the scene's text. Relative paths
+  /// are relative to its folder, and messages name it. Throws InputError.
   OpenFace(std::string text, std::filesystem::path file, KeptResults kept, const Stage& stage);
 
   const std::string& text() const { return text_; }
@@ -31,37 +31,39 @@ class OpenFace {
   const scene::Scene& scene() const { return session_.scene(); }
   const session::Inputs& inputs() const { return session_.inputs(); }
 
-  /// Another text. False, and nothing is changed, where it names another scan, recording or mesh:
-  /// that is another OpenFace. Throws InputError, and nothing is changed, for a text that is no
-  /// sound scene.
+  /// Sets another text. Returns false and changes nothing where the text names another scan,
+  /// recording or mesh, which needs another OpenFace. Throws InputError and changes nothing where
+  /// the text is not a valid scene.
   bool set_text(const std::string& text);
 
-  /// A face as it would follow `points` (names) that come in live. Throws InputError where one that
-  /// drives is not among them.
+  /// The options with which a face follows `points` (names) that arrive live. Throws InputError
+  /// where a driving point is not among them.
   simulate::SimulationOptions options_live(std::size_t face,
                                            const std::vector<std::string>& points) const;
-  /// How much of the change of the first region of another text of this face holds at each vertex
-  /// of the skin, 0 to 1. Throws InputError.
+  /// The effect of the first region of another text of this face at each vertex of the skin, as a
+  /// share from 0 to 1 of its full change. Throws InputError.
   Eigen::VectorXd region_shares(const std::string& text);
 
-  /// At each vertex of the skin, mm: the thickness of the tissue without mesh.thickness_region.
+  /// The thickness of the tissue at each vertex of the skin (mm), without mesh.thickness_region.
   Eigen::VectorXf unpainted_mm() const;
-  /// Whether the other has the same skin, landmarks and motion: all but painted thickness.
+  /// Whether the other face has the same skin, landmarks and motion; only the painted thickness may
+  /// differ.
   bool same_skin(const OpenFace& other) const;
 
-  /// Runs what is not up to date. Throws NumericalError, and simulate::Cancelled: what was done so
-  /// far stays.
+  /// Runs all faces that are not up to date. Throws NumericalError, or simulate::Cancelled; results
+  /// so far are kept.
   void run(const simulate::RunCallbacks& callbacks);
 
-  /// Once all is up to date: what the page reads (report::replay_manifest).
+  /// The data that the page reads (report::replay_manifest). All faces must be up to date.
   nlohmann::json replay(report::BinaryBlock& block, bool with_face) const;
-  /// Likewise: of the muscles over time; null where none drive (protocol.json, event face).
+  /// The activations of the muscles over time, on the same condition; null where no muscles drive
+  /// (protocol.json, event face).
   nlohmann::json activations(report::BinaryBlock& block) const;
 
  private:
   std::string text_;
   session::FaceSession session_;
-  report::DisplacementModes modes_;  // of base as it was run last
+  report::DisplacementModes modes_;  // of the base case, at its last run
 };
 
 /// Every key with its value, in the units of scene files: {"tissue.young_kpa": 150}.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Painted regions as files that tissue.region and mesh.thickness_region name.
+// Painted regions, written as the files that tissue.region and mesh.thickness_region name.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>

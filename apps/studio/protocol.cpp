@@ -23,7 +23,7 @@ constexpr std::size_t kLongestText = 4096;
   throw InputError(what);
 }
 
-/// What is expected of a value instead; empty for a sound one.
+/// What was expected instead of an invalid value; empty for a valid one.
 std::string expectation_missed(const json& value, const json& field) {
   const std::string type = field.at("type");
   if (type == "json") return "";

@@ -20,11 +20,11 @@ struct Request {
   nlohmann::json fields;  ///< types and ranges checked against protocol()
 };
 
-/// Parses and checks a request. Throws InputError, one sentence, where it is malformed. Sets `id`
-/// even then, if the text has one, so that the error can be sent as the answer.
+/// Parses and checks a request. Throws InputError (one sentence) where it is malformed. Sets `id`
+/// even then, if the text contains one, so that the error can be sent as the answer.
 Request read_request(std::string_view text, std::int64_t& id);
 
-/// A binary message: the length of its text, the text, zeros up to a multiple of 8, the block.
+/// A binary message: the length of its text, the text, zeros up to a multiple of 8, then the block.
 std::string binary_message(const nlohmann::json& head, const report::BinaryBlock& block);
 
 }  // namespace hyperex::studio

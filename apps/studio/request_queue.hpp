@@ -12,17 +12,17 @@
 
 namespace hyperex::studio {
 
-/// Whether a slider that is held has sent the request.
+/// Whether the request comes from a slider that is being dragged.
 bool is_live(const Request& request);
 
-/// Requests on their way from the network's thread to the one that answers. Of consecutive live
-/// changes of one face only the last is answered.
+/// Requests on their way from the network's thread to the thread that answers them. Of consecutive
+/// live changes of one face only the last is answered.
 class RequestQueue {
  public:
   static constexpr std::size_t kMost = 256;
   static constexpr std::chrono::milliseconds kForever = std::chrono::milliseconds::max();
 
-  /// False where the queue is full or closed.
+  /// Returns false where the queue is full or closed.
   bool push(Request request);
   /// The next request, after waiting for at most `wait`. Appends requests that a later one has
   /// replaced to `superseded`. Empty where none came or the queue is closed.

@@ -49,7 +49,7 @@ void for_paths_of_tables(json& tables, const std::function<void(json&)>& visit) 
   }
 }
 
-/// A scene's text after `visit` has changed its paths.
+/// A scene's text with its paths changed by `visit`.
 std::string with_paths(const std::string& text, const std::function<void(json&)>& visit) {
   json before;
   try {
@@ -107,7 +107,7 @@ std::string with_recording(const std::string& text, const fs::path& recording) {
   if (root.contains("motion") && root["motion"].is_object())
     for (const auto& [key, value] : root["motion"].items())
       if (key != "gain") out = scene::with_value(out, "motion." + key, nullptr);
-  // The built-in smile gives its scene its title.
+  // The title belongs to the built-in smile and is removed with it.
   if (root.value("title", "") == scene::parse_toml(embedded_scene()).root["title"])
     out = scene::with_value(out, "title", nullptr);
   return moved_by(out, recording);
@@ -151,7 +151,8 @@ fs::path unpacked_recording(const fs::path& zip, const fs::path& uploads) {
     std::error_code ignored;
     fs::remove_all(path, ignored);
   };
-  // Whatever comes of it: what was taken out goes into a folder of its own, or is of no use.
+  // Removes the zip and the unpacked files at the end, also after an error; the recording has been
+  // moved to a folder of its own by then.
   struct Removed {
     const std::function<void(const fs::path&)> remove;
     const fs::path &all, &zip;
@@ -176,7 +177,7 @@ fs::path unpacked_recording(const fs::path& zip, const fs::path& uploads) {
   for (int i = 2; fs::exists(folder); ++i) folder = uploads / fmt::format("{}-{}", name, i);
   fs::rename(found[0], folder);
   try {
-    capture::open_tum_folder(folder);  // says what is missing in it
+    capture::open_tum_folder(folder);  // its error states what is missing
   } catch (...) {
     remove_all(folder);
     throw;

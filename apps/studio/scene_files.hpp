@@ -9,22 +9,23 @@
 
 namespace hyperex::studio {
 
-/// A scene of the embedded face, moved by its muscles; names "smile_arkit.csv" beside it.
+/// A scene of the embedded face, moved by its muscles. It names "smile_arkit.csv" in the same
+/// folder.
 std::string embedded_scene();
 /// The contents of "smile_arkit.csv".
 std::string_view embedded_smile();
 
-/// A scene moved by a recording, which it does not name yet. A recording of points without those
-/// that the head's pose is usually found from names the ones that were found to be still
+/// The scene `text`, which names no motion yet, moved by a recording. If a recording of points
+/// lacks the usual points for the head pose, the scene names the points found to be still
 /// (motion::proposed_rigid_points). Throws InputError where such a recording cannot be read.
 std::string moved_by(const std::string& text, const std::filesystem::path& recording);
-/// A scene moved by another recording. What it says of the one before goes with it; the face and
-/// what is asked of it stay.
+/// The scene moved by another recording. Options of the previous recording are removed; the face
+/// and all other options stay.
 std::string with_recording(const std::string& text, const std::filesystem::path& recording);
 
-/// Replaces each path in the value of a key, also in rows of tables, by the file of this name in
-/// `uploads`, so that no path of a page reaches the file system. "embedded" and paths in `known`
-/// stay. Throws InputError for a name that is not there.
+/// Replaces each path in the value of a key, also in rows of tables, by the file of the same name
+/// in `uploads`, so that no path sent by a page reaches the file system. "embedded" and paths in
+/// `known` stay. Throws InputError for a name that is not in `uploads`.
 nlohmann::json with_uploads(const std::string& key, nlohmann::json value,
                             const std::filesystem::path& uploads,
                             const std::vector<std::string>& known);

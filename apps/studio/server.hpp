@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The studio's network: one page, one WebSocket, uploads; on the loopback address alone.
+// The studio's network: one page, one WebSocket, uploads; on the loopback address only.
 //
-// It withstands pages of other origins and DNS rebinding (it checks Host and Origin of every
-// request), guesses of the token, malformed, oversized and too many messages, slow readers, endless
-// uploads, and file names that lead out of the folder. Such a client is disconnected; the server
-// and the user's work go on.
+// The server is protected against pages of other origins and DNS rebinding (it checks Host and
+// Origin of every request), guesses of the token, malformed, oversized and too many messages, slow
+// readers, endless uploads, and file names that lead out of the folder. Such a client is
+// disconnected; the server and the user's work go on.
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -17,7 +17,7 @@ namespace hyperex::studio {
 
 struct ServerOptions {
   std::string_view page;                                 ///< HTML, served at "/"
-  std::string token;                                     ///< the first message must hold it
+  std::string token;                                     ///< must be in the first message
   unsigned short port = 0;                               ///< 0: any free one
   std::filesystem::path uploads;                         ///< an existing folder
   std::size_t longest_message = std::size_t(16) << 20U;  ///< of a client, bytes
@@ -30,7 +30,7 @@ struct ServerOptions {
 /// Called on the thread of run().
 struct ServerEvents {
   std::function<void(std::string text)> request;  ///< a message of the page
-  /// A file was uploaded. `name`: as the client has it, with a number where that was taken.
+  /// A file was uploaded. `name`: the client's, with a number added if the name was taken.
   std::function<void(std::string name)> uploaded;
 };
 

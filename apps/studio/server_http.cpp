@@ -47,7 +47,7 @@ std::uintmax_t bytes_of_uploads(const std::filesystem::path& folder) {
   return all;
 }
 
-/// The disk has taken no more of a file; otherwise it is the connection that failed.
+/// Whether the disk could not take more of a file; otherwise the connection has failed.
 bool is_of_disk(const beast::error_code& error) {
   const bool of_system = error.category() == boost::system::generic_category() ||
                          error.category() == boost::system::system_category();

@@ -19,7 +19,8 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 using tcp = asio::ip::tcp;
 
-/// A connected peer. Peers that have not proven to be the user's page give way to others.
+/// A connected peer. A peer that is not proven to be the user's page is closed first when there are
+/// too many.
 class Peer {
  public:
   virtual ~Peer() = default;
@@ -27,12 +28,12 @@ class Peer {
   virtual void close() = 0;  ///< at once
 };
 
-/// The page's WebSocket, once its token was right.
+/// The page's WebSocket, after the correct token was received.
 class PageSocket : public Peer {
  public:
   virtual void send(std::shared_ptr<const std::string> message, bool binary,
                     const std::string& replaces) = 0;
-  /// Another page has taken over.
+  /// Closes the socket, since another page has taken over.
   virtual void yield() = 0;
 };
 
@@ -48,7 +49,7 @@ struct Server::Impl {
   std::shared_ptr<PageSocket> client;  ///< null: no page has shown the token
   int connections = 0;
   std::list<std::weak_ptr<Peer>> peers;  ///< oldest first
-  std::size_t uploading = 0;             ///< bytes that uploads on their way will take
+  std::size_t uploading = 0;             ///< bytes reserved for uploads in progress
   int parts = 0;                         ///< uploads begun
   asio::steady_timer retry{io};
 

@@ -67,7 +67,7 @@ void Session::answer(const Request& request) {
     report_progress("");
     out = {{"error", without_folder(error.what(), options_.folder)}};
   }
-  // Faces that went with it may have been most of what the session holds.
+  // These requests may have released faces, which use most of the session's memory.
   constexpr std::string_view kShrink[] = {"open", "undo", "redo", "remove_variant"};
   if (std::find(std::begin(kShrink), std::end(kShrink), request.name) != std::end(kShrink))
     give_back_freed_memory();
@@ -125,7 +125,7 @@ void Session::expect_variant() {
   }
 }
 
-/// Reports no progress: nobody waits for it.
+/// Reports no progress, since the user does not wait for it.
 void Session::find_bands(const std::function<bool()>& cancelled) {
   Stopwatch watch;
   try {

@@ -35,11 +35,11 @@ struct SessionOptions {
   bool mirrored = false;            ///< the camera's pictures are mirrored
   bool bands = true;                ///< error bands are computed while the session is idle
   KeptResults kept;
-  std::function<bool()> ending = {};  ///< the studio ends: a run that is being saved is given up
+  std::function<bool()> ending = {};  ///< the studio is ending: abandon a run that is being saved
 };
 
-/// One user's work: the scene's text, its history and the open face. Answers requests in their
-/// order on one thread and sends messages through `send`.
+/// One user's work: the scene's text, its history and the open face. Requests are answered in order
+/// on one thread; messages are sent through `send`.
 class Session {
  public:
   using Send = std::function<void(std::string message, bool binary, const std::string& replaces)>;
@@ -50,11 +50,11 @@ class Session {
 
   /// The handler of each request of protocol.json, by name.
   static const std::map<std::string_view, Handler>& handlers();
-  /// Sends the answer to a request. An error is an answer, too.
+  /// Sends the answer to a request; an error is sent as an answer too.
   void answer(const Request& request);
-  /// Whether the user's own files hold all changes.
+  /// Whether all changes are saved in the user's own files.
   bool saved() const { return saved_; }
-  /// Whether the rescued folder holds work that no file of the user holds.
+  /// Whether the rescued folder contains work that is in no file of the user.
   bool keeps_rescued() const { return keeps_rescued_; }
   /// The page has drawn a frame of the live face. May be called from any thread.
   void drawn(std::int64_t frame);
@@ -105,7 +105,7 @@ class Session {
   std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
   /// Writes the built-in smile beside the session's scene.
   void write_smile() const;
-  /// Whether there may be work to offer: what is open or saved is not lost.
+  /// Whether to offer the work of a crashed session.
   bool offers_rescued() const;
   std::filesystem::path uploads() const { return options_.folder / "uploads"; }
 
@@ -149,14 +149,14 @@ class Session {
   void send_scene();
   void send_shape(std::size_t face, double time_s);
   void send_motion(Stopwatch& watch);
-  /// An empty stage: done. A negative share: not known.
+  /// An empty stage means done; a negative share means unknown.
   void report_progress(const std::string& stage, double share = -1);
   void log(const char* level, const std::string& text);
 
   SessionOptions options_;
   Send send_;
   std::unique_ptr<OpenFace> face_;
-  Step now_;  ///< the last commit; the face is ahead of it while a slider is dragged
+  Step now_;  ///< the last commit; face_ may be newer while a slider is dragged
   std::vector<Step> undo_, redo_;
   bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
        saved_ = true, keeps_rescued_ = true;

@@ -85,7 +85,7 @@ std::string Session::text_with_changes(const json& wanted, int face) {
     throw InputError(fmt::format("face {}: there are {}", face, blocks.size() + 1));
   json& block = blocks[std::size_t(face) - 1];
   for (const auto& [key, value] : changes.items()) set_in_block(block, key, value);
-  // The grammar wants a variant to change something: a change of nothing holds the place.
+  // A variant must change something; this change has no effect.
   if (block.size() == 1) block["motion"]["gain"] = values_of(committed)["motion.gain"];
   return scene::with_variants(text, blocks);
 }

@@ -22,14 +22,14 @@ void Session::check_save_name(const std::string& name) {
 }
 
 bool Session::is_foreign(const fs::path& path) const {
-  // The studio writes no links: somebody has put one in the place of what it wrote.
+  // The studio writes no links, so that somebody else must have put one there.
   if (fs::is_symlink(fs::symlink_status(path))) return true;
   return fs::exists(fs::symlink_status(path)) &&
          std::find(written_.begin(), written_.end(), path) == written_.end();
 }
 
 json Session::free_name(const json& fields) {
-  // Of all that save() may write.
+  // All endings that save() may write.
   constexpr std::array endings = {"", ".toml", "_files", ".html", ".mrk.json", ".json"};
   const std::string wanted = fields.at("name");
   check_save_name(wanted);

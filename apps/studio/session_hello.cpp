@@ -92,8 +92,8 @@ json regions_json() {
   return out;
 }
 
-/// The work of a crashed session by its title, or by its scan's name, and its age; null where there
-/// is none.
+/// The work of a crashed session: its title or its scan's name, and its age; null where there is
+/// none.
 json rescued_json(const fs::path& folder) {
   const fs::path file = folder / "scene.toml";
   std::error_code error;
@@ -122,7 +122,7 @@ bool Session::offers_rescued() const {
 json Session::hello(const json&) {
   face_sent_ = false;
   motion_due_ = face_ != nullptr;
-  // A slider that was held when the page closed is released.
+  // A slider that was being dragged when the page closed is released.
   if (face_ && face_->text() != now_.text) apply(now_.text);
   return {{"program", options_.program},
           {"keys", keys_json()},

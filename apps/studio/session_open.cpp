@@ -45,7 +45,7 @@ json Session::open(const json& fields) {
     require_face();
     commit(with_recording(now_.text, file));
   } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
-    static_cast<void>(uploaded(recording));  // unpacks it: the scene names it
+    static_cast<void>(uploaded(recording));  // unpacks it; the scene names it by itself
     open_text(with_uploads(read_file(file), uploads()), file);
   } else {
     open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");

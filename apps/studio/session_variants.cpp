@@ -10,8 +10,8 @@ namespace hyperex::studio {
 
 namespace {
 
-/// Throws InputError, in terms of the page, for a name that the face may not have. `others`: the
-/// blocks of all other variants.
+/// Throws InputError, in the page's terms, for a name that is not allowed for the face. `others`:
+/// the blocks of all other variants.
 void check_face_name(const std::string& name, const std::vector<json>& others) {
   if (!scene::is_variant_name(name))
     throw InputError(

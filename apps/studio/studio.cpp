@@ -26,8 +26,8 @@ namespace hyperex::studio {
 
 namespace {
 
-/// A page that forwards to the address and that only this user can read: other users of the machine
-/// can see a command line, and with it the token. Returns its URL.
+/// Writes a page that redirects to the address and that only this user can read, and returns its
+/// URL. Other users of the machine can see a command line, and would see the token in it.
 std::string redirect_page(const std::string& address, const fs::path& folder) {
   const fs::path file = folder / "open.html";
   write_file_atomically(file, [&](std::ostream& out) {
@@ -55,8 +55,8 @@ void open_browser(std::string address) {
   posix_spawn_file_actions_destroy(&quiet);
 }
 
-/// A slider that is held moves again within this time or is released, which is another request.
-/// Until then computing the whole motion would only delay the next shape.
+/// A slider that is being dragged moves again within this time, or its release sends another
+/// request. Until then computing the whole motion would only delay the next shape.
 constexpr std::chrono::milliseconds kHeldFor{500};
 
 /// Answers requests of the queue, and works while none waits.
@@ -78,8 +78,8 @@ void answer_all(RequestQueue& queue, Session& session, Server& server) {
   }
 }
 
-/// Puts a message of the page into the queue. Answers it here only where it is no sound request, or
-/// must neither wait nor interrupt what is computed.
+/// Puts a message of the page into the queue. A message is handled here only if it is not a valid
+/// request, or must neither wait nor interrupt the computation.
 void receive(const std::string& text, RequestQueue& queue, Session& session, Server& server) {
   std::int64_t id = -1;
   try {
@@ -109,7 +109,7 @@ SessionOptions session_options(const StudioOptions& options, const SessionFolder
           .ending = [&queue] { return queue.closed(); }};
 }
 
-/// Keeps the session's folder where it holds unsaved work, and the rescued one likewise.
+/// Keeps the session's folder if it contains unsaved work; likewise the rescued one.
 void leave_unsaved_work(const Session& session, SessionFolder& folder) {
   if (!session.keeps_rescued()) {
     std::error_code ignored;

@@ -13,13 +13,13 @@ struct Curve {
   render::Colour colour;
 };
 
-/// Curves over time on axes of their own.
+/// Curves over time on their own axes.
 struct CurvePanel {
-  std::string title = {}, unit = {};  ///< two lines above
+  std::string title = {}, unit = {};  ///< two lines above the panel
   std::vector<Curve> curves = {};
   render::Range range = {};       ///< of the values; what lies outside is not drawn
-  bool legend_on_top = false;     ///< left; else below, right
-  render::Range marked = {0, 0};  ///< a stretch of time that is shaded; none where empty
+  bool legend_on_top = false;     ///< true: top left; false: below, right
+  render::Range marked = {0, 0};  ///< a time interval that is shaded; none where empty
 };
 
 /// Panels in rows of `columns`, each with its axis of time.

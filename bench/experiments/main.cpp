@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// experiments_study: the thesis' three experiments, beside what it reports, as a page with
-// pictures (make experiments).
+// experiments_study: writes a page with pictures that compares the three experiments with the
+// results of the thesis (make experiments).
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -22,7 +22,7 @@ struct Options {
 void run(const Options& options) {
   check_outputs({options.page});
   std::filesystem::create_directories(options.setting.pictures);
-  spdlog::set_level(spdlog::level::err);  // notes of the scenes stand in their own reports
+  spdlog::set_level(spdlog::level::err);  // the notes of a scene are in its own report
   Experiments all;
   fmt::print(stderr, "experiment 3 by muscles: the same forces in three tissues\n");
   all.same_forces = hyper_expression_by_muscles(options.setting);

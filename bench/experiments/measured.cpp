@@ -14,7 +14,7 @@
 namespace hyperex::bench {
 namespace {
 
-constexpr double kScale_mm = 26;  // the thesis'
+constexpr double kScale_mm = 26;  // as in the thesis
 
 struct Peak {
   TriMesh skin;
@@ -57,7 +57,7 @@ double mean_of(const Eigen::VectorXd& values, const std::vector<int>& vertices) 
   return sum / double(vertices.size());
 }
 
-/// What the face is held against.
+/// The scan that the face is compared with.
 struct SecondScan {
   TriMesh open, truth;
 };
@@ -91,7 +91,7 @@ MeasuredWay way_of(const std::string& name, const Study& study, const Peak& peak
   return way;
 }
 
-/// Millimetres for all vertices; those that a lip cut appended have none.
+/// Millimetres for all vertices; NaN for those appended by a lip cut.
 Eigen::VectorXf in_mm(const Eigen::VectorXd& distance_m, Eigen::Index count) {
   Eigen::VectorXf all = Eigen::VectorXf::Constant(count, std::nanf(""));
   all.head(distance_m.size()) = (1e3 * distance_m).cast<float>();

@@ -8,20 +8,19 @@
 
 namespace hyperex::bench {
 
-/// A part of the face, against the second scan and against the truth.
+/// A part of the face, compared with the second scan and with the truth.
 struct MeasuredRegion {
   std::string name;
   double moved_mm = 0, truth_moved_mm = 0;    ///< mean displacement
   metrics::DistanceStatistics closest;        ///< to the second scan, closest points
   metrics::DistanceStatistics corresponding;  ///< to the truth, same vertices
-  double over_10_mm = 0;                      ///< share of vertices farther than that (closest)
+  double over_10_mm = 0;                      ///< share of vertices farther than 10 mm (closest)
 };
 
 /// One way to drive the face.
 struct MeasuredWay {
   std::string name;
-  /// Of the face's vertices farther than 10 mm from the second scan, the share below the chin
-  /// point.
+  /// Share below the chin point, of the face's vertices farther than 10 mm from the second scan.
   double over_below_chin = 0;
   std::vector<MeasuredRegion> regions;  ///< mouth, nose and cheeks, rest, whole face
 };

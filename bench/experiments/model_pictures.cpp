@@ -71,7 +71,7 @@ void add_model_panels(const std::string& face, const std::array<metrics::Symmetr
   for (std::size_t m = 0; m < 3; ++m) {
     s.curves.push_back({names[m], curves[m].time_s, curves[m].s, render::category_colour(m)});
     std::vector<double> change = metrics::signed_difference(curves[m]), apart(own.size());
-    for (std::size_t k = 0; k < own.size(); ++k) {  // near zero S is decided by rounding
+    for (std::size_t k = 0; k < own.size(); ++k) {  // near zero S is dominated by rounding
       const bool clear = std::min(std::abs(own[k]), std::abs(change[k])) > 10 * curves[m].floor;
       apart[k] = clear ? std::log(std::abs(change[k] / own[k])) : std::nan("");
     }
@@ -79,7 +79,7 @@ void add_model_panels(const std::string& face, const std::array<metrics::Symmetr
     for (std::size_t k = 0; k < change.size(); ++k) change[k] = 1e3 * (change[k] - own[k]);
     tissue.curves.push_back({names[m], curves[m].time_s, change, render::category_colour(m)});
   }
-  // Off the thesis' axis, where these curves lie there.
+  // A range other than that of the thesis where these curves lie outside it.
   s.range = {-10, std::max(-4.0, std::ceil(range_of(s.curves).high))};
   if (!curves[0].noise.empty()) {
     Curve floor{"noise floor", curves[0].time_s, {}, render::palette::faint_ink};

@@ -9,13 +9,13 @@
 
 namespace hyperex::bench {
 
-/// The shapes of three models at the end, and the distance of the second and third from the first.
+/// The shapes of three models at the end, and the distances of the second and third from the first.
 void draw_model_maps(const Study& study,
                      const std::array<const simulate::SimulationResult*, 3>& models,
                      const std::filesystem::path& file);
 
-/// Three panels: S(t), how far models 2 and 3 part from 1 in it, and what the tissue alone does to
-/// xi_L - xi_R.
+/// Three panels: S(t), the differences of models 2 and 3 from model 1 in it, and the effect of the
+/// tissue alone on xi_L - xi_R.
 void add_model_panels(const std::string& face, const std::array<metrics::SymmetryCurve, 3>& curves,
                       std::vector<CurvePanel>& panels);
 

@@ -23,7 +23,7 @@ constexpr double kSettled_s = 0.1;  // before, xi_L - xi_R is hardly above the f
 constexpr const char* kAtOnce = "a hundredth of the viscosity and mass";
 constexpr const char* kChanged = "crista_philtri_superior_R";
 
-/// Three models under one condition; only what is asked of the curves is kept.
+/// Three models under one condition; only the evaluated parts of the curves are kept.
 struct Condition {
   std::string name;
   std::array<Trial, 3> trials;
@@ -66,7 +66,8 @@ std::vector<Condition> conditions_of(const std::array<Tissue, 3>& models,
 
 /// Fills the curves; returns the greatest estimated error of the reduced models.
 double simulate_all(const Study& study, std::vector<Condition>& conditions) {
-  // Where E or eta alone differs, model 1 is that of the condition before, and not simulated again.
+  // Where only E or eta differs, model 1 is that of the previous condition and is not simulated
+  // again.
   std::vector<Trial> trials;
   std::vector<std::pair<std::size_t, std::size_t>> places;
   for (std::size_t c = 0; c < conditions.size(); ++c)
@@ -116,7 +117,7 @@ SpreadRow row_of(const Condition& c) {
   return row;
 }
 
-/// Distance from a place within which half of the weighted sum of squares lies.
+/// The distance from a place within which half of the weighted sum of squares lies.
 double half_radius_m(const Eigen::VectorXd& distance, const Points& rest, const Vec3& centre,
                      const Eigen::VectorXd& weight) {
   std::vector<std::pair<double, double>> order;
@@ -133,7 +134,7 @@ double half_radius_m(const Eigen::VectorXd& distance, const Points& rest, const 
   return std::nan("");
 }
 
-/// Weighted means over what lies within a radius.
+/// Weighted mean over the points within a radius.
 double mean_within(const Eigen::VectorXd& values, const Points& rest, const Vec3& centre,
                    double radius_m, const Eigen::VectorXd& weight) {
   double sum = 0, all = 0;
@@ -145,7 +146,7 @@ double mean_within(const Eigen::VectorXd& values, const Points& rest, const Vec3
   return sum / all;
 }
 
-/// Greatest difference of S between two runs, once it is settled and clear of the floor.
+/// Greatest difference of S between two runs, after kSettled_s and above the floor.
 double greatest_change(const metrics::SymmetryCurve& a, const metrics::SymmetryCurve& b) {
   const std::vector<double> spread = metrics::spread_of({a, b});
   double most = 0;
@@ -154,10 +155,11 @@ double greatest_change(const metrics::SymmetryCurve& a, const metrics::SymmetryC
   return most;
 }
 
-/// What S(t) says of noise: the floor, and the jitter that would still tell models 2 and 3 apart.
+/// The effect of noise on S(t): the floor, and the largest jitter at which models 2 and 3 can be
+/// distinguished.
 void look_at_noise(const motion::Motion& landmarks, const std::array<std::vector<double>, 3>& d,
                    ModelsFace& face) {
-  constexpr double trial_m = 1e-4;  // the floor is in proportion to it
+  constexpr double trial_m = 1e-4;  // the floor is proportional to it
   const std::vector<double> noise = metrics::symmetry_noise(landmarks, trial_m);
   for (std::size_t k = 0; k < noise.size(); ++k)
     face.jitter_to_tell_mm =

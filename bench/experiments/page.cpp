@@ -77,7 +77,7 @@ std::string physics_section(const std::vector<PhysicsFace>& faces, const std::st
   for (const PhysicsFace& f : faces)
     for (const auto* rows : {&f.elements, &f.viscosities})
       for (const PhysicsRow& r : *rows) {
-        if (rows == &f.viscosities && &r == &rows->front()) continue;  // stands there already
+        if (rows == &f.viscosities && &r == &rows->front()) continue;  // shown already
         page += fmt::format(
             "| {} | `{}` | {} | {:.1f} | {:.2f} ({:.2f} to {:.2f}) | {:.3f} | {:.4f} | {:.3f} | "
             "{:.2f} | {} |\n",

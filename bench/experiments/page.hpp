@@ -19,20 +19,20 @@ struct Experiments {
 
 struct PageHead {
   std::string commit, machine;
-  std::string pictures;  ///< their folder, as seen from the page
+  std::string pictures;  ///< their folder, relative to the page
 };
 
-/// docs/experiments.md: what was measured beside what the thesis reports. Every figure comes from
-/// `all`, and what is concluded depends on them.
+/// docs/experiments.md: our measurements beside the results of the thesis. Every figure comes from
+/// `all`, and the conclusions depend on the figures.
 std::string experiments_page(const Experiments& all, const PageHead& head);
 
-/// The page's parts: what the thesis says, point by point; and the three experiments.
+/// The parts of the page: the statements of the thesis, point by point, and the three experiments.
 std::string point_by_point(const Experiments& all);
 std::string measured_section(const std::vector<MeasuredFace>& faces, const std::string& pictures);
 std::string physics_section(const std::vector<PhysicsFace>& faces, const std::string& pictures);
 std::string models_section(const std::vector<ModelsFace>& faces, const std::string& pictures);
 
-/// "embedded face 1.2; subject A 3.4": what `text` says of each.
+/// "embedded face 1.2; subject A 3.4": `text` of each face, with its name.
 template <class Faces, class Text>
 std::string of_each(const Faces& faces, const Text& text) {
   std::string all;

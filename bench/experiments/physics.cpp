@@ -62,7 +62,7 @@ void add_pictures(const Study& study, const SimulationResult& result, render::Co
   for (std::size_t s = 0; s < result.still_displacement_m.size(); ++s) {
     const PointsF& d = result.still_displacement_m[s];
     std::vector<render::Marker> markers;
-    if (s == 0) {  // as the thesis does, at rest
+    if (s == 0) {  // as in the thesis, at rest
       for (const auto at : p.held_points_rest.rowwise())
         markers.push_back(pictures.marker(at.transpose(), render::palette::held));
       for (const auto at : p.driven_points_rest.rowwise())
@@ -78,19 +78,19 @@ void add_pictures(const Study& study, const SimulationResult& result, render::Co
 }
 
 PhysicsFace face_of(const Setting& setting, bool subject_a, render::ContactSheet& sheet) {
-  // Finer than the recording, as lags of milliseconds are looked for.
+  // A higher frame rate than the recording's, since lags of milliseconds are measured.
   Study study(setting.scene(2, subject_a), {"time.frame_rate_hz=100"});
   const Trial own = study.own_trial();
   std::vector<Trial> trials;
   for (const auto element : {fem::ElementKind::tet4_star, fem::ElementKind::tet4}) {
     for (const auto form : {fem::ViscousForm::isotropic, fem::ViscousForm::printed})
       trials.push_back({own.tissue, element, form});
-    // It hardly damps jitter, of which a reduced model would need hundreds of unknowns.
+    // It hardly damps jitter, for which a reduced model would need hundreds of unknowns.
     trials.push_back({at_once(own.tissue), element, fem::ViscousForm::isotropic, false});
   }
   const double eta = own.tissue[tissue::viscosity].front();
   trials.push_back({times(own.tissue, tissue::viscosity, 10), own.element, own.form});
-  // Shapes that creep for seconds stop the growth of a reduced model as well.
+  // Shapes that creep for seconds would also stop the growth of a reduced model.
   trials.push_back({times(own.tissue, tissue::viscosity, 100), own.element, own.form, false});
   std::vector<SimulationResult> results(trials.size());
   study.simulate_all(

@@ -11,7 +11,7 @@
 namespace hyperex::bench {
 
 FacePictures::FacePictures(const Study& study) : frame_(study.frame()) {
-  widened_ = study.embedded() ? 1.15 : 1.3;  // beyond the landmarks there is a head
+  widened_ = study.embedded() ? 1.15 : 1.3;  // the head extends beyond the landmarks
   const io::Landmarks& landmarks = study.inputs().landmarks;
   framed_.resize(Eigen::Index(landmarks.size()), 3);
   Eigen::Index row = 0;

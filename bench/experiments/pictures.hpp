@@ -10,12 +10,12 @@
 
 namespace hyperex::bench {
 
-/// Pictures of one face, all at one scale: what is seen is the surroundings of its landmarks.
+/// Pictures of one face, all at the same scale. They show the surroundings of its landmarks.
 class FacePictures {
  public:
   explicit FacePictures(const Study& study);
 
-  /// Surfaces in the scan's frame; scalars and colours as render::render takes them.
+  /// Surfaces in the scan's frame, with scalars and colours as for render::render().
   struct Layer {
     TriMesh mesh;
     Eigen::VectorXf scalar = {};
@@ -24,7 +24,7 @@ class FacePictures {
   };
   render::Image draw(const std::vector<Layer>& layers, const Vec3& view, int width_px = 300,
                      int height_px = 380, const std::vector<render::Marker>& markers = {}) const;
-  /// The mouth and the nose alone, from in front.
+  /// The mouth and the nose alone, from the front.
   render::Image draw_mouth(const std::vector<Layer>& layers, int width_px, int height_px,
                            const std::vector<render::Marker>& markers) const;
   /// A disc at a place of the scan's frame.
@@ -42,7 +42,7 @@ class FacePictures {
 /// The skin of a performance moved by `displacement`.
 TriMesh moved_skin(const simulate::Performance& p, const PointsF& displacement);
 
-/// JPEG, for pictures of faces, which as PNG are several times as large.
+/// Writes a JPEG: pictures of faces are several times as large as PNG.
 void write_jpeg(const std::filesystem::path& file, const render::Image& image);
 
 }  // namespace hyperex::bench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the thesis says, point by point, and what was measured: verdicts and reasons follow from the
-// figures.
+// The statements of the thesis, point by point, and our measurements. Verdicts and reasons follow
+// from the figures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool all_of(const Faces& faces, const Test& test) {
   return std::all_of(faces.begin(), faces.end(), test);
 }
 
-/// One word for all faces, or one each.
+/// One word for all faces, or one for each.
 template <class Faces, class Test>
 std::string verdict(const Faces& faces, const Test& test, const std::string& yes,
                     const std::string& no) {
@@ -159,7 +159,7 @@ void add_physics(const std::vector<PhysicsFace>& faces, std::vector<Point>& poin
                     "how they spread"});
 }
 
-/// Mean of the spread in the window over its mean over all the time.
+/// Mean of the spread in the window divided by its mean over the whole time.
 double in_window(const ModelsFace& f) {
   return f.rows.front().share_in_window * f.end_s / (kSourceWindow_s[1] - kSourceWindow_s[0]);
 }
@@ -224,7 +224,7 @@ void add_maps(const std::vector<ModelsFace>& faces, std::vector<Point>& points) 
        "with the opening, not of a delay"});
 }
 
-/// The longest time by which any landmark of experiment 2 trails its input or runs ahead, ms.
+/// The longest time by which a landmark of experiment 2 lags or leads its input, ms.
 double longest_lag_ms(const std::vector<PhysicsFace>& faces) {
   double most = 0;
   for (const PhysicsFace& f : faces)
@@ -331,7 +331,7 @@ void add_curves(const std::vector<ModelsFace>& faces, double lag_ms, std::vector
                            : ", and another mesh changes what the tissue adds: see below")});
 }
 
-/// The answers at a glance, from the same figures.
+/// The answers in brief, from the same figures.
 std::string in_short(const Experiments& all) {
   std::string text = "**In short.** ";
   for (const MeasuredFace& face : all.measured)

@@ -19,7 +19,7 @@ double greatest(const std::vector<double>& values) {
   return at < 0 ? std::nan("") : values[std::size_t(at)];
 }
 
-/// Jitter of the landmarks above which models 2 and 3 cannot be told apart, at the best sample.
+/// Jitter of the landmarks above which models 2 and 3 cannot be distinguished in any sample.
 double jitter_to_tell_mm(const motion::Motion& landmarks, const std::vector<double>& parted) {
   constexpr double trial_m = 1e-4;
   const std::vector<double> noise = metrics::symmetry_noise(landmarks, trial_m);

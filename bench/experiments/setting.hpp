@@ -6,10 +6,10 @@
 
 namespace hyperex::bench {
 
-/// Where things are, and on which faces the experiments run.
+/// The folders, and the faces on which the experiments run.
 struct Setting {
-  std::filesystem::path source;    ///< of this program: examples/ and bench/scenes/ lie there
-  std::filesystem::path data;      ///< subject A's; empty: its part is left out
+  std::filesystem::path source;    ///< of this program; contains examples/ and bench/scenes/
+  std::filesystem::path data;      ///< of subject A; empty: subject A is left out
   std::filesystem::path pictures;  ///< folder that pictures are written to
 
   std::filesystem::path scene(int experiment, bool subject_a) const {

@@ -14,7 +14,7 @@
 namespace hyperex::bench {
 namespace {
 
-/// The experiments state what drives them; where a scene does not, its default holds.
+/// Marks the drive as given, so that the scene's own drive or its default is used.
 scene::Scene with_own_drive(scene::Scene scene) {
   scene.origins.emplace("drive.by", scene::Origin{scene.file, 0});
   return scene;
@@ -56,8 +56,8 @@ simulate::SimulationResult Study::simulate(const Trial& trial,
 }
 
 simulate::SimulationOptions Study::options_of(const Trial& trial) const {
-  // Differences of some hundredths of a millimetre are looked at: the reduced model must be nearer
-  // to the full one than a run that is looked at by eye.
+  // Differences of some hundredths of a millimetre are evaluated. The reduced model must therefore
+  // be more accurate than in an ordinary run.
   constexpr double tolerance = 1e-4;
   simulate::SimulationOptions options = base_.options();
   options.model.element = trial.element;
@@ -110,7 +110,7 @@ simulate::AlignedMotion Study::mirrored_motion() const {
   const motion::Motion& from = inputs().motion.motion;
   for (std::size_t p = 0; p < from.names.size(); ++p) {
     const int other = from.index_of(face::mirrored_landmark(from.names[p]));
-    if (other < 0) continue;  // without a counterpart it moves as it did
+    if (other < 0) continue;  // a point without a counterpart keeps its motion
     for (std::size_t k = 0; k < from.positions.size(); ++k) {
       const Vec3 moved = (from.positions[k].row(other) - from.positions[0].row(other)).transpose();
       mirrored.motion.positions[k].row(Eigen::Index(p)) =

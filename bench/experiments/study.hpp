@@ -16,7 +16,7 @@
 
 namespace hyperex::bench {
 
-/// Parameters of the tissue, a value a tetrahedron, SI (tissue::Parameter).
+/// Parameters of the tissue, one value per tetrahedron, SI (tissue::Parameter).
 using Tissue = std::array<std::vector<double>, tissue::parameter_count>;
 
 /// One simulation of a study's face.
@@ -24,10 +24,10 @@ struct Trial {
   Tissue tissue;
   fem::ElementKind element = fem::ElementKind::tet4_star;
   fem::ViscousForm form = fem::ViscousForm::isotropic;
-  bool reduced = true;  ///< false: all unknowns at every step
+  bool reduced = true;  ///< false: the full model at every step
 };
 
-/// A scene read and meshed once, simulated as often as wanted with another tissue.
+/// A scene that is read and meshed once, and simulated any number of times with different tissue.
 class Study {
  public:
   /// `overrides` as for hyperex run --set.
@@ -44,24 +44,26 @@ class Study {
   /// "embedded face", "subject A"
   std::string name() const;
 
-  /// Of the scene, or of one of its variants.
+  /// The tissue of the scene, or of one of its variants.
   Tissue tissue_of(const scene::Scene& scene);
   Trial own_trial() {
     return {tissue_of(scene_), scene_.model.element, scene_.model.viscous_form, true};
   }
 
   simulate::SimulationResult simulate(const Trial& trial) const;
-  /// All of them at once, told of on standard error; `take` gets each result, from several threads.
+  /// Simulates all trials at once, with progress on standard error. `take` gets each result and is
+  /// called from several threads.
   void simulate_all(const std::vector<Trial>& trials,
                     const std::function<void(std::size_t, simulate::SimulationResult)>& take) const;
   simulate::SimulationResult simulate(const Trial& trial,
                                       const simulate::AlignedMotion& motion) const;
-  /// Where the scene is driven by forces: those found in the first trial's tissue move all.
+  /// Only for a scene driven by forces: the forces found in the first trial's tissue are applied to
+  /// all.
   std::vector<simulate::SimulationResult> by_same_forces(const std::vector<Trial>& trials) const;
   metrics::SymmetryCurve symmetry_of(const motion::Motion& landmarks) const;
 
-  /// The motion reflected in the face's midsagittal plane: each point moves as its counterpart on
-  /// the other side did, mirrored.
+  /// The motion reflected in the face's midsagittal plane: each point gets the mirrored motion of
+  /// its counterpart on the other side.
   simulate::AlignedMotion mirrored_motion() const;
 
  private:
@@ -72,21 +74,22 @@ class Study {
   scene::Scene scene_;
   session::FaceSession session_;
   face::FaceFrame frame_;
-  simulate::Simulator base_;  // has run: what every trial begins with
+  simulate::Simulator base_;  // has run; every trial starts from a copy of it
 };
 
-/// Positions of a landmark over time, N x 3 (m); it must be there.
+/// Positions of a landmark over time, N x 3 (m); the landmark must exist.
 Points track_of(const motion::Motion& landmarks, const std::string& name);
 
 /// The tissue with one parameter multiplied.
 Tissue times(Tissue tissue, tissue::Parameter parameter, double factor);
 
-/// A hundredth of the viscosity and of the density: what follows its input at once, to a hundredth
-/// of a lag. Without any viscosity it would ring at every jitter of a recording.
+/// The tissue with a hundredth of the viscosity and of the density. It follows its input at once,
+/// up to a hundredth of the lag. Without any viscosity, jitter of the recording would make it
+/// oscillate.
 Tissue at_once(Tissue tissue);
 
-/// Landmarks that move by more than a millimetre and lie farther than twice the radius of a driven
-/// patch from all driven points: what follows through the tissue alone.
+/// Landmarks that move by more than a millimetre and are farther than twice the radius of a driven
+/// patch from all driven points. They are moved through the tissue alone.
 std::vector<std::string> undriven_landmarks(const Study& study, const simulate::Performance& p);
 
 }  // namespace hyperex::bench

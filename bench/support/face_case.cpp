@@ -29,7 +29,7 @@ FaceCase::FaceCase(Face face, const MeshSize& size) {
   scene::Scene scene = scene_of(face);
   if (size.element_size_m > 0) scene.mesh.element_size_m = size.element_size_m;
   if (size.layers > 0) scene.mesh.layers = size.layers;
-  // What is measured begins behind the choice of the drive: the scene's own drive is taken.
+  // The benchmark starts after the choice of the drive, so that the scene's own drive is used.
   scene.origins.emplace("drive.by", scene::Origin{scene.file, 0});
   const session::FaceSession session(scene, {.certainty = session::Certainty::on_request});
   name_ = scene.title;
@@ -82,7 +82,8 @@ fem::System FaceCase::system(fem::ElementKind kind, double viscosity_factor) con
 
 fem::Drive FaceCase::shapes(const std::function<Points(double)>& points, double tolerance,
                             int steps) const {
-  // Of the answer, not of this object: following the jaw begins at its last position.
+  // A copy: following the jaw starts at its last position, so that the Boundary belongs to one
+  // result.
   simulate::Boundary boundary = *boundary_;
   return simulate::input_shapes(boundary, points, dt_s_, steps, 1e-3 * tolerance).drive;
 }
@@ -94,7 +95,7 @@ fem::Drive FaceCase::drive(double solver_tolerance, int steps) const {
 
 fem::Drive FaceCase::sine(double period_s, double solver_tolerance) const {
   const Points peak = points_->at(peak_s_);
-  // As a recording of it would come in: sampled at the camera's instants, then the same spline.
+  // Sampled like a recording, at the camera's instants, then interpolated by the same spline.
   motion::Motion recorded = motion_.motion;
   for (std::size_t k = 0; k < recorded.time_s.size(); ++k)
     recorded.positions[k] = std::sin(2 * M_PI * (recorded.time_s[k] - start_s_) / period_s) * peak;

@@ -13,23 +13,23 @@
 
 namespace hyperex::bench {
 
-/// What is measured on: subject A's mouth opening where the data set lies beside the checkout, else
-/// the face and motion that come with the program.
+/// The face that is measured: subject A's mouth opening if the data set lies beside the checkout,
+/// else the face and motion that come with the program.
 enum class Face { subject_a_if_there, embedded };
 
-/// 0: as in the scene.
+/// Zero members mean the value of the scene.
 struct MeshSize {
   double element_size_m = 0;
   int layers = 0;
 };
 
-/// A scene made ready for the solver as `hyperex run` does it: mesh, boundary, tissue and motion.
+/// A scene prepared for the solver as `hyperex run` does it: mesh, boundary, tissue and motion.
 class FaceCase {
  public:
   explicit FaceCase(Face face, const MeshSize& size = {});
 
   std::string name() const { return name_; }
-  /// The same as a program has it.
+  /// A Simulator of the same face, as a calling program would have it.
   simulate::Simulator simulator() const;
   const tissue::TissueMesh& mesh() const { return *mesh_; }
   const simulate::Boundary& boundary() const { return *boundary_; }
@@ -37,18 +37,19 @@ class FaceCase {
   double dt_s() const { return dt_s_; }
   int steps() const { return steps_; }
   const simulate::TissueValues& tissue() const { return options_.tissue; }
-  double mesh_seconds() const { return mesh_s_; }  ///< of building the tissue mesh
+  double mesh_seconds() const { return mesh_s_; }  ///< time of building the tissue mesh
 
   /// The scene's tissue with its viscosity multiplied.
   fem::Material material(double viscosity_factor = 1) const;
-  /// With the springs of the bones and the elastic foundation.
+  /// Assembles, and adds the springs of the bones and the elastic foundation.
   void assemble(const fem::Assembler& assembler, const fem::Material& material,
                 fem::System& system) const;
   fem::System system(fem::ElementKind kind, double viscosity_factor = 1) const;
 
-  /// The scene's motion, and as many shapes as `hyperex run` makes of it for a solver's tolerance.
+  /// The scene's motion, with as many shapes as `hyperex run` uses for that tolerance of the
+  /// solver.
   fem::Drive drive(double solver_tolerance, int steps = 0) const;
-  /// The shape of the motion at its peak, times sin(2 pi t / period), as a recording of it.
+  /// The shape of the motion at its peak, times sin(2 pi t / period), sampled like a recording.
   fem::Drive sine(double period_s, double solver_tolerance) const;
 
  private:

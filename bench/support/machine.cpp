@@ -19,9 +19,9 @@
 namespace hyperex::bench {
 namespace {
 
-constexpr int kLanes = 64;  // sums side by side: enough to hide the adder's latency
+constexpr int kLanes = 64;  // independent sums: enough to hide the adder's latency
 
-/// Several sums, so that the compiler may use vectors without reordering any of them.
+/// Several independent sums, so that the compiler may use vectors without reordering a sum.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 __attribute__((target_clones("avx512f", "avx2", "default"), optimize("O3")))
 #endif
@@ -71,7 +71,7 @@ double read_rate(std::size_t bytes, int threads) {
   std::barrier all_ready(threads);
   Stopwatch watch;
   const auto work = [&](std::size_t t) {
-    data[t].assign(part, 1.0);  // by the thread that reads it
+    data[t].assign(part, 1.0);  // written by the thread that reads it
     for (int trial = 0; trial < 12; ++trial) {
       all_ready.arrive_and_wait();
       if (t == 0) watch.lap();
@@ -88,7 +88,7 @@ double read_rate(std::size_t bytes, int threads) {
   work(0);
   for (auto& other : others) other.join();
   for (const double r : results)
-    if (!(r > 0)) throw std::bad_alloc();  // and the sums are needed
+    if (!(r > 0)) throw std::bad_alloc();  // uses the sums
   return best;
 }
 
@@ -113,7 +113,7 @@ nlohmann::ordered_json describe_machine() {
   }
   m["caches"] = caches;
   m["memory_bytes"] = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
-  // A third of the last cache stays in it; what is read from memory is far more than it holds.
+  // A third of the last-level cache stays in it; the array that is read from memory is much larger.
   const auto in_cache = static_cast<std::size_t>(last_cache > 0 ? last_cache / 3 : 4e6);
   m["cache_test_bytes"] = in_cache;
   m["memory_test_bytes"] = std::size_t{1} << 30;

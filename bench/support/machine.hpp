@@ -6,19 +6,19 @@
 
 namespace hyperex::bench {
 
-/// The best rate (bytes/s) at which `threads` threads together read `bytes` from beginning to end,
-/// each its own part, again and again: from memory where they are more than the caches hold. The
-/// reading half of STREAM (McCalpin, 1995), with the widest vectors that the processor has.
+/// The highest rate (bytes/s) at which `threads` threads together read `bytes` repeatedly from
+/// beginning to end, each its own part. Data larger than the caches are read from memory. This is
+/// the reading half of STREAM (McCalpin, 1995), with the widest vectors of the processor.
 double read_rate(std::size_t bytes, int threads);
 
-/// Processor, caches, memory, and read rates from memory and from the last cache, one and two
-/// threads.
+/// Processor, caches, memory, and read rates from memory and from the last-level cache with one and
+/// two threads.
 nlohmann::ordered_json describe_machine();
 
 /// Cores that this process may use.
 int cores();
 
-/// This process's greatest resident memory since the last reset (bytes; Linux alone).
+/// This process's peak resident memory since the last reset (bytes; only on Linux).
 double peak_memory();
 void reset_peak_memory();
 

@@ -8,7 +8,7 @@
 
 namespace hyperex::bench {
 
-/// CHOLMOD by itself, with an ordering of one's choice: what fem::Cholesky is compared with.
+/// CHOLMOD alone, with a chosen ordering, to compare fem::Cholesky with.
 class OwnCholmod {
  public:
   /// Analyses and factors the lower triangle. `ordering`: CHOLMOD_AMD, CHOLMOD_METIS ...
@@ -22,7 +22,7 @@ class OwnCholmod {
     Stopwatch watch;
     factor_ = cholmod_analyze(&view, &common_);
     analyse_s_ = watch.lap();
-    for (int i = 0; i < 2; ++i) {  // the second time memory is there, as in a re-factorisation
+    for (int i = 0; i < 2; ++i) {  // the second time memory is there, as when re-factoring
       watch.lap();
       cholmod_factorize(&view, factor_, &common_);
       factor_s_ = watch.lap();

@@ -14,7 +14,7 @@ double seconds_of(Work work) {
   return watch.lap();
 }
 
-/// The median of several runs, after one that does not count.
+/// The median time of several runs, after one run that is not counted.
 template <class Work>
 double median_seconds(int repeats, Work work) {
   work();

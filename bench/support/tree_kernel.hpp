@@ -9,9 +9,9 @@
 
 namespace hyperex::bench {
 
-/// An experiment: solves with a copy of a supernodal factor in another number type, by the same
-/// division of the elimination tree into two halves and a top as fem::TriangularSolver. The same
-/// code in double and in float tells what the width of the numbers is worth.
+/// An experiment: solves with a copy of a supernodal factor in another number type. The elimination
+/// tree is divided into two halves and a top, as in fem::TriangularSolver. Running the same code in
+/// double and in float shows the effect of the width of the numbers.
 template <class T>
 class TreeKernel {
  public:

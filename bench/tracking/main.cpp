@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tracking_scores_study --data FOLDER --out FILE.md: how near tracking comes to the truth, as
-// recorded and in bad conditions, and how near landmarks found on scans come, as a page of tables.
+// tracking_scores_study --data FOLDER --out FILE.md: writes a page of tables with the errors of
+// tracking, as recorded and under bad conditions, and the errors of landmarks found on scans.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -61,7 +61,7 @@ constexpr const char* kTableHead =
     "jitter "
     "at rest, mm |\n|---|---|---|---|---|---|---|\n";
 
-/// One table a condition.
+/// One table per condition.
 std::string trial_tables(const std::vector<fs::path>& folders, const expression::FaceModel& model,
                          std::size_t conditions) {
   std::string page;
@@ -83,7 +83,7 @@ struct KnownScan {
   const char *scan, *landmarks;
 };
 
-/// All turns of a scan: medians and worst errors, the least and the greatest over the turns.
+/// All rotations of a scan: medians and worst errors, with their range over the rotations.
 std::string scan_rows(const fs::path& data, const KnownScan& known) {
   const io::Scan scan = io::read_scan(data / known.scan);
   const io::Landmarks truth = io::read_landmarks(data / known.landmarks);
@@ -93,7 +93,7 @@ std::string scan_rows(const fs::path& data, const KnownScan& known) {
     std::vector<double> medians, worst;
   } kinds[] = {{"51 inner iBUG points", 17, {}, {}}, {"all that are known", 0, {}, {}}};
   int failed = 0;
-  for (int k = -1; k < 24; ++k) {  // -1: as it is
+  for (int k = -1; k < 24; ++k) {  // -1: not rotated
     const Eigen::Matrix3d turn = k < 0 ? Eigen::Matrix3d::Identity() : test::slanting_turn(k);
     try {
       const auto found = tracking::find_scan_landmarks(test::turned(scan.mesh, turn),

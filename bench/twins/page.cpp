@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kAllowed = 0.10, kAskedCorrelation = 0.95;
 
-/// Of one change over several answers, at the left corner.
+/// One change over several answers, at the left corner of the mouth.
 struct ChangeSummary {
-  double true_change = 0, found_change = 0;  ///< mean, over the way in base
-  double mean_error = 0, worst_error = 0;    ///< of the way, over the true one
-  double worst_right_mm = 0;                 ///< of the right corner's way
+  double true_change = 0, found_change = 0;  ///< mean, relative to the displacement in base
+  double mean_error = 0, worst_error = 0;    ///< relative to the true displacement
+  double worst_right_mm = 0;                 ///< error of the right corner's displacement
 };
 
 ChangeSummary summary_of(const std::vector<test::TwinAnswer>& answers, std::size_t change) {

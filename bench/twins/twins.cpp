@@ -22,7 +22,7 @@ test::TwinFace embedded_twin() {
   return out;
 }
 
-/// E over that without the change, a tetrahedron.
+/// Factor on E for each tetrahedron.
 std::vector<double> stiff_region(const test::TwinFace& face, const std::string& region,
                                  double factor) {
   const anatomy::EmbeddedFace scan = anatomy::embedded_face();

@@ -7,14 +7,14 @@
 
 namespace hyperex::bench {
 
-/// Where the truth differs from what the program knows.
+/// How the true face differs from the face that the program assumes.
 struct World {
   std::string name;
   double young_factor = 1;
   double lines_off_mm = 0;
 };
 
-/// One world, one set of points, over several draws of noise, lines and expressions.
+/// Results for one world and one set of points, over several draws of noise, lines and expressions.
 struct TwinRow {
   World world;
   std::size_t points = 0;
@@ -27,7 +27,7 @@ struct Twins {
   std::vector<TwinRow> rows;
 };
 
-/// Runs them all on the embedded face, telling on standard error how far it is.
+/// Runs all of them on the embedded face, with progress on standard error.
 Twins run_twins(int draws);
 
 /// docs/twins.md: every figure and every verdict comes from `twins`.

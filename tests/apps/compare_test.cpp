@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program as a user calls it: exit status, standard output and error kept apart.
+// `hyperex compare` as a user calls it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ using testing::StartsWith;
 
 class Program : public ProgramTest {
  protected:
-  // A flat sheet of 20 cm, moved forward by `forward_m`, with `extra` more vertices at its end.
+  // A flat sheet of 20 cm, moved forward by `forward_m`, with `extra` vertices appended.
   void write_sheet(const std::string& name, double forward_m, int extra = 0,
                    io::LengthUnit unit = io::LengthUnit::millimetre) const {
     constexpr int n = 41;
@@ -172,8 +172,8 @@ TEST_F(Program, RefusesInOneLine) {
   }
 }
 
-// A face of which the left corner of the mouth and what is about it move by 5 mm, with a turn of
-// the head, as surfaces and as the points of a run.
+// A face whose left corner of the mouth and surroundings move by 5 mm while the head turns, as
+// surfaces and as the points of a run.
 TEST_F(Program, DrawsTheSymmetryOfSurfaces) {
   const TriMesh face = good_face();
   const io::Landmarks landmarks = good_landmarks();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A scan, its landmarks, a recording and a scene that the program takes, made of the face that it
-// carries: the ground on which a test spoils one thing.
+// A scan, its landmarks, a recording and a scene that the program accepts, made of the embedded
+// face. Tests then introduce one error.
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -16,7 +16,8 @@ namespace hyperex {
 /// scene.toml (coarse and short: a run takes a second) into `folder`.
 void write_good_inputs(const std::filesystem::path& folder);
 
-/// Writes motion.csv anew: at most `count` samples of the mouth opening from `first` on, changed.
+/// Writes motion.csv again: at most `count` samples of the mouth opening from `first` on, changed
+/// by a function.
 void write_opening(
     const std::filesystem::path& folder, std::size_t first, std::size_t count,
     const std::function<void(motion::Motion&)>& change = [](motion::Motion&) {});
@@ -27,7 +28,7 @@ io::Landmarks good_landmarks();  ///< metres
 void write_mm(const std::filesystem::path& file, const TriMesh& mesh);
 void write_ascii_ply_mm(const std::filesystem::path& file, const TriMesh& mesh);
 
-/// Replaces the first `from` in a text file, which must be there.
+/// Replaces the first `from` in a text file; it must occur.
 void replace_in(const std::filesystem::path& file, const std::string& from, const std::string& to);
 /// Keeps the first `share` (0 to 1) of a file's bytes.
 void tear(const std::filesystem::path& file, double share);

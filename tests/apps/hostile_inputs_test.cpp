@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inputs that try the program: nested without end, devices for files, names that act on terminals
-// or tables, numbers at the edge of what there is.
+// Hostile inputs: extremely deep nesting, device files, names that act on terminals or tables, and
+// numbers at the limits of their types.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run that is broken off leaves nothing behind.
+// An interrupted run leaves nothing behind.
 #include <fcntl.h>
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 class Interrupted : public GoodInputs {
  protected:
-  /// The program's status after `signal` reached it in the midst of a run.
+  /// The program's status after it received `signal` in the middle of a run.
   int status_after(int signal) const {
     const std::string scene = in("scene.toml"), out = in("out"), err = in("err.txt");
     const pid_t program = ::fork();
@@ -22,7 +22,7 @@ class Interrupted : public GoodInputs {
       const int to = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
       ::dup2(to, 1);
       ::dup2(to, 2);
-      // Minutes, were it left alone.
+      // This would run for minutes if not interrupted.
       ::execl(HYPEREX_PROGRAM, HYPEREX_PROGRAM, "run", scene.c_str(), "--out", out.c_str(), "--set",
               "time.step_s=3.1e-4", "--set", "time.end_s=600", nullptr);
       ::_exit(127);

@@ -34,7 +34,7 @@ TEST_F(LandmarksCommand, WritesLandmarksInTheScansUnit) {
                                           HasSubstr("written to l.json; --picture")));
   EXPECT_THAT(read_file(in("l.json")), HasSubstr("\"units\": \"mm\""));
   EXPECT_LT(median_error_mm(io::read_landmarks(in("l.json")), good_landmarks()), 4);
-  const auto files = [&] {  // and nothing that was not asked for
+  const auto files = [&] {  // and no other files
     return std::distance(fs::directory_iterator(in("")), fs::directory_iterator());
   };
   EXPECT_EQ(files(), 2);
@@ -47,7 +47,7 @@ TEST_F(LandmarksCommand, WritesLandmarksInTheScansUnit) {
 
 TEST_F(LandmarksCommand, RefusesInOneLineAndLeavesNothing) {
   TriMesh sheet = good_face();
-  sheet.points.col(2) *= 0.02;  // a face under a press
+  sheet.points.col(2) *= 0.02;  // a flattened face, on which no face is found
   write_mm(in("sheet.ply"), sheet);
   for (const auto& [arguments, words] :
        {std::pair{"landmarks sheet.ply --out l.json --unit mm", "no face was found"},

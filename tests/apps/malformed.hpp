@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Faulty input given to the program as a user gives it: each is refused in one clear line, and
-// nothing is left under the name of the output.
+// Faulty inputs as a user would give them to the program: each is refused in one clear line, and no
+// output is left.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using In = std::function<std::filesystem::path(const std::string&)>;
 struct Fault {
   std::string name;
   std::function<void(const In&)> spoil;
-  std::vector<std::string> told;  ///< what the line must say
+  std::vector<std::string> told;  ///< texts that the line must contain
   std::string arguments = "run scene.toml --out out";
   std::string before = "true";
   int status = 2;

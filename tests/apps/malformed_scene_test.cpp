@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faulty scenes, options, places for the output and a full disk; several problems at once.
+// Faulty scenes and options, unusable output folders and a full disk; several problems at once.
 #include "apps/malformed.hpp"
 
 namespace hyperex {

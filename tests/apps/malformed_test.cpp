@@ -37,7 +37,7 @@ void write_two_faces(const In& in) {
   });
 }
 
-/// The lips joined, and a slit in the scan from the nose to the chin that a cut cannot cross.
+/// The lips are joined, and the scan has a slit from nose to chin, which a lip cut cannot cross.
 void write_split_closed_mouth(const In& in) {
   const TriMesh& closed = anatomy::canonical_face().mesh;
   TriMesh mesh{closed.points, Triangles(closed.triangles.rows(), 3)};
@@ -243,7 +243,7 @@ const std::vector<Fault> kLandmarks{
 
 // ---- motion ------------------------------------------------------------------------------------
 
-/// The recording, a row a line, changed.
+/// Writes the recording with its rows, one per line, changed.
 void write_rows(const In& in, const std::function<void(std::vector<std::string>&)>& change) {
   std::istringstream lines(read_file(in("motion.csv")));
   std::vector<std::string> rows;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options from a scene file through the whole program: finite strain, its law and its solver, and
-// each contact, on the face that comes with the program. Small and coarse.
+// each contact, on the embedded face with a small, coarse mesh.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -37,7 +37,7 @@ class Options : public ProgramTest {
             sets);
   }
 
-  /// Lips are shut by more than they are open and pressed back, and lids are pressed back.
+  /// The lips are closed by more than their gap and pushed back, and the lids are pushed back.
   json pressed(const std::string& sets) {
     write_pressed();
     std::string points;

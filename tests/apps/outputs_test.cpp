@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands where outputs are to go: it is the user's, unless an earlier run wrote it.
+// Existing files at the place of outputs belong to the user, unless an earlier run wrote them.
 #include <sys/stat.h>
 
 #include <fstream>
@@ -22,7 +22,7 @@ class Outputs : public GoodInputs {
     const Outcome outcome = call("run scene.toml --out " + out);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
   }
-  /// Refused in one line, and nothing is changed.
+  /// The command is refused in one line, and nothing is changed.
   void expect_refused(const std::string& arguments, const std::string& words,
                       const std::string& before = "true") const {
     const auto names = names_in(in(""));
@@ -37,7 +37,7 @@ class Outputs : public GoodInputs {
 
 TEST_F(Outputs, AFailedWriteBesideVariantsIsToldAndLeavesNothing) {
   add_variant("a");
-  // In half-kilobytes: enough for the tables.
+  // The limit is in half-kilobytes: enough for the tables.
   expect_refused("run scene.toml --out out", "cannot be written (File too large)", "ulimit -f 64");
 }
 
@@ -144,7 +144,7 @@ TEST_F(Outputs, AFileIsReplacedOnlyByOneOfItsOwnKind) {
   mine("u.pose.csv", "my,table\n");
   expect_refused("track nowhere --out u.csv", "u.pose.csv: " + known);
   EXPECT_EQ(read_file(in("m.csv")), "patient,born\n");
-  // Its own it replaces, and what is empty.
+  // Its own files are replaced, and empty ones.
   mine("s.csv", "");
   for (int k = 0; k < 2; ++k) {
     const Outcome again = call(symmetry + "--out s.csv --excursions e.csv --picture s.png");
@@ -245,7 +245,7 @@ TEST_F(Outputs, WhatIsNoCommandOrSceneIsToldAsSuch) {
   expect_refused("simmetry motion.csv", "did you mean symmetry?");
   expect_refused("run face.ply --out out",
                  "this is a scan. hyperex new face.ply MOTION writes one");
-  // What is wrong with the scene is said before the folder that is not named.
+  // Problems of the scene are reported before the missing name of the output folder.
   expect_refused("run face.ply", "this is a scan. hyperex new face.ply MOTION writes one");
   expect_refused("run sceen.toml", "sceen.toml: expected an existing scene file");
   expect_refused("run scene.toml", "--out is required");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inputs that can be read and do not belong together: refused, or warned of (warnings_test.cpp has
-// every warning).
+// Inputs that can be read but do not fit together are refused or cause a warning (warnings_test.cpp
+// covers every warning).
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -73,7 +73,7 @@ TEST_F(Plausible, AStartInAnExpressionIsMendedAsAdvised) {
   const Outcome checked = call("check scene.toml");
   EXPECT_EQ(checked.status, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("motion.rest_s = [1.0"));
-  // What it advises is right: the face then starts at rest, is led to the opening and comes back.
+  // The advice is correct: with it the face starts at rest, moves to the opening and comes back.
   const Outcome mended = call(
       "run scene.toml --out out --set motion.rest_s=[1.2,1.33] --set time.end_s=0.6"
       " --set time.frame_rate_hz=30");
@@ -121,7 +121,7 @@ TEST_F(Plausible, SymmetryJudgesByTheJitterThatTheRecordingShows) {
   EXPECT_THAT(noisy.out, HasSubstr("undecided"));
   EXPECT_THAT(call(quiet + " --jitter-mm 0").out, HasSubstr("taken as exact, as --jitter-mm 0"));
   EXPECT_THAT(call(quiet + " --jitter-mm 0.3").out, HasSubstr("as --jitter-mm states it: 0.30 mm"));
-  // A run's folder has the jitter that the run judged by.
+  // The run's folder states the jitter that the run used.
   std::filesystem::create_directory(in("ran"));
   std::filesystem::copy_file(in("motion.csv"), in("ran/motion.csv"));
   put(in("ran/summary.json"), R"({"symmetry": {"jitter_mm": 0.17}})");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The program as a user calls it: exit status, standard output and error kept apart, each test in
-// a folder of its own.
+// The program as a user calls it, with exit status, standard output and error kept separate. Each
+// test has its own folder.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -18,13 +18,13 @@ namespace hyperex {
 class ProgramTest : public testing::Test {
  protected:
   struct Outcome {
-    int status;  ///< of the program; 128 + signal where one ended it, as the shell tells
+    int status;  ///< of the program; 128 + signal where a signal ended it, as in a shell
     std::string out, err;
   };
 
   void SetUp() override { std::filesystem::create_directory(folder_ / "in"); }
 
-  /// `before` is said to the shell first: a limit, say.
+  /// `before`: a shell command that is run first, for example to set a limit.
   Outcome call(const std::string& arguments, const std::string& before = "true") const {
     const std::string command = "cd '" + (folder_ / "in").string() + "' && " + before + " && '" +
                                 HYPEREX_PROGRAM "' " + arguments + " >../out.txt 2>../err.txt";
@@ -33,7 +33,8 @@ class ProgramTest : public testing::Test {
             read_file(folder_ / "out.txt"), read_file(folder_ / "err.txt")};
   }
 
-  /// A line of shell where the program is called, which is $HYPEREX there; its exit status.
+  /// Runs a line of shell in the working folder, where $HYPEREX is the program; returns its exit
+  /// status.
   int shell(const std::string& line) const {
     const std::string command =
         "cd '" + (folder_ / "in").string() + "' && HYPEREX='" HYPEREX_PROGRAM "' && " + line;
@@ -41,7 +42,7 @@ class ProgramTest : public testing::Test {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   }
 
-  /// Where the program is called.
+  /// A path in the working folder of the program.
   std::filesystem::path in(const std::string& name) const { return folder_ / "in" / name; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run leaves: files that can be moved and passed on.
+// The outputs of a run: files that can be moved and passed on.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -94,7 +94,8 @@ TEST_F(RunOutputs, FramesOpenAfterTheFolderWasMoved) {
   }
 }
 
-/// What a run will take is said before, and too much is not begun.
+/// The size of the outputs is stated before the run, and a run that would write too much does not
+/// begin.
 TEST_F(RunOutputs, AreStatedBeforeAndBounded) {
   put(in("x.toml"),
       "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\" }\n"
@@ -117,7 +118,7 @@ TEST_F(RunOutputs, AreStatedBeforeAndBounded) {
   EXPECT_FALSE(fs::exists(in("o/variants")));
   const auto summary = nlohmann::json::parse(read_file(in("o/summary.json")));
   EXPECT_EQ(summary["frames"], 65) << "2.67 s less 1 s, and half a second from rest into it";
-  // The estimate is right by half.
+  // The estimate is correct to within a half.
   std::uintmax_t bytes = 0;
   for (const fs::path& file : files_in(in("o"))) bytes += fs::file_size(file);
   put(in("y.toml"),

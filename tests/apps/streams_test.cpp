@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Standard streams that are closed, full or left by their reader.
+// Standard streams that are closed, full, or no longer read.
 #include <fstream>
 
 #include "apps/malformed.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Studies, end to end: run, interrupted, gone on with, failing and refused.
+// Studies, end to end: run, interrupted, continued, failing and refused.
 #include <fcntl.h>
 
 #include <chrono>
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 class Sweep : public GoodInputs {
  protected:
-  /// A coarse face that moves for a third of a second: the least that a case may take.
+  /// A coarse face that moves for a third of a second: the shortest possible case.
   void write_study(const std::string& rest) const {
     std::ofstream(in("base.toml"))
         << "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\" }\n";
@@ -70,7 +70,7 @@ TEST_F(Sweep, RunsEachCaseOnceAndMakesATable) {
             read_file(in("out/" + column("folder")[1] + "/motion.csv")));
   EXPECT_NE(column("max_displacement_mm")[0], column("max_displacement_mm")[1]);
 
-  // Finished ones are left as they are; a new value runs alone.
+  // Finished cases are not run again; a new value runs alone.
   const auto folder = in("out/" + column("folder")[0]);
   const auto written = fs::last_write_time(folder / "summary.json");
   write_study("[grid]\ntissue.viscosity_pa_s = [0, 2500, 5000]\n");
@@ -102,7 +102,7 @@ TEST_F(Sweep, OneThatFailsIsToldAndTheOthersRun) {
   write_study("[[grid.a]]\nname = \"sound\"\n[[grid.a]]\nname = \"broken\"\n");
   const Outcome listed = call("sweep study.toml --list");
   ASSERT_EQ(listed.status, 0) << listed.err;
-  // Nothing is wrong with its inputs, but a file of the user's lies in its folder.
+  // The inputs are valid, but a file of the user is in the case's folder.
   const std::string hash = listed.out.substr(listed.out.find("2  not run ") + 13, 10);
   const std::string folder = "out/cases/broken-" + hash;
   fs::create_directories(in(folder));
@@ -119,7 +119,7 @@ TEST_F(Sweep, OneThatFailsIsToldAndTheOthersRun) {
   EXPECT_THAT(column("state"), ElementsAre("finished", "failed"));
   EXPECT_THAT(column("message")[1], HasSubstr("holds notes.txt"));
   EXPECT_EQ(read_file(in(folder + "/notes.txt")), "mine");
-  // What stood in its way is gone: it runs, and nothing else does.
+  // The file is removed: the case runs, and no other.
   fs::remove(in(folder + "/notes.txt"));
   EXPECT_EQ(call("sweep study.toml").status, 0);
   EXPECT_THAT(column("state"), ElementsAre("finished", "finished"));
@@ -168,7 +168,7 @@ TEST_F(Sweep, BadInputIsRefusedBeforeTheFirstRuns) {
             "known key (did you mean tissue.young_kpa?)"},
         Bad{"[grid]\nscan.file = [\"embedded\", \"gone.ply\"]\n",
             "study.toml:5: scan.file = \"gone.ply\": expected"},
-        // Seen only where what the scene names is read.
+        // Detected only where the files that the scene names are read.
         Bad{"[grid]\ntissue.young_kpa = [1, 2, 3]\ndrive.points = [[\"nobody\"]]\n",
             "study.toml:6: drive.points = [\"nobody\"]: expected names of points in the "
             "recording"}}) {
@@ -205,7 +205,7 @@ class SweepInterrupted : public Sweep {
     }
     return program;
   }
-  /// A folder under a temporary name: a case is on its way.
+  /// A folder under a temporary name, while a case is running.
   fs::path half_written() const {
     std::error_code error;
     for (fs::directory_iterator at(in("out/cases"), error), end; !error && at != end;
@@ -278,7 +278,7 @@ TEST_F(Sweep, ThePagesExampleRuns) {
   for (const char* line :
        {"    1  finished", "    2  finished", "    3  finished", "    4  finished"})
     EXPECT_THAT(listed.out, HasSubstr(line)) << "the same hashes in another folder";
-  // A stiff right cheek holds the right side back; so the page's own lines of Python would say.
+  // A stiff right cheek restrains the right side, as the page's Python code would show.
   const io::TextTable table = io::read_text_table(in("out/study/study.csv"));
   const auto cell = [&](std::size_t row, const std::string& name) {
     const auto at = std::find(table.names.begin(), table.names.end(), name);

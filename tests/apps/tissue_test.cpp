@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tissue that differs from place to place, end to end.
+// Tissue that varies over the face, end to end.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ class Tissue : public ProgramTest {
   Eigen::VectorXf peak_mm(const std::string& example) {
     const Outcome run =
         call("run '" HYPEREX_SOURCE_DIR "/examples/" + example + ".toml' --out " + example +
-             // By the tissue alone: shapes of real faces know of no stiff cheek.
+             // Without the shape prior: shapes of real faces do not include a stiff cheek.
              " --set muscles.shape_prior=false"
              " --set time.end_s=0.7 --set mesh.element_size_mm=5"
              " --set output.vtu=false --set output.glb=false"
@@ -31,7 +31,7 @@ class Tissue : public ProgramTest {
   }
 };
 
-/// Of `values` near a place of the face, its right side or the left.
+/// Statistics of `values` near a place of the face, on its right or left side.
 struct Spread {
   double mean = 0, deviation = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `hyperex track --device kinect` without a Kinect: the program is started with libfreenect's
-// fakenect in the driver's place, which replays a face as a Kinect would see it.
+// `hyperex track --device kinect` without a Kinect: libfreenect's fakenect replaces the driver and
+// replays a face as a Kinect would record it.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -16,7 +16,8 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// What the depth camera beside the colour camera gives for depth registered to colour: raw values.
+/// The raw values of the depth camera, beside the colour camera, for a depth picture registered to
+/// colour.
 cv::Mat raw_of(const cv::Mat& depth_m) {
   using K = capture::NominalKinect;
   constexpr double colour_f_px = 525;
@@ -45,7 +46,7 @@ cv::Mat raw_of(const cv::Mat& depth_m) {
   return raw;
 }
 
-/// Distance of the head, and whether it was seen, of each row of a .pose.csv.
+/// The distance of the head (T23) in each row of a .pose.csv.
 std::vector<double> distances_m(const fs::path& pose) {
   std::vector<double> distances;
   std::istringstream text(read_file(pose));

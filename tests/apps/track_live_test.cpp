@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `hyperex track --device`, rehearsed with recordings that are played at their own pace.
+// `hyperex track --device`, tested with recordings that are played at their own rate.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
@@ -44,7 +44,7 @@ TEST_F(TrackLive, EndsAfterSomeSecondsAndSaysWhatWasDropped) {
   const auto pose = table(in("m.pose.csv"));
   ASSERT_GT(pose.size(), 3u);
   EXPECT_EQ(*(pose[0].end() - 2), "frame");
-  EXPECT_EQ(pose[0].back(), "fault");  // empty in the rows, so that frame comes last there
+  EXPECT_EQ(pose[0].back(), "fault");  // empty in the rows, so that it must come last
   EXPECT_EQ(table(in("m.csv")).size(), pose.size());
   double last = -1;
   for (std::size_t i = 1; i < pose.size(); ++i) {

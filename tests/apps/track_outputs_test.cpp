@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `hyperex track` writes, and what it asks about left and right.
+// The outputs of `hyperex track`, and its question about left and right.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -32,7 +32,7 @@ class TrackOutputs : public ProgramTest {
 TEST_F(TrackOutputs, AWebcamsMirrorMustBeSaid) {
   expect_refused("track webcam:3 --out m.csv", "Say --mirrored yes or --mirrored no");
   expect_refused("track --device webcam:3 --out m.csv", "Say --mirrored yes or --mirrored no");
-  // Said, the camera itself is looked for.
+  // If it is stated, the camera is opened.
   expect_refused("track webcam:251 --mirrored yes --out m.csv", "there is no /dev/video251");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `hyperex track` on recordings of the embedded face, sound and faulty.
+// `hyperex track` on valid and faulty recordings of the embedded face.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 constexpr int kFrames = 7;
 
-/// Drawn once.
+/// Rendered once.
 const fs::path& face_recording() {
   static const struct Made {
     const TestFolder folder;
@@ -37,7 +37,8 @@ class Track : public ProgramTest {
 TEST_F(Track, JsonIsTheScoreAndNothingElse) {
   const Outcome outcome = call("track --score rec --json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const auto score = nlohmann::ordered_json::parse(outcome.out);  // throws where more is printed
+  // parse() throws where anything else is printed.
+  const auto score = nlohmann::ordered_json::parse(outcome.out);
   std::vector<std::string> keys;
   for (const auto& [key, value] : score.items()) keys.push_back(key);
   EXPECT_THAT(keys, testing::ElementsAre("frames", "lost", "rotation_deg", "translation_mm",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The jitter of a recording that was tracked into a file, against what the truth says it is.
+// The estimated jitter of a recording that was tracked into a file, compared with the true jitter.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -20,8 +20,8 @@ const fs::path kRecordings = fs::path(HYPEREX_SHARED_DIR) / "data/rgbd";
 
 class TrackedJitter : public ProgramTest, public testing::WithParamInterface<std::string> {};
 
-/// Root mean square of what the tracked points' errors change by from frame to frame, over sqrt(2):
-/// the jitter, as errors that last change slowly.
+/// Root mean square change of the tracked points' errors from frame to frame, divided by sqrt(2).
+/// This is the jitter, since lasting errors change slowly.
 double true_jitter_m(const motion::Motion& tracked, const motion::Motion& truth,
                      const std::vector<int>& columns) {
   const auto rows_of = [&](const motion::Motion& m, const Points& sample) {

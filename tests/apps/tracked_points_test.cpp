@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A recording of a camera drives muscles by seven of its points and by all 560 that are tracked:
-// which comes nearer to the truth.
+// A camera recording drives muscles by seven of its points and by all 560 tracked points; the
+// errors of both are compared.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -43,7 +43,7 @@ TEST_F(TrackedPoints, AllOfThemMoveTheCheeksOfATalkingFace) {
           "', unit = \"mm\", landmarks = '" + (kData / "ict/subject_A_landmarks.json").string() +
           "' }\nmotion.recording = '" + recording.string() +
           "'\nmesh = { element_size_mm = 5, layers = 1 }\n"
-          // Shapes of real faces, made from this rig, know its cheeks by few points.
+          // The shapes of real faces were made from this rig and would give its cheeks.
           "drive.by = \"muscles\"\nmuscles.shape_prior = false\n"
           "time.step_s = 0.01\n"
           "output = { peak_time_s = 1.533333, vtu = false, glb = false, report = "

@@ -33,7 +33,7 @@ TEST_F(Variants, AreAsIfRunAlone) {
     return io::read_ply_scalars(in(folder + "/skin_peak.ply")).at(0).values;
   };
   const Eigen::VectorXf alone = peak_mm("alone");
-  // Nothing of one run leaks into another; sums of parallel work differ in their last bits.
+  // Runs do not affect each other; sums of parallel work differ in their last bits.
   EXPECT_LT((peak_mm("all/variants/stiffer") - alone).cwiseAbs().maxCoeff(), 1e-3F);
   EXPECT_GT((peak_mm("all") - alone).cwiseAbs().maxCoeff(), 0.1F);
   EXPECT_TRUE(std::filesystem::exists(in("all/variants.png")));
@@ -46,12 +46,12 @@ TEST_F(Variants, AreAsIfRunAlone) {
   EXPECT_TRUE(table[0]["share_within_25_mm_of_mouth"].is_null());
   for (int i = 1; i < 6; ++i) EXPECT_GT(table[i]["greatest_distance_mm"], 0.01) << table[i];
   EXPECT_EQ(table[1]["changes"]["tissue.young_kpa"], 1000);
-  // More viscous tissue trails: by milliseconds, against next to nothing.
+  // More viscous tissue lags, by milliseconds; the base case hardly lags.
   EXPECT_GT(table[2]["lag_ms"].get<double>(), table[0]["lag_ms"].get<double>() + 3);
   EXPECT_GT(table[2]["hysteresis"].get<double>(), table[0]["hysteresis"].get<double>());
 }
 
-/// A stiff cheek changes its own side of the face, in columns that carry that side's name.
+/// A stiff cheek changes its own side of the face, in the columns of that side.
 TEST_F(Variants, ColumnsOfASideHoldThatSide) {
   std::ofstream(in("cheeks.toml"))
       << "scan = { file = \"embedded\" }\nmotion = { arkit = \"" HYPEREX_SOURCE_DIR
@@ -65,7 +65,7 @@ TEST_F(Variants, ColumnsOfASideHoldThatSide) {
          "[[variant]]\nname = \"weak\"\nmuscles = { gain = { side_R = 0.5 } }\n";
   const Outcome outcome = call("run cheeks.toml --out out");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  // Muscles are drawn where they pull differently.
+  // A picture of the muscles is drawn where they pull differently.
   EXPECT_TRUE(std::filesystem::exists(in("out/muscles.png")));
   EXPECT_FALSE(std::filesystem::exists(in("out/variants/right/muscles.png")));
   EXPECT_TRUE(std::filesystem::exists(in("out/variants/weak/muscles.png")));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What reads videos is loaded when a video is opened.
+// The library that reads videos is loaded only when a video is opened.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -48,7 +48,7 @@ TEST_F(VideoLibrary, IsSoughtBesideTheProgramAndMissedInWords) {
   const std::string missing = printed(command);
   EXPECT_THAT(missing, HasSubstr("elsewhere/lib/hyperex/hx_video.so: missing"));
   EXPECT_THAT(missing, HasSubstr("install libopencv-videoio-dev"));
-  // Told before the recording is tracked.
+  // The error comes before the recording is tracked.
   cv::imwrite(in("grey.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(90)));
   EXPECT_THAT(printed(program + " track " + in("grey.png").string() + " --preview p.mp4"),
               HasSubstr("install libopencv-videoio-dev"));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The demo's summary against values kept in demo_summary.json, and two runs against each other.
-// After a change that is meant to move the numbers:
+// Compares the demo's summary with values kept in demo_summary.json, and two runs with each other.
+// After an intended change of the numbers,
 //   ctest --test-dir build/release -R golden.run_demo
 //   HYPEREX_GOLDEN_UPDATE=1 build/release/bin/test_golden
-// writes each value that left its tolerance into the file and blanks its reason, which may have
-// become false: write it anew. An empty reason fails.
+// writes each value outside its tolerance into the file and empties its reason, which may no longer
+// be true. Write a new reason: an empty one fails the test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ double greatest(const fs::path& csv, const std::string& column) {
   return table.values.col(c).maxCoeff();
 }
 
-/// How far a landmark of motion.csv moves from where it is at rest, at most (mm).
+/// The largest distance of a landmark of motion.csv from its position at rest (mm).
 double travel_mm(const fs::path& run, const std::string& landmark) {
   const io::CsvTable table = io::read_csv(run / "motion.csv");
   const int x = table.column(landmark + "_x_mm");
@@ -40,9 +40,9 @@ double travel_mm(const fs::path& run, const std::string& landmark) {
   return (place.rowwise() - place.row(0).eval()).rowwise().norm().maxCoeff();
 }
 
-/// What a run gave: a path into summary.json, the greatest value of a column of a table
-/// ("xi_L of symmetry.csv"), or the travel of a landmark ("travel_mm of cheek_L"). Behind "tet4: "
-/// it is the run with that element.
+/// A result of a run: a path into summary.json, the greatest value of a column of a table ("xi_L of
+/// symmetry.csv"), or the travel of a landmark ("travel_mm of cheek_L"). With the prefix "tet4: "
+/// it is from the run with that element.
 double measured(std::string key) {
   fs::path run = kRuns / "demo";
   if (const std::string element = "tet4: "; key.starts_with(element)) {
@@ -62,7 +62,7 @@ bool holds(const Json& kept, double value) {
   return std::abs(value - kept.at("value").get<double>()) <= kept.at("tolerance").get<double>();
 }
 
-/// What takes the place of `kept` after a change of the numbers.
+/// The entry that replaces `kept` after a change of the numbers.
 Json renewed(Json kept, double value) {
   if (holds(kept, value)) return kept;
   kept["value"] = std::round(1e4 * value) / 1e4;
@@ -80,7 +80,7 @@ TEST(Demo, GivesTheNumbersKept) {
   Json golden = Json::parse(read_file(HYPEREX_GOLDEN_FILE));
   ASSERT_GE(golden.at("values").size(), 10u);
   const char* wanted = std::getenv("HYPEREX_GOLDEN_UPDATE");
-  const bool update = wanted && *wanted;  // an empty one asks for nothing
+  const bool update = wanted && *wanted;  // an empty variable does not count
   for (auto& [key, kept] : golden.at("values").items()) {
     const double value = measured(key);
     if (update) kept = renewed(kept, value);

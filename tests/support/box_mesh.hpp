@@ -36,8 +36,8 @@ inline BoxMesh box_mesh(std::array<int, 3> cells, const Vec3& size, double disto
         box.nodes.row(box.node(i, j, k)) = at.cwiseProduct(cell).transpose();
       }
   box.tets.resize(6 * cells[0] * cells[1] * cells[2], 4);
-  // A path along the three axes, in each of their orders; odd orders are turned to keep volumes
-  // positive.
+  // The six paths along the three axes in all orders; those of odd order are reversed to keep
+  // volumes positive.
   constexpr int kPaths[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
   int t = 0;
   for (int k = 0; k < cells[2]; ++k)

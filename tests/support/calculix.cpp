@@ -24,7 +24,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 namespace {
 
-/// ccx reads no more than 20 characters a number.
+/// ccx reads at most 20 characters of a number.
 std::string number(double x) {
   std::string text = fmt::format("{:.16g}", x);
   for (int digits = 15; text.size() > 20; --digits) text = fmt::format("{:.{}g}", x, digits);
@@ -92,7 +92,7 @@ std::string last_lines(const fs::path& file) {
   return text;
 }
 
-/// A block a step: a headline with the word "displacements", then "node x y z".
+/// One block per step: a headline with the word "displacements", then lines "node x y z".
 std::vector<Eigen::VectorXd> read_displacements(const fs::path& file, Eigen::Index nodes) {
   std::vector<Eigen::VectorXd> steps;
   std::vector<Eigen::Index> rows;
@@ -158,7 +158,7 @@ CalculixRun run_calculix(const CalculixModel& model, double gain, int threads) {
 
 namespace {
 
-/// Rows of the free unknowns and some columns.
+/// The rows of the free unknowns and some columns of a matrix.
 SparseMatrix part(const SparseMatrix& m, const std::vector<int>& free_index,
                   const std::vector<int>& columns, int rows) {
   std::vector<Eigen::Triplet<double>> entries;

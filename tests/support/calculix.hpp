@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Runs CalculiX (Debian: calculix-ccx) on a mesh of linear tetrahedra, as a second opinion.
+// Runs CalculiX (Debian: calculix-ccx) on a mesh of linear tetrahedra, as an independent reference.
 #include <Eigen/Sparse>
 #include <filesystem>
 #include <optional>
@@ -16,7 +16,7 @@ struct CalculixHyperelastic {
   double c10_pa = 0, c20_pa = 0, c30_pa = 0, bulk_pa = 0;
 };
 
-/// A mesh of one isotropic material, at rest until its driven unknowns move as given.
+/// A mesh of one isotropic material, at rest until its driven unknowns move as prescribed.
 struct CalculixModel {
   Points nodes;     ///< m
   Tetrahedra tets;  ///< C3D4
@@ -26,52 +26,54 @@ struct CalculixModel {
   std::vector<int> driven;             ///< unknowns 3 n + axis
   Eigen::MatrixXd motion_m;            ///< steps x |driven|: displacement at the end of each step
   double dt_s = 0;
-  /// In place of the elastic constants, for a sequence of equilibria at finite strain: density and
-  /// damping are then left out, and the time means nothing.
+  /// Instead of the elastic constants, for a sequence of equilibria at finite strain. Density and
+  /// damping are then ignored, and time has no meaning.
   std::optional<CalculixHyperelastic> hyperelastic;
 };
 
-/// A displacement of all unknowns a step.
+/// The displacements of all unknowns, one vector per step.
 using History = std::vector<Eigen::VectorXd>;
 
 struct CalculixRun {
   History displacement_m;
-  double seconds = 0;  ///< of the program, reading and writing included
+  double seconds = 0;  ///< of the program, including reading and writing
 };
 
-/// `ccx` on the PATH.
+/// The program `ccx` on the PATH.
 std::optional<std::filesystem::path> find_calculix();
 
-/// Its *DYNAMIC, DIRECT, ALPHA=0: average-acceleration Newmark (beta 1/4, gamma 1/2). It prints
-/// seven digits of each number; as the model is linear, `gain` multiplies the motion on the way in
-/// and divides the results (calculix_gain). A hyperelastic model: *STATIC, DIRECT with NLGEOM, gain
-/// 1, iterated until corrections are below 1e-8. Throws NumericalError with the last lines of its
-/// log where it fails or writes too little. `threads`: of ccx; they wait for one another actively.
+/// Runs CalculiX's *DYNAMIC, DIRECT, ALPHA=0: Newmark with average acceleration (beta 1/4, gamma
+/// 1/2). It prints seven digits of each number. As the model is linear, `gain` multiplies the
+/// motion on input and divides the results (calculix_gain). A hyperelastic model is run with
+/// *STATIC, DIRECT with NLGEOM, gain 1, iterated until corrections are below 1e-8. Throws
+/// NumericalError with the last lines of its log where it fails or writes too little. `threads`: of
+/// ccx; they wait for each other actively.
 CalculixRun run_calculix(const CalculixModel& model, double gain = 1, int threads = 1);
 
-/// Brings displacements of up to `greatest` to 9.9 times a power of ten: seven digits then round by
-/// no more than 5.1e-8 of the greatest.
+/// The factor that brings displacements of up to `greatest` to 9.9 times a power of ten: rounding
+/// to seven digits is then at most 5.1e-8 of the greatest.
 double calculix_gain(double greatest);
 
-/// The terms of K d + C d' + M d'' = 0 and what driven unknowns do to free ones besides pulling.
+/// Which coupling terms between driven and free unknowns K d + C d' + M d'' = 0 contains, besides
+/// stiffness.
 struct DrivenTerms {
   Eigen::SparseMatrix<double> stiffness, damping, mass;
   bool damping_of_driven = true;  ///< - C_oc d'_c
   bool inertia_of_driven = true;  ///< - M_oc d''_c
 };
 
-/// Average-acceleration Newmark of the model's motion from rest with these terms, all unknowns;
-/// driven velocities and accelerations by Newmark's own formulas. On purpose neither the time loop
-/// nor the factorisation of the library.
+/// Newmark's method with average acceleration for the model's motion from rest with these terms,
+/// all unknowns. Velocities and accelerations of driven unknowns follow from Newmark's own
+/// formulas. It deliberately uses neither the time loop nor the factorisation of the library.
 History integrate(const DrivenTerms& terms, const CalculixModel& model);
 
-/// Mass with its integral taken at one point: N_a = 1/4 there, rho V / 16 in each entry of a
-/// tetrahedron. Diagonal and other entries as shares of rho V, to try others.
+/// The mass matrix integrated at one point, where N_a = 1/4: rho V / 16 in each entry of a
+/// tetrahedron. Diagonal and other entries are given as shares of rho V, to try others.
 Eigen::SparseMatrix<double> one_point_mass(const CalculixModel& model, double diagonal = 1.0 / 16,
                                            double other = 1.0 / 16);
 
-/// The greatest difference between two histories in any unknown at any step, by the greatest
-/// displacement of the first.
+/// The greatest difference between two histories in any unknown at any step, divided by the
+/// greatest displacement of the first.
 double difference(const History& a, const History& b);
 double greatest(const History& a);
 

@@ -43,7 +43,7 @@ struct DistortedBox {
   }
 };
 
-/// Of a case's element and material.
+/// Provides a case's element and material.
 class Conformance : public testing::TestWithParam<Case>, protected DistortedBox {
  protected:
   fem::Material varied(const BoxMesh& box) const {
@@ -60,8 +60,9 @@ class Conformance : public testing::TestWithParam<Case>, protected DistortedBox 
     return system;
   }
 
-  /// Half of the strain energy's definition: mu |dev e|^2 + kappa/2 theta^2 over all elements,
-  /// theta averaged over the groups that the element's definition names, from edges and not from B.
+  /// The definition of the strain energy: mu |dev e|^2 + kappa/2 theta^2, summed over all elements.
+  /// theta is averaged over the groups of the element's definition. Strains come from edges, not
+  /// from B.
   double strain_energy(const BoxMesh& box, const fem::Material& m, const Points& d) const {
     const auto groups = fem::dilatation_groups(GetParam().element, box.nodes.rows(), box.tets).tets;
     double sum = 0;
@@ -102,7 +103,7 @@ class Conformance : public testing::TestWithParam<Case>, protected DistortedBox 
   }
 };
 
-/// Eigenvalues relative to the largest, rising.
+/// Eigenvalues relative to the largest, in rising order.
 inline Eigen::VectorXd spectrum(const fem::SparseMatrix& m) {
   const Eigen::MatrixXd dense(m);
   const Eigen::VectorXd values =
@@ -110,8 +111,8 @@ inline Eigen::VectorXd spectrum(const fem::SparseMatrix& m) {
   return values / values.tail<1>()[0];
 }
 
-/// The potential's gradient by central differences (exact for quadratics, to rounding) in every
-/// unknown, against matrix * x; entries scaled by the largest.
+/// Compares the potential's gradient by central differences (exact for quadratics, up to rounding)
+/// in every unknown with matrix * x. Returns the largest error, relative to the largest entry.
 inline double gradient_error(const std::function<double(const Points&)>& potential,
                              const fem::SparseMatrix& matrix, const Eigen::VectorXd& x,
                              double step) {

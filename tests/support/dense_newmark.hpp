@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Newmark's method on dense matrices, written for the accelerations from predicted states: what the
-// partitioned sparse integrator, written for the displacements, is held against.
+// Newmark's method on dense matrices, written for the accelerations from predicted states. The
+// partitioned sparse integrator, written for the displacements, is compared with it.
 #include <vector>
 
 #include "hyperex/fem/time/newmark.hpp"
@@ -31,7 +31,8 @@ struct DenseNewmark {
   Eigen::VectorXd predicted_d() const { return d + dt * v + dt * dt * (0.5 - beta) * a; }
   Eigen::VectorXd predicted_v() const { return v + dt * (1 - gamma) * a; }
 
-  /// What the equation of motion lacks: M a + C v + K d - f; on prescribed unknowns the reaction.
+  /// The residual of the equation of motion, M a + C v + K d - f. On prescribed unknowns it is the
+  /// reaction.
   Eigen::VectorXd lacking(const Eigen::VectorXd& force) const {
     return m * a + c * v + k * d - force;
   }
@@ -47,7 +48,8 @@ struct DenseNewmark {
     a(free) = Eigen::VectorXd(-m_oo.llt().solve(r));
   }
 
-  /// The motion of the prescribed unknowns that Newmark's own formulas make of a displacement.
+  /// The velocity and acceleration of the prescribed unknowns that Newmark's formulas give for a
+  /// displacement.
   fem::Kinematics consistent(const Eigen::VectorXd& given) const {
     const Eigen::VectorXd next = (given - predicted_d()(prescribed)) / (beta * dt * dt);
     return {given, predicted_v()(prescribed) + gamma * dt * next, next};

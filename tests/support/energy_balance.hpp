@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where the energy of a moving body comes from and goes to, kept from step to step.
+// The energy balance of a moving body, updated in every step.
 #include <functional>
 
 #include "hyperex/fem/time/newmark.hpp"
@@ -9,15 +9,15 @@
 namespace hyperex::test {
 
 /// stored + kinetic + dissipated = work of the forces + work of the reactions at driven nodes.
-/// Energies come from functions of the fields, reactions from the equation of motion; each step's
-/// forces count with the mean of its two ends over the displacement that it made, dissipation with
-/// its mean velocity: exact for average acceleration.
+/// Energies come from functions of the fields, reactions from the equation of motion. In each step,
+/// the work is the mean of the forces at both ends times the step's displacement, and the
+/// dissipation is that of the mean velocity. This is exact for average acceleration.
 class EnergyBalance {
  public:
   using OfField = std::function<double(const Eigen::VectorXd&)>;
 
-  /// `stored_of(d)`, `kinetic_of(v)` in J; `dissipation_of(v)` in W; `prescribed`: where reactions
-  /// act.
+  /// `stored_of(d)`, `kinetic_of(v)` in J; `dissipation_of(v)` in W; `prescribed`: the unknowns on
+  /// which reactions act.
   EnergyBalance(const fem::System& system, std::vector<int> prescribed, OfField stored_of,
                 OfField kinetic_of, OfField dissipation_of)
       : system_(system),
@@ -38,7 +38,7 @@ class EnergyBalance {
   void add(const fem::Kinematics& state, const Eigen::VectorXd& force, double dt_s) {
     const Eigen::VectorXd way = state.d - before_.d, next = reaction(state);
     Eigen::VectorXd f = (force_ + force) / 2;
-    for (const int c : prescribed_) f[c] = 0;  // goes into the reaction
+    for (const int c : prescribed_) f[c] = 0;  // included in the reaction
     force_work += way.dot(f);
     reaction_work += way(prescribed_).dot((reaction_ + next) / 2);
     dissipated += dt_s * dissipation_of_((before_.v + state.v) / 2);
@@ -50,17 +50,17 @@ class EnergyBalance {
     reaction_ = next;
   }
 
-  /// What does not balance, J.
+  /// The error of the balance, J.
   double gap() const {
     return stored - first_stored_ + kinetic - first_kinetic_ + dissipated - force_work -
            reaction_work;
   }
 
   double stored = 0, kinetic = 0, dissipated = 0, force_work = 0, reaction_work = 0;
-  double most_work = 0;  ///< greatest of all work done since the start
+  double most_work = 0;  ///< greatest magnitude of the total work since the start
 
  private:
-  /// On the prescribed unknowns, forces laid on them included.
+  /// The reaction on the prescribed unknowns, which includes forces applied to them.
   Eigen::VectorXd reaction(const fem::Kinematics& x) const {
     return Eigen::VectorXd(system_.mass * x.a + system_.damping * x.v +
                            system_.stiffness * x.d)(prescribed_);

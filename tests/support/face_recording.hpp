@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A recording of the embedded face, as a depth camera with a very long lens would make it, and its
-// truth.
+// A recording of the embedded face by a depth camera with a very long focal length, and its true
+// values.
 #include <filesystem>
 #include <numbers>
 
@@ -23,7 +23,7 @@ const capture::Intrinsics kFaceCamera{kFacePxPerM * kFaceDistance_m,
                                       kFaceSize_px,
                                       kFaceSize_px};
 
-/// The pose of the head turned to its left by `yaw_rad`, before the middle of the camera.
+/// The pose of a head rotated to its left by `yaw_rad`, in front of the middle of the camera.
 inline Eigen::Isometry3d face_pose(double yaw_rad) {
   Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
   camera_from_head.linear() = (Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()) *
@@ -39,7 +39,7 @@ inline capture::Frame face_frame(std::size_t index, double yaw_rad) {
   capture::Frame frame;
   frame.index = index;
   frame.time_s = double(index) / 30;
-  // Turning the viewer to the head's right shows the head turned to its left.
+  // Rotating the viewer to the head's right shows the head rotated to its left.
   frame.colour = tracking::face_picture(kFaceSize_px, kFaceHeight_m, -yaw_rad).bgr;
   const auto& mesh = tracking::face_to_draw().mesh;
   frame.depth_m = tracking::depth_of(
@@ -47,8 +47,8 @@ inline capture::Frame face_frame(std::size_t index, double yaw_rad) {
   return frame;
 }
 
-/// A folder in TUM's layout with truth files: the head turns by 0.02 rad a frame from the third
-/// frame on, its face at rest.
+/// Writes a folder in TUM's layout with truth files: from the third frame on the head rotates by
+/// 0.02 rad per frame, its face at rest.
 inline void write_face_recording(const std::filesystem::path& folder, int frames) {
   capture::TumWriter writer(folder, kFaceCamera);
   tracking::Truth truth;

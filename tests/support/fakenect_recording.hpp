@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A recording for fakenect, libfreenect's library that replays what a Kinect gave through the
-// driver's own interface: a program linked to it with FAKENECT_PATH set to the folder sees a
-// Kinect.
+// A recording for fakenect, libfreenect's library that replays the data of a Kinect through the
+// driver's own interface. A program that is linked to it and has FAKENECT_PATH set to the folder
+// finds a Kinect.
 #include <libfreenect.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What the finite-element tests share: materials, sets of unknowns, and energies integrated without
+// Shared by the finite-element tests: materials, sets of unknowns, and energies integrated without
 // the element's own B matrix.
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ inline fem::Material uniform_material(Eigen::Index tets, double young_pa, double
   return m;
 }
 
-/// Every element different, the same on each run.
+/// Every element has other values; they are the same on each run.
 inline fem::Material varied_material(Eigen::Index tets, unsigned seed = 7) {
   fem::Material m = uniform_material(tets, 1, 0, 0, 1);
   std::mt19937 random(seed);
@@ -60,7 +60,7 @@ inline std::vector<int> complement(Eigen::Index count, const std::vector<int>& s
   return rest;
 }
 
-/// |nodes| x 3 read as 3 |nodes| unknowns.
+/// A |nodes| x 3 field as a vector of 3 |nodes| unknowns.
 inline Eigen::VectorXd flat(const Points& field) {
   return Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
 }
@@ -80,7 +80,7 @@ inline double volume_of(const Points& nodes, const Tetrahedra& tets, Eigen::Inde
   return (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6;
 }
 
-/// du_i/dx_j in element t, from the map of its edges rather than from shape functions.
+/// du_i/dx_j in element t, computed from its edges rather than from shape functions.
 inline Eigen::Matrix3d gradient_of(const Points& nodes, const Tetrahedra& tets, Eigen::Index t,
                                    const Points& field) {
   Eigen::Matrix3d edge, difference;
@@ -117,7 +117,7 @@ inline double dissipation_potential(const BoxMesh& box, const fem::Material& m, 
   return sum;
 }
 
-/// Barycentric points (weight 1/4 each) of the rule that is exact for quadratics.
+/// Barycentric points (weight 1/4 each) of the quadrature rule that is exact for quadratics.
 inline Eigen::Matrix4d quadratic_rule() {
   const double near = (5 + 3 * std::sqrt(5.0)) / 20, far = (5 - std::sqrt(5.0)) / 20;
   return Eigen::Matrix4d::Constant(far) + (near - far) * Eigen::Matrix4d::Identity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The hyperelastic laws that tests run over, with ratios that leave no term out.
+// The hyperelastic laws that the tests use, with coefficients that make every term non-zero.
 #include <string>
 #include <vector>
 

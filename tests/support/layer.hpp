@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A layer of tissue on bone, driven by patches of its skin: what a face is, in a box.
+// A layer of tissue on bone, driven by patches of its skin: a simple box with the features of a
+// face.
 #include "hyperex/fem/reduced/reduced_model.hpp"
 #include "support/fem_support.hpp"
 #include "support/spline_course.hpp"
@@ -11,7 +12,7 @@ struct LayerOptions {
   std::array<int, 3> cells{12, 10, 2};
   double viscosity_pa_s = 476.8;
   fem::ElementKind element = fem::ElementKind::tet4_star;
-  bool bonded = false;  ///< the bottom is held, else it stands on springs
+  bool bonded = false;  ///< true: the bottom is held; false: it stands on springs
 };
 
 struct Layer {
@@ -34,8 +35,9 @@ struct Layer {
   }
   static bool bottom(const Vec3& p) { return p.z() < 1e-9; }
 
-  /// Patches of the top, each with its own course in each axis; with `forces` as many forces on
-  /// nodes of the layer, too. Courses follow; steps as long as they are.
+  /// A drive with `patches` patches on top, each with its own course in each axis, and with
+  /// `forces` also with forces on some nodes of the layer. The courses are set; there are as many
+  /// steps as they last.
   fem::Drive drive(int patches, bool forces, const std::vector<SplineCourse>& courses, double dt_s,
                    unsigned seed) {
     std::mt19937 random(seed);
@@ -94,7 +96,7 @@ inline Eigen::MatrixXd full_run(const fem::System& system, const std::vector<int
   return all;
 }
 
-/// Greatest motion of any node at any time.
+/// Greatest displacement of any node at any time.
 inline double greatest_motion(const Eigen::MatrixXd& d) {
   double most = 0;
   for (Eigen::Index c = 0; c < d.cols(); ++c)
@@ -107,7 +109,7 @@ inline Eigen::MatrixXd all_steps(const fem::Response& response) {
   return response.shapes * response.course;
 }
 
-/// Over all steps and nodes, over the greatest displacement.
+/// The greatest error over all steps and nodes, relative to the greatest displacement.
 inline double true_error(const fem::Response& response, const Eigen::MatrixXd& full) {
   return greatest_motion(all_steps(response) - full) / greatest_motion(full);
 }

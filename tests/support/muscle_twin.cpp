@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kSamples = 20, kComing = 10;
 constexpr double kRate_hz = 30;
-/// Of the samples that stay, the first are left out: the tissue has come to rest.
+/// Of the samples in which the expression stays, the first are left out until the tissue has
+/// settled.
 constexpr int kHeld = 6;
 
 constexpr int kRightCorner = 48, kLeftCorner = 54;
@@ -60,7 +61,7 @@ TwinTruth::TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, 
       simulate::carriers(*face.mesh, simulate::skin_places(*face.mesh, face::all_ibug(), rest_));
   tissues_.push_back(tissue(face, {}));
   for (const TwinChange& change : changes) tissues_.push_back(tissue(face, change.young_factor));
-  // At 1 a muscle moves its own tissue by 10 mm, however stiff that is.
+  // At activation 1 a muscle moves its own tissue by 10 mm, whatever the stiffness.
   fem::System system;
   fem::Material material = face.options.tissue.material(std::size_t(face.mesh->volume.tets.rows()),
                                                         face.options.model.viscous_form);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Twin experiments: muscles whose activations are known move a face, its landmarks are recorded
-// with noise, and the program finds forces from the recording and says what other tissue and weaker
-// muscles make of them. The truth is the static answer of the known forces in the changed tissue.
+// Twin experiments. Muscles with known activations move a face, and its landmarks are recorded with
+// noise. From the recording the program estimates the forces and predicts their effect in other
+// tissue and with weaker muscles. The truth is the static response to the known forces in the
+// changed tissue.
 #include <map>
 #include <memory>
 #include <string>
@@ -15,43 +16,43 @@
 
 namespace hyperex::test {
 
-/// By muscle ("zyg_major_L"); those not named rest.
+/// By muscle ("zyg_major_L"); muscles that are not named have activation 0.
 using Activations = std::map<std::string, double>;
 
-/// Asked of the truth and of the program alike.
+/// A change that is applied both to the truth and in the program.
 struct TwinChange {
   std::string name;
-  std::vector<double> young_factor = {};  ///< a tetrahedron; empty: 1 everywhere
+  std::vector<double> young_factor = {};  ///< one per tetrahedron; empty: 1 everywhere
   std::vector<simulate::MuscleGain> gains = {};
 };
 
 struct TwinFace {
   std::shared_ptr<const tissue::TissueMesh> mesh;
-  io::Landmarks landmarks;  ///< the 68 iBUG points among them
+  io::Landmarks landmarks;  ///< includes the 68 iBUG points
   simulate::SimulationOptions options;
 };
 
-/// How far the corners of the mouth are from rest.
+/// Distances of the corners of the mouth from rest.
 struct Corners {
   double left_mm = 0, right_mm = 0;
 };
 
-/// What the truth and the program say of one expression: in base, then after each change.
+/// The results of the truth and of the program for one expression: in base, then after each change.
 struct TwinAnswer {
   std::vector<Corners> truth, found;
-  Eigen::VectorXd true_groups, found_groups;  ///< activations summed over groups of a side
+  Eigen::VectorXd true_groups, found_groups;  ///< activations summed over the groups of each side
 };
 
 /// A face with known muscles in known tissue.
 class TwinTruth {
  public:
-  /// `muscles` may lie elsewhere than the program's, `young_factor` make the tissue another than
-  /// the program knows of. `changes` must outlive this.
+  /// `muscles` may differ in place from the program's, and `young_factor` may make the tissue
+  /// differ from what the program assumes. `changes` must outlive this object.
   TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, double young_factor,
             const std::vector<TwinChange>& changes);
 
-  /// The landmarks (68) as the expression comes in a third of a second and stays, with `noise_m` a
-  /// coordinate.
+  /// The 68 landmarks while the expression builds up in a third of a second and stays, with noise
+  /// of standard deviation `noise_m` per coordinate.
   simulate::AlignedMotion recorded(const Activations& activations, double noise_m,
                                    unsigned seed) const;
   /// In base and after each change.
@@ -76,20 +77,20 @@ class TwinTruth {
   std::vector<Tissue> tissues_;  ///< base, then changed
 };
 
-/// What the program makes of a recording: forces found in `face` as the program knows it, driven by
-/// `points`, held, and answered after each of `changes`.
+/// The program's results for a recording: forces estimated in `face`, as the program assumes it,
+/// from `points`, and the predictions for each of `changes`.
 TwinAnswer twin_answer(const TwinFace& face, const TwinTruth& truth, const Activations& activations,
                        const std::vector<TwinChange>& changes,
                        const std::vector<std::string>& points, double noise_m, unsigned seed);
 
-/// Each muscle's whole line moved by `off_mm` along the skin, in a direction of its own.
+/// Each muscle's whole line moved by `off_mm` along the skin, each in its own direction.
 muscles::MuscleTable displaced_lines(muscles::MuscleTable table, double off_mm, unsigned seed);
 
-/// A smile of the left side as anatomy has it: mostly by zygomaticus major, which the program's
-/// prior expects too; and one in which muscles beside it do more.
+/// left_smile(): an anatomically typical smile of the left side, mainly by zygomaticus major, which
+/// the program's prior expects too. other_smile(): one in which neighbouring muscles do more.
 const Activations& left_smile();
 const Activations& other_smile();
-/// One muscle in three acts, by up to 0.7; zyg_major_L always.
+/// A random third of the muscles is active, by up to 0.7; zyg_major_L always is.
 Activations drawn_expression(const std::vector<muscles::MuscleLine>& lines, unsigned seed);
 
 double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b);

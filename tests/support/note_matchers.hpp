@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Notes by their ids. Sentences are for readers: a test looks at the figures and names in them
-// only.
+// Matches notes by their ids. Sentences are for human readers; a test checks only figures and names
+// in them.
 #include <gmock/gmock.h>
 
 #include <ostream>
@@ -30,7 +30,7 @@ inline auto is_warning(const std::string& id) {
 inline auto is_about(const std::string& key) {
   return testing::Field("key", &Note::key, key);
 }
-/// A figure or a name in its sentence.
+/// The sentence contains this figure or name.
 inline auto says(const std::string& part) {
   return testing::Field("text", &Note::text, testing::HasSubstr(part));
 }

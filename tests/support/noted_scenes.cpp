@@ -65,7 +65,7 @@ void start_with_the_mouth_open(const fs::path& folder) {
   write_opening(folder, 40, 41);
 }
 
-/// A smile; a shape that the canonical face lacks; a column whose name is not quite one.
+/// A smile, a shape that the canonical face lacks, and a column with a misspelt name.
 void write_weights(const fs::path& folder) {
   std::ostringstream table;
   table << "time_s,mouthSmileLeft,mouthClose,mouthSmilRight\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// For each warning a small scene that causes it. The same table is run through every caller that
+// For each warning a small scene that causes it. The same table is used with every interface that
 // shows warnings: the program, the studio, Python and C++.
 #include <filesystem>
 #include <map>
@@ -11,17 +11,17 @@ namespace hyperex::test {
 
 struct NotedScene {
   std::string id;    ///< the warning
-  bool when_read;    ///< found by reading the inputs (`hyperex check`); else it takes a run
-  std::string keys;  ///< replace those of the sound scene: "motion.gain=5", a line each, as --set
-  void (*spoil)(const std::filesystem::path& folder);  ///< changes the sound inputs; null: nothing
+  bool when_read;    ///< found by reading the inputs (`hyperex check`); otherwise it needs a run
+  std::string keys;  ///< replace keys of the valid scene: "motion.gain=5", one per line
+  void (*spoil)(const std::filesystem::path& folder);  ///< changes the valid inputs; null: nothing
 };
 
 const std::vector<NotedScene>& noted_scenes();
 
-/// Warnings that no small scene causes, and the test that has them instead.
+/// Warnings that no small scene causes, and the test that checks them instead.
 const std::map<std::string, std::string>& warnings_without_scene();
 
-/// Writes sound inputs, spoilt, and the scene; returns the scene's file.
+/// Writes the valid inputs, applies `spoil`, and writes the scene; returns the scene's file.
 std::filesystem::path write_noted_scene(const NotedScene& scene,
                                         const std::filesystem::path& folder);
 

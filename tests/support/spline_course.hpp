@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Smooth courses over time, as an input recorded at some rate gives them: C2 cubic splines whose
-// third derivative jumps at the knots. Written by B-splines, another way than the program's.
+// Smooth courses over time, like an input recorded at some rate: C2 cubic splines whose third
+// derivative jumps at the knots. They are computed by B-splines, unlike in the program.
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
@@ -15,7 +15,7 @@ struct SplineCourse {
   double knot_s = 1;
   std::vector<double> weight;  ///< of the B-spline centred on knot k - 1
 
-  /// (s, s', s'') at t in [0, end_s()].
+  /// (s, s', s'') at a time t in [0, end_s()].
   Eigen::Vector3d at(double t) const {
     const double x = t / knot_s;
     const auto k = std::min(static_cast<std::size_t>(x), weight.size() - 4);
@@ -32,7 +32,8 @@ struct SplineCourse {
   }
   double end_s() const { return static_cast<double>(weight.size() - 3) * knot_s; }
 
-  /// At rest at the start (s = s' = 0, s'' of no sign), then at random within about +-1.
+  /// A course that starts at rest (s = s' = 0; s'' is arbitrary) and then varies at random within
+  /// about +-1.
   static SplineCourse random(double knot_s, int knots, unsigned seed) {
     std::mt19937 random(seed);
     SplineCourse course{knot_s, {}};

@@ -8,7 +8,7 @@
 
 namespace hyperex {
 
-/// An empty folder of its own, removed at the end with all that is in it.
+/// A new empty folder, removed at the end with all its contents.
 class TestFolder {
  public:
   TestFolder() {
@@ -30,8 +30,8 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
-/// A path for a file of this test process alone, as ctest runs cases at the same time. What was
-/// written there is removed when the process ends.
+/// A path for a file of this test process alone, since ctest runs cases at the same time. The file
+/// is removed when the process ends.
 inline std::filesystem::path test_file(const std::string& name) {
   static const TestFolder folder;
   return folder / name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Scans turned in all ways, and how far landmarks found on them are from known ones.
+// Scans in all orientations, and the errors of landmarks found on them.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
@@ -11,7 +11,7 @@
 
 namespace hyperex::test {
 
-/// One of the 24 turns that map the axes on each other, 0 to 23.
+/// One of the 24 rotations that map the axes onto each other, 0 to 23.
 inline Eigen::Matrix3d right_angle_turn(int k) {
   const int axis = k / 4 % 3;
   Eigen::Matrix3d axes;
@@ -21,7 +21,7 @@ inline Eigen::Matrix3d right_angle_turn(int k) {
   return axes * Eigen::AngleAxisd(k % 4 * std::numbers::pi / 2, Vec3::UnitZ());
 }
 
-/// One of them, then 20 degrees more about a slanting axis.
+/// One of these rotations, followed by 20 degrees about an oblique axis.
 inline Eigen::Matrix3d slanting_turn(int k) {
   return Eigen::AngleAxisd(20 * std::numbers::pi / 180, Vec3(1, 2, 3).normalized()) *
          right_angle_turn(k);
@@ -32,8 +32,8 @@ inline TriMesh turned(TriMesh mesh, const Eigen::Matrix3d& rotation) {
   return mesh;
 }
 
-/// Distances in mm of the landmarks that both have, sorted; `truth` is turned by `rotation` first.
-/// `first_ibug` > 0: of the iBUG points from that number on alone (17: the 51 inner ones).
+/// Distances (mm) of the landmarks that are in both sets, sorted; `truth` is rotated by `rotation`
+/// first. `first_ibug` > 0: only the iBUG points from that number on (17: the 51 inner ones).
 inline std::vector<double> errors_mm(const io::Landmarks& found, const io::Landmarks& truth,
                                      const Eigen::Matrix3d& rotation, int first_ibug) {
   std::vector<double> errors;

@@ -12,8 +12,8 @@
 
 namespace hyperex::test {
 
-/// The values of the array named so in the bytes of a file (the name as XML and regular expressions
-/// write it); empty where there is none.
+/// The values of the array of this name in the bytes of a file; empty where there is none. The name
+/// is written as in XML and in a regular expression.
 template <class T>
 std::vector<T> unpacked(const std::string& file, const std::string& name) {
   std::smatch match;

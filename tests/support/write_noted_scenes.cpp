@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For tests in other languages: a folder for each warning, named by its id, with a scene.toml that
-// causes it.
+// Writes a folder for each warning, named by its id, with a scene.toml that causes it. Used by
+// tests in other languages.
 //   write_noted_scenes FOLDER
 #include <iostream>
 

@@ -8,15 +8,15 @@
 
 namespace hyperex::test {
 
-/// A file of a zip, with what a hostile one may say of it.
+/// A file of a zip. A hostile zip may contain false values.
 struct Zipped {
   std::string name, bytes;
   bool deflated = true;
-  std::uint32_t mode = 0100644;  ///< of Unix
+  std::uint32_t mode = 0100644;  ///< mode of a file in Unix
   int flags = 0;
-  int method = -1;            ///< other than it is
-  std::int64_t size = -1;     ///< other than it is
-  std::uint32_t crc_off = 0;  ///< added to the sum
+  int method = -1;            ///< stated instead of the true one
+  std::int64_t size = -1;     ///< stated instead of the true one
+  std::uint32_t crc_off = 0;  ///< added to the checksum
 };
 
 inline std::string deflated(const std::string& bytes) {

@@ -22,7 +22,7 @@ constexpr double kAgreementOfPrints =
     1e-6;  // of the greatest displacement; ccx prints seven digits
 constexpr double kShear_pa = 2e4, kPoissonRatio = 0.45;
 
-/// A model, and the same in the library.
+/// A model, and the same problem in the library.
 struct ComparedFinite {
   test::CalculixModel model;
   Material material;
@@ -67,7 +67,7 @@ struct Pulled : ComparedFinite {
     material = test::uniform_material(box.tets.rows(), young, kPoissonRatio, 0, 1000);
     model.hyperelastic = {kShear_pa / 2, 0, 0, bulk_modulus_pa(young, kPoissonRatio)};
     model.dt_s = 0.25;
-    // One end is held, the other stretched by half, sheared, and turned by 0.4 rad.
+    // One end is held, the other is stretched by half, sheared, and rotated by 0.4 rad.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix();
     const Vec3 centre(0.04, 0.015, 0.015);
     std::vector<double> way;
@@ -90,8 +90,8 @@ struct Pulled : ComparedFinite {
   }
 };
 
-/// The face that the program carries, held at its outer border; its driven patches go where they
-/// are at the peak of the embedded opening of the mouth, `share` of the way.
+/// The embedded face, held at its outer border. Its driven patches are displaced by `share` of
+/// their displacement at the peak of the embedded mouth opening.
 struct OpenMouth : ComparedFinite {
   OpenMouth(double element_size_m, double share, int steps, double young, double poisson) {
     const anatomy::EmbeddedFace face = anatomy::embedded_face();
@@ -145,7 +145,7 @@ TEST_F(CalculiXHyperelastic, NeoHookean) {
   law.barrier = false;
   const auto ccx = test::run_calculix(pulled.model).displacement_m;
   EXPECT_LT(pulled.apart(law, ccx, "neo-Hookean"), kAgreementOfPrints);
-  // The check is worth something if it fails where a law is a little off.
+  // To be meaningful, the check must fail where a law is slightly wrong.
   law.barrier = true;
   EXPECT_GT(pulled.apart(law, ccx, "with the barrier"), 10 * kAgreementOfPrints);
   law.barrier = false;
@@ -170,8 +170,8 @@ TEST_F(CalculiXHyperelastic, Yeoh) {
   EXPECT_GT(pulled.apart(law, ccx, "c30 by 1 %"), 10 * kAgreementOfPrints);
 }
 
-/// Of elements that are not prescribed as a whole: the greatest stretch, and the least ratio of
-/// volumes.
+/// The greatest stretch and the smallest volume ratio of all elements that are not entirely
+/// prescribed.
 std::pair<double, double> extremes(const ComparedFinite& model, const Eigen::VectorXd& d) {
   const Assembler assembler(model.model.nodes, model.model.tets, ElementKind::tet4);
   const FiniteStrain form(assembler, model.material, {});
@@ -193,7 +193,7 @@ std::pair<double, double> extremes(const ComparedFinite& model, const Eigen::Vec
 TEST_F(CalculiXHyperelastic, OpensTheMouthOfTheFace) {
   const bool fine = std::getenv("HYPEREX_CALCULIX_FINE");
   const double size_m = fine ? tissue::TissueMeshOptions().element_size_m : 0.006;
-  const double share = 0.2;  // far beyond, ccx finds no equilibrium
+  const double share = 0.2;  // for much larger shares ccx finds no equilibrium
   const int steps = fine ? 12 : 6;
   const OpenMouth face(size_m, share, steps, 192.4e3, 0.495);
   Hyperelastic law;

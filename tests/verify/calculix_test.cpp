@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Against CalculiX on a face: linear tetrahedra, damping, driven points, 0.2 s of motion.
+// Comparison with CalculiX on a face: linear tetrahedra, damping, driven points, 0.2 s of motion.
 //
-// ccx factorises anew in every step, so a coarse mesh and few steps keep this short. With
+// ccx factorises in every step, so that a coarse mesh and few steps keep this short. With
 // HYPEREX_CALCULIX_FINE=1 the mesh has the default size (6 mm for viscosity) and there are 100
 // steps.
 //
-// ccx 2.20 leaves out what the driven unknowns' velocity and acceleration do to free ones
-// (- C_oc d'_c and - M_oc d''_c) and integrates the mass at one point. The library has these terms;
-// here, and here alone, they are left out as well, to compare all the rest to the last printed
-// digit. What they amount to is measured and compared with what leaving them out must do.
+// ccx 2.20 omits the effect of the driven unknowns' velocity and acceleration on free ones (- C_oc
+// d'_c and - M_oc d''_c) and integrates the mass at one point. The library has these terms. Only
+// here they are omitted too, so that all other terms can be compared to the last printed digit.
+// Their effect is measured separately and compared with theory.
 #include "support/calculix.hpp"
 
 #include <gtest/gtest.h>
@@ -37,14 +37,14 @@ struct Resolution {
   int steps;
 };
 
-/// The coarse one, or the fine one where it is asked for.
+/// The coarse resolution, or the fine one on request.
 Resolution resolution(double fine_element_size_m) {
   if (std::getenv("HYPEREX_CALCULIX_FINE")) return {fine_element_size_m, 100};
   return {0.008, 25};
 }
 
-/// The face that the program carries, held at its outer border; seven points around the mouth are
-/// pushed there and back, each axis of each in its own way and time.
+/// The embedded face, held at its outer border. Seven points around the mouth are moved there and
+/// back, each axis of each point by its own distance and in its own time.
 CalculixModel face_model(const Resolution& resolution) {
   const anatomy::EmbeddedFace face = anatomy::embedded_face();
   tissue::TissueMeshOptions options;
@@ -98,7 +98,7 @@ struct Compared {
   History imitated, ccx;
 };
 
-/// Runs both and holds them to the agreement.
+/// Runs both programs and checks that they agree.
 Compared expect_agreement(const DrivenTerms& imitation, const CalculixModel& model) {
   const auto start = std::chrono::steady_clock::now();
   Compared c;
@@ -119,9 +119,10 @@ Compared expect_agreement(const DrivenTerms& imitation, const CalculixModel& mod
   return c;
 }
 
-/// ccx lags. With C = beta K and next to no inertia, G the static map from driven to free
-/// unknowns: rightly d_o = G d_c; where the driven damping is missing, d_o + beta d'_o = G d_c.
-/// So the difference p obeys p + beta p' = beta (G d_c)'. Returns |p - measured| / |measured|.
+/// The lag of ccx. Let C = beta K, with negligible inertia, and G the static map from driven to
+/// free unknowns. The correct solution is d_o = G d_c. Without the damping of driven unknowns it is
+/// d_o + beta d'_o = G d_c. The difference p therefore obeys p + beta p' = beta (G d_c)'. Returns
+/// |p - measured| / |measured|.
 double lag_error(const History& own, const History& ccx, const CalculixModel& model) {
   const double h = model.dt_s, beta = model.beta_s;
   Eigen::VectorXd p = Eigen::VectorXd::Zero(own.front().size()), before = p;
@@ -158,7 +159,7 @@ TEST_F(CalculiX, MovesTheFaceAlikeWithRayleighDamping) {
   const auto [imitated, ccx] = expect_agreement(
       rayleigh(system.stiffness, mass, model.alpha_per_s, model.beta_s, false), model);
 
-  // The check is worth something if it fails where a term is a little off.
+  // To be meaningful, the check must fail where a term is slightly wrong.
   const auto apart = [&, &ccx = ccx](const char* what, const DrivenTerms& terms) {
     const double d = test::difference(test::integrate(terms, model), ccx);
     std::printf("  %-44s %.2e\n", what, d);
@@ -193,8 +194,8 @@ TEST_F(CalculiX, MovesTheFaceAlikeWithRayleighDamping) {
 }
 
 TEST_F(CalculiX, DissipatesAlikeWithStokesViscosity) {
-  // A material without resistance to swelling has K = G / eta C: ccx's beta K is then the damping
-  // of Stokes' viscosity, which it does not have otherwise.
+  // For a material without resistance to changes of volume, K = G / eta C. The beta K of ccx is
+  // then the damping of Stokes' viscosity, which ccx does not have otherwise.
   CalculixModel model = face_model(resolution(0.006));
   model.poisson = -1 + 1e-8;
   model.young_pa = 2 * kShear * (1 + model.poisson);

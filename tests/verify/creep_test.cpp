@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Kelvin-Voigt bar with deviatoric viscosity under a traction that comes on at once:
+// A Kelvin-Voigt bar with deviatoric viscosity under a suddenly applied traction:
 //   e(t) = sigma / (9 K) + sigma / (3 G) (1 - exp(-G t / eta)).
 #include <gtest/gtest.h>
 
@@ -14,11 +14,12 @@ const Vec3 kSize(0.04, 0.02, 0.02);
 constexpr double kBulk = kYoung_pa / 3 / (1 - 2 * kPoissonRatio),
                  kShear_pa = kYoung_pa / 2 / (1 + kPoissonRatio);
 
-/// Largest |strain - formula| / end strain over three relaxation times. `viscosity_share`: the part
-/// of eta with which the form resists stretching (the printed form halves it).
+/// Largest |strain - formula| over three relaxation times, divided by the final strain.
+/// `viscosity_share`: the part of eta with which the form resists stretching (the printed form
+/// halves it).
 double creep_error(ViscousForm form, double viscosity_share) {
   const auto box = test::box_mesh({4, 2, 2}, kSize, 0.1);
-  // Next to no inertia: the slowest elastic wave is a thousand times quicker than the creep.
+  // Negligible inertia: the slowest elastic wave is a thousand times faster than the creep.
   const System s =
       assemble(box.nodes, box.tets,
                test::uniform_material(box.tets.rows(), kYoung_pa, kPoissonRatio, kEta, 1e-3, form),
@@ -30,7 +31,7 @@ double creep_error(ViscousForm form, double viscosity_share) {
       rollers.push_back(u);
   std::sort(rollers.begin(), rollers.end());
 
-  // Nodal forces of an even traction on x = L, by the triangles of that face.
+  // Nodal forces of a uniform traction on x = L, integrated over the triangles of that face.
   Points force = Points::Zero(box.nodes.rows(), 3);
   for (Eigen::Index t = 0; t < box.tets.rows(); ++t) {
     std::vector<int> face;
@@ -43,7 +44,8 @@ double creep_error(ViscousForm form, double viscosity_share) {
   }
   EXPECT_NEAR(force.col(0).sum(), kTraction * kSize.y() * kSize.z(), 1e-12);
 
-  // Swelling is not damped: start on the solution at t = 0+, or it would ring for ever.
+  // Changes of volume are not damped: the test starts on the solution at t = 0+, to avoid undamped
+  // oscillation.
   const double eta = viscosity_share * kEta;
   const auto stretch = [&](double volume, double shear) -> Eigen::VectorXd {
     const Points field =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Driven nodes pull tissue along: the partitioned sparse integrator against a dense one; order of
-// convergence where the motion is given with its derivatives, and where it is not.
+// Tissue moved by driven nodes: the partitioned sparse integrator is compared with a dense one; the
+// order of convergence is checked with and without the motion's derivatives given.
 #include <gtest/gtest.h>
 
 #include "hyperex/fem/time/newmark.hpp"
@@ -20,7 +20,8 @@ TEST(DrivenMotion, EqualsADenseReference) {
   Newmark newmark(s, prescribed, {dt_s});
   test::DenseNewmark dense(s, prescribed, {dt_s});
 
-  // One end is held, the other moves as a mouth opens; a force acts on everything from step 20 on.
+  // One end is held, the other moves as in a mouth opening; a force acts on everything from step 20
+  // on.
   const Eigen::VectorXd way = test::random_vector(static_cast<Eigen::Index>(prescribed.size()), 3);
   const Eigen::VectorXd force = 1e-3 * test::random_vector(s.mass.rows(), 4);
   double d_worst = 0, v_worst = 0, a_worst = 0;
@@ -43,7 +44,8 @@ TEST(DrivenMotion, EqualsADenseReference) {
     v_worst = std::max(v_worst, (newmark.velocity() - dense.v).norm() / dense.v.norm());
     a_worst = std::max(a_worst, (newmark.acceleration() - dense.a).norm() / dense.a.norm());
   }
-  // Rounding in d is multiplied by 2/dt and 4/dt^2 in v and a, and stays there without damping.
+  // A rounding error in d is multiplied by 2/dt in v and by 4/dt^2 in a, and without damping it
+  // stays there.
   EXPECT_LT(d_worst, 1e-10);
   EXPECT_LT(v_worst, 1e-8);
   EXPECT_LT(a_worst, 1e-6);
@@ -71,7 +73,7 @@ TEST(DrivenMotion, CarriesThePredictedStatesOfASetStart) {
   EXPECT_LT((newmark.acceleration() - dense.a).norm(), 1e-8 * dense.a.norm());
 }
 
-/// Tissue driven as a recording at 30 Hz drives it.
+/// Tissue driven by a motion recorded at 30 Hz.
 struct Recorded {
   const test::BoxMesh box = test::box_mesh({4, 2, 2}, Vec3(0.04, 0.02, 0.02), 0.15);
   const System system =
@@ -83,7 +85,7 @@ struct Recorded {
                                                    test::SplineCourse::random(1.0 / 30, kKnots, 2)};
 
   struct Course {
-    std::vector<Kinematics> at_knots;  // of all unknowns
+    std::vector<Kinematics> at_knots;  // states of all unknowns
   };
   Course run(int steps_a_knot, bool displacement_alone) const {
     Drive drive;
@@ -127,11 +129,11 @@ MotionErrors errors(const Recorded& recorded, const Recorded::Course& found,
   return {e.d / d, e.v / v, e.driven_a / a};
 }
 
-/// With all three derivatives given the order is two. From the displacement alone Newmark's
-/// formulas make an acceleration that never converges: average acceleration turns what v lacks at
-/// one step, h^2/6 times the third derivative, over at each next one, and a gathers 4/h times that,
-/// alternating. Where inertia is small beside viscosity, the displacement is none the worse for it:
-/// the velocity that goes with it is the mean over each step.
+/// With all three derivatives given the order is two. From the displacement alone, Newmark's
+/// formulas give an acceleration that does not converge. In average acceleration, the error of v in
+/// one step, h^2/6 times the third derivative, changes sign in each following step; a accumulates
+/// 4/h times that, with alternating sign. Where inertia is small compared with viscosity, the
+/// displacement is not affected, since the velocity that acts on it is the mean over each step.
 TEST(DrivenMotion, ConvergesWithOrderTwoWhereTheDerivativesAreGiven) {
   const Recorded recorded;
   const Recorded::Course truth = recorded.run(512, false);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every element kind and material must satisfy: patch test, rigid motions, null spaces, sums,
-// and derivatives of the energies by finite differences: on distorted meshes, with a different
-// material in every element where it may be.
+// Conditions for every element kind and material: patch test, rigid motions, null spaces, sums, and
+// derivatives of the energies by finite differences. The meshes are distorted, with a different
+// material in every element where possible.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -36,7 +36,7 @@ TEST_P(Conformance, PatchTestLinearBoundaryDisplacementGivesTheLinearFieldInside
       EXPECT_LT((strain.rowwise() - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.norm());
       const auto stress = assembler(box).stress_pa(m, test::unflat(d));
       expected = expected * elastic_tensor(192.4e3, nu);
-      // The bulk modulus magnifies what rounding leaves of the dilatation.
+      // The bulk modulus amplifies the rounding error of the dilatation.
       EXPECT_LT((stress.rowwise() - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.norm());
     }
   }
@@ -55,7 +55,7 @@ TEST_P(Conformance, PatchTestBoundaryForcesCarryTheStressAndInnerOnesVanish) {
   const double unit = stress.norm() * kSize.prod() / kSize.norm();
 
   for (int axis = 0; axis < 3; ++axis) {
-    // By equilibrium the sum of f_i x_j over all nodes is stress_ij times the volume.
+    // In equilibrium, the sum of f_i x_j over all nodes is stress_ij times the volume.
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     for (Eigen::Index n = 0; n < box.nodes.rows(); ++n) {
       const Vec3 p = box.nodes.row(n).transpose();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energy of driven viscoelastic tissue on springs is all accounted for: a conformance test of
-// the integrator with every element kind and viscous form.
+// The energy balance of driven viscoelastic tissue on springs: a conformance test of the integrator
+// with every element kind and viscous form.
 #include "support/energy_balance.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ class DrivenEnergy : public test::Conformance {
  protected:
   const test::BoxMesh box_ = test::box_mesh({4, 3, 2}, Vec3(0.04, 0.03, 0.02), 0.15);
   const Material material_ = varied(box_);
-  /// Driven at one end, on springs at the other: nothing is held.
+  /// One end is driven, the other is on springs; nothing is held.
   const std::vector<int> driven_ =
       test::unknowns_where(box_.nodes, [](const Vec3& p) { return p.x() < 1e-9; });
   const std::vector<int> sprung_ =
@@ -59,7 +59,7 @@ class DrivenEnergy : public test::Conformance {
         dt_s, static_cast<int>(std::lround(kEnd / dt_s)), drive);
     return drive;
   }
-  /// The account at the end; `worst`: greatest gap at any step over the greatest work.
+  /// The balance at the end; `worst`: greatest gap in any step, divided by the greatest work.
   test::EnergyBalance run(double dt_s, bool displacement_alone, double& worst) const {
     const Drive drive = this->drive(dt_s);
     Newmark newmark(system_, driven_, {dt_s});
@@ -86,7 +86,7 @@ TEST_P(DrivenEnergy, BalancesToRoundingForAMotionThatNewmarksFormulasMake) {
     double worst = 0;
     const test::EnergyBalance e = run(dt_s, true, worst);
     EXPECT_LT(worst, 1e-8);
-    // Each part must matter, or it would not be seen missing.
+    // Each part must be significant: otherwise the test would not detect that it is missing.
     EXPECT_GT(e.dissipated, 0.1 * e.most_work);
     EXPECT_GT(e.stored, 1e-4 * e.most_work);
     EXPECT_GT(e.kinetic, 1e-4 * e.most_work);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Equilibria at finite strain against closed forms: affine fields, stretched blocks, an inflated
-// sphere. For every law and both elements.
+// Equilibria at finite strain compared with closed forms: affine fields, stretched blocks, an
+// inflated sphere. For every law and both elements.
 #include <gtest/gtest.h>
 
 #include "hyperex/fem/time/finite_newton.hpp"
@@ -31,7 +31,7 @@ std::vector<Case> all_cases() {
   return cases;
 }
 
-/// What every law must satisfy on a distorted mesh of either element.
+/// Conditions for every law on a distorted mesh of either element.
 class FiniteConformance : public testing::TestWithParam<Case>, protected test::DistortedBox {
  protected:
   static test::BoxMesh box() { return test::box_mesh({4, 3, 3}, kSize, 0.15); }
@@ -70,7 +70,7 @@ TEST_P(FiniteConformance, AnAffineMotionOfTheBoundaryGoesThroughTheWholeBody) {
     const VectorXd d = affine(box.nodes, f);
     newton.equilibrium(d(boundary));
     EXPECT_LT((newton.displacement() - d).cwiseAbs().maxCoeff(), 1e-9 * d.cwiseAbs().maxCoeff());
-    // The stress is that of the law at a point, and its forces stand in equilibrium with it.
+    // The stress is that of the law at a point, and the forces are in equilibrium with it.
     const double shear = shear_modulus_pa(192.4e3, nu), bulk = bulk_modulus_pa(192.4e3, nu);
     const Matrix3d piola =
         first_piola_pa(GetParam().law, shear, f) + bulk * (f.determinant() - 1) * cofactor(f);
@@ -81,8 +81,8 @@ TEST_P(FiniteConformance, AnAffineMotionOfTheBoundaryGoesThroughTheWholeBody) {
   }
 }
 
-/// The stretch l2 of the free sides that leaves them without force, found by bisection on one
-/// unknown: uniaxial where two sides are free, biaxial where one is.
+/// The stretch l2 at which the free sides carry no force, found by bisection: uniaxial where two
+/// sides are free, biaxial where one is.
 double free_stretch(const Hyperelastic& law, double shear, double bulk, double l, bool biaxial) {
   const auto force = [&](double s) {
     const Matrix3d f = Vec3(l, biaxial ? l : s, s).asDiagonal();
@@ -106,7 +106,7 @@ TEST_P(FiniteConformance, AStretchedBlockContractsAsThePointDoes) {
     for (const double l : {0.7, 1.5}) {
       FiniteStrain form(mesh, m, GetParam().law);
       const auto side = [](double at, double to) { return std::abs(at - to) < 1e-9; };
-      std::vector<int> prescribed;  // planes of symmetry and the ends that are pulled
+      std::vector<int> prescribed;  // planes of symmetry and the loaded ends
       for (int n = 0; n < box.nodes.rows(); ++n)
         for (int axis = 0; axis < 3; ++axis)
           if (side(box.nodes(n, axis), 0) ||
@@ -120,7 +120,7 @@ TEST_P(FiniteConformance, AStretchedBlockContractsAsThePointDoes) {
       EXPECT_LT((newton.displacement() - d).norm(), 1e-8 * d.norm()) << l << " " << biaxial;
       const VoigtRows cauchy = form.cauchy_stress_pa(newton.displacement());
       EXPECT_LT(cauchy.col(2).cwiseAbs().maxCoeff(), 1e-6 * cauchy.col(0).cwiseAbs().minCoeff());
-      // Nearly without change of volume: the textbook's uniaxial stress, but for 1/bulk.
+      // Nearly incompressible: the uniaxial stress of textbooks, up to terms of 1/bulk.
       if (GetParam().law.law == HyperelasticLaw::neo_hookean && !biaxial) {
         EXPECT_NEAR(cauchy(0, 0), shear * (l * l - 1 / l), 0.06 * std::abs(cauchy(0, 0)));
       }
@@ -141,12 +141,12 @@ TEST_P(FiniteConformance, ARotatedBodyRestsWhereItIs) {
   EXPECT_LT(form.cauchy_stress_pa(d).cwiseAbs().maxCoeff(), 1e-7);
 }
 
-/// A thick sphere, radii A and B, its inside moved out to a. Without change of volume
+/// A thick sphere with radii A and B; its inner radius is expanded to a. Without change of volume
 /// r^3 = R^3 + a^3 - A^3, and the pressure inside is (Green and Zerna, Theoretical Elasticity,
 /// 1954)
 ///   p = mu [2/x + 1/(2 x^4)] from x = a/A to b/B   (neo-Hookean).
-/// Meshed is the part over a quarter of one side of the cube around it: between the planes x = 0,
-/// y = 0, x = z and y = z, which all hold the centre.
+/// The mesh is the part over a quarter of one side of the surrounding cube: between the planes x =
+/// 0, y = 0, x = z and y = z, which all contain the centre.
 constexpr double kInner = 0.01, kOuter = 0.02;
 
 test::BoxMesh sphere_mesh(int cells) {
@@ -168,8 +168,8 @@ double sphere_error(int cells, double& pressure_error) {
   const auto moved = [&](double radius) {
     return std::cbrt(std::pow(radius, 3) + std::pow(a, 3) - std::pow(kInner, 3)) / radius;
   };
-  // The exact motion is prescribed at the inner surface and on the oblique planes; the planes x = 0
-  // and y = 0 slide, the outer surface is free.
+  // The exact motion is prescribed on the inner surface and the oblique planes. The nodes slide in
+  // the planes x = 0 and y = 0; the outer surface is free.
   std::vector<int> prescribed;
   VectorXd exact_d(nodes.size());
   for (int n = 0; n < nodes.rows(); ++n) {
@@ -187,8 +187,8 @@ double sphere_error(int cells, double& pressure_error) {
   FiniteNewton newton(form, prescribed, options);
   newton.equilibrium(exact_d(prescribed));
 
-  // The pressure by virtual work: that of all reactions at the radial motion 1/r^2, which keeps the
-  // volume, is the pressure times the solid angle.
+  // The pressure by virtual work: the work of all reactions in the radial motion 1/r^2, which
+  // preserves volume, is the pressure times the solid angle.
   double work = 0;
   for (int n = 0; n < nodes.rows(); ++n) {
     const Vec3 p = nodes.row(n).transpose();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Volumetric locking: errors and orders at nu = 0.4999 must be near those at nu = 0.3. The plain
-// tetrahedron fails, which shows that the measures can.
+// Volumetric locking: errors and orders at nu = 0.4999 must be close to those at nu = 0.3. The
+// plain tetrahedron fails, which shows that the test detects locking.
 #include <gtest/gtest.h>
 
 #include "hyperex/fem/solve/static_solve.hpp"
@@ -9,8 +9,8 @@
 namespace hyperex::fem {
 namespace {
 
-/// Displacement error in L2 of a block whose faces move as a divergence-free field that balances
-/// itself without body forces at any Poisson's ratio: u = curl of a harmonic potential.
+/// L2 error of the displacement of a block. On its faces a divergence-free field is prescribed that
+/// is in equilibrium without body forces for any Poisson's ratio: u = curl of a harmonic potential.
 double error_inside(ElementKind kind, double poisson, int cells) {
   const auto box = test::box_mesh({cells, cells, cells}, Vec3(1, 1, 1), 0.1);
   const auto boundary = test::unknowns_where(box.nodes, [](const Vec3& p) {
@@ -57,15 +57,15 @@ TEST(Locking, ThePlainTetrahedronFailsThatMeasure) {
             3 * error_inside(ElementKind::tet4, 0.3, 8));
 }
 
-/// Rise of the tip of a cantilever of 10 x 1 x 1 under an end force, against beam theory with shear
-/// (Timoshenko, shear factor 5/6).
+/// Deflection of the tip of a cantilever of 10 x 1 x 1 under an end force, relative to beam theory
+/// with shear (Timoshenko, shear factor 5/6).
 double tip_of_beam(ElementKind kind, double poisson) {
   const auto box = test::box_mesh({20, 4, 4}, Vec3(10, 1, 1));
   System s;
   Assembler(box.nodes, box.tets, kind)
       .assemble(test::uniform_material(box.tets.rows(), 1e6, poisson, 0, 1), s);
   Points force = Points::Zero(box.nodes.rows(), 3);
-  double share = 0;  // trapezoidal weights over the end
+  double share = 0;  // trapezoidal weights over the end face
   for (const bool count : {true, false})
     for (Eigen::Index n = 0; n < force.rows(); ++n)
       if (box.nodes(n, 0) > 10 - 1e-9) {

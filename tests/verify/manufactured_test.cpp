@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A static solution made up beforehand: u_i = a_i sin(w_i . x + p_i) on the unit cube under the
-// body force that it needs; the error's order in h is measured.
+// A manufactured static solution: u_i = a_i sin(w_i . x + p_i) on the unit cube, with the body
+// force that it requires. The order of the error in h is measured.
 #include <gtest/gtest.h>
 
 #include "hyperex/fem/solve/static_solve.hpp"
@@ -42,8 +42,8 @@ struct Errors {
   double l2 = 0, h1 = 0;
 };
 
-/// Calls f(t, barycentric weights, position, weight in m^3) on each point of the rule that is
-/// exact for quadratics; its error is of higher order than the ones measured.
+/// Calls f(t, barycentric weights, position, weight in m^3) at each point of the quadrature rule
+/// that is exact for quadratics. Its error is of higher order than those measured.
 template <typename F>
 void integrate(const test::BoxMesh& box, F f) {
   const Eigen::Matrix4d rule = test::quadratic_rule();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Left and right must be alike to the program: the mirrored tissue on the mirrored mesh under the
-// mirrored motion moves as the mirror image.
+// The program must treat left and right alike: the mirrored tissue on the mirrored mesh under the
+// mirrored motion must move as the mirror image.
 #include <gtest/gtest.h>
 
 #include "hyperex/anatomy/embedded_face.hpp"
@@ -41,7 +41,7 @@ tissue::TissueFieldOptions mirrored(tissue::TissueFieldOptions options) {
   return options;
 }
 
-/// A crooked smile: the left corner goes farther, and the chin to the right.
+/// A crooked smile: the left corner moves farther, and the chin moves to the right.
 Vec3 moves(const std::string& name, const Vec3& rest, int sample) {
   const double t = std::sin(0.3 * sample);
   if (rest.y() > -0.02) return Vec3::Zero();
@@ -106,7 +106,7 @@ TEST_P(MirroredFace, MovesAsTheMirrorImage) {
   }
   RecordProperty("apart_over_most", std::to_string(apart / most));
   EXPECT_GT(most, 0.005F);
-  EXPECT_GT(lopsided, 0.1F * most);  // what is mirrored is no mirror image of itself
+  EXPECT_GT(lopsided, 0.1F * most);  // the motion is not its own mirror image
   EXPECT_LT(apart, 2e-6F * most);    // single precision
 }
 

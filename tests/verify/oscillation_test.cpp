@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A bar held at one end, bent and let go: energy, dissipation, and the order in dt.
+// A bar held at one end, bent and released: energy, dissipation, and the order in dt.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -28,7 +28,7 @@ struct Bar {
     return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(held.size()));
   }
 
-  /// Displaced as by a slanting force at the free end.
+  /// The displacement under an oblique force at the free end.
   Eigen::VectorXd bent() const {
     Points force = Points::Zero(box.nodes.rows(), 3);
     for (Eigen::Index n = 0; n < force.rows(); ++n)
@@ -36,13 +36,13 @@ struct Bar {
     return StaticSolver(system.stiffness, held).solve(still(), test::flat(force));
   }
 
-  /// The acceleration that balances K d + C v.
+  /// The acceleration in equilibrium with K d + C v.
   Eigen::VectorXd balanced_acceleration(const Eigen::VectorXd& d, const Eigen::VectorXd& v) const {
     return StaticSolver(system.mass, held)
         .solve(still(), Eigen::VectorXd(-(system.stiffness * d) - system.damping * v));
   }
 
-  /// Energies from the fields themselves, not from K and M.
+  /// Energies are computed from the fields, not from K and M.
   double energy(const Newmark& newmark) const {
     return test::strain_energy(box, material, test::unflat(newmark.displacement())) +
            test::kinetic_energy(box, material, test::unflat(newmark.velocity()));
@@ -96,7 +96,7 @@ TEST(OscillatingBar, ConvergesWithOrderTwoInTheStep) {
   const Eigen::MatrixXd c = Eigen::MatrixXd(bar.system.damping)(free, free);
   const Eigen::MatrixXd m = Eigen::MatrixXd(bar.system.mass)(free, free);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(k, m);
-  // Start in the two slowest modes, so that the steps resolve what moves.
+  // The initial state contains only the two slowest modes, which the time steps resolve.
   Eigen::VectorXd d = Eigen::VectorXd::Zero(n), v = d;
   d(free) = modes.eigenvectors().col(0);
   v(free) = std::sqrt(modes.eigenvalues()[1]) * modes.eigenvectors().col(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The reduced model against the full one: over all steps and nodes, for driven patches, courses and
-// forces chosen at random, and where inertia or resonance make it hard.
+// The reduced model compared with the full one, over all steps and nodes: for random driven
+// patches, courses and forces, and for difficult cases of inertia and resonance.
 #include <gtest/gtest.h>
 
 #include "support/layer.hpp"
@@ -28,8 +28,8 @@ std::vector<Outcome> outcomes(const test::Layer& layer, const Drive& drive, doub
   return found;
 }
 
-/// The estimate may fall short of the error by a half at most, and no tolerance is claimed that is
-/// not met.
+/// The error must not exceed the estimate by more than a half, and the model must not report a
+/// tolerance as reached that it does not meet.
 void expect_honest(const std::vector<Outcome>& found, const std::vector<double>& tolerances) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_LE(found[i].error, std::max(1.5 * found[i].estimate, 1e-9));
@@ -71,7 +71,7 @@ TEST_P(RandomDrive, IsMetToTheTolerance) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomDrive, testing::Range(1u, 11u));
 
-/// A course A sin(2 pi t / period), with a jump of velocity at its start or without.
+/// A course A sin(2 pi t / period), with or without a jump of velocity at its start.
 Drive sine(test::Layer& layer, double period_s, double dt_s, double end_s, bool from_rest) {
   const test::SplineCourse any = test::SplineCourse::random(end_s, 1, 1);
   Drive drive = layer.drive(3, false, {any}, dt_s, 3);
@@ -91,15 +91,15 @@ TEST(ReducedModelHard, SineOfAQuarterSecondWithTenTimesLessViscosity) {
   test::Layer smooth(options), sudden(options);
   const Drive from_rest = sine(smooth, 0.27, 2e-3, 1.08, true);
   expect_kept(outcomes(smooth, from_rest, 2e-3, kTolerances, "from rest"), kTolerances);
-  // A driven velocity that sets in at once sends a wave through everything: no small basis holds
-  // its front. Tight tolerances are not for it.
+  // A driven velocity that starts suddenly sends a wave through the whole layer, whose front no
+  // small basis can represent. Tight tolerances cannot be reached.
   const Drive at_speed = sine(sudden, 0.27, 2e-3, 1.08, false);
   const std::vector<double> loose = {1e-2, 1e-3};
   expect_kept(outcomes(sudden, at_speed, 2e-3, loose, "at speed"), loose);
 }
 
-/// Hardly any damping, driven where the layer rings: nothing dies away, a basis must hold all that
-/// was ever excited. What cannot be reached is not claimed.
+/// Hardly any damping, and driven at a resonance: vibrations do not decay, and the basis must
+/// contain all that were excited. The model must not report a tolerance that it cannot reach.
 TEST(ReducedModelHard, RingingWithHardlyAnyDamping) {
   for (const double period_s : {0.1, 0.02}) {
     test::LayerOptions options;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A layer of Kelvin-Voigt tissue on a rigid base in simple shear u_x(z, t):
-//   rho u'' = G u_zz + eta u'_zz,
-// whose solutions are known whether its top is driven or free.
+//   rho u'' = G u_zz + eta u'_zz.
+// Its solutions are known both for a driven and for a free top.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -14,11 +14,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The default tissue's shear modulus; Poisson's ratio has no part in the solution.
+// The default tissue's shear modulus; the solution does not depend on Poisson's ratio.
 constexpr double kHeight = 0.02, kDensity = 1100, kShear = 64.35e3, kLayerPoisson = 0.3;
 constexpr double kLayerYoung = 2 * (1 + kLayerPoisson) * kShear;
 
-/// Half as wide as high; nodes move along x alone, not at all at the base.
+/// Half as wide as high. Nodes move along x alone, and not at all at the base.
 struct Layer {
   test::BoxMesh box;
   System system;
@@ -40,7 +40,7 @@ struct Layer {
   bool is_top(int unknown) const {
     return unknown % 3 == 0 && box.nodes(unknown / 3, 2) > kHeight - 1e-9;
   }
-  /// f(z) along x.
+  /// The field f(z) in the direction x.
   template <class F>
   Eigen::VectorXd field(const F& f) const {
     Points d = Points::Zero(box.nodes.rows(), 3);
@@ -51,11 +51,11 @@ struct Layer {
 
 struct DrivenError {
   double amplitude, phase_rad;  // at mid height, relative and absolute
-  double field;                 // complex amplitudes of all nodes, by the driven one
+  double field;                 // complex amplitudes of all nodes, relative to the driven one
 };
 
-/// The top goes as U sin(w t); inside u = Im U e^(iwt) sin(kz) / sin(kH), k^2 = rho w^2 / (G + i w
-/// eta). Fourier-analysed over the third period.
+/// The top moves as U sin(w t); inside, u = Im U e^(iwt) sin(kz) / sin(kH) with k^2 = rho w^2 / (G
+/// + i w eta). The numerical solution is Fourier-analysed over the third period.
 DrivenError driven_error(int cells, int steps_per_period) {
   const double eta = 40, w = 2 * M_PI * 150, way = 1e-3;
   const Complex i(0, 1);
@@ -107,8 +107,8 @@ TEST(ShearLayer, FollowsAHarmonicDriveInAmplitudeAndPhase) {
   EXPECT_NEAR(std::log2(middle.field / fine.field), 2, 0.25);
 }
 
-/// With its top free the layer swings as sin(pi z / 2H) q(t), q'' + eta k^2 / rho q' + G k^2 / rho
-/// q = 0: the greatest difference over three periods, by the start.
+/// With a free top the layer oscillates as sin(pi z / 2H) q(t), q'' + eta k^2 / rho q' + G k^2 /
+/// rho q = 0. Returns the greatest difference over three periods, divided by the initial amplitude.
 double decay_error(int cells, int steps_per_period) {
   const double eta = 10, k = M_PI / 2 / kHeight;
   const double w2 = kShear * k * k / kDensity, decay = eta * k * k / kDensity / 2;

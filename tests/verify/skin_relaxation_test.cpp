@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block held at a stretch against the measured relaxation of living skin, its branches those that
-// bench/skin_relaxation.py finds (docs/mechanics.md). Skipped where the data are not there.
+// A block held at a stretch, compared with the measured relaxation of living skin. Its viscoelastic
+// branches are those that bench/skin_relaxation.py finds (docs/mechanics.md). Skipped where the
+// data are missing.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +17,7 @@ constexpr double kArea_m2 = 1e-4;
 
 /// The first ramp and hold.
 struct Traction {
-  std::vector<double> time_s, stretch, force_n;  ///< force above that at rest
+  std::vector<double> time_s, stretch, force_n;  ///< force minus the force at rest
   std::size_t held = 0;                          ///< the first sample of the hold
 };
 
@@ -40,7 +41,7 @@ Traction read_traction(const std::filesystem::path& file) {
   return t;
 }
 
-/// What pulls at the end of a block that follows the stretches, at each of them.
+/// The force at the end of a block that follows the stretches, at each of them.
 std::vector<double> pulled(const Traction& t, double stiffness_n,
                            const std::vector<MaxwellBranch>& branches) {
   const double poisson = 0.4999, length = 0.03, width = std::sqrt(kArea_m2);
@@ -93,7 +94,7 @@ TEST(SkinRelaxation, MaxwellBranchesFollowTheForceOfSkinHeldAtAStretch) {
                with_none = rms_in_hold(t, none);
   std::printf("rms in the hold: two branches %.1f mN, one %.1f mN, none %.1f mN\n", 1e3 * with_two,
               1e3 * with_one, 1e3 * with_none);
-  EXPECT_LT(with_two, 0.014);  // as the fit, of which noise is 0.0104
+  EXPECT_LT(with_two, 0.014);  // as for the fit; noise alone gives 0.0104
   EXPECT_LT(with_one, 0.0175);
   EXPECT_GT(with_one, 1.2 * with_two);
   EXPECT_GT(with_none, 2 * with_two);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Natural frequencies of a clamped bar against the formulas, and what the time steps make of them.
+// Natural frequencies of a clamped bar compared with formulas, and the effect of the time steps on
+// them.
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseLU>
@@ -16,8 +17,8 @@ namespace {
 constexpr double kLength = 0.1, kWidth = 0.02, kDepth = 0.01;
 constexpr double kBarYoung = 192.4e3, kBarDensity = 1100;
 
-/// Clamped at x = 0. Poisson's ratio 0: then the bar's theories hold without a correction at the
-/// clamp.
+/// Clamped at x = 0. Poisson's ratio is 0, so that bar theory is valid at the clamp without
+/// correction.
 struct Cantilever {
   test::BoxMesh box;
   System system;
@@ -46,7 +47,7 @@ struct Mode {
   Eigen::VectorXd shape;
 };
 
-/// The mode nearest to a frequency: inverse iteration from a guess of its shape.
+/// The mode nearest to a frequency, by inverse iteration from a guess of its shape.
 Mode mode_near(const Cantilever& bar, double omega, const std::function<Vec3(double)>& guess) {
   const SparseMatrix k = bar.among_free(bar.system.stiffness), m = bar.among_free(bar.system.mass);
   const Eigen::SparseLU<SparseMatrix> factor(k - omega * omega * m);
@@ -68,8 +69,8 @@ Mode mode_near(const Cantilever& bar, double omega, const std::function<Vec3(dou
   return mode;
 }
 
-/// Three meshes, each twice as fine as the one before: the error falls with order 2, and the last
-/// two frequencies, extrapolated with it, meet the formula.
+/// Three meshes, each twice as fine as the previous one: the error decreases with order 2, and the
+/// last two frequencies, extrapolated with that order, agree with the formula.
 void expect_frequency(double formula, double shift, std::array<int, 3> cells,
                       const std::function<Vec3(double)>& guess, double tolerance) {
   std::vector<double> found;
@@ -93,8 +94,9 @@ TEST(ClampedBar, StretchesAtItsNaturalFrequency) {
       omega, omega, {12, 2, 2}, [](double s) { return Vec3(std::sin(M_PI / 2 * s), 0, 0); }, 2e-5);
 }
 
-/// The least frequency of Timoshenko's beam, clamped and free: (w, psi, M, Q)' = A(omega) (w, psi,
-/// M, Q), and the end's (M, Q) as they follow from the clamp's must be able to vanish.
+/// The lowest frequency of a clamped-free Timoshenko beam. The state obeys (w, psi, M, Q)' =
+/// A(omega) (w, psi, M, Q). At a natural frequency, (M, Q) at the clamp can be chosen such that (M,
+/// Q) at the free end vanish.
 double timoshenko_omega() {
   const double area = kWidth * kDepth, inertia = area * kDepth * kDepth / 12;
   const double shear = 5.0 / 6 * kBarYoung / 2 * area;
@@ -108,7 +110,7 @@ double timoshenko_omega() {
     a(3, 0) = -kBarDensity * area * omega * omega;  // Q' = -rho A omega^2 w
     return Eigen::Matrix4d((a * kLength).exp()).bottomRightCorner<2, 2>().determinant();
   };
-  // Below Euler and Bernoulli's frequency, which is a little too high.
+  // Start below the frequency of the Euler-Bernoulli beam, which is slightly too high.
   const double thin =
       1.8751 * 1.8751 / (kLength * kLength) * std::sqrt(kBarYoung * inertia / (kBarDensity * area));
   double low = 0.8 * thin, high = thin;
@@ -126,7 +128,7 @@ TEST(ClampedBar, BendsAtItsNaturalFrequency) {
 }
 
 TEST(ClampedBar, TimeStepsTurnTheFrequencyAsTheFormula) {
-  // Average acceleration makes of cos(w t) exactly cos(i theta), tan(theta / 2) = w dt / 2.
+  // Average acceleration turns cos(w t) into exactly cos(i theta), with tan(theta / 2) = w dt / 2.
   const Cantilever bar({16, 2, 2});
   const Mode mode = mode_near(bar, 0, [](double s) { return Vec3(0, 0, s * s); });
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bar.held.size()));

@@ -11,23 +11,23 @@
 
 namespace hyperex::capture {
 
-/// A source read on a thread of its own through a bounded queue. Where the consumer is slower than
-/// the source, the worker waits (read_ahead) or the oldest waiting frame is dropped and counted
-/// (LatestFrame).
+/// Reads a source on a thread of its own, through a bounded queue. If the consumer is slower than
+/// the source, either the worker thread waits (read_ahead), or the oldest frame in the queue is
+/// dropped and counted (LatestFrame).
 class Buffered : public FrameSource {
  public:
   enum class WhenFull { wait, drop_oldest };
 
-  /// `capacity` >= 1 frames wait at most, besides the one that the worker is reading.
+  /// The queue holds at most `capacity` >= 1 frames, in addition to the one being read.
   Buffered(std::unique_ptr<FrameSource> source, std::size_t capacity, WhenFull when_full);
-  /// Waits for the frame that the worker is just reading.
+  /// Waits until the worker has finished reading its current frame.
   ~Buffered() override;
 
   const Intrinsics& intrinsics() const override { return source_->intrinsics(); }
   bool has_depth() const override { return source_->has_depth(); }
   bool live() const override { return source_->live(); }
   std::optional<std::size_t> frame_count() const override { return source_->frame_count(); }
-  /// What the source throws comes out here, behind the frames read before.
+  /// An exception of the source is rethrown here, after all frames that were read before it.
   std::optional<Frame> next() override;
   std::size_t dropped() const override;
   std::vector<std::string> notes() const override;
@@ -48,12 +48,12 @@ class Buffered : public FrameSource {
   std::thread worker_;
 };
 
-/// Decodes ahead, so that reading costs the consumer little. No frame is lost.
+/// Reads and decodes up to `frames` frames in advance on another thread. No frame is lost.
 std::unique_ptr<FrameSource> read_ahead(std::unique_ptr<FrameSource> source, std::size_t frames);
 
-/// For live sources: next() gives the newest frame, waiting for one where none has come since the
-/// last. A slow consumer is never more than one frame behind the camera; the frames in between are
-/// dropped and counted.
+/// For live sources. next() returns the newest frame; if it has been returned already, next() waits
+/// for another one. A slow consumer is never more than one frame behind the camera. The frames in
+/// between are dropped and counted.
 class LatestFrame : public Buffered {
  public:
   explicit LatestFrame(std::unique_ptr<FrameSource> source)

@@ -18,7 +18,7 @@ namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 
-/// The values of one camera file, each read by its key and checked.
+/// Reads the values of one camera file by their keys and checks each of them.
 class Reader {
  public:
   Reader(const fs::path& file, const toml::table& table) : file_(file), table_(table) {}

@@ -11,14 +11,14 @@
 #include "hyperex/capture/camera_file.hpp"
 #include "hyperex/capture/png_picture.hpp"
 
-// Not by OpenCV's imgcodecs: it brings some 120 shared libraries into the program, and fills torn
-// JPEG data with grey and keeps quiet.
+// OpenCV's imgcodecs is not used: it loads some 120 shared libraries, and it fills truncated JPEG
+// data with grey without reporting it.
 namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 using Bytes = std::span<const unsigned char>;
 
-/// A corrupt header may call for any amount of memory.
+/// Limits the memory that a corrupt header can request.
 constexpr double kMostPixels = 1 << 28;
 
 bool begins_with(Bytes bytes, std::string_view magic) {
@@ -27,7 +27,7 @@ bool begins_with(Bytes bytes, std::string_view magic) {
                     [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
 }
 
-/// A byte or two too many before the end: what webcams write day in, day out, and no tear.
+/// One or two superfluous bytes before the end. Webcams often write these; the picture is intact.
 bool is_harmless(const std::string& warning) {
   unsigned count = 0, marker = 0;
   return std::sscanf(warning.c_str(), "Corrupt JPEG data: %u extraneous bytes before marker 0x%x",
@@ -58,9 +58,9 @@ Decoded decode_png(Bytes bytes, PngAs as, const std::string& name) {
   return {std::move(png.picture), {}};
 }
 
-/// The bytes of a file, or the fault.
+/// The bytes of a file. If they cannot be read, sets `fault`.
 std::vector<unsigned char> read_bytes(const fs::path& file, std::string& fault) {
-  // Asked first: a pipe would wait to be opened.
+  // This is checked first, because opening a pipe would block.
   std::error_code ignored;
   std::ifstream stream;
   if (fs::is_regular_file(file, ignored)) stream.open(file, std::ios::binary | std::ios::ate);
@@ -78,7 +78,7 @@ std::vector<unsigned char> read_bytes(const fs::path& file, std::string& fault) 
   return bytes;
 }
 
-/// By its header; nothing where that cannot be read: decoding then reports it.
+/// The size stated in the header; empty if the header cannot be read (decoding then reports it).
 cv::Size size_of(Bytes bytes) {
   if (is_png(bytes)) return png_size(bytes);
   const std::unique_ptr<void, int (*)(void*)> decoder(tjInitDecompress(), tjDestroy);
@@ -90,7 +90,8 @@ cv::Size size_of(Bytes bytes) {
   return {};
 }
 
-/// Asked before a picture is decoded: a small file may hold any number of equal pixels.
+/// Checked before a picture is decoded, because a small file may expand to any number of equal
+/// pixels.
 std::string fault_of_size(const fs::path& file, Bytes bytes, const Intrinsics& expected) {
   const cv::Size size = size_of(bytes);
   if (size.empty() || (size.width == expected.width_px && size.height == expected.height_px))

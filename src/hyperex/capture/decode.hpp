@@ -9,22 +9,24 @@
 
 namespace hyperex::capture {
 
-/// A picture, or one line that says why there is none. A torn file gives no picture, although
-/// decoders would hand out its first rows above grey ones.
+/// A decoded picture, or one line that says why there is none. A truncated file gives no picture,
+/// although many decoders would return its first rows with grey rows below.
 struct Decoded {
-  cv::Mat picture;    ///< empty where `fault` is not
-  std::string fault;  ///< names the file
+  cv::Mat picture;    ///< empty if there is a fault
+  std::string fault;  ///< begins with the file's name; empty if there is no fault
 };
 
-/// CV_8UC3, BGR, as stored (an orientation noted in the file is not applied), from a JPEG or a PNG
-/// of any kind (transparency is dropped, 16 bits become 8). `name` is for the fault.
+/// Decodes a JPEG or a PNG of any kind to CV_8UC3 in BGR order. Transparency is dropped and 16 bits
+/// are reduced to 8. An orientation stored in the file is not applied. `name` is used in the fault.
 Decoded decode_colour(std::span<const unsigned char> bytes, const std::string& name);
 
-/// The same from a file. A fault where it is missing, torn, or not of the size `expected`.
+/// The same for a file. It is a fault if the file is missing, damaged, or not of the size
+/// `expected`.
 Decoded decode_colour(const std::filesystem::path& file, const Intrinsics& expected);
 
-/// CV_32FC1 in metres from a 16-bit PNG of one channel: value / depth_per_metre, 0 = no reading.
-/// A fault where it is missing, torn, of other kind or size, or has no reading at all.
+/// Decodes a 16-bit PNG with one channel to CV_32FC1 in metres: value / depth_per_metre, 0 = no
+/// reading. It is a fault if the file is missing, damaged, of another kind or size, or without any
+/// reading.
 Decoded decode_depth(const std::filesystem::path& file, const Intrinsics& expected,
                      double depth_per_metre);
 

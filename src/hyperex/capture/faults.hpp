@@ -7,13 +7,13 @@
 
 namespace hyperex::capture {
 
-/// Counts faulty frames. A few are part of life; where hardly any is sound, the source is wrong.
+/// Counts faulty frames. A few are normal; if most frames are faulty, the source itself is wrong.
 class FaultCount {
  public:
   explicit FaultCount(std::string source) : source_(std::move(source)) {}
   void add(const Frame& frame);
-  /// Throws InputError with the count and the first fault where there was no frame at all or fewer
-  /// than one in ten is valid.
+  /// Throws InputError, with the counts and the first fault, if there was no frame at all or if
+  /// fewer than one frame in ten is valid.
   void check_at_end() const;
   std::size_t frames() const { return frames_; }
   std::size_t faulty() const { return faulty_; }

@@ -22,7 +22,8 @@ constexpr double nominal_f_px = 525;
 constexpr double ticks_a_second = 60e6;
 constexpr auto patience = std::chrono::seconds(5);
 
-/// Seconds since the first stamp, across the wraps of the device's 32 bits (every 71 s).
+/// Seconds since the first time stamp. Handles the overflow of the device's 32-bit counter (every
+/// 71 s).
 class TickClock {
  public:
   double seconds(std::uint32_t ticks) {
@@ -108,8 +109,8 @@ class Kinect : public FrameSource {
       throw;
     }
   }
-  /// Sets a mode from the device's own list of modes. Some drivers abort the program when asked for
-  /// a mode that they do not support.
+  /// Selects a mode from the device's own list. Some drivers abort the program when an unsupported
+  /// mode is requested.
   void choose_depth_mode() {
     const auto set = [&](freenect_depth_format format) {
       for (int i = 0; i < freenect_get_depth_mode_count(); ++i) {
@@ -177,7 +178,8 @@ class Kinect : public FrameSource {
     return frame;
   }
 
-  /// Lost before the first frame is an error; later what was seen remains good.
+  /// If the camera is lost before the first frame, this is an error. Later, the frames seen so far
+  /// remain valid.
   std::optional<Frame> lose(const std::string& why) {
     lost_ = true;
     if (faults_.frames() == 0) throw InputError("kinect: " + why);

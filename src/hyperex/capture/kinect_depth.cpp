@@ -7,7 +7,7 @@
 namespace hyperex::capture {
 namespace {
 constexpr int no_reading = 2047;
-constexpr double farthest_m = 10;  // beyond, a step of the raw value is half a metre and more
+constexpr double farthest_m = 10;  // beyond, one step of the raw value is at least half a metre
 
 const std::array<float, 2048>& table() {
   static const std::array<float, 2048> metres = [] {

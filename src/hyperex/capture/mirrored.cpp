@@ -7,7 +7,7 @@ namespace hyperex::capture {
 
 namespace {
 
-/// A picture of its own: others may hold on to the one given.
+/// Returns a new picture, because the given one may be in use elsewhere.
 cv::Mat flipped(const cv::Mat& picture) {
   cv::Mat turned;
   if (!picture.empty()) cv::flip(picture, turned, 1);

@@ -6,9 +6,9 @@
 
 namespace hyperex::capture {
 
-/// Turns back the pictures of a source that shows the world as a mirror does: colour and depth are
-/// flipped from left to right, and the camera's principal point with them (u -> width - 1 - u).
-/// All else is the source's own.
+/// Restores the pictures of a source that mirrors them. Colour and depth are flipped from left to
+/// right, and so is the camera's principal point (u -> width - 1 - u). Everything else is passed on
+/// unchanged.
 class Mirrored : public FrameSource {
  public:
   explicit Mirrored(std::unique_ptr<FrameSource> source);

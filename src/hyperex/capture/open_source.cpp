@@ -37,7 +37,7 @@ int webcam_number(const std::string& spec) {
   return static_cast<int>(*number);
 }
 
-/// Nothing where it is no word for a device.
+/// The kind of device that `spec` names; nothing if it names none.
 std::optional<SourceKind> device_kind(const std::string& spec) {
   if (spec == "kinect") return SourceKind::kinect;
   if (spec == "openni" || spec.starts_with("openni:")) return SourceKind::openni;

@@ -24,9 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int device_patience_ms = 5000;
-constexpr int file_patience_ms = 2000;  // the player needs no longer for one frame
+constexpr int file_patience_ms = 2000;  // sufficient for the player to deliver one frame
 
-/// OpenNI's own words in one line.
+/// OpenNI's own error message on one line.
 std::string reason() {
   std::string text = openni::OpenNI::getExtendedError();
   for (char& c : text)
@@ -35,11 +35,12 @@ std::string reason() {
   return text.empty() ? "" : " (" + text + ")";
 }
 
-/// OpenNI remembers every thread that ever waited for a frame and later checks whether it still
-/// lives, which crashes where it does not. So one thread that never ends does all the waiting.
+/// OpenNI stores every thread that has waited for a frame and later checks whether it is still
+/// alive. This check crashes if the thread has ended. Therefore a single thread that never ends
+/// does all the waiting.
 class WaitingThread {
  public:
-  /// Runs `work` there and gives its result.
+  /// Runs `work` on that thread and returns its result.
   template <class Work>
   static auto run(Work work) {
     std::packaged_task<decltype(work())()> task(std::move(work));
@@ -55,7 +56,8 @@ class WaitingThread {
 
  private:
   static WaitingThread& instance() {
-    static WaitingThread& self = *new WaitingThread;  // lives as long as its thread: to the end
+    // Never destroyed: its thread runs until the program ends.
+    static WaitingThread& self = *new WaitingThread;
     return self;
   }
   WaitingThread() {
@@ -75,7 +77,7 @@ class WaitingThread {
   std::deque<std::function<void()>> tasks_;
 };
 
-/// OpenNI counts its initialisations.
+/// Initialises OpenNI. OpenNI counts the calls, so several sessions may exist.
 struct Session {
   Session() {
     if (openni::OpenNI::initialize() != openni::STATUS_OK)
@@ -86,7 +88,7 @@ struct Session {
   Session& operator=(const Session&) = delete;
 };
 
-/// BGR, or empty where the format is none that is known.
+/// The picture in BGR order; empty if its format is unknown.
 cv::Mat colour_of(const openni::VideoFrameRef& frame) {
   const auto view = [&](int type) {
     return cv::Mat(frame.getHeight(), frame.getWidth(), type, const_cast<void*>(frame.getData()),
@@ -123,7 +125,7 @@ cv::Mat depth_of(const openni::VideoFrameRef& frame) {
   return depth_m;
 }
 
-/// One stream of the device, its pictures never mirrored.
+/// One stream of the device. Mirroring is switched off.
 class Sensor {
  public:
   ~Sensor() {
@@ -135,7 +137,7 @@ class Sensor {
   void create(openni::Device& device, openni::SensorType type, const std::string& name) {
     if (stream_.create(device, type) != openni::STATUS_OK) throw InputError(name + reason());
   }
-  /// The wanted mode where the sensor has it; else it stays as it is.
+  /// Selects the given mode if the sensor supports it; otherwise the mode is left unchanged.
   void choose_mode(openni::PixelFormat format, int width, int height) {
     const auto& modes = stream_.getSensorInfo().getSupportedVideoModes();
     for (int i = 0; i < modes.getSize(); ++i) {
@@ -150,7 +152,7 @@ class Sensor {
     mirrored_ = stream_.getMirroringEnabled();
     if (stream_.start() != openni::STATUS_OK) throw InputError(name + reason());
   }
-  /// What has just come, by `decode`; nothing where OpenNI cannot hand it out.
+  /// The picture that has just arrived, decoded by `decode`; nothing if OpenNI cannot read it.
   template <class Decode>
   std::optional<TimedPicture> read(Decode decode) {
     openni::VideoFrameRef frame;
@@ -234,7 +236,7 @@ class OpenniSource : public FrameSource {
     openni::PlaybackControl* playback = device_.getPlaybackControl();
     if (playback == nullptr) throw InputError(name_ + ": is no recording");
     playback->setRepeatEnabled(false);
-    playback->setSpeed(-1);  // frame by frame, each when it is requested
+    playback->setSpeed(-1);  // delivers each frame when it is requested
     if (has_depth_)
       notes_.push_back(name_ +
                        ": does not say whether its depth was registered to colour; it is "
@@ -250,7 +252,8 @@ class OpenniSource : public FrameSource {
       throw InputError(name_ +
                        ": the device cannot register its depth to colour (colour only "
                        "would work)");
-    device_.setDepthColorSyncEnabled(true);  // not every device can; pairing by time does too
+    // Not all devices support this; pairing by time suffices.
+    device_.setDepthColorSyncEnabled(true);
   }
 
   void find_intrinsics(const SourceOptions& options) {
@@ -298,7 +301,7 @@ class OpenniSource : public FrameSource {
     faults_.add(frame);
     return frame;
   }
-  /// Also brings the depth to the size of the colour.
+  /// Returns the fault of a frame. Also resizes its depth to the size of its colour picture.
   std::string fault_of(Frame& frame) const {
     const cv::Size size(intrinsics_.width_px, intrinsics_.height_px);
     if (frame.colour.empty()) return name_ + ": colour of an unknown format";
@@ -320,7 +323,7 @@ class OpenniSource : public FrameSource {
     return cv::countNonZero(frame.depth_m) == 0 ? name_ + ": depth without a single reading" : "";
   }
 
-  /// Before the first frame an error; later what was seen remains good.
+  /// Before the first frame, the end is an error. Later, the frames seen so far remain valid.
   std::optional<Frame> end(const std::string& why) {
     ended_ = true;
     if (!why.empty() && faults_.frames() == 0) throw InputError(name_ + ": " + why);

@@ -7,14 +7,15 @@
 
 namespace hyperex::capture {
 
-/// One picture of one sensor, by the device's clock.
+/// One picture of one sensor, with the time of the device's clock.
 struct TimedPicture {
   double time_s = 0;
   cv::Mat picture;
 };
 
-/// Pairs two streams as they come in, each rising in time. A pair is at most `longest_gap_s` apart;
-/// a picture that was left behind by the other stream is forgotten and counted.
+/// Pairs the pictures of two streams as they arrive. Times must increase in each stream. The two
+/// pictures of a pair are at most `longest_gap_s` apart. A picture without a partner is discarded
+/// and counted.
 class Pairing {
  public:
   explicit Pairing(double longest_gap_s = 0.02) : longest_gap_s_(longest_gap_s) {}
@@ -22,7 +23,7 @@ class Pairing {
   void add_colour(TimedPicture picture) { put(colour_, std::move(picture)); }
   void add_depth(TimedPicture picture) { put(depth_, std::move(picture)); }
 
-  /// A pair of colour and depth where both are there.
+  /// The next pair of colour and depth, if both have arrived.
   std::optional<std::pair<TimedPicture, TimedPicture>> take() {
     if (!colour_ || !depth_) return std::nullopt;
     if (std::abs(colour_->time_s - depth_->time_s) > longest_gap_s_) {

@@ -29,7 +29,8 @@ class Played : public FrameSource {
 
  private:
   std::unique_ptr<FrameSource> recording_;
-  std::optional<std::pair<Clock::time_point, double>> start_;  // and the first frame's time
+  // wall-clock time and time_s of the first frame.
+  std::optional<std::pair<Clock::time_point, double>> start_;
 };
 
 }  // namespace

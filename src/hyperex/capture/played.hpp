@@ -6,9 +6,9 @@
 
 namespace hyperex::capture {
 
-/// A recording that comes at its own pace, like a camera: each frame is given when as much time has
-/// gone by since the first as its time_s says (a frame that is not valid comes at once). live() is
-/// true: wrap it in LatestFrame, as open_source() does. A rehearsal without a camera.
+/// Plays a recording in real time, like a camera, for tests without one. Each frame is returned
+/// when the time since the first frame equals the difference of their time_s. An invalid frame is
+/// returned at once. live() is true: wrap the source in LatestFrame, as open_source() does.
 std::unique_ptr<FrameSource> play(std::unique_ptr<FrameSource> recording);
 
 }  // namespace hyperex::capture

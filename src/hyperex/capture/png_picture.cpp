@@ -11,8 +11,8 @@
 namespace hyperex::capture {
 namespace {
 
-/// libpng leaves by longjmp where it fails: nothing with a destructor may be made between
-/// png_jmpbuf and there, so all of that stands here and in Writing.
+/// On failure, libpng leaves by longjmp. Objects with destructors must therefore not be created
+/// after the call of setjmp; they are members of this struct and of Writing.
 struct Reading {
   std::span<const unsigned char> left;
   PngPicture result;
@@ -34,7 +34,7 @@ void give_bytes(png_structp png, png_bytep to, std::size_t count) {
 
 void to_bgr(png_structp png, png_infop info) {
   const int colours = png_get_color_type(png, info);
-  png_set_expand(png);  // palettes, few bits, a transparent colour
+  png_set_expand(png);  // palettes, fewer than 8 bits, a transparent colour
   if (png_get_bit_depth(png, info) == 16) png_set_scale_16(png);
   if ((colours & PNG_COLOR_MASK_COLOR) == 0) png_set_gray_to_rgb(png);
   png_set_strip_alpha(png);
@@ -98,7 +98,8 @@ bool is_png(std::span<const unsigned char> bytes) {
 }
 
 cv::Size png_size(std::span<const unsigned char> bytes) {
-  constexpr std::size_t width_at = 16, height_at = 20, end = 24;  // of IHDR, which comes first
+  // Offsets within IHDR, the first chunk.
+  constexpr std::size_t width_at = 16, height_at = 20, end = 24;
   if (!is_png(bytes) || bytes.size() < end || std::memcmp(&bytes[12], "IHDR", 4) != 0) return {};
   const std::uint32_t width = png_get_uint_32(&bytes[width_at]),
                       height = png_get_uint_32(&bytes[height_at]);

@@ -8,13 +8,13 @@
 
 namespace hyperex::capture {
 
-/// Whether the file's name ends as a picture's does: .jpg, .jpeg or .png.
+/// Whether the file name ends in .jpg, .jpeg or .png.
 bool is_picture(const std::filesystem::path& file);
 
-/// A photograph (JPEG or PNG) as a source of one frame at time 0, colour alone, as stored: an
-/// orientation noted in the file is not applied. Metres are unknown and the camera mostly guessed,
-/// as with a video (video.hpp). Throws InputError where it is missing or torn, or not of the camera
-/// file's size.
+/// A photograph (JPEG or PNG) as a source of one frame at time 0, with colour only. An orientation
+/// stored in the file is not applied. As with a video (video.hpp), lengths in metres are unknown
+/// and the camera is usually guessed. Throws InputError if the file is missing or damaged, or if
+/// its size differs from that in the camera file.
 std::unique_ptr<FrameSource> open_still(const std::filesystem::path& file,
                                         const SourceOptions& options = {});
 

@@ -18,8 +18,9 @@ namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 
-/// Of a folder that is no recording itself which of its folders are: "; it holds one: PATH", or
-/// "; it holds 3 recordings, name one of them: NAME, NAME or NAME". Empty where there is none.
+/// For a folder that is not a recording itself: which of its subfolders are recordings, as "; it
+/// holds one: PATH", or "; it holds 3 recordings, name one of them: NAME, NAME or NAME". Empty if
+/// there are none.
 std::string recordings_inside(const fs::path& folder) {
   constexpr std::size_t most = 5;
   std::vector<fs::path> found;

@@ -17,7 +17,7 @@ namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 
-/// Calls use(pictures, line number) with the `pictures_a_line` pictures of every line.
+/// Calls use(pictures, line number) for every line, with its `pictures_a_line` pictures.
 template <class Use>
 void read_lines(const fs::path& file, std::size_t pictures_a_line, const std::string& expected,
                 Use use) {
@@ -101,7 +101,8 @@ void add_unpaired(const std::vector<ListedPicture>& listed, std::vector<ListedFr
   for (const ListedFrame& frame : pairs) paired.insert(frame.colour);
   std::vector<ListedFrame> frames;
   auto pair = pairs.begin();
-  // The list's order rules; a pair that it does not hold keeps its place among the pairs.
+  // The order is that of the list. A pair that is not in the list keeps its position among the
+  // pairs.
   const std::size_t none = listed.size();
   std::map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < listed.size(); ++i) place.emplace(listed[i].file, i);

@@ -8,15 +8,15 @@
 namespace hyperex::capture {
 
 /// Writes a recording in the layout that open_tum_folder() reads: rgb/TIME.jpg (quality 95),
-/// depth/TIME.png (16 bit), rgb.txt, depth.txt, associations.txt and camera.toml. Equal frames give
-/// equal bytes.
+/// depth/TIME.png (16 bit), rgb.txt, depth.txt, associations.txt and camera.toml. The same frames
+/// always give the same bytes.
 class TumWriter {
  public:
   /// Makes `folder` and its parents. `depth_per_metre`: stored value per metre, > 0.
   TumWriter(std::filesystem::path folder, const Intrinsics& camera, double depth_per_metre = 5000);
 
-  /// A valid frame with colour and depth of the camera's size (std::invalid_argument otherwise).
-  /// Throws InputError where its pictures cannot be written.
+  /// Adds a valid frame whose colour and depth have the camera's size (std::invalid_argument
+  /// otherwise). Throws InputError if its pictures cannot be written.
   void add(const Frame& frame);
   /// Writes the lists. Throws InputError where they cannot be written.
   void finish();

@@ -8,20 +8,21 @@
 
 namespace hyperex::capture {
 
-/// Colour alone. Without depth nobody knows how large the face is and how far away: metres have to
-/// come from a length that the user states, such as the distance of the outer corners of the eyes.
-/// The camera is SourceOptions::camera_file, else guessed from SourceOptions::field_of_view_deg
-/// (and a note says so).
+/// Videos and webcams give colour only. Without depth, the size and the distance of the face are
+/// unknown. Lengths in metres require a length stated by the user, such as the distance between the
+/// outer corners of the eyes. The camera comes from SourceOptions::camera_file; without it, it is
+/// guessed from SourceOptions::field_of_view_deg and a note says so.
 
-/// What FFmpeg opens. Times are the file's own where they rise, else counted by its
-/// frame rate. frame_count() is what the container states. A file that ends before that is read as
-/// far as it goes and gets a note. Throws InputError where no frame can be read.
+/// Opens any video file that FFmpeg can read. Times are those of the file if they increase;
+/// otherwise they follow from its frame rate. frame_count() is the number that the container
+/// states. If the file ends earlier, the frames before the end are used and a note says so. Throws
+/// InputError if no frame can be read.
 std::unique_ptr<FrameSource> open_video(const std::filesystem::path& file,
                                         const SourceOptions& options = {});
 
-/// The webcam of that number (/dev/videoN), live: wrap it in LatestFrame, as open_source() does.
-/// Where a camera file is given, its picture size is requested. Time begins at 0 with the first
-/// frame. Whether the camera mirrors its picture is not known: the user must say it.
+/// Opens the webcam with that number (/dev/videoN). The source is live: wrap it in LatestFrame, as
+/// open_source() does. If a camera file is given, its picture size is requested. Time is 0 at the
+/// first frame. Whether the camera mirrors its picture is unknown; the user must state it.
 std::unique_ptr<FrameSource> open_webcam(int number, const SourceOptions& options = {});
 
 }  // namespace hyperex::capture

@@ -14,15 +14,16 @@ namespace fs = std::filesystem;
 constexpr const char* kRemedy =
     "install libopencv-videoio-dev (scripts/setup.sh --video) and build again (make build)";
 
-/// Beside the shared library that this function is part of, in whose folder or in the one above;
-/// else, where it is part of the program itself, in the program's ../lib.
+/// If this function is part of a shared library, hx_video.so is looked for in that library's folder
+/// and in the folder above. If it is part of the program itself, hx_video.so is in the program's
+/// ../lib.
 fs::path video_file() {
   const fs::path name = "hyperex/hx_video.so";
   std::error_code error;
   Dl_info here{};
   if (::dladdr(reinterpret_cast<void*>(&video_file), &here) != 0 && here.dli_fname != nullptr) {
     const fs::path folder = fs::path(here.dli_fname).parent_path();
-    // A relative name is a program's as it was called: no place to load from.
+    // A relative path is that of a program as it was called; it must not be used for loading.
     for (const fs::path& lib : {folder, folder.parent_path()})
       if (folder.is_absolute() && fs::exists(lib / name, error)) return lib / name;
   }

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of the temporary name: the encoder takes the container from it.
+/// Extension of the temporary file. The encoder derives the container from it.
 const char* const kExtension = "tmp.mp4";
 
 }  // namespace
@@ -61,7 +61,8 @@ VideoWriter::VideoWriter(const fs::path& file, int width_px, int height_px,
   if (!(frames_a_second > 0) || !std::isfinite(frames_a_second))
     throw std::invalid_argument("VideoWriter: the rate must be above 0");
   impl_ = std::make_unique<Impl>(file, width_px, height_px);
-  // The encoder reports a file that cannot be written like a codec that is missing.
+  // The encoder reports an unwritable file in the same way as a missing codec. This distinguishes
+  // them.
   errno = 0;
   if (!std::ofstream(impl_->temporary.path(), std::ios::binary))
     throw InputError(file, std::string("cannot be written (") + std::strerror(errno) + ")");
@@ -84,7 +85,7 @@ void VideoWriter::add(const cv::Mat& bgr) {
 void VideoWriter::finish() {
   impl_->encoder.reset();
   wait_if_interrupted();
-  // The encoder keeps quiet about a full disk.
+  // The encoder does not report a full disk.
   const auto written = video_library().open_file(impl_->temporary.path().string());
   if (!written || std::size_t(written->frame_count()) != impl_->pictures)
     throw InputError(impl_->file, "cannot be written whole (the disk may be full)");

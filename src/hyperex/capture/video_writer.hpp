@@ -6,8 +6,8 @@
 
 namespace hyperex::capture {
 
-/// Writes a video that browsers play: H.264, yuv420p, in an MP4 file, pictures at a constant rate.
-/// The file appears under its name when it is whole.
+/// Writes a video that browsers can play: H.264, yuv420p, in an MP4 file with a constant frame
+/// rate. The file appears under its final name only when it is complete.
 class VideoWriter {
  public:
   /// `width_px`, `height_px`: even, > 0; `frames_a_second` > 0 (std::invalid_argument otherwise).
@@ -15,19 +15,19 @@ class VideoWriter {
   /// system has no H.264 encoder.
   VideoWriter(const std::filesystem::path& file, int width_px, int height_px,
               double frames_a_second);
-  /// Without finish() nothing is left of the file.
+  /// If finish() has not been called, no file is left.
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
 
   /// CV_8UC3, BGR, of the size stated; std::invalid_argument otherwise.
   void add(const cv::Mat& bgr);
-  /// Closes the file, reads back that it holds every picture, and gives it its name. Throws
-  /// InputError where it could not be written whole. Once, at the end.
+  /// Closes the file, checks by reading it that it contains every picture, and gives it its final
+  /// name. Throws InputError if it could not be written completely. To be called once, at the end.
   void finish();
 
-  /// Throws InputError as the constructor does for a name that it would refuse, and where this
-  /// program was built without videos: to say so before long work.
+  /// Throws InputError if the constructor would refuse this name, or if this program was built
+  /// without video support. Call it before long work, so that the error is reported early.
   static void check_name(const std::filesystem::path& file);
 
  private:

@@ -52,7 +52,8 @@ const std::set<std::string>& all_blend_shapes() {
   return names;
 }
 
-/// The blend shape that a column was probably meant to be, of those without a column; else empty.
+/// The blend shape without a column whose name the column probably misspells; empty if there is
+/// none.
 std::string shape_meant(const std::string& column, const std::vector<std::string>& there) {
   constexpr std::size_t most_slips = 2, shortest = 6;
   std::string best;

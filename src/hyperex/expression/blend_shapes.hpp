@@ -13,32 +13,36 @@ namespace hyperex::expression {
 /// Weights of ARKit's blend shapes (Apple, ARFaceAnchor.BlendShapeLocation) over time.
 struct BlendShapes {
   std::vector<std::string> names;  ///< e.g. "jawOpen", "mouthSmileLeft" (the subject's left)
-  std::vector<double> time_s;      ///< N of them, strictly rising
+  std::vector<double> time_s;      ///< N values, strictly increasing
   Eigen::MatrixXd weights;  ///< N x |names|, 0 to 1; a row of NaN where the face was not seen
   std::filesystem::path file;
-  std::vector<std::string> notes;  ///< what was assumed or left out: a sentence each
-  /// Columns left out that look misspelt: "column mouthSmilRight is no ...; did you mean ...?"
+  std::vector<std::string> notes;  ///< assumptions and omissions, one sentence each
+  /// Ignored columns whose names look misspelt: "column mouthSmilRight is no ...; did you mean
+  /// ...?"
   std::vector<std::string> misspelt;
 };
 
-/// A CSV of blend-shape weights: a column of time (`time_s`, `time` or `timestamp` in seconds, or
-/// `Timecode` as Live Link Face writes it) and columns named after blend shapes, the first letter
-/// small or capital; others are left out and named in a note, in `misspelt` where a blend shape
-/// that the file lacks is at most two letters away. Throws InputError naming the file: no time, no
-/// blend shape, time that does not rise, a weight below -0.05 or above 1.5 (percent, perhaps).
-/// Weights a little beyond 0 to 1, as smoothing leaves them, are kept to that range.
+/// Reads a CSV of blend-shape weights. It has a column of time (`time_s`, `time` or `timestamp` in
+/// seconds, or `Timecode` as Live Link Face writes it) and columns named after blend shapes; the
+/// first letter of a name may be small or capital. Other columns are ignored and named in a note.
+/// They are also listed in `misspelt` if the name differs by at most two letters from that of a
+/// blend shape without a column. Weights a little outside 0 to 1, as smoothing produces them, are
+/// clamped to that range. Throws InputError naming the file if there is no time or no blend shape,
+/// if time does not increase, or if a weight is below -0.05 or above 1.5 (perhaps percent).
 BlendShapes read_arkit(const std::filesystem::path& file);
 
-/// A CSV of OpenFace 2: `timestamp`, `success` and intensities `AU01_r` ... from 0 to 5, made
-/// blend-shape weights by data/openface_arkit.csv. Frames of no success are rows of NaN.
-/// Throws InputError: no timestamp, no intensities, one outside 0 to 5.
+/// Reads a CSV of OpenFace 2: `timestamp`, `success` and intensities `AU01_r` ... from 0 to 5. They
+/// are converted to blend-shape weights by data/openface_arkit.csv. A frame without success gives a
+/// row of NaN. Throws InputError if there is no timestamp or no intensity, or if an intensity is
+/// outside 0 to 5.
 BlendShapes read_openface(const std::filesystem::path& file);
 
-/// The points that a model's landmarks name, moved by its animation units: weight = (w+ - w-) /
-/// arkit_scale, w+ and w- the mean of the blend shapes that the unit's `arkit` and
-/// `arkit_negative` name ("*": Left and Right). In the model's frame and size, no head pose; NaN
-/// where the face was not seen. Throws InputError where no blend shape moves the model. A note says
-/// which blend shapes it does not have.
+/// The motion of a model's landmarks that the blend shapes produce through the model's animation
+/// units. The weight of a unit is (w+ - w-) / arkit_scale, where w+ and w- are the means of the
+/// blend shapes named by the unit's `arkit` and `arkit_negative` ("*" stands for Left and Right).
+/// The points are in the model's frame and size, without head pose. They are NaN where the face was
+/// not seen. Adds a note on blend shapes that the model does not have. Throws InputError if no
+/// blend shape moves the model.
 motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
                          std::vector<std::string>& notes);
 

@@ -41,7 +41,7 @@ class Reader {
                       next_ ? io::quotable(next_->text) : "end of the file", expected});
   }
 
-  /// Whether the next line is the comment "NAME" or "NAME:"; taken if so.
+  /// Whether the next line is the comment "NAME" or "NAME:". If so, consumes it.
   bool section(std::string_view name) {
     if (!next_ || !next_->comment) return false;
     std::string_view text = next_->text;
@@ -71,7 +71,7 @@ class Reader {
     return int(*value);
   }
 
-  /// So many words on the next line, all finite numbers.
+  /// Reads `size` finite numbers from the next line.
   std::vector<double> numbers(std::size_t size, const std::string& expected) {
     if (!next_ || next_->comment) refuse(expected);
     std::vector<double> values;

@@ -9,15 +9,15 @@
 
 namespace hyperex::expression {
 
-/// A unit as the file lists it. A vertex may be listed twice: its displacements then add up.
+/// A unit as the file lists it. If a vertex is listed more than once, its displacements are added.
 struct CandideUnit {
   std::string name;           ///< the comment above it
   std::vector<int> vertices;  ///< 0-based, in the file's order
   Points displacement;        ///< one row per entry, model units
 };
 
-/// A wireframe face of the CANDIDE family as its .wfm file holds it: y up, z forward, +x the
-/// subject's left, lengths in units of the model.
+/// A wireframe face of the CANDIDE family as stored in its .wfm file: +x to the subject's left, y
+/// up, z forward, lengths in model units.
 struct CandideFile {
   TriMesh mesh;
   std::vector<CandideUnit> animation_units, shape_units;
@@ -25,12 +25,12 @@ struct CandideFile {
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> texture;  ///< |V| x 2 or empty
 };
 
-/// Sections in this order, each after a comment line with its name: VERTEX LIST, FACE LIST,
-/// ANIMATION UNITS LIST, SHAPE UNITS LIST, and, where present, ANIMATION PARAMETERS, SHAPE
-/// PARAMETERS, TEXTURE, END OF FILE. A section begins with its count; a unit with "# name" and the
-/// number of its entries "vertex dx dy dz". Throws InputError naming the line: a section missing or
-/// out of order, too few or too many lines, words that are no numbers, a vertex out of range, a
-/// face that uses a vertex twice, a count that is none.
+/// The sections of the file, in this order, each after a comment line with its name: VERTEX LIST,
+/// FACE LIST, ANIMATION UNITS LIST, SHAPE UNITS LIST and, optionally, ANIMATION PARAMETERS, SHAPE
+/// PARAMETERS, TEXTURE, END OF FILE. A section begins with the number of its items. A unit begins
+/// with "# name" and the number of its entries "vertex dx dy dz". Throws InputError naming the line
+/// if a section is missing or out of order, if there are too few or too many lines, if a number or
+/// a count is invalid, if a vertex is out of range, or if a face uses a vertex twice.
 CandideFile read_candide(const std::filesystem::path& file);
 
 }  // namespace hyperex::expression

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int kVertices = 113, kAnimationUnits = 14, kJawDrop = 3;
 constexpr int kOuterEyeCorners[] = {20, 53};
-constexpr double kEyeDistance_m = 0.094;  // a grown person's, outer corner to outer corner
+constexpr double kEyeDistance_m = 0.094;  // between the outer eye corners of an adult
 
 DeformationUnit unit_of(const CandideUnit& from, double metres_per_unit) {
-  std::map<int, Vec3> moved;  // a vertex listed twice moves by the sum
+  std::map<int, Vec3> moved;  // the displacements of a vertex listed twice are added
   for (std::size_t i = 0; i < from.vertices.size(); ++i) {
     Vec3& d = moved.try_emplace(from.vertices[i], Vec3::Zero()).first->second;
     d += metres_per_unit * from.displacement.row(Eigen::Index(i)).transpose();
@@ -32,8 +32,8 @@ DeformationUnit unit_of(const CandideUnit& from, double metres_per_unit) {
   return unit;
 }
 
-/// The triangles, running counter-clockwise as seen from the front. candide3.wfm has them all the
-/// other way round, so that normals point into the head and no vertex seems to face the camera.
+/// The triangles, counter-clockwise as seen from the front. In candide3.wfm all of them run
+/// clockwise, so that normals would point into the head and no vertex would face the camera.
 Triangles outward(const TriMesh& mesh) {
   double towards_front = 0;  // twice the area as seen from the front
   for (const auto t : mesh.triangles.rowwise()) {

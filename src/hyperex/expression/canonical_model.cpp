@@ -14,9 +14,9 @@ namespace hyperex::expression {
 namespace {
 
 constexpr double kTurn_rad = 20 * std::numbers::pi / 180;
-constexpr double kShapeStep = 0.1;  // of width, height and depth at weight 1
+constexpr double kShapeStep = 0.1;  // relative change of width, height or depth at weight 1
 
-/// A unit as the table has it.
+/// The rows of the table that define one unit.
 struct UnitRows {
   DeformationUnit unit;
   std::string kind, symmetry;
@@ -67,7 +67,7 @@ std::string with_side(std::string text, const char* side) {
   return star == std::string::npos ? text : text.replace(star, 1, side);
 }
 
-/// The rows completed to both halves, one entry per unit of the model.
+/// Completes the rows to both halves of the face. Returns one entry per unit of the model.
 std::vector<UnitRows> both_sides(const UnitRows& rows, const std::vector<int>& mirror) {
   const auto other = [&](bool turn_x) {
     std::map<int, Vec3> at;
@@ -94,7 +94,8 @@ std::vector<UnitRows> both_sides(const UnitRows& rows, const std::vector<int>& m
   return {whole};
 }
 
-/// The smoothest field through the rows, at rest out of their reach.
+/// The smoothest displacement field that takes the values of the rows and is zero beyond their
+/// reach.
 DeformationUnit spread(const UnitRows& rows, const Points& points, const SparseMatrix& smoothness,
                        const Vec3& jaw_axis_m) {
   std::map<int, Vec3> fixed = rows.at;

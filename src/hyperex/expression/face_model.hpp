@@ -8,8 +8,8 @@
 
 namespace hyperex::expression {
 
-/// One way in which a face differs (shape) or moves (animation): at weight 1 the listed vertices
-/// are displaced, all others stay.
+/// One way in which a face differs from the mean (shape) or moves (animation). At weight 1 the
+/// listed vertices have the given displacements; all others are not displaced.
 struct DeformationUnit {
   std::string name;  ///< the model's own name, e.g. "jawOpen", "Jaw drop"
   std::string facs;  ///< the action unit of the Facial Action Coding System, e.g. "AU26"; may be
@@ -17,12 +17,12 @@ struct DeformationUnit {
   /// Names of ARKit's blend shapes for positive and for negative weights; may be empty.
   std::string arkit, arkit_negative;
   double arkit_scale = 1;     ///< ARKit's weight = arkit_scale * |weight|, at most 1
-  double typical = 0.3;       ///< standard deviation of the weight a priori, > 0
-  std::vector<int> vertices;  ///< n of them, none twice
+  double typical = 0.3;       ///< prior standard deviation of the weight, > 0
+  std::vector<int> vertices;  ///< n vertices, none twice
   Points displacement_m;      ///< n x 3
 };
 
-/// A model's vertex that the landmark network sees too.
+/// A vertex of the model that is also a point of the landmark network.
 struct NetworkPair {
   int vertex = 0;   ///< of the model
   int network = 0;  ///< of the network's 468 points
@@ -33,41 +33,42 @@ struct NetworkPair {
 /// +y up, +z forward. V vertices.
 struct FaceModel {
   std::string name;
-  TriMesh mesh;  ///< g_mean with its triangles, eyes and mouth open where the model allows
+  TriMesh mesh;  ///< g_mean and its triangles; eyes and mouth are open if the model has openings
   std::vector<DeformationUnit> shape_units, animation_units;
   std::vector<NetworkPair> pairs;
-  /// Name -> vertices whose mean the landmark is: iBUG points and anatomical ones, those that the
-  /// model has.
+  /// Maps a landmark's name to the vertices whose mean it is. Contains the iBUG and anatomical
+  /// landmarks that the model defines.
   std::map<std::string, std::vector<int>> landmarks;
-  int jaw_drop = -1;  ///< row of animation_units: opens the mouth
+  int jaw_drop = -1;  ///< row of animation_units: the unit that opens the mouth
 
   Eigen::Index vertex_count() const { return mesh.points.rows(); }
-  /// Row of animation_units, -1 where there is none of that name.
+  /// Row of animation_units with that name, or -1 if there is none.
   int animation_unit(const std::string& unit_name) const;
 };
 
-/// `base` + sum_k weights[k] units[k]. `weights` as long as `units`; a row of `base` a vertex.
+/// `base` + sum_k weights[k] units[k]. There is one weight per unit; each row of `base` is a
+/// vertex.
 Points deformed(const Points& base, const std::vector<DeformationUnit>& units,
                 const Eigen::VectorXd& weights);
 
 /// The mean of a landmark's vertices.
 Vec3 landmark_at(const std::vector<int>& vertices, const Points& points);
-/// All landmarks of a model on `points`, its vertices, in the order of model.landmarks.
+/// All landmarks of a model in the order of model.landmarks. `points`: positions of its vertices.
 Points landmarks_on(const FaceModel& model, const Points& points);
 
-/// The blend shapes that a unit's `arkit` names: "mouthSmile*" both sides, Left and Right; a name
-/// without a star itself; nothing for "".
+/// The blend shapes that a unit's `arkit` names: for "mouthSmile*", the two with Left and Right;
+/// for a name without a star, the name itself; for "", none.
 std::vector<std::string> arkit_names(const std::string& pattern);
 
-/// The canonical face (face/canonical_face.hpp) with animation units of its own
-/// (data/canonical_units.csv) and three shape units: width, height and depth by 10 %. Each of
-/// its 468 vertices is one of the network's points. The same object ever after.
+/// The canonical face (face/canonical_face.hpp) with its own animation units
+/// (data/canonical_units.csv) and three shape units: width, height and depth by 10 %. Each of its
+/// 468 vertices is one point of the network. Always returns the same object.
 const FaceModel& canonical_model();
 
-/// CANDIDE-3 from a .wfm file, scaled so that its outer eye corners are 94 mm apart, paired with
-/// the network's points by data/candide_pairs.csv. Throws InputError where the file is
-/// malformed (candide.hpp) or has not CANDIDE-3's 113 vertices and 14 animation units, which the
-/// tables are made for.
+/// Reads CANDIDE-3 from a .wfm file. The model is scaled to a distance of 94 mm between the outer
+/// eye corners. Its vertices are paired with the network's points by data/candide_pairs.csv. Throws
+/// InputError if the file is malformed (candide.hpp), or if it does not have the 113 vertices and
+/// 14 animation units of CANDIDE-3, which the tables require.
 FaceModel candide_model(const std::string& wfm_file);
 
 }  // namespace hyperex::expression

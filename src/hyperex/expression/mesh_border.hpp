@@ -7,10 +7,12 @@
 
 namespace hyperex::expression {
 
-/// Edges that have one triangle only, as pairs of vertices, the lower first.
+/// The border edges of a mesh (edges with one triangle only), as pairs of vertices with the lower
+/// index first.
 struct BorderEdges {
-  std::vector<std::pair<int, int>> outline;   ///< of the longest connected piece: around the face
-  std::vector<std::pair<int, int>> openings;  ///< of all others: eyes, mouth
+  /// Edges of the longest connected border, around the face.
+  std::vector<std::pair<int, int>> outline;
+  std::vector<std::pair<int, int>> openings;  ///< edges of all other borders: eyes, mouth
 };
 BorderEdges border_edges(const TriMesh& mesh);
 

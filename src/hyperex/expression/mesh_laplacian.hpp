@@ -9,12 +9,13 @@ namespace hyperex::expression {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// |V| x |V|: (L d)_i = d_i - mean of d over the neighbours of i; a vertex without triangles has an
-/// empty row.
+/// The matrix L, |V| x |V|, with (L d)_i = d_i - mean of d over the neighbours of i. The row of a
+/// vertex without triangles is zero.
 SparseMatrix mesh_laplacian(const TriMesh& mesh);
 
-/// The field d with d_v = fixed[v] that minimises d^T `smoothness` d (|V| x |V|, positive
-/// semidefinite, definite on the free vertices: std::logic_error otherwise). One row per vertex.
+/// The field d with d_v = fixed[v] that minimises d^T S d, where S is `smoothness`, |V| x |V|,
+/// positive semidefinite. Returns one row per vertex. Throws std::logic_error if S is not positive
+/// definite on the free vertices.
 Points smooth_fill(const SparseMatrix& smoothness, const std::map<int, Vec3>& fixed);
 
 }  // namespace hyperex::expression

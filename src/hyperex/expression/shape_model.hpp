@@ -6,22 +6,22 @@
 
 namespace hyperex::expression {
 
-/// How real faces move, as shapes of the canonical face: the expression shapes of a public rig
-/// (ICT-FaceKit, from light-stage scans), and how far and how often together they are used (a
-/// recording of one person). Tables and their sources: data/expression_shapes.csv and
-/// data/expression_couplings.csv, made by scripts/shape_model.py.
+/// Facial motion as a linear combination of displacement shapes of the canonical face. The shapes
+/// are the expression shapes of a public rig (ICT-FaceKit, from light-stage scans). The covariance
+/// of their weights is that of a recording of one person. The tables data/expression_shapes.csv and
+/// data/expression_couplings.csv state their sources; they are made by scripts/shape_model.py.
 struct ShapeModel {
-  std::vector<std::string> names;  ///< ICT-FaceKit's; "_L", "_R": the subject's own sides
-  /// 3 |vertices| x |names|, m: displacement of the canonical face's vertices (x, y, z of each, in
-  /// its frame and size) where a shape's weight is 1.
+  std::vector<std::string> names;  ///< names of ICT-FaceKit; "_L", "_R": the subject's own sides
+  /// 3 |vertices| x |names|, m: displacements of the canonical face's vertices (x, y, z of each) in
+  /// its own frame and size, at weight 1 of a shape.
   Eigen::MatrixXd displacement;
-  /// |names| x |names|: of the weights before a face is seen. They are 0 or more, mostly below 1.
-  /// Shapes of one side are not coupled with those of the other, so that a palsy is not smoothed
-  /// away.
+  /// |names| x |names|: prior covariance of the weights, which are >= 0 and mostly below 1. Shapes
+  /// of one side are not correlated with those of the other, so that the prior does not hide a
+  /// palsy.
   Eigen::MatrixXd covariance;
 };
 
-/// Read at the first call, the same object ever after.
+/// Read at the first call. Always returns the same object.
 const ShapeModel& shape_model();
 
 }  // namespace hyperex::expression

@@ -8,7 +8,7 @@
 namespace hyperex::expression {
 
 namespace {
-constexpr double kSecond = 1000;  // more than frames in a second
+constexpr double kSecond = 1000;  // greater than any number of frames per second
 double frames_of(double code) {
   return code - kSecond * std::floor(code / kSecond);
 }

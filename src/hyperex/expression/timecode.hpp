@@ -6,13 +6,13 @@
 
 namespace hyperex::expression {
 
-/// Timecodes of Live Link Face, "HH:MM:SS:FF.fff": hours, minutes, seconds, frames and thousandths
-/// of a frame. As one number: 1000 times the whole seconds, plus the frames; nothing where the
-/// text is none.
+/// Decodes a timecode of Live Link Face, "HH:MM:SS:FF.fff": hours, minutes, seconds, frames and
+/// thousandths of a frame. Returns one number: 1000 times the whole seconds plus the frames;
+/// nothing if the text is not a timecode.
 std::optional<double> timecode_frames(std::string_view text);
 
-/// Frames a second, which the code does not say: 60 where a frame number reaches 30, else 30 where
-/// one reaches 24, else 24.
+/// Frames per second, which a timecode does not state: 60 if any frame number reaches 30, else 30
+/// if any reaches 24, else 24.
 double frame_rate_of(const std::vector<double>& codes);
 
 /// Seconds since midnight.

@@ -16,7 +16,7 @@ bool is_gaze(const std::string& shape) {
   return shape.starts_with("eyeLook");
 }
 
-/// Means of all weights but those of gaze over an interval; empty where no face was seen in it.
+/// Mean weights over an interval, without those of gaze; nothing if the face was not seen in it.
 std::optional<Eigen::RowVectorXd> mean_weights(const BlendShapes& shapes, double from_s,
                                                double to_s) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(shapes.weights.cols());
@@ -27,7 +27,7 @@ std::optional<Eigen::RowVectorXd> mean_weights(const BlendShapes& shapes, double
   for (auto k = first - t.begin(); k < last - t.begin(); ++k) {
     const Eigen::RowVectorXd row = shapes.weights.row(k);
     if (row.array().isNaN().all()) continue;
-    sum += row.array().isNaN().select(0, row.array()).matrix();  // a column that is empty there
+    sum += row.array().isNaN().select(0, row.array()).matrix();  // an empty cell counts as 0
     ++count;
   }
   if (count == 0) return std::nullopt;

@@ -21,7 +21,8 @@ namespace {
 constexpr int kVertices = 468, kTriangles = 898;
 constexpr double kMetresPerCentimetre = 0.01;
 
-// Our own files, written at build time: a fault in them is a fault of the build.
+// These files are part of the program and are embedded at build time. An error in them is a
+// programming error.
 void require(bool sound) {
   if (!sound) throw std::logic_error("the canonical face inside this program is damaged");
 }
@@ -79,7 +80,7 @@ void read_landmark_table(std::string_view text, CanonicalFace& face) {
   }
 }
 
-/// Rows of the triangles all of whose corners lie on a contour: they close that opening.
+/// Rows of the triangles with all three corners on a contour. These triangles close that opening.
 std::vector<int> triangles_within(const Triangles& triangles, const std::vector<int>& contour) {
   const std::set<int> on(contour.begin(), contour.end());
   std::vector<int> rows;

@@ -10,37 +10,39 @@
 namespace hyperex::face {
 
 /// The canonical face of MediaPipe Face Mesh (npm package @mediapipe/face_mesh, Apache-2.0),
-/// carried inside this library: +x the subject's left, +y up, +z forward, metres, 15.5 x 17.7
-/// x 10.0 cm.
+/// embedded in this library: +x the subject's left, +y up, +z forward, metres. Its size is 15.5 x
+/// 17.7 x 10.0 cm.
 struct CanonicalFace {
   TriMesh mesh;  ///< 468 vertices, 898 triangles, one border; eyes and mouth closed by triangles
   Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> uv;  ///< |V| x 2, v down as in pictures
-  /// Name -> vertices whose mean the landmark is (data/canonical_landmarks.csv): the 68 iBUG points
-  /// and the anatomical ones.
+  /// Maps a landmark's name to the vertices whose mean it is (data/canonical_landmarks.csv): the 68
+  /// iBUG points and the anatomical landmarks.
   std::map<std::string, std::vector<int>> landmarks;
-  /// Rows of mesh.triangles that close the openings: 14, 14 and 18.
+  /// Rows of mesh.triangles that close an opening: 14, 14 and 18 of them.
   std::vector<int> right_eye, left_eye, mouth;
 
-  /// Position of a landmark on `vertices`, the mesh's own or moved ones.
+  /// Position of a landmark. `vertices`: the positions of the mesh's vertices, at rest or
+  /// displaced.
   Vec3 landmark(const std::string& name, const Points& vertices) const;
 };
 
-/// Parsed at the first call, the same object ever after.
+/// Parsed at the first call. Always returns the same object.
 const CanonicalFace& canonical_face();
 
-/// mesh.triangles without those that close the openings.
+/// The triangles of the mesh except those that close the openings.
 Triangles opened_triangles(const CanonicalFace& face);
 
-/// The inner contours of an opening, closed walks of vertices in order around it.
+/// The inner contour of each opening: a closed path of vertices in order.
 const std::vector<int>& right_eye_contour();
 const std::vector<int>& left_eye_contour();
 const std::vector<int>& lip_contour();
 
-/// Per vertex the one opposite the midplane; those on it are their own.
+/// For each vertex, its mirror image in the midsagittal plane. A vertex on this plane is its own
+/// mirror image.
 const std::vector<int>& mirrored_vertices();
 
-/// The same landmark on the other side: "cheilion_L" -> "cheilion_R", "ibug68_48" -> "ibug68_54"; a
-/// midline or unknown name is its own mirror.
+/// The corresponding landmark on the other side: "cheilion_L" -> "cheilion_R", "ibug68_48" ->
+/// "ibug68_54". A landmark on the midline and an unknown name are returned unchanged.
 std::string mirrored_landmark(const std::string& name);
 
 }  // namespace hyperex::face

@@ -7,8 +7,8 @@
 
 namespace hyperex::face {
 
-/// Axes of a face from its landmarks: x to the subject's left, y up, z forward. Rigid: lengths stay
-/// metres.
+/// An orthonormal frame of a face, derived from its landmarks: x to the subject's left, y up, z
+/// forward. Lengths are in metres and are not scaled.
 struct FaceFrame {
   Vec3 origin, x, y, z;
   Vec3 local(const Vec3& p) const {
@@ -29,16 +29,17 @@ struct FaceFrame {
   }
 };
 
-/// The frame of a face with all its landmarks: x from outer eye corner to outer eye corner, y from
-/// chin to nasion, made orthogonal; the origin midway between the mouth corners. Needs ibug68_8,
-/// 27, 36, 45, 48, 54 (std::out_of_range otherwise: complete the landmarks first).
+/// The frame of a face with all its landmarks. x points from the right outer eye corner to the left
+/// one; y points from chin to nasion and is made orthogonal to x. The origin is midway between the
+/// mouth corners. Needs ibug68_8, 27, 36, 45, 48, 54 (otherwise std::out_of_range: complete the
+/// landmarks first).
 FaceFrame face_frame(const io::Landmarks& landmarks);
 
-/// The frame of a face with the few landmarks that a user set, where chin and nasion are often
-/// absent: y from the mouth to the outer eye corners, which leans back by some degrees against that
-/// of face_frame; the rest as there. Needs the outer corners of the eyes and those of the mouth,
-/// under their anatomical or their iBUG names (the former count where both are given); nullopt
-/// where one is absent or they lie on one line.
+/// The frame of a face with few landmarks given by the user, where chin and nasion are often
+/// absent. y points from the mouth to the outer eye corners, and so is inclined backwards by some
+/// degrees relative to y of face_frame; the rest is the same. Needs the outer corners of the eyes
+/// and the corners of the mouth, under their anatomical or iBUG names. If both names are given, the
+/// anatomical one is used. Returns nullopt if a point is absent or if they lie on one line.
 std::optional<FaceFrame> face_frame_of_corners(const io::Landmarks& landmarks);
 
 }  // namespace hyperex::face

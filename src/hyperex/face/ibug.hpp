@@ -11,7 +11,7 @@ namespace hyperex::face {
 std::string ibug(int k);
 /// All 68, in order.
 const std::vector<std::string>& all_ibug();
-/// 48 of "ibug68_48"; none of any other name.
+/// The number in an iBUG name, 48 for "ibug68_48"; nothing for any other name.
 std::optional<int> ibug_number(std::string_view name);
 
 }  // namespace hyperex::face

@@ -90,7 +90,7 @@ constexpr std::array<IbugWords, 68> ibug_points = {{
     {"edge of the lower lip", 'R'},
 }};
 
-/// Anatomical landmarks without their side: what they are to those who do not know the term.
+/// Plain words for anatomical landmarks, without their side.
 const std::map<std::string_view, std::string_view> anatomical = {
     {"exocanthion", "outer corner of the eye (exocanthion)"},
     {"endocanthion", "inner corner of the eye (endocanthion)"},

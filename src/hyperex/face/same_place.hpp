@@ -8,15 +8,15 @@
 
 namespace hyperex::face {
 
-/// Whether two different names mean the same place of a face: the anatomical name of one of the 68
-/// iBUG points, as cheilion_R and ibug68_48.
+/// Whether two different names denote the same landmark: an iBUG point and its anatomical name,
+/// such as ibug68_48 and cheilion_R.
 bool same_place(const std::string& a, const std::string& b);
 
-/// The other name of a landmark's place, as ibug68_48 of cheilion_R; empty where it has none.
+/// The other name of a landmark, such as ibug68_48 for cheilion_R; empty if it has none.
 std::string other_name(const std::string& name);
 
-/// Where a landmark is, under this name or else the other of its place; none where neither is given
-/// or finite.
+/// The position of a landmark under this name or under its other name; nothing if neither is given
+/// with finite coordinates.
 std::optional<Vec3> find_place(const io::Landmarks& landmarks, const std::string& name);
 
 }  // namespace hyperex::face

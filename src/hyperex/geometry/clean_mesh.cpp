@@ -18,7 +18,7 @@ namespace {
 
 using Tri = std::array<int, 3>;
 
-/// For each vertex the first one at exactly the same place.
+/// For each vertex, the first vertex at exactly the same place.
 std::vector<int> first_at_same_place(const Points& points) {
   std::vector<int> order(points.rows());
   std::iota(order.begin(), order.end(), 0);
@@ -31,8 +31,8 @@ std::vector<int> first_at_same_place(const Points& points) {
   return first;
 }
 
-/// Drops triangles until every directed edge is used at most once: this also drops those turned
-/// against their neighbours, of which a scan has few.
+/// Drops triangles until every directed edge is used at most once. This also drops triangles whose
+/// orientation is opposite to that of their neighbours; a scan has few of these.
 std::size_t drop_non_manifold(std::vector<Tri>& tris, std::vector<int>& source) {
   DirectedEdges used(3 * tris.size());
   std::vector<Tri> kept;
@@ -52,7 +52,7 @@ std::size_t drop_non_manifold(std::vector<Tri>& tris, std::vector<int>& source) 
   return dropped;
 }
 
-/// Gives each fan of triangles around a pinched vertex its own copy of it.
+/// Separates the fans of triangles at a pinched vertex: each gets its own copy of the vertex.
 std::size_t split_pinched(std::vector<Tri>& tris, std::vector<int>& vertex_source) {
   const int count = static_cast<int>(vertex_source.size());
   std::vector<std::vector<std::pair<int, int>>> around(count);  // triangle, corner
@@ -99,7 +99,7 @@ Triangles to_matrix(const std::vector<Tri>& tris) {
   return m;
 }
 
-/// Keeps the triangles for which keep[f]; returns how many went.
+/// Keeps the triangles for which keep(f) holds; returns the number of removed ones.
 template <class Keep>
 std::size_t filter(std::vector<Tri>& tris, std::vector<int>& source, Keep keep) {
   std::size_t to = 0;

@@ -7,28 +7,32 @@
 
 namespace hyperex {
 
-/// A working copy of a scan without its faults, and what was done to get it.
+/// A copy of a scan's mesh with its defects repaired, and a report on the repairs.
 struct CleanMesh {
-  TriMesh mesh;                      ///< manifold, consistently oriented, one component
-  std::vector<int> source_vertex;    ///< of each vertex, the vertex of the given mesh it stands for
-  std::vector<int> source_triangle;  ///< of each triangle, the same
-  std::vector<std::string> notes;  ///< one sentence for each thing that was mended; empty if sound
+  TriMesh mesh;  ///< manifold, consistently oriented, one component
+  /// For each vertex, the vertex of the given mesh that it corresponds to.
+  std::vector<int> source_vertex;
+  std::vector<int> source_triangle;  ///< for each triangle, the triangle of the given mesh
+  /// One sentence for each kind of repair; empty if none was needed.
+  std::vector<std::string> notes;
 };
 
 struct CleanOptions {
-  /// Components with less than this share of the whole area are islands and are dropped.
+  /// Components with less than this share of the total area are dropped as islands.
   double island_area_share = 0.2;
-  /// False for a surface that was cut on purpose: the two rims of a cut lie at the same place.
+  /// Set to false for a surface that was cut on purpose: the two rims of a cut coincide and would
+  /// be joined.
   bool join_duplicates = true;
 };
 
-/// Joins duplicate vertices, drops degenerate, duplicate and unused ones, resolves edges of more
-/// than two triangles and pinched vertices, keeps the large components (only the largest, where
-/// several are large). Throws InputError-free std::invalid_argument where nothing is left.
+/// Joins duplicate vertices; drops degenerate triangles, duplicate triangles and unused vertices;
+/// resolves edges with more than two triangles and pinched vertices; drops small components. If
+/// several components are large, only the largest is kept. Throws std::invalid_argument (not
+/// InputError, as no file is known here) if nothing is left.
 CleanMesh clean_mesh(const TriMesh& mesh, const CleanOptions& options = {});
 
-/// The mesh without the triangles for which `drop` is set, cleaned again without joining vertices
-/// at one place (a cut stays open).
+/// The mesh without the triangles for which `drop` is set, cleaned again. Vertices at the same
+/// place are not joined, so that a cut stays open.
 TriMesh without_triangles(const TriMesh& mesh, const std::vector<char>& drop);
 
 }  // namespace hyperex

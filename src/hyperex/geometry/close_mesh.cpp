@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Index;
 
-/// No edge is run through twice in one direction.
+/// Whether each directed edge is used at most once.
 bool oriented(const Triangles& triangles) {
   DirectedEdges edges(3 * static_cast<std::size_t>(triangles.rows()));
   for (Index f = 0; f < triangles.rows(); ++f)
@@ -23,8 +23,8 @@ bool oriented(const Triangles& triangles) {
   return true;
 }
 
-/// Continues the surface over a border by a ring of triangles, whose outer border is returned: no
-/// edge among its vertices is there already.
+/// Extends the surface beyond a border by a ring of triangles. Returns the outer border of the
+/// ring. Its vertices are new, so that the mesh has no other edges between them.
 std::vector<int> add_collar(TriMesh& mesh, const std::vector<int>& loop, double width) {
   const auto n = static_cast<Index>(loop.size());
   const auto first = static_cast<int>(mesh.points.rows());
@@ -56,7 +56,8 @@ std::vector<int> add_collar(TriMesh& mesh, const std::vector<int>& loop, double 
   return outer;
 }
 
-/// As fill_hole(), whose triangles may lie over edges that are there; then behind a collar.
+/// Fills a hole by fill_hole(). If its triangles reuse existing edges, adds a collar first and
+/// fills the hole inside it.
 bool fill(TriMesh& mesh, const std::vector<int>& loop, double length) {
   const TriMesh before = mesh;
   if (fill_hole(mesh, loop) && oriented(mesh.triangles)) return true;

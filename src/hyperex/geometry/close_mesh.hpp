@@ -6,18 +6,19 @@
 
 namespace hyperex {
 
-/// What close_mesh() did.
+/// Report of close_mesh().
 struct Closing {
-  int borders = 0;       ///< closed
-  double longest_m = 0;  ///< of them
-  std::string why_not;   ///< empty: the mesh is watertight now
+  int borders = 0;       ///< number of borders closed
+  double longest_m = 0;  ///< length of the longest of them
+  std::string why_not;   ///< why it failed; empty if the mesh is now watertight
 };
 
-/// Makes a surface watertight, its triangles outward: fills each border (fill_hole), behind a
-/// ring of half an edge's width where edges would meet three triangles else, and turns all
-/// triangles round where they enclose a negative volume. A surface whose edges are not of two
-/// triangles, oriented alike, is cleaned first (clean_mesh), which leaves its largest part.
-/// Metres. Throws nothing but std::bad_alloc; where it fails the mesh is left half closed.
+/// Makes a surface watertight with outward triangles. Each border is filled (fill_hole). If this
+/// would put a third triangle on an edge, a ring of triangles, half an edge wide, is first added
+/// along the border. If the enclosed volume is negative, all triangles are reversed. If the
+/// triangles are not consistently oriented, the mesh is first cleaned (clean_mesh), which keeps its
+/// largest component. Lengths in metres. Throws nothing but std::bad_alloc. If it fails, the mesh
+/// is left partly closed.
 Closing close_mesh(TriMesh& mesh);
 
 }  // namespace hyperex

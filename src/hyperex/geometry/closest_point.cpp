@@ -13,7 +13,7 @@
 namespace hyperex {
 namespace {
 
-// The nearest point of segment (a, b), as the share of b.
+// The closest point on the segment (a, b), as the fraction of the way from a to b.
 double share_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 edge = b - a;
   const double length2 = edge.squaredNorm();
@@ -41,7 +41,8 @@ ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3&
     weights[0] = 1 - weights[1] - weights[2];
     if (weights.minCoeff() >= 0) offer(weights);
   }
-  // The edges are tried even where the foot seems inside: in a sliver that is decided by rounding.
+  // The edges are tried even if the foot seems to lie inside: in a sliver, this is decided by
+  // rounding.
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
     const double share = share_on_segment(p, corner[k], corner[next]);
@@ -55,8 +56,9 @@ ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3&
 
 struct SurfaceTree::Impl {
   TriMesh mesh;
-  Vec3 centre = Vec3::Zero();  // the tree is built about it, to lose no digits in single precision
-  double slack = 0;            // how far a bound may be off by rounding
+  // The tree is built relative to this point, to lose fewer digits in single precision.
+  Vec3 centre = Vec3::Zero();
+  double slack = 0;  // upper bound of the rounding error of a bound
   RTCScene scene = nullptr;
 
   ~Impl() {
@@ -86,7 +88,7 @@ struct SurfaceTree::Impl {
     const Impl* self;
     Vec3 p;
     ClosestPoint best;
-    const char* keep;  // or nullptr: all
+    const char* keep;  // null: all
   };
 
   static bool visit(RTCPointQueryFunctionArguments* args) {
@@ -103,7 +105,8 @@ struct SurfaceTree::Impl {
         triangle > best.triangle)
       return false;
     search.best = found;
-    // A little wider than the best distance, so that every triangle at that distance is visited.
+    // The radius is a little greater than the best distance, so that every triangle at that
+    // distance is visited.
     const double radius = std::sqrt(found.squared_distance) * (1 + 1e-5) + search.self->slack;
     args->query->radius = static_cast<float>(radius);
     return true;
@@ -145,8 +148,8 @@ SurfaceTree::SurfaceTree(const TriMesh& mesh) : impl_(std::make_unique<Impl>()) 
   impl_->scene = rtcNewScene(device);
   if (!impl_->scene) throw std::bad_alloc();
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-  // Meshes of few triangles usually get few queries: a tree made fast serves better than a fast
-  // one.
+  // Meshes with few triangles usually get few queries. For them, a tree that is built fast is
+  // better than a tree with fast queries.
   if (mesh.triangles.rows() < kFewTriangles)
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_LOW);
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
@@ -175,7 +178,8 @@ ClosestPoint SurfaceTree::query_among(const std::vector<char>& keep, const Vec3&
 }
 
 double SurfaceTree::reach(const Vec3& p, const Vec3& near) const {
-  // Wider than rounding, of the point or of its distance, so that its own triangle is looked at.
+  // Wider than the rounding errors of the point and of its distance, so that the triangle
+  // containing `near` is visited.
   return (p - near).norm() * (1 + 1e-9) + impl_->slack;
 }
 

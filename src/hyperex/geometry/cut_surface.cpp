@@ -12,7 +12,8 @@ namespace hyperex {
 namespace {
 using Edge = std::pair<int, int>;
 
-/// The triangles of `fan` reached from `first` across edges at `v` that are not in `barrier`.
+/// The triangles of `fan` that can be reached from `first` across edges at `v` without crossing an
+/// edge to a vertex in `barrier`.
 std::set<int> side_of_fan(const Triangles& triangles, const std::vector<int>& fan, int v, int first,
                           const std::set<int>& barrier) {
   std::map<int, std::vector<int>> by_neighbour;

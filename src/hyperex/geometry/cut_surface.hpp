@@ -9,20 +9,22 @@ namespace hyperex {
 
 /// A surface opened along a line. The given vertices keep their places; new ones are appended.
 struct CutSurface {
-  TriMesh mesh;  ///< row f of the given triangles is itself or one piece of it, its other pieces
-                 ///< are appended
-  std::vector<EdgePoint> appended;       ///< where each appended vertex lies on the given mesh
-  std::vector<int> source_triangle;      ///< of each triangle, the given one it is (a piece of)
-  std::vector<int> left_rim, right_rim;  ///< along the line, ends included and shared
+  /// Row f is the given triangle f or one piece of it; its other pieces are appended.
+  TriMesh mesh;
+  std::vector<EdgePoint> appended;  ///< position of each appended vertex on the given mesh
+  /// For each triangle, the given triangle that it equals or is a piece of.
+  std::vector<int> source_triangle;
+  std::vector<int> left_rim, right_rim;  ///< the two rims along the line; they share its ends
 };
 
-/// Opens `mesh` (manifold, oriented) along `path`: every vertex between its ends is doubled, the
-/// triangles on the right of the walk (seen from outside) get the copy. A path of fewer than three
-/// vertices opens nothing. Throws std::invalid_argument where two neighbours of the path share no
-/// edge with a triangle on both sides.
+/// Opens `mesh` (manifold, oriented) along `path`. Every vertex between the ends is duplicated; the
+/// triangles on the right of the path, seen from outside, get the copy. A path of fewer than three
+/// vertices opens nothing. Throws std::invalid_argument if two successive vertices of the path are
+/// not joined by an edge with a triangle on both sides.
 CutSurface cut_along(const TriMesh& mesh, const std::vector<int>& path);
 
-/// Opens `mesh` along `line` as insert_line lays it on the surface, across triangles.
+/// Opens `mesh` along `line`, which insert_line() projects onto the surface. The line may cross
+/// triangles.
 CutSurface cut_along_line(const TriMesh& mesh, const Points& line, const Vec3& towards_viewer);
 
 }  // namespace hyperex

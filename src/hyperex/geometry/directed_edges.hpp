@@ -6,14 +6,14 @@
 
 namespace hyperex {
 
-/// A set of directed edges between vertices: a table of fixed size with open addressing, 12 bytes
-/// an edge and up; a scan has millions.
+/// A set of directed edges between vertices: a hash table of fixed size with open addressing. It
+/// takes at least 12 bytes per edge; a scan has millions of edges.
 class DirectedEdges {
  public:
   explicit DirectedEdges(std::size_t most)
       : slots_(std::bit_ceil(most + most / 2 + 2), kNone), mask_(slots_.size() - 1) {}
 
-  /// False where it is in already. No more than `most` may be inserted.
+  /// Returns false if the edge is already in the set. At most `most` edges may be inserted.
   bool insert(int from, int to) {
     std::uint64_t& slot = slots_[find(key(from, to))];
     const bool fresh = slot == kNone;
@@ -23,7 +23,8 @@ class DirectedEdges {
   bool contains(int from, int to) const { return slots_[find(key(from, to))] != kNone; }
 
  private:
-  static constexpr std::uint64_t kNone = ~std::uint64_t(0);  // no edge: vertices are not negative
+  // No valid edge, as vertex numbers are not negative.
+  static constexpr std::uint64_t kNone = ~std::uint64_t(0);
   static std::uint64_t key(int from, int to) {
     return (std::uint64_t(std::uint32_t(from)) << 32) | std::uint32_t(to);
   }

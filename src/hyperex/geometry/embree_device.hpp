@@ -10,23 +10,24 @@
 
 namespace hyperex {
 
-/// Embree's device of this process, for all scenes and threads: making one takes as long as a tree
-/// of some thousand triangles. Throws std::runtime_error where Embree does not start.
+/// The Embree device of this process, shared by all scenes and threads. Creating a device takes as
+/// long as a tree of some thousand triangles. Throws std::runtime_error if Embree cannot be
+/// initialised.
 inline RTCDevice embree_device() {
   static const RTCDevice device = rtcNewDevice(nullptr);
   if (!device) throw std::runtime_error("Embree does not start");
   return device;
 }
 
-/// Throws what Embree has reported in this thread: it goes on without memory, and a tree that was
-/// not built crashes the queries.
+/// Throws the error that Embree has reported in this thread, if any. Without this check, Embree
+/// continues after running out of memory, and queries on the missing tree crash.
 inline void throw_embree_error() {
   const RTCError error = rtcGetDeviceError(embree_device());
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build its tree");
 }
 
-/// A scene that is released with this, also where filling it fails.
+/// A scene that is released by the destructor, also if filling it fails.
 class EmbreeScene {
  public:
   EmbreeScene() : scene_(rtcNewScene(embree_device())) {
@@ -44,7 +45,7 @@ class EmbreeScene {
   RTCScene scene_;
 };
 
-/// Adds a mesh to a scene, for rays; hits name it by `id`.
+/// Adds a mesh to a scene for ray queries. Hits report it as `id`.
 inline void add_triangles(RTCScene scene, const Points& points, const Triangles& triangles,
                           unsigned id) {
   const RTCGeometry geometry = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -68,16 +69,17 @@ inline void add_triangles(RTCScene scene, const Points& points, const Triangles&
   rtcReleaseGeometry(geometry);
 }
 
-/// Builds a scene's tree. Embree shares this work through TBB, and in a group of tasks that an
-/// exception has cancelled would leave the tree half built, for queries to crash in: it is given a
-/// group of its own. Throws std::bad_alloc where memory runs out.
+/// Builds the tree of a scene. Embree distributes this work through TBB. If an exception has
+/// cancelled the surrounding task group, the tree would be left incomplete, and queries would
+/// crash. Therefore the build runs in a task group of its own. Throws std::bad_alloc if memory runs
+/// out.
 inline void commit_whole(RTCScene scene) {
   tbb::task_group_context alone(tbb::task_group_context::isolated);
   tbb::parallel_for(
       0, 1,
       [scene](int) {
         rtcCommitScene(scene);
-        throw_embree_error();  // of the thread that has built it
+        throw_embree_error();  // errors are reported in the thread that builds the tree
       },
       alone);
 }

@@ -8,17 +8,17 @@
 
 namespace hyperex {
 
-/// Paths along the edges of a mesh (Dijkstra). The neighbours are prepared once.
+/// Shortest paths along the edges of a mesh (Dijkstra). The lists of neighbours are computed once.
 class EdgePaths {
  public:
   explicit EdgePaths(const TriMesh& mesh);
 
-  /// Length of the shortest walk from the nearest of `seeds` to every vertex, in the mesh's unit;
-  /// infinite where there is none or it is longer than `limit`.
+  /// Length of the shortest path from the nearest of `seeds` to every vertex, in the unit of the
+  /// mesh. Infinite if there is no path or if it is longer than `limit`.
   std::vector<double> distances(const std::vector<int>& seeds,
                                 double limit = std::numeric_limits<double>::infinity()) const;
 
-  /// The walk of least sum of `cost(a, b)` > 0 over its edges, both ends included; empty where
+  /// The path with the least sum of `cost(a, b)` > 0 over its edges, including both ends; empty if
   /// there is none.
   std::vector<int> cheapest(int from, int to, const std::function<double(int, int)>& cost) const;
 

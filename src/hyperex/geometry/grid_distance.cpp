@@ -19,11 +19,12 @@ namespace {
 
 using Eigen::Index;
 
-constexpr int kStride = 4;  // cells between the samples that are exact everywhere
+constexpr int kStride = 4;  // cells between the samples that are computed exactly everywhere
 constexpr int kMargin = 3;  // cells beyond the band
 constexpr double kMostSamples = 1 << 28;
 
-/// The last answer on a row of samples: by how much the next can differ bounds the search for it.
+/// The previous result in a row of samples. The distance between the two places bounds the change
+/// of the result, and thereby the search.
 struct Before {
   Vec3 place = Vec3::Zero();
   double distance = std::numeric_limits<double>::infinity();
@@ -59,7 +60,7 @@ std::vector<TriMesh> components_of(const TriMesh& mesh) {
   return out;
 }
 
-/// Distances of any place to the union of components.
+/// The signed distance to the union of the components.
 class Union {
  public:
   explicit Union(const TriMesh& mesh) : whole_(mesh) {
@@ -69,12 +70,13 @@ class Union {
   struct Row {
     std::vector<Before> part;
     Before whole;
-    bool outside = false;  ///< of all components, at whole.place
+    bool outside = false;  ///< whether whole.place is outside all components
   };
   Row begin_row() const { return {std::vector<Before>(parts_.size()), {}}; }
 
   double at(const Vec3& p, Row& row) const {
-    // No surface lies between here and a place that was farther from all of them.
+    // If the previous place was outside and farther from the surface than this step is long, this
+    // place is outside too.
     if (!row.outside || (p - row.whole.place).norm() >= row.whole.distance) {
       double inside = 0;
       for (std::size_t c = 0; c < parts_.size(); ++c)
@@ -86,7 +88,7 @@ class Union {
       row.outside = inside >= 0;
       if (!row.outside) return inside;
     }
-    // Outside of all, no surface that is hidden in the union can be the nearest.
+    // Outside the union, the closest surface is never a part that is hidden inside the union.
     const ClosestPoint near = whole_.query(p, row.whole.bound(p) * (1 + 1e-9) + 1e-12);
     row.whole.set(p, std::sqrt(near.squared_distance));
     return row.whole.distance;
@@ -97,8 +99,8 @@ class Union {
   std::vector<MeshDistance> parts_;
 };
 
-/// Weights of four neighbours, and their derivatives by the place, at `t` in [0, 1] between the
-/// second and the third.
+/// Weights of four neighbouring samples, and their derivatives, at `t` in [0, 1] between the second
+/// and the third.
 struct Cubic {
   std::array<double, 4> value, slope;
   explicit Cubic(double t) {

@@ -12,7 +12,8 @@ namespace hyperex {
 bool fill_hole(TriMesh& mesh, const std::vector<int>& loop) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Kernel::Point_3> polyline;
-  // Against the border's direction, so that the new triangles agree with their neighbours.
+  // Opposite to the direction of the border, so that the new triangles are oriented as their
+  // neighbours.
   for (auto it = loop.rbegin(); it != loop.rend(); ++it)
     polyline.emplace_back(mesh.points(*it, 0), mesh.points(*it, 1), mesh.points(*it, 2));
   std::vector<CGAL::Triple<int, int, int>> patch;

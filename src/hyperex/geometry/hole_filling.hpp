@@ -6,9 +6,9 @@
 
 namespace hyperex {
 
-/// Closes the hole inside a border loop (boundary_loops) of an oriented mesh with triangles over
-/// its own vertices (CGAL's hole filling of least area and angle). False, and nothing changed,
-/// where it finds none.
+/// Fills the hole inside a border loop (boundary_loops) of an oriented mesh with triangles between
+/// the vertices of the loop (CGAL's hole filling, which minimises area and dihedral angle). Returns
+/// false, with the mesh unchanged, if there is no such filling.
 bool fill_hole(TriMesh& mesh, const std::vector<int>& loop);
 
 }  // namespace hyperex

@@ -24,7 +24,7 @@ Edge edge_of(int a, int b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// A polyline seen along one direction.
+/// A polyline projected along one direction.
 class SeenLine {
  public:
   SeenLine(const Points& line, const Vec3& towards_viewer)
@@ -51,7 +51,8 @@ class SeenLine {
     return std::sqrt(best);
   }
 
-  /// Distance as seen, above 0 on the line's left; the line goes on straight beyond its ends.
+  /// Signed distance from the line in the projection, positive on its left. The line is extended
+  /// straight beyond its ends.
   double offset(const Vec3& p) const {
     double best = std::numeric_limits<double>::infinity(), off = 0;
     for (std::size_t i = 0; i + 1 < corners_.size(); ++i) {
@@ -61,7 +62,8 @@ class SeenLine {
       if (i + 2 < corners_.size()) t = std::min(t, 1.0);
       const double distance = (d - t * e).norm();
       const double across = (e.x() * d.y() - e.y() * d.x()) / e.norm();
-      // Nearest at a corner, the segment that it stands off farther knows the side.
+      // If a corner of the line is closest, two segments have the same distance. The sign is then
+      // taken from the one whose extension is farther away.
       const bool tie = std::abs(distance - best) < 1e-9 * length_;
       if (tie ? std::abs(across) > std::abs(off) : distance < best) {
         off = across;
@@ -78,8 +80,8 @@ class SeenLine {
   double length_ = 0;
 };
 
-/// Offsets of the vertices near the line from it (NaN farther away), 0 where an edge crosses it
-/// close by.
+/// Offsets from the line of the vertices near it (NaN for others). The offset is set to 0 if the
+/// line crosses an edge close to the vertex.
 std::vector<double> snapped_offsets(const TriMesh& mesh, const SeenLine& line) {
   std::vector<double> offset(mesh.points.rows(), nowhere);
   for (std::size_t v = 0; v < offset.size(); ++v)
@@ -96,9 +98,10 @@ std::vector<double> snapped_offsets(const TriMesh& mesh, const SeenLine& line) {
   return snapped;
 }
 
-using EdgeVertices = std::map<Edge, int>;  // the appended vertex on an edge
+using EdgeVertices = std::map<Edge, int>;  // edge -> its appended vertex
 
-/// Appends the pieces of a triangle with appended vertices on one or two of its edges.
+/// Splits a triangle that has appended vertices on one or two edges; appends its pieces to
+/// `pieces`.
 void split(const TriMesh& mesh, Eigen::Index f, const EdgeVertices& on_edge, const Points& points,
            std::vector<std::array<int, 3>>& pieces) {
   const auto at = [&](int a, int b) {
@@ -177,7 +180,7 @@ std::vector<EdgePoint> crossings(const TriMesh& mesh, const std::vector<double>&
   return points;
 }
 
-/// The walk over vertices of the line alone.
+/// The path over vertices of the line only.
 std::vector<int> walk(const TriMesh& mesh, const std::vector<char>& on_line, const Points& line) {
   const auto nearest = [&](const Vec3& p) {
     int best = -1;
@@ -214,7 +217,8 @@ LinedSurface insert_line(const TriMesh& mesh, const Points& line, const Vec3& to
   for (std::size_t v = 0; v < offset.size(); ++v) on_line[v] = offset[v] == 0;
   const std::vector<int> path = walk(all.mesh, on_line, line);
 
-  // Again with the walk's own vertices alone: the line crosses other sheets and goes on beyond.
+  // Refines again with the vertices of the path only, as the line may also cross other sheets and
+  // extend beyond the path.
   const auto old = static_cast<int>(mesh.points.rows());
   std::vector<EdgePoint> wanted;
   std::vector<int> kept_path;

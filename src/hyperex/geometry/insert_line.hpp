@@ -6,7 +6,7 @@
 
 namespace hyperex {
 
-/// A point of a mesh: a + t (b - a) on its edge (a, b), 0 <= t < 1; a = b and t = 0 at a vertex.
+/// A point on a mesh: a + t (b - a) on its edge (a, b), 0 <= t < 1. At a vertex, a = b and t = 0.
 struct EdgePoint {
   int a = 0, b = 0;
   double t = 0;
@@ -15,22 +15,24 @@ struct EdgePoint {
   }
 };
 
-/// A surface with a line drawn into it.
+/// A surface into which a line has been inserted.
 struct LinedSurface {
-  TriMesh mesh;  ///< the given vertices, then the appended; row f of the given triangles is itself
-                 ///< or one piece of it, its other pieces are appended
-  std::vector<EdgePoint> appended;   ///< where each appended vertex lies on the given mesh
-  std::vector<int> source_triangle;  ///< of each triangle, the given one it is (a piece of)
-  std::vector<int> path;             ///< the line: vertices, neighbours joined by edges
+  /// The given vertices, then the appended ones; row f is the given triangle f or one piece of it;
+  /// its other pieces are appended.
+  TriMesh mesh;
+  std::vector<EdgePoint> appended;  ///< position of each appended vertex on the given mesh
+  /// For each triangle, the given triangle that it equals or is a piece of.
+  std::vector<int> source_triangle;
+  std::vector<int> path;  ///< the line as vertices; successive ones are joined by edges
 };
 
-/// Lays the polyline `line` on `mesh` along the direction `towards_viewer` (unit) and makes it a
-/// walk along edges: a vertex is put where it crosses an edge, unless it does so within 15 % of the
-/// edge from a vertex, which is then used itself, so that no slivers come about. On the surface
-/// folded over itself only the sheet is taken on which the ends of `line` lie; the walk ends at its
-/// vertices nearest to them. `line` must lie within 15 % of its own length of the surface. Throws
-/// std::invalid_argument where the line cannot be followed from end to end without leaving the
-/// surface.
+/// Projects the polyline `line` onto `mesh` along the direction `towards_viewer` (unit) and makes
+/// it a path along edges. A vertex is inserted wherever the line crosses an edge. If the crossing
+/// is within 15 % of the edge's length from a vertex, that vertex is used instead, to avoid
+/// slivers. If the surface is folded over itself, only the sheet that contains the ends of `line`
+/// is used. The path ends at the inserted vertices closest to the ends of `line`. `line` must lie
+/// within 15 % of its own length of the surface. Throws std::invalid_argument if the line cannot be
+/// followed from end to end on the surface.
 LinedSurface insert_line(const TriMesh& mesh, const Points& line, const Vec3& towards_viewer);
 
 }  // namespace hyperex

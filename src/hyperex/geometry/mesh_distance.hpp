@@ -9,19 +9,19 @@
 
 namespace hyperex {
 
-/// The distance to a closed mesh itself, below 0 inside; exact, but not smooth where two places of
-/// the surface are as near (GridDistance is). Inside and outside follow from the normal at the
-/// closest point, on edges and corners by the angle-weighted one (Baerentzen and Aanaes, IEEE TVCG
-/// 11, 2005, 243). Queries may run in parallel.
+/// The exact signed distance to a closed mesh, negative inside. It is not smooth where several
+/// places of the surface are equally close (GridDistance is smooth). The sign follows from the
+/// normal at the closest point; on edges and vertices, this is the angle-weighted normal
+/// (Baerentzen and Aanaes, IEEE TVCG 11, 2005, 243). Queries may run in parallel.
 class MeshDistance {
  public:
   /// `closed`: watertight, triangles outward. Throws std::invalid_argument where it is empty, not
   /// finite or has a border.
   explicit MeshDistance(TriMesh closed);
 
-  /// `within`: known to be no less than the distance's size; the search is the shorter for it.
+  /// `within`: a known upper bound of the distance, which shortens the search.
   double at(const Vec3& place, double within = std::numeric_limits<double>::infinity()) const;
-  /// False only outside of the mesh's box, where at() is above 0.
+  /// False only outside the bounding box of the mesh, where at() is positive.
   bool may_hold(const Vec3& place) const;
 
  private:

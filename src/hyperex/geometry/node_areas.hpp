@@ -4,7 +4,7 @@
 
 namespace hyperex {
 
-/// Area of a surface that belongs to each node, m^2: a third of each triangle around it.
+/// Area of the surface associated with each node, m^2: a third of each adjacent triangle.
 Eigen::VectorXd node_areas(const TriMesh& surface);
 
 }  // namespace hyperex

@@ -14,7 +14,7 @@ struct Data {
   Points centres, values;
 };
 
-// Each point joins the first group whose first member is near enough.
+// Each point joins the first group whose first member is within the distance.
 Data merged(const Points& centres, const Points& values, double distance) {
   std::vector<Eigen::Index> first;
   std::vector<int> group(centres.rows()), count;
@@ -58,7 +58,8 @@ Rbf::Rbf(const Points& centres, const Points& values, const RbfOptions& options)
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j)
       system(i, j) = system(j, i) = (centres_.row(i) - centres_.row(j)).norm();
-    // The kernel matrix is negative definite on what the constraint leaves: ridge has its sign.
+    // On the subspace left by the constraint, the kernel matrix is negative definite, so the ridge
+    // is negative.
     system(i, i) = -options.smoothing;
     system(i, n) = system(n, i) = 1;
     for (int axis = 0; axis + 1 < terms; ++axis)
@@ -66,7 +67,8 @@ Rbf::Rbf(const Points& centres, const Points& values, const RbfOptions& options)
   }
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n + terms, 3);
   right.topRows(n) = data.values;
-  // The affine columns are dependent where the centres share a plane, a line or a point.
+  // The affine columns are linearly dependent if the centres lie in a plane or on a line, or
+  // coincide.
   const Eigen::MatrixXd solution =
       terms == 1 ? Eigen::MatrixXd(system.partialPivLu().solve(right))
                  : Eigen::MatrixXd(system.completeOrthogonalDecomposition().solve(right));
@@ -93,7 +95,7 @@ Points Rbf::at_all(const Points& x) const {
 
 Eigen::MatrixXd rbf_weights(const Points& centres, Eigen::Index moving, const Points& places) {
   Eigen::MatrixXd all(places.rows(), moving);
-  // Three centres at a time: one unit value per axis.
+  // Three centres at a time, with a unit value on one axis each.
   for (Eigen::Index first = 0; first < moving; first += 3) {
     const Eigen::Index count = std::min<Eigen::Index>(3, moving - first);
     Points unit = Points::Zero(centres.rows(), 3);

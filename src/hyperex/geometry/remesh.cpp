@@ -15,14 +15,14 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// x -> centre + r^2 (x - centre) / |x - centre|^2, its own inverse; mirrors orientation.
+/// x -> centre + r^2 (x - centre) / |x - centre|^2. It is its own inverse and reverses orientation.
 Vec3 inverted(const Vec3& x, const Vec3& centre, double r2) {
   const Vec3 d = x - centre;
   return centre + d * (r2 / d.squaredNorm());
 }
-/// Remeshing rounds the borders off: the corners of a slit draw in and its rims sag. Of every
-/// border but the longest (mouth, eyes) it must therefore keep the two vertices farthest apart and,
-/// between them, one about every `edge_m`.
+/// Remeshing would round off the borders: the corners of a slit would retract and its rims would
+/// sag. Therefore some vertices are held on every border except the longest (that is, on mouth and
+/// eyes): the two that are farthest apart and, between them, about one per `edge_m`.
 std::vector<int> held_on_borders(const TriMesh& mesh, double edge_m) {
   std::vector<int> held;
   const auto loops = boundary_loops(mesh.triangles);
@@ -47,7 +47,7 @@ std::vector<int> held_on_borders(const TriMesh& mesh, double edge_m) {
       double next = 0;
       for (std::size_t i = from; i < to; ++i) {
         const double edge = (at(i + 1) - at(i)).norm();
-        // The vertex nearest to the next station.
+        // The vertex closest to the next station.
         if (passed + 0.5 * edge > next && next < length - 0.5 * step) {
           held.push_back((*loop)[i % n]);
           while (next < passed + 0.5 * edge) next += step;
@@ -64,7 +64,7 @@ std::vector<int> held_on_borders(const TriMesh& mesh, double edge_m) {
 TriMesh remesh_graded(const TriMesh& mesh, const GradedSize& size, int iterations) {
   const double r2 = (size.focus - size.centre).squaredNorm();
   SurfaceMesh surface;
-  TriMesh even = mesh;  // after the inversion the wanted size is the same everywhere
+  TriMesh even = mesh;  // after the inversion, the required size is uniform
   for (Eigen::Index v = 0; v < mesh.points.rows(); ++v) {
     const Vec3 p = inverted(mesh.points.row(v), size.centre, r2);
     even.points.row(v) = p.transpose();

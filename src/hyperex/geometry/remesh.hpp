@@ -4,7 +4,8 @@
 
 namespace hyperex {
 
-/// Edge length over a surface: `edge_m` at `focus`, growing as |x - centre|^2 / |focus - centre|^2.
+/// The required edge length on a surface: `edge_m` at `focus`, increasing as |x - centre|^2 /
+/// |focus - centre|^2.
 struct GradedSize {
   double edge_m = 0.004;
   Vec3 focus = Vec3::Zero();
@@ -14,11 +15,12 @@ struct GradedSize {
   }
 };
 
-/// Nearly equilateral triangles of the wanted size on the given surface (CGAL's isotropic
-/// remeshing). The grading costs no second algorithm: inversion in a sphere about `centre` is
-/// conformal and scales lengths by 1 / |x - centre|^2, so a uniform mesh of the inverted surface is
-/// a graded mesh of the given one. Borders stay borders and are resampled too.
-/// `mesh` must be manifold and oriented (clean_mesh). The same input gives the same output.
+/// Covers the given surface with nearly equilateral triangles of the required size (CGAL's
+/// isotropic remeshing). The graded size needs no separate algorithm: inversion in a sphere about
+/// `centre` is conformal and scales lengths by 1 / |x - centre|^2, so that a uniform mesh of the
+/// inverted surface is a graded mesh of the given surface. Borders are preserved and also
+/// resampled. `mesh` must be manifold and oriented (clean_mesh). The same input always gives the
+/// same output.
 TriMesh remesh_graded(const TriMesh& mesh, const GradedSize& size, int iterations = 5);
 
 }  // namespace hyperex

@@ -11,11 +11,11 @@
 namespace hyperex {
 namespace {
 
-constexpr double least_cosine = 0.5;   // of a triangle's turn
-constexpr std::size_t least_loop = 4;  // edges of a border that stays one
+constexpr double least_cosine = 0.5;   // of the angle by which a triangle may be rotated
+constexpr std::size_t least_loop = 4;  // number of edges that a border keeps at least
 
 struct BorderEdge {
-  double share;  // of the wanted length
+  double share;  // share of the required length
   int kept, removed;
 };
 
@@ -28,7 +28,8 @@ Vec3 area_vector(const TriMesh& mesh, Eigen::Index f, int from, int to) {
   return (x[1] - x[0]).cross(x[2] - x[0]);
 }
 
-/// Of every border vertex the cosine between its two border edges: 1 at the end of a slit.
+/// For a border vertex, the cosine of the angle between its two border edges: 1 at the end of a
+/// slit.
 double sharpness(const TriMesh& mesh, const std::vector<int>& loop, std::size_t i) {
   const auto at = [&](std::size_t k) { return Vec3(mesh.points.row(loop[k % loop.size()])); };
   const Vec3 here = at(i);
@@ -54,7 +55,7 @@ std::vector<BorderEdge> short_edges(const TriMesh& mesh, const GradedSize& size,
   return found;
 }
 
-/// Puts `kept` in the place of `removed`, if the surface remains a manifold without new folds.
+/// Merges `removed` into `kept`, if the surface remains a manifold without new folds.
 bool join(TriMesh& mesh, int kept, int removed) {
   const auto around = vertex_neighbours(mesh.triangles, mesh.points.rows());
   std::vector<int> common;
@@ -86,7 +87,7 @@ int remove_short_border_edges(TriMesh& mesh, const GradedSize& size, double leas
   int removed = 0;
   for (bool again = true; again;) {
     again = false;
-    // After a removal vertices have new numbers.
+    // A removal renumbers the vertices.
     for (const BorderEdge& edge : short_edges(mesh, size, least_share))
       if (join(mesh, edge.kept, edge.removed)) {
         ++removed;

@@ -5,12 +5,13 @@
 
 namespace hyperex {
 
-/// Joins the ends of border edges shorter than `least_share` of the wanted size, the shortest
-/// first. Of the two the one stays at which the border turns more, so that the end of a slit keeps
-/// its place. Edges whose removal would fold a triangle over (turn its normal by more than 60
-/// degrees) or change the topology stay. Where a border changes its position from one node to the
-/// next, an edge that is much shorter than its neighbours is stretched that much more.
-/// `mesh`: manifold, oriented. Returns the number of edges removed.
+/// Collapses border edges shorter than `least_share` of the required size, shortest first. Of the
+/// two ends, the one at which the border turns more sharply is kept, so that the end of a slit
+/// keeps its position. An edge is not collapsed if this would fold a triangle over (rotate its
+/// normal by more than 60 degrees) or change the topology. Reason: where the displacement changes
+/// from one border node to the next, an edge that is much shorter than its neighbours would be
+/// strained correspondingly more. `mesh` must be manifold and oriented. Returns the number of edges
+/// removed.
 int remove_short_border_edges(TriMesh& mesh, const GradedSize& size, double least_share);
 
 }  // namespace hyperex

@@ -7,8 +7,9 @@
 namespace hyperex {
 namespace {
 
-constexpr double kOff_m = 1e-4;   // of the surface, where a ray begins
-constexpr float kFrom_m = 2e-4f;  // of its beginning: nearer hits are the vertex's own triangles
+constexpr double kOff_m = 1e-4;  // distance of a ray's start from the surface
+// Hits closer to the start than this are on the vertex's own triangles.
+constexpr float kFrom_m = 2e-4f;
 
 class RayTree {
  public:

@@ -4,13 +4,14 @@
 
 namespace hyperex {
 
-/// A closed surface as the distance to it: teeth, eyeballs and other obstacles of the skin.
+/// A closed surface, represented by the signed distance to it: teeth, eyeballs and other obstacles
+/// of the skin.
 class SignedDistance {
  public:
   virtual ~SignedDistance() = default;
-  /// Of a place (m), below 0 inside. `outward`: the gradient there, of length 1 or nearly so.
-  /// Continuously differentiable near the surface. May be called from several threads, and
-  /// allocates nothing.
+  /// The signed distance (m) of `place`, negative inside. `outward`: the gradient there, of length
+  /// 1 or nearly 1. It must be continuously differentiable near the surface. May be called from
+  /// several threads; allocates nothing.
   virtual double at(const Vec3& place, Vec3& outward) const = 0;
 };
 

@@ -13,8 +13,7 @@ std::vector<std::vector<int>> boundary_loops(const Triangles& triangles) {
   DirectedEdges directed(3 * static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k) directed.insert(triangles(f, k), triangles(f, (k + 1) % 3));
-  // A border half-edge runs against its triangle, so that the loop keeps the surface on its right;
-  // we store the triangle's own direction.
+  // A border edge belongs to one triangle only. The loop runs in the direction of that triangle.
   std::map<int, std::vector<int>> next;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k) {
@@ -28,7 +27,8 @@ std::vector<std::vector<int>> boundary_loops(const Triangles& triangles) {
     int at = start;
     while (true) {
       auto it = next.find(at);
-      if (it == next.end()) break;  // an open chain: only where triangles are not oriented alike
+      // An open chain: occurs only if the triangles are not oriented consistently.
+      if (it == next.end()) break;
       loop.push_back(at);
       const int to = it->second.back();
       it->second.pop_back();

@@ -7,30 +7,31 @@
 
 namespace hyperex {
 
-/// Closed walks of vertices along border edges (edges of one triangle only), each in the direction
-/// of its triangles. A vertex where two borders touch appears once in each.
+/// The borders of a surface as closed loops of vertices along border edges (edges with one triangle
+/// only). Each loop runs in the direction of its triangles. A vertex at which two borders meet
+/// appears once in each.
 std::vector<std::vector<int>> boundary_loops(const Triangles& triangles);
 
-/// Of such a walk, back to where it began.
+/// Length of such a closed loop.
 double loop_length(const std::vector<int>& loop, const Points& points);
 
-/// Neighbours of every vertex along edges, sorted.
+/// For each vertex, the vertices joined to it by an edge, sorted.
 std::vector<std::vector<int>> vertex_neighbours(const Triangles& triangles, Eigen::Index vertices);
 
-/// Triangles around every vertex, in rising order.
+/// For each vertex, the triangles around it, increasing.
 std::vector<std::vector<int>> vertex_triangles(const Triangles& triangles, Eigen::Index vertices);
 
-/// Number of the edge-connected component of each triangle; components are numbered in the order of
-/// their first triangle.
+/// For each triangle, the number of its edge-connected component. Components are numbered in the
+/// order of their first triangle.
 std::vector<int> triangle_components(const Triangles& triangles, Eigen::Index vertices);
 
-/// Area-weighted unit normals of the vertices; zero where a vertex has no area around it.
+/// Area-weighted unit normals of the vertices; zero if the triangles around a vertex have no area.
 Points vertex_normals(const TriMesh& mesh);
 
-/// Per triangle: one of its vertices is flagged.
+/// For each triangle, whether at least one of its vertices is flagged.
 std::vector<char> touching(const Triangles& triangles, const std::vector<char>& flagged_vertices);
 
-/// |F| areas, m^2.
+/// Area of each triangle, m^2.
 Eigen::VectorXd triangle_areas(const TriMesh& mesh);
 
 }  // namespace hyperex

@@ -19,10 +19,12 @@ using Tri = std::array<int, 3>;
 
 /// The cosine of 45 degrees; least quality of a triangle (1: equilateral, 0: no area).
 constexpr double kLeastCosine = std::numbers::sqrt2 / 2, kLeastQuality = 0.25;
-constexpr double kLongest = 1.6;            // edges, in parts of the target length
-constexpr std::size_t kMostAround = 24;     // triangles about a vertex that may be removed
-constexpr std::size_t kTried = 3;           // of a vertex's neighbours, the nearest first
-constexpr double kWorthAnotherPass = 0.03;  // share of the vertices that a pass must remove
+constexpr double kLongest = 1.6;  // greatest edge length, relative to edge_m
+// Greatest number of triangles around a vertex that may be removed.
+constexpr std::size_t kMostAround = 24;
+constexpr std::size_t kTried = 3;  // number of neighbours tried per vertex, nearest first
+// Least share of the vertices that a pass must remove for another one.
+constexpr double kWorthAnotherPass = 0.03;
 
 class Thinner {
  public:
@@ -96,7 +98,7 @@ class Thinner {
     return count ? sum / double(count) : options_.edge_m;
   }
 
-  /// Lengths grow by steps: the vertices that are left stay evenly spread.
+  /// The length is increased in steps, so that the remaining vertices stay evenly distributed.
   void collapse_all() {
     double length_m = std::min(mean_edge(), options_.edge_m);
     for (;;) {
@@ -144,7 +146,8 @@ class Thinner {
            ((b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm());
   }
 
-  /// Of the vertex whose neighbours are listed.
+  /// Whether merging the vertex whose neighbours are in `neighbours_` into v preserves the
+  /// topology.
   bool keeps_topology(int v) {
     neighbours_of(v, others_);
     int common = 0;
@@ -174,7 +177,8 @@ class Thinner {
     return near(u, star_) && near(next_[std::size_t(v)], star_) && neighbours_stay_near(u, v);
   }
 
-  /// What the other neighbours took up stays near their own triangles, as these then are.
+  /// Whether the vertices merged earlier into the other neighbours stay near the triangles around
+  /// these, as they will be after the collapse.
   bool neighbours_stay_near(int u, int v) {
     for (const int w : neighbours_) {
       if (w == v || next_[std::size_t(w)] < 0) continue;
@@ -188,7 +192,8 @@ class Thinner {
     return true;
   }
 
-  /// The vertex and those listed after it are within the tolerance of some of the triangles.
+  /// Whether the vertex and those after it in its list are each within the tolerance of one of the
+  /// triangles.
   bool near(int first, const std::vector<Tri>& triangles) const {
     for (int p = first; p >= 0; p = next_[std::size_t(p)])
       if (std::none_of(triangles.begin(), triangles.end(), [&](const Tri& t) {
@@ -213,7 +218,7 @@ class Thinner {
     }
     std::vector<int>().swap(around(u));
     merged_into_[std::size_t(u)] = v;
-    next_[std::size_t(last_[std::size_t(v)])] = u;  // u's list follows v's
+    next_[std::size_t(last_[std::size_t(v)])] = u;  // append u's list to v's
     last_[std::size_t(v)] = last_[std::size_t(u)];
     touched_[std::size_t(v)] = 1;
     --alive_;
@@ -224,7 +229,8 @@ class Thinner {
     return v;
   }
 
-  /// Nearest among the triangles of the vertex that took it up and of that one's neighbours.
+  /// The closest points, searched among the triangles around the vertex that it was merged into and
+  /// those around the neighbours of that vertex.
   void place_all(const std::vector<int>& number, ThinMesh& out) const {
     out.places.resize(merged_into_.size());
     std::vector<double> distance2(merged_into_.size(), 0);
@@ -257,11 +263,12 @@ class Thinner {
   const ThinOptions& options_;
   const Points& points_;
   double tolerance_m_ = 0;
-  std::vector<Tri> triangles_;            // -1 where gone
+  std::vector<Tri> triangles_;            // -1 for a removed triangle
   std::vector<std::vector<int>> around_;  // triangles of each vertex
-  std::vector<int> merged_into_;          // -1 of a vertex that is left
+  std::vector<int> merged_into_;          // -1 for a vertex that remains
   std::vector<char> held_, touched_;
-  /// Removed vertices as lists, each after the vertex that took it up; where the list ends.
+  /// Linked lists of removed vertices, each starting at the vertex they were merged into; the last
+  /// entry of each list.
   std::vector<int> next_, last_;
   std::size_t alive_;
   std::vector<int> neighbours_, others_;

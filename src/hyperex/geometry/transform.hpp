@@ -18,21 +18,21 @@ struct Similarity {
   Similarity inverse() const;
 };
 
-/// The rigid (scale = 1) or similarity transform b_from_a of least squares:
-///   min sum_i w_i |b_i - (s R a_i + t)|^2,  det R = +1.
+/// The rigid (scale = 1) or similarity transform b_from_a that minimises
+///   sum_i w_i |b_i - (s R a_i + t)|^2,  det R = +1.
 /// Umeyama, "Least-squares estimation of transformation parameters between two point patterns",
-/// IEEE PAMI 13 (1991); Kabsch for the rigid case.
-/// `a`, `b`: n x 3, n >= 3, finite; `weights`: n values >= 0 with a positive sum, or empty for
-/// equal ones. Points on one line leave the rotation about it open: check spread_off_line() first.
-/// Throws std::invalid_argument where sizes or weights are no good.
+/// IEEE PAMI 13 (1991); Kabsch for the rigid case. `a`, `b`: n x 3, n >= 3, finite. `weights`: n
+/// values >= 0 with a positive sum; empty: all equal. If the points lie on one line, the rotation
+/// about it is undetermined: check spread_off_line() first. Throws std::invalid_argument if sizes
+/// or weights are invalid.
 Eigen::Isometry3d fit_rigid(const Points& a, const Points& b, const Eigen::VectorXd& weights = {});
 Similarity fit_similarity(const Points& a, const Points& b, const Eigen::VectorXd& weights = {});
 
 /// Weighted root mean square distance, length unit of the points.
 double rms_distance(const Points& a, const Points& b, const Eigen::VectorXd& weights = {});
 
-/// How far points are from lying on one line, 0 (collinear) to 1: the ratio of the second to the
-/// first singular value of the centred points. 0 for fewer than three points.
+/// Measures how far the points are from being collinear, from 0 (collinear) to 1: the ratio of the
+/// second to the first singular value of the centred points. 0 for fewer than three points.
 double spread_off_line(const Points& points);
 
 }  // namespace hyperex

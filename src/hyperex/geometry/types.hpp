@@ -8,7 +8,7 @@ namespace hyperex {
 using Vec3 = Eigen::Vector3d;
 /// |V| x 3, metres unless its name says otherwise; row-major, so that .data() is x0 y0 z0 x1 ...
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-/// |V| x 3 in single precision: for many frames of displacements.
+/// |V| x 3 in single precision, for displacements of many frames.
 using PointsF = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// |F| x 3 vertex indices, counter-clockwise seen from outside.
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;

@@ -16,7 +16,8 @@
 namespace hyperex::io {
 namespace {
 
-/// "0,033", as spreadsheets write it in many languages.
+/// Whether a cell is a number with a decimal comma, "0,033", as spreadsheets write it in many
+/// languages.
 bool has_decimal_comma(std::string_view cell) {
   std::string text(cell.substr(0, 40));
   const auto comma = text.find(',');
@@ -43,7 +44,7 @@ double read_cell(const CsvTable& table, int line, std::size_t column, std::strin
   return std::isnan(*number) ? nan : *number;
 }
 
-/// `fill` gives what stands behind a row's numbers.
+/// `fill` returns the text that follows the numbers of a row.
 void write_table(const std::filesystem::path& file, const std::vector<std::string>& names,
                  std::size_t numbers, long rows,
                  const std::function<std::string(long, std::vector<double>&)>& fill) {

@@ -26,7 +26,7 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
       }
       end = at < line.size() ? at + 1 : std::string_view::npos;
     }
-    if (end == 0 || end == std::string_view::npos) {  // no quotes, or never closed
+    if (end == 0 || end == std::string_view::npos) {  // not quoted, or the quote is not closed
       cell.clear();
       end = 0;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// glTF 2.0 in, text or binary, through tinygltf: all triangles of the scene, placed by their
-// nodes. Written files are made by the report room.
+// Reads glTF 2.0, text or binary, through tinygltf: all triangles of the scene, transformed by
+// their nodes. Writing glTF is in src/hyperex/report.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -18,7 +18,7 @@
 namespace hyperex::io {
 namespace {
 
-/// Walks the scene and joins what its nodes hold.
+/// Traverses the scene and joins the meshes of its nodes.
 class SceneReader {
  public:
   SceneReader(const std::filesystem::path& file, const tinygltf::Model& model)
@@ -38,7 +38,7 @@ class SceneReader {
   std::vector<int> roots() const {
     const int scene = std::max(model_.defaultScene, 0);
     if (scene < static_cast<int>(model_.scenes.size())) return model_.scenes[scene].nodes;
-    // A file without scenes: every node that is no other's child.
+    // A file without scenes: all nodes that are not children of another node.
     std::set<int> children;
     for (const auto& node : model_.nodes)
       children.insert(node.children.begin(), node.children.end());
@@ -90,11 +90,11 @@ class SceneReader {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
         mode != TINYGLTF_MODE_TRIANGLE_FAN)
-      return;  // points and lines are no skin
+      return;  // points and lines are not surfaces
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return;
     const std::size_t vertices = accessors_.count(position->second, "POSITION");
-    // Parts of one face often share their vertices: they stay joined.
+    // Several primitives of one face often share their vertices; these stay shared.
     const auto [known, is_new] = first_vertex_.try_emplace(position->second, xyz_.size() / 3);
     if (is_new) add_vertices(primitive, position->second, vertices, scene_from_node);
     const std::int64_t first = static_cast<std::int64_t>(known->second);
@@ -168,8 +168,8 @@ class SceneReader {
     return index;
   }
 
-  /// 2 per vertex; empty where the primitive has none. Notes the first textured primitive's
-  /// picture.
+  /// 2 numbers per vertex; empty if the primitive has none. Stores the image of the first textured
+  /// primitive.
   std::vector<double> texture_coordinates(const tinygltf::Primitive& primitive,
                                           std::size_t vertices) {
     int set = 0, texture = -1;
@@ -220,7 +220,7 @@ class SceneReader {
   RawMesh raw_;
   std::vector<double> xyz_;
   std::vector<std::uint8_t> rgba_;
-  std::map<int, std::size_t> first_vertex_;  ///< by POSITION accessor, within one node
+  std::map<int, std::size_t> first_vertex_;  ///< key: POSITION accessor, within one node
   std::set<int> visited_;
   bool coloured_ = false, textured_ = false, warned_ = false;
   int texture_ = -1;

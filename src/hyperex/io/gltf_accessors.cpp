@@ -56,7 +56,7 @@ std::vector<double> GltfAccessors::read(int id, int columns, const char* what) c
   const std::size_t stride = model_.bufferViews[a.bufferView].byteStride
                                  ? model_.bufferViews[a.bufferView].byteStride
                                  : item;
-  // count is checked by division: a torn or false file must not make us allocate.
+  // The count is checked by division, so that a damaged file cannot cause a large allocation.
   if (a.byteOffset > available || stride < item || available - a.byteOffset < item ||
       (a.count - 1) > (available - a.byteOffset - item) / stride)
     fail(id, what,

@@ -9,9 +9,9 @@
 
 namespace hyperex::io {
 
-/// Reads the accessors of a glTF model, each checked against the bytes that are there. `what` names
-/// the values in the InputError that is thrown where they are not as they should be. Both arguments
-/// must outlive this.
+/// Reads the accessors of a glTF model and checks each against the bytes available. If an accessor
+/// is invalid, throws InputError; `what` is the name of its values in the message. Both constructor
+/// arguments must outlive this object.
 class GltfAccessors {
  public:
   GltfAccessors(const std::filesystem::path& file, const tinygltf::Model& model)
@@ -20,7 +20,7 @@ class GltfAccessors {
   std::size_t count(int id, const char* what) const { return accessor(id, what).count; }
   /// Numbers per item.
   int columns(int id, const char* what) const;
-  /// `columns` numbers per item, row-major; integers that stand for fractions are scaled.
+  /// `columns` numbers per item, row-major. Normalised integers are scaled to real numbers.
   std::vector<double> read(int id, int columns, const char* what) const;
   /// The bytes of a buffer view.
   std::pair<const unsigned char*, std::size_t> view(int id, const char* what) const;

@@ -18,7 +18,7 @@ namespace hyperex::io {
 namespace {
 static_assert(std::endian::native == std::endian::little);
 
-/// Keeps pictures as encoded bytes. Those in a buffer are taken later, with a check of the range.
+/// Keeps images as encoded bytes. Images in a buffer are read later, with a range check.
 bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, int,
                   const unsigned char* bytes, int size, void*) {
   if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
@@ -31,7 +31,7 @@ std::string one_line(std::string text) {
   return std::string(trimmed(text).substr(0, 200));
 }
 
-/// What tinygltf may see of the disk: files in the scan's folder or below.
+/// The files that tinygltf may read: those in the scan's folder or below.
 struct ScanFolder {
   std::filesystem::path path;
   std::string refusals;
@@ -42,7 +42,8 @@ struct ScanFolder {
       named_file(folder.path, std::filesystem::absolute(name).string());
       return true;
     } catch (const std::exception& refusal) {
-      // tinygltf looks beside the scan first, then in the current folder.
+      // tinygltf looks in the scan's folder first, then in the current folder. Only the first
+      // refusal matters.
       if (folder.refusals.empty()) folder.refusals = std::string("; ") + refusal.what();
       return false;
     }
@@ -66,7 +67,7 @@ struct ScanFolder {
   }
 };
 
-/// The JSON of a file that begins as a binary one does; the file itself otherwise.
+/// The JSON part of a file that begins like a binary one; otherwise the whole file.
 std::string_view json_of(const std::string& bytes, bool binary) {
   if (!binary) return bytes;
   std::uint32_t length = 0;
@@ -110,7 +111,7 @@ tinygltf::Model load_gltf(const std::filesystem::path& file) {
   if (!warning.empty())
     remark(Remark::warning,
            fmt::format("{}: {}{}", file.string(), one_line(warning), beside.refusals));
-  // Those that say how surfaces look leave the shape as it is; quantised values are read below.
+  // Material extensions do not affect the shape, and quantised values are supported.
   for (const auto& extension : model.extensionsRequired)
     if (!extension.starts_with("KHR_materials_") && extension != "KHR_mesh_quantization")
       throw InputError(file, fmt::format("requires the extension {}, which is not supported; "

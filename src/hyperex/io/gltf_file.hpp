@@ -6,9 +6,9 @@
 
 namespace hyperex::io {
 
-/// The model of a glTF 2.0 file, text or binary, with the files beside it that it names; pictures
-/// stay encoded. Throws InputError: torn, unsound, nested too deep, a file outside its folder, or
-/// an extension that is required and not supported.
+/// Loads a glTF 2.0 file, text or binary, and the files that it refers to. Images stay encoded.
+/// Throws InputError if the file is damaged, invalid or nested too deeply, if it refers to a file
+/// outside its folder, or if it requires an extension that is not supported.
 tinygltf::Model load_gltf(const std::filesystem::path& file);
 
 }  // namespace hyperex::io

@@ -29,7 +29,7 @@ std::optional<Image> recognise_image(std::vector<std::uint8_t> bytes) {
 
 std::optional<Image> load_texture(const std::filesystem::path& scan,
                                   const std::filesystem::path& texture) {
-  // Scanners on Windows write backslashes.
+  // Scanner software for Windows writes backslashes.
   std::string name = texture.string();
   std::replace(name.begin(), name.end(), '\\', '/');
   try {

@@ -9,11 +9,11 @@
 
 namespace hyperex::io {
 
-/// PNG or JPEG by their first bytes; nothing for any other kind of picture.
+/// Recognises PNG or JPEG by the first bytes; nothing for any other kind of image.
 std::optional<Image> recognise_image(std::vector<std::uint8_t> bytes);
 
-/// The texture beside a scan. A scan is of use without it, so a file that is missing or of
-/// another kind is a warning in the log, not an error.
+/// The texture file of a scan. A scan can be used without it, so a missing or unsupported file
+/// gives a warning in the log, not an error.
 std::optional<Image> load_texture(const std::filesystem::path& scan,
                                   const std::filesystem::path& texture);
 

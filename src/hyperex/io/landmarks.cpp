@@ -16,7 +16,8 @@ namespace hyperex::io {
 namespace {
 using nlohmann::json;
 
-/// Parses; a key that stands twice in one object is an error, not silently the last one.
+/// Parses JSON. A key that occurs twice in one object is an error; by default, the last one would
+/// be used without a message.
 json parse_strictly(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   check_nesting_json(file, text);
@@ -32,7 +33,8 @@ json parse_strictly(const std::filesystem::path& file) {
   try {
     return json::parse(text, on_event);
   } catch (const json::exception& exception) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 7: ...": from behind the ]
+    // "[json.exception.parse_error.101] parse error at line 3, column 7: ...": the part after the
+    // bracket.
     std::string_view what = exception.what();
     if (const auto end = what.find("] "); end != std::string_view::npos)
       what.remove_prefix(end + 2);
@@ -85,7 +87,7 @@ Landmarks read_plain(const std::filesystem::path& file, const json& root,
   return landmarks;
 }
 
-/// One markups node of 3D Slicer; its schema sets LPS and mm where nothing is said.
+/// One markups node of 3D Slicer. By its schema, the defaults are LPS and mm.
 void read_markup(const std::filesystem::path& file, const json& markup,
                  std::optional<LengthUnit> stated, Landmarks& landmarks) {
   if (!markup.is_object()) throw InputError({file, 0, "markups", "", "objects in this list"});
@@ -102,7 +104,7 @@ void read_markup(const std::filesystem::path& file, const json& markup,
     if (!point.is_object() || !point.contains("label") || !point["label"].is_string())
       throw InputError({file, 0, "controlPoints", "", "objects with a label each"});
     const std::string name = point["label"];
-    // Slicer keeps points in its list that are not placed yet.
+    // Slicer's list also contains points that have not been placed yet.
     if (point.value("positionStatus", json("defined")) != "defined") continue;
     const Vec3 position = point_of(file, name, point.value("position", json()));
     add(file, landmarks, name, metres_per(unit) * position.cwiseProduct(Vec3(x_and_y, x_and_y, 1)));

@@ -15,12 +15,14 @@ namespace hyperex::io {
 using Landmarks = std::map<std::string, Vec3>;
 
 /// Reads {"units": "mm", "points": {"NAME": [x, y, z], ...}} or 3D Slicer's .mrk.json
-/// (markups[0].controlPoints; "LPS" is taken as the scan's own axes, which is how Slicer writes
-/// models beside it; "RAS" has x and y turned). `stated` overrides the file's unit.
-/// Throws InputError: torn JSON, a point that is not three finite numbers, no points, a name twice.
+/// (markups[0].controlPoints). "LPS" coordinates are taken as the scan's own, because Slicer writes
+/// models in the same way; "RAS" coordinates have the signs of x and y changed. `stated` overrides
+/// the unit in the file. Throws InputError if the JSON is damaged, if a point is not three finite
+/// numbers, if there are no points, or if a name occurs twice.
 Landmarks read_landmarks(const std::filesystem::path& file,
                          std::optional<LengthUnit> stated = std::nullopt);
-/// read_landmarks reads it back. NAME.mrk.json: a point list of 3D Slicer, LPS, the scan's numbers.
+/// Writes a file that read_landmarks() can read. NAME.mrk.json: a point list of 3D Slicer in LPS
+/// with the scan's coordinates.
 void write_landmarks(const std::filesystem::path& file, const Landmarks& landmarks,
                      LengthUnit unit);
 

@@ -36,7 +36,7 @@ class Scanner {
     ++at_;
   }
 
-  /// Past a comment, a string or a character; false at the end.
+  /// Moves past a comment, a string or a character; returns false at the end.
   bool next_toml() {
     if (at_ >= text_.size()) return false;
     const char c = text_[at_];
@@ -48,7 +48,7 @@ class Scanner {
       skip_toml_string(c);
       return true;
     }
-    // What can stand in a number or between two keys ends a dotted key.
+    // A dotted key ends at any character that can separate two keys.
     if (c == '.')
       ++dots_;
     else if (std::string_view(",=[]{}\r\n").find(c) != std::string_view::npos)
@@ -65,7 +65,7 @@ class Scanner {
     return false;
   }
 
-  /// From its opening quote to behind its closing one, or to the end.
+  /// Moves from the opening quote past the closing one, or to the end of the text.
   void skip_string(char quote, bool escapes) {
     for (step(); at_ < text_.size() && text_[at_] != quote; step())
       if (escapes && text_[at_] == '\\' && at_ + 1 < text_.size()) step();
@@ -75,7 +75,7 @@ class Scanner {
   void skip_toml_string(char quote) {
     const std::string triple(3, quote);
     if (!text_.substr(at_).starts_with(triple)) {
-      // A torn one ends with its line, so that what follows is counted.
+      // An unclosed string ends with its line, so that the following lines are checked, too.
       for (step(); at_ < text_.size() && text_[at_] != quote && text_[at_] != '\n'; step())
         if (quote == '"' && text_[at_] == '\\' && at_ + 1 < text_.size()) step();
       if (at_ < text_.size()) step();

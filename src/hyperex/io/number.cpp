@@ -84,7 +84,7 @@ bool is_printable_name(std::string_view text) {
     if (length == 0 || text.size() < length) return false;
     for (std::size_t k = 1; k < length; ++k)
       if ((static_cast<unsigned char>(text[k]) & 0xC0) != 0x80) return false;
-    // Longer than needed, half of a surrogate pair, beyond the last character.
+    // Rejects overlong encodings, surrogates and values beyond U+10FFFF.
     const auto next = length > 1 ? static_cast<unsigned char>(text[1]) : 0;
     if ((lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) ||
         (lead == 0xF0 && next < 0x90) || (lead == 0xF4 && next > 0x8F))

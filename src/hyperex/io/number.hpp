@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Words and numbers in text files, read the same way under every locale.
+// Words and numbers in text files, independent of the locale.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,38 +8,38 @@
 
 namespace hyperex::io {
 
-/// The number that `text` holds from its first to its last character; "nan" and "inf" are numbers.
+/// The number that the whole of `text` represents. "nan" and "inf" are numbers.
 std::optional<double> parse_number(std::string_view text);
-/// A whole number, e.g. a count; nothing for "1.5" or what does not fit.
+/// A whole number, such as a count; nothing for "1.5" or a value out of range.
 std::optional<long long> parse_integer(std::string_view text);
 
 /// Without blanks, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
-/// The parts between separators, untrimmed; "a,,b" has three, "" one.
+/// The parts between separators, untrimmed: "a,,b" has three parts, "" has one.
 std::vector<std::string_view> split(std::string_view line, char separator);
 /// The parts between runs of blanks and tabs; none is empty.
 std::vector<std::string_view> words(std::string_view line);
 
-/// Walks through the lines of a text, whatever its line ends are; skips a byte-order mark.
+/// Reads a text line by line with any kind of line ending; skips a byte-order mark.
 class Lines {
  public:
   explicit Lines(std::string_view text);
-  /// Moves to the next line; false behind the last one. Line ends are not part of `line`.
+  /// Moves to the next line; returns false after the last. `line` does not contain the line ending.
   bool next(std::string_view& line);
-  int number() const { return number_; }  ///< 1-based, of the line given last
+  int number() const { return number_; }  ///< 1-based number of the last line returned
 
  private:
   std::string_view rest_;
   int number_ = 0;
 };
 
-/// Whether `text` can be a name: UTF-8, which reports are written in, without control characters,
-/// which would act on the terminal.
+/// Whether `text` can be used as a name. It must be UTF-8, because reports are, and without control
+/// characters, which would affect the terminal.
 bool is_printable_name(std::string_view text);
-/// What is expected where it is not.
+/// The corresponding expectation in error messages.
 inline constexpr const char* printable_name = "a name in UTF-8 without control characters";
 
-/// At most 40 characters of `text`, fit to be quoted in one line of an error.
+/// At most 40 characters of `text`, suitable for quoting in a one-line error message.
 std::string quotable(std::string_view text);
 
 }  // namespace hyperex::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Wavefront OBJ through tinyobjloader, which takes what it cannot read as 0: every line that we
+// Wavefront OBJ through tinyobjloader. That library reads invalid numbers as 0, so every line in
 // use is checked first.
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
@@ -20,14 +20,15 @@
 
 namespace hyperex::io {
 namespace {
-constexpr std::size_t most_corners = 255;  // tinyobjloader keeps the number in a byte
+constexpr std::size_t most_corners = 255;  // tinyobjloader stores this number in one byte
 
 class LineChecker {
  public:
   LineChecker(const std::filesystem::path& file, const std::string& text)
       : file_(file), lines_(text) {}
 
-  /// The text without comments behind its vertices and faces, which tinyobjloader trips over.
+  /// The text without comments at the ends of vertex and face lines, which tinyobjloader cannot
+  /// parse.
   std::string check() {
     std::string checked;
     std::string_view line;
@@ -47,7 +48,7 @@ class LineChecker {
         check_face(line, word);
       }
     }
-    // A face may come before its vertices.
+    // A face may precede its vertices, so such references are checked at the end.
     for (const Reference& open : forward_) {
       const long long count = open.is_texcoord ? texcoords_ : vertices_;
       if (open.index > count)
@@ -110,7 +111,7 @@ class LineChecker {
   std::vector<Reference> forward_;
 };
 
-/// Material files beside the scan, and no others.
+/// Reads material files beside the scan only.
 class MaterialReader : public tinyobj::MaterialReader {
  public:
   explicit MaterialReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -140,7 +141,7 @@ std::string one_obj_line(std::string text) {
   return text;
 }
 
-/// The texture of the material that the first textured face wears.
+/// The texture of the material of the first textured face.
 std::optional<Image> find_texture(const std::filesystem::path& file,
                                   const std::vector<tinyobj::shape_t>& shapes,
                                   const std::vector<tinyobj::material_t>& materials) {
@@ -163,7 +164,7 @@ void take_vertices(const tinyobj::attrib_t& attributes, RawMesh& raw) {
   raw.points = Eigen::Map<const Points>(attributes.vertices.data(), count, 3);
   if (count == 0 || attributes.colors.size() != attributes.vertices.size()) return;
   const Eigen::Map<const Points> colours(attributes.colors.data(), count, 3);
-  // 0 to 1 by custom; some programs write 0 to 255.
+  // By convention 0 to 1; some programs write 0 to 255.
   const double scale = colours.maxCoeff() > 1 ? 1 : 255;
   raw.vertex_colour.resize(count, 4);
   raw.vertex_colour.col(3).setConstant(255);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PLY: any order of elements and properties, ascii and binary of both endians; binary out.
+// PLY: reads elements and properties in any order, ascii and binary of both endians; writes binary.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -89,7 +89,7 @@ class AsciiSource {
   int line_;
 };
 
-/// What a vertex property means to us; -1: nothing.
+/// The meaning of a vertex property; -1: none.
 enum Role { x, y, z, red, green, blue, alpha, u, v, roles };
 
 int role_of(const std::string& name) {
@@ -109,7 +109,8 @@ int role_of(const std::string& name) {
   return -1;
 }
 
-/// A colour channel as 0 to 255: real numbers run from 0 to 1, whole ones over their type's range.
+/// Converts a colour channel to 0 to 255. Real numbers range from 0 to 1, integers over the range
+/// of their type.
 std::uint8_t channel(double value, PlyType type) {
   if (type >= PlyType::float32) value *= 255;
   if (type == PlyType::int16 || type == PlyType::uint16) value /= 257;
@@ -164,7 +165,7 @@ class BodyReader {
     raw_.points.resize(element.count, 3);
     if (coloured) raw_.vertex_colour.resize(element.count, 4);
     if (textured) vertex_uv_.reserve(2 * element.count);
-    std::vector<int> scalar(role.size(), -1);  // property -> its place among the scalars
+    std::vector<int> scalar(role.size(), -1);  // property -> its index among the scalars
     for (std::size_t p = 0; p < role.size(); ++p) {
       const auto& property = element.properties[p];
       if (property.is_list || role[p] >= 0) continue;
@@ -201,7 +202,7 @@ class BodyReader {
     }
   }
 
-  /// A face, or a row of an element that means nothing to us.
+  /// Reads a face, or a row of an element that is ignored.
   void read_row(const PlyElement& element) {
     const bool face = element.name == "face";
     bool has_corners = false;
@@ -242,7 +243,7 @@ class BodyReader {
   void spread_vertex_uv() {
     raw_.corner_uv.reserve(2 * raw_.corner.size());
     for (const std::int64_t i : raw_.corner)
-      for (int k = 0; k < 2; ++k)  // a wrong index is reported with the face, later
+      for (int k = 0; k < 2; ++k)  // an index out of range is reported later, with its face
         raw_.corner_uv.push_back(i >= 0 && i < raw_.points.rows() ? vertex_uv_[2 * i + k] : 0.f);
   }
 

@@ -36,7 +36,7 @@ std::optional<PlyType> type_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// Takes the header line by line.
+/// Reads the header line by line.
 class HeaderReader {
  public:
   HeaderReader(const std::filesystem::path& file, const std::string& bytes)
@@ -74,7 +74,8 @@ class HeaderReader {
   }
 
  private:
-  /// Only "\n" may end a header line: behind "end_header\n" a binary body can begin with anything.
+  /// Only "\n" ends a header line, because a binary body after "end_header\n" may begin with any
+  /// byte.
   bool next(std::string_view& line) {
     const auto end = bytes_.find('\n', at_);
     if (end == std::string::npos) return false;
@@ -102,7 +103,7 @@ class HeaderReader {
 
   void read_comment(std::string_view line, const std::vector<std::string_view>& word) {
     if (word.size() < 3 || word[1] != "TextureFile" || !header_.texture_file.empty()) return;
-    // A file name may hold blanks.
+    // A file name may contain blanks.
     header_.texture_file = trimmed(line.substr(word[2].data() - line.data()));
   }
 
@@ -159,10 +160,10 @@ std::size_t PlyElement::smallest_row(bool ascii) const {
 
 PlyHeader read_ply_header(const std::filesystem::path& file, const std::string& bytes) {
   PlyHeader header = HeaderReader(file, bytes).read();
-  // Before anything is allocated by what the header says: can the file hold it?
+  // Before memory is allocated from these counts, check that the file can contain so much.
   const bool ascii = header.format == PlyHeader::Format::ascii;
   const std::size_t body = bytes.size() - header.bytes;
-  std::size_t left = body + (ascii ? 1 : 0);  // the last line need not end
+  std::size_t left = body + (ascii ? 1 : 0);  // the last line may lack its line ending
   for (const auto& element : header.elements) {
     const std::size_t row = element.smallest_row(ascii);
     if (row == 0) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The header of a PLY file: which elements follow and how their values are stored.
+// The header of a PLY file: the elements that follow and the types of their values.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,14 +15,14 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
   bool is_list = false;
-  PlyType count_type = PlyType::uint8;  ///< of a list's length
+  PlyType count_type = PlyType::uint8;  ///< type of a list's length
 };
 
 struct PlyElement {
   std::string name;
   std::int64_t count = 0;
   std::vector<PlyProperty> properties;
-  /// What a row takes at least, its lists empty: bytes in binary, characters in ascii.
+  /// The least size of a row, with empty lists: bytes if binary, characters if ascii.
   std::size_t smallest_row(bool ascii) const;
 };
 
@@ -30,13 +30,13 @@ struct PlyHeader {
   enum class Format { ascii, binary_little_endian, binary_big_endian };
   Format format = Format::ascii;
   std::vector<PlyElement> elements;
-  std::string texture_file;  ///< of `comment TextureFile NAME`, the first
-  std::size_t bytes = 0;     ///< the body begins here
+  std::string texture_file;  ///< from the first `comment TextureFile NAME`
+  std::size_t bytes = 0;     ///< size of the header; the body begins here
   int lines = 0;
 };
 
-/// Throws InputError: no PLY file, no end of the header, an unknown format or type, a count that is
-/// negative or promises more than the file holds.
+/// Throws InputError if it is not a PLY file, if the header has no end, if a format or type is
+/// unknown, or if a count is negative or exceeds what the file can contain.
 PlyHeader read_ply_header(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace hyperex::io

@@ -49,7 +49,7 @@ Scan triangulated(const std::filesystem::path& file, RawMesh raw) {
   check_vertices(file, raw.points);
   check_faces(file, raw);
 
-  std::vector<std::array<std::int64_t, 3>> cut;  // places in raw.corner
+  std::vector<std::array<std::int64_t, 3>> cut;  // indices into raw.corner
   cut.reserve(raw.corner.size() - 2 * raw.face_end.size());
   std::int64_t begin = 0;
   for (const std::int64_t end : raw.face_end) {

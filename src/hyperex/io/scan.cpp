@@ -13,7 +13,8 @@
 namespace hyperex::io {
 namespace {
 constexpr std::array kUnits{LengthUnit::millimetre, LengthUnit::centimetre, LengthUnit::metre};
-// Middle side of a face's bounding box. What is guessed must be more likely than what is believed.
+// Limits of the middle side of a face's bounding box. A guessed unit requires a more plausible size
+// than a stated one.
 constexpr double guess_min_m = 0.10, guess_max_m = 0.30;
 constexpr double stated_min_m = 0.08, stated_max_m = 0.45;
 
@@ -24,7 +25,7 @@ bool is_gltf(const std::filesystem::path& file) {
 
 RawMesh read_raw(const std::filesystem::path& file) {
   const std::string extension = ending_of(file);
-  std::error_code not_there;  // reported by the reader
+  std::error_code not_there;  // a missing file is reported by the reader
   if (std::filesystem::is_regular_file(file, not_there) && std::filesystem::is_empty(file))
     throw InputError(file, "is empty; expected a triangle mesh");
   if (extension == ".ply") return read_ply(file);
@@ -62,7 +63,7 @@ std::string size_text(double size_m) {
                                 : std::string(", and no unit of mm, cm or m fits")));
 }
 
-/// The unit rule of scan.hpp.
+/// Determines the unit by the rule in scan.hpp.
 void settle_unit(Scan& scan, std::optional<LengthUnit> stated) {
   const double extent = across(scan.mesh.points);
   if (!stated && !is_gltf(scan.file)) {

@@ -20,7 +20,7 @@ double metres_per(LengthUnit unit);
 std::string name_of(LengthUnit unit);                            ///< "mm", "cm" or "m"
 std::optional<LengthUnit> length_unit(const std::string& name);  ///< from "mm", "cm" or "m"
 
-/// A picture file as it was in the scan: encoded bytes, not pixels.
+/// An image file as it was in the scan: encoded bytes, not pixels.
 struct Image {
   std::vector<std::uint8_t> bytes;
   std::string mime_type;  ///< "image/png" or "image/jpeg"
@@ -35,8 +35,8 @@ struct Scan {
   TriMesh mesh;  ///< metres
   LengthUnit unit = LengthUnit::millimetre;
   bool unit_guessed = false;
-  /// 3|F| x 2, one row per triangle corner (row 3 f + k), v up as in glTF (0 at the picture's top);
-  /// empty (0 rows) where the scan has no texture coordinates.
+  /// 3|F| x 2, one row per triangle corner (row 3 f + k). As in glTF, v is 0 at the top of the
+  /// image and increases downwards. Empty (0 rows) if the scan has no texture coordinates.
   Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> corner_uv;
   /// Empty (0 rows) where the scan has no vertex colours.
   VertexColours vertex_colour;
@@ -44,32 +44,35 @@ struct Scan {
 };
 
 /// Reads PLY (ascii, binary of both endians), OBJ (with .mtl and texture), STL (ascii, binary;
-/// equal corners joined) or glTF/GLB, chosen by the extension. Polygons are cut into triangles.
-/// The unit is `stated`, else (glTF is metres by definition) guessed: the middle side of the
-/// bounding box of a face is 10 to 30 cm. A stated unit, or glTF's, is believed from 8 to 45 cm.
-/// Throws InputError: torn file, NaN, index out of range, no triangles, implausible size. A texture
-/// that cannot be had is a warning in the log.
+/// equal corners are joined) or glTF/GLB, depending on the extension. Polygons are split into
+/// triangles. The unit is `stated`; glTF is in metres by definition. Otherwise the unit is guessed
+/// such that the middle side of the bounding box is 10 to 30 cm, as for a face. With a stated unit
+/// or glTF's, 8 to 45 cm are accepted. Throws InputError if the file is damaged, if it contains
+/// NaN, an index out of range or no triangles, or if its size is implausible. A texture that cannot
+/// be read gives a warning in the log.
 Scan read_scan(const std::filesystem::path& file, std::optional<LengthUnit> stated = std::nullopt);
 
-/// "mm, guessed by its size: 17.7 cm across" and the like: which unit was taken, why, and how
-/// large that makes the middle side of the bounding box.
+/// A text such as "mm, guessed by its size: 17.7 cm across": which unit was used and why, and the
+/// resulting middle side of the bounding box.
 std::string unit_note(const Scan& scan);
 
-/// Middle side of the bounding box: what "across" means in the rule above. In the points' unit.
+/// Middle side of the bounding box, in the unit of the points. Messages call it "across".
 double across(const Points& points);
 
-/// Same checks, same unit rule, but any length: for meshes that are no whole faces.
+/// Reads a mesh with the same checks and the same unit rule, but accepts any size. For meshes that
+/// are not whole faces.
 TriMesh read_mesh(const std::filesystem::path& file, LengthUnit unit);
 
-/// Binary little-endian PLY of `mesh` (metres) in `unit`; one float property a named scalar
-/// (units in the name, no blanks), and colours where given. The file says its unit in a comment.
+/// A named number per vertex. The name includes the unit and contains no blanks.
 struct VertexScalar {
   std::string name;
   Eigen::VectorXf values;
 };
-/// The vertex properties of a PLY that are neither places, colours nor texture, in the file's
-/// order. Throws InputError as read_scan does of a torn file.
+/// The vertex properties of a PLY that are not position, colour or texture, in the order of the
+/// file. Throws InputError as read_scan() does if the file is damaged.
 std::vector<VertexScalar> read_ply_scalars(const std::filesystem::path& file);
+/// Writes `mesh` (metres) as binary little-endian PLY in `unit`, with one float property per
+/// scalar, and with colours if given. A comment in the file states the unit.
 void write_ply(const std::filesystem::path& file, const TriMesh& mesh, LengthUnit unit,
                const std::vector<VertexScalar>& scalars = {}, const VertexColours& colours = {});
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// STL, ascii and binary. It stores each triangle's corners apart: equal ones are joined.
+// STL, ascii and binary. It stores the corners of each triangle separately; equal corners are
+// joined.
 #include <fmt/format.h>
 
 #include <array>
@@ -29,7 +30,7 @@ struct CornerHash {
   }
 };
 
-/// Gives each distinct corner a vertex, in the order of first appearance.
+/// Assigns a vertex to each distinct corner, in the order of first appearance.
 class Joiner {
  public:
   explicit Joiner(const std::filesystem::path& file) : file_(file) {}
@@ -40,7 +41,7 @@ class Joiner {
         throw InputError(file_, fmt::format("facet {} (counted from 0) has a corner ({}, {}, {}); "
                                             "expected three finite numbers",
                                             corners_ / 3, corner[0], corner[1], corner[2]));
-      x += 0.0;  // -0 and 0 are one place
+      x += 0.0;  // -0 and 0 denote the same place
     }
     const auto [place, is_new] = index_.try_emplace(corner, std::int64_t(vertices_.size()));
     if (is_new) vertices_.push_back(corner);
@@ -79,7 +80,7 @@ RawMesh read_ascii(const std::filesystem::path& file, const std::string& bytes) 
   Joiner joiner(file);
   Lines lines(bytes);
   std::string_view line;
-  int corners = -1;  // of the open facet; -1 outside of one
+  int corners = -1;  // corners of the current facet; -1 outside a facet
   bool ended = false;
   const auto fail = [&](std::string_view found, const char* expected) {
     throw InputError({file, lines.number(), "", quotable(found), expected});
@@ -125,7 +126,7 @@ RawMesh read_stl(const std::filesystem::path& file) {
   std::uint32_t count = 0;
   if (bytes.size() >= header_bytes) std::memcpy(&count, bytes.data() + 80, 4);
   const std::uint64_t needed = header_bytes + std::uint64_t(facet_bytes) * count;
-  // Some writers begin binary files with "solid" too, so the length decides first.
+  // Some programs begin binary files with "solid" too, so the file size is checked first.
   if (bytes.size() >= header_bytes && bytes.size() == needed)
     return read_binary(file, bytes, count);
   const bool text = bytes.find('\0') == std::string::npos;

@@ -84,7 +84,7 @@ class TrcReader {
   }
 
   void read_names() {
-    // A name may hold blanks; two empty cells follow each, for its y and z.
+    // A name may contain blanks. Each is followed by two empty cells, for y and z.
     const std::string_view line = next("a line \"Frame# Time NAME ...\"");
     tabs_ = line.find('\t') != std::string_view::npos;
     const auto cells = tabs_ ? split(line, '\t') : words(line);
@@ -107,7 +107,8 @@ class TrcReader {
     auto cells = tabs_ ? split(line, '\t') : words(line);
     const std::size_t needed = 2 + 3 * trc_.names.size();
     while (cells.size() > needed && trimmed(cells.back()).empty()) cells.pop_back();
-    // Some programs cut empty cells off a line's end; a torn file ends without a line end.
+    // Some programs omit empty cells at the end of a line. A truncated file lacks the last line
+    // ending.
     const bool cut = tabs_ && cells.size() >= 2 && cells.size() < needed &&
                      (ends_with_line_ || !at_end()) && (cells.size() - 2) % 3 == 0;
     if (cut) cells.resize(needed);
@@ -138,7 +139,7 @@ class TrcReader {
     return *number;
   }
 
-  /// Whether the line read last is the file's last.
+  /// Whether the line just read is the last one of the file.
   bool at_end() const {
     Lines ahead = lines_;
     std::string_view line;

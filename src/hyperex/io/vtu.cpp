@@ -42,13 +42,14 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-/// zlib's level and strategy.
+/// Level and strategy of zlib.
 struct Packing {
   int level, strategy;
 };
 constexpr Packing of_numbers{1, Z_RLE}, of_indices{1, Z_DEFAULT_STRATEGY}, as_it_is{0, Z_RLE};
 
-/// zlib's streams, one a block, from one state: making that takes as long as a small block.
+/// One zlib stream per block, all copied from one initial state: creating a state takes as long as
+/// compressing a small block.
 class Deflater {
  public:
   explicit Deflater(Packing packing) : room_(compressBound(block_bytes)) {
@@ -75,10 +76,10 @@ class Deflater {
   std::vector<Bytef> room_;
 };
 
-/// Collects the XML's DataArray lines and the bytes behind them.
+/// Collects the DataArray lines of the XML and the bytes that follow the XML.
 class AppendedData {
  public:
-  /// The line that declares an array whose bytes begin at the present offset; appends the bytes.
+  /// Appends the bytes of an array. Returns the line that declares it at the current offset.
   std::string add(const std::string& type, const std::string& name, Eigen::Index components,
                   const void* bytes, std::size_t size) {
     std::string names;
@@ -90,17 +91,17 @@ class AppendedData {
     return add(type, name, components, names,
                compressed(data, size, worth_packing(data, size) ? of_numbers : as_it_is));
   }
-  /// The same with bytes compressed before.
+  /// The same for bytes that are already compressed.
   std::string add_compressed(const std::string& type, const std::string& name,
                              Eigen::Index components, const std::string& packed) {
     return add(type, name, components, "", packed);
   }
   const std::string& bytes() const { return bytes_; }
 
-  /// VTK's layout: number of blocks, bytes of a block, bytes of a shorter last one (or 0), bytes
-  /// of each block once compressed, then the blocks. In the bits of real numbers nothing but rows
-  /// of equal bytes comes again, and Z_RLE looks for no more: a third of the time, and no byte more
-  /// (measured on frames of subject A).
+  /// VTK's layout: the number of blocks, the size of a block, the size of a shorter last one (or
+  /// 0), the compressed size of each block, then the blocks. The bits of real numbers contain no
+  /// repetitions except runs of equal bytes. Z_RLE looks only for these, which takes a third of the
+  /// time and gives the same size (measured on frames of subject A).
   static std::string compressed(const Bytef* data, std::size_t size, Packing packing) {
     const std::size_t full = size / block_bytes, rest = size % block_bytes;
     std::vector<std::uint64_t> head{full + (rest > 0), block_bytes, rest};
@@ -115,8 +116,8 @@ class AppendedData {
   }
 
  private:
-  /// Compressing a sample from the middle shows whether it pays: displacements and strains of a
-  /// moving face shrink by 6 % only, in ten times the time it takes to write them.
+  /// Compresses a sample from the middle to decide whether compression pays. Displacements and
+  /// strains of a moving face shrink by only 6 %, which takes ten times as long as writing them.
   static bool worth_packing(const Bytef* data, std::size_t size) {
     constexpr std::size_t tried_bytes = 1 << 13;
     if (size < 8 * tried_bytes) return true;

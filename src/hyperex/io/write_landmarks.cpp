@@ -24,16 +24,16 @@ Json plain(const Landmarks& landmarks, LengthUnit unit) {
   return {{"units", name_of(unit)}, {"points", std::move(points)}};
 }
 
-/// The schema knows mm as a word; any other unit is a coded entry of UCUM.
+/// The schema allows the word "mm"; any other unit is a coded entry of UCUM.
 Json slicer_unit(LengthUnit unit) {
   if (unit == LengthUnit::millimetre) return "mm";
   return Json::array(
       {name_of(unit), "UCUM", unit == LengthUnit::centimetre ? "centimeter" : "meter"});
 }
 
-/// The markups schema 1.0.3 of 3D Slicer. Slicer takes a PLY, OBJ or STL file for LPS unless it
-/// says otherwise (from 4.11), and its numbers for millimetres: with the scan's own numbers in LPS
-/// the points lie on the scan.
+/// The markups schema 1.0.3 of 3D Slicer. From version 4.11, Slicer assumes that a PLY, OBJ or STL
+/// file is in LPS, unless the file says otherwise, and in millimetres. With the scan's own
+/// coordinates declared as LPS, the points lie on the scan.
 Json slicer_markups(const Landmarks& landmarks, LengthUnit unit) {
   Json points = Json::array();
   for (const auto& [name, point] : landmarks)

@@ -21,9 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kDeepest = 16;
-constexpr std::size_t kLongestName = 200;  // of one folder or file, bytes
+constexpr std::size_t kLongestName = 200;  // of one folder or file name, bytes
 
-/// libarchive gives names in the encoding of this thread's locale.
+/// libarchive returns names in the encoding of this thread's locale. This sets UTF-8.
 class Utf8Names {
  public:
   Utf8Names() : names_(newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)), before_(uselocale(names_)) {}
@@ -37,7 +37,7 @@ class Utf8Names {
   locale_t names_, before_;
 };
 
-/// What of a text of the archive can be shown in a message.
+/// The part of a text from the archive that can be shown in a message.
 std::string shown(std::string text) {
   text.resize(std::min<std::size_t>(text.size(), 100));
   for (char& c : text)
@@ -55,7 +55,7 @@ class Archive {
     if (archive_read_open_filename(archive_.get(), file.c_str(), kBlock) != ARCHIVE_OK) unsound();
   }
 
-  /// What comes next; none after the last.
+  /// The next entry; nothing after the last.
   std::optional<Kind> next() {
     archive_entry* entry = nullptr;
     const int state = archive_read_next_header(archive_.get(), &entry);
@@ -72,7 +72,7 @@ class Archive {
   }
   const std::string& name() const { return name_; }
 
-  /// What the entry unpacks to is counted as it comes, whatever its header says.
+  /// The unpacked bytes are counted during unpacking, independently of the header.
   void unpack(const fs::path& to) {
     std::ofstream out(to, std::ios::binary);
     if (!out) throw InputError(to, "cannot be written");
@@ -116,7 +116,7 @@ class Archive {
 
 enum class Way { taken, left_out, refused };
 
-/// Where a name leads to: inside, or not at all.
+/// Converts a name to a path inside the folder, or refuses it.
 Way way_of(const std::string& name, fs::path& way) {
   const bool odd = std::any_of(name.begin(), name.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
@@ -139,7 +139,7 @@ Way way_of(const std::string& name, fs::path& way) {
   return hidden ? Way::left_out : Way::taken;
 }
 
-/// Removed again unless it is kept.
+/// A folder that is removed at the end unless it is kept.
 class Folder {
  public:
   explicit Folder(fs::path path) : path_(std::move(path)) { fs::create_directories(path_); }

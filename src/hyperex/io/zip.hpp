@@ -6,17 +6,18 @@
 namespace hyperex::io {
 
 struct UnzipLimits {
-  std::uint64_t most_bytes = std::uint64_t(4) << 30U;  ///< unpacked, all files together
+  std::uint64_t most_bytes = std::uint64_t(4) << 30U;  ///< total size after unpacking
   int most_files = 50000;
 };
 
-/// Unpacks a zip into `folder`, which must not exist: it appears whole or not at all. Hidden files,
-/// such as those that macOS adds, are left out. Nothing is written outside the folder: names with
-/// "..", from a root or a drive, with backslashes or control characters, links, and names that
-/// occur twice are refused. The unpacked bytes are counted as they come, whatever the headers say,
-/// and checked by length and CRC. Read by libarchive; every file and folder is made here, as a new
-/// one. Throws InputError naming file and entry: no zip, damaged or truncated, encrypted, packed in
-/// an unknown way, over a limit.
+/// Unpacks a zip archive into `folder`, which must not exist. The folder appears completely or not
+/// at all. Hidden files, such as those that macOS adds, are skipped. Nothing is written outside the
+/// folder: the archive is refused if a name contains "..", backslashes, control characters or any
+/// of :*?"<>|, if it starts at a root, if it occurs twice, or if an entry is a link. The unpacked
+/// bytes are counted during unpacking, independently of the headers, and checked by length and CRC.
+/// libarchive reads the archive; every file and folder is newly created by this function. Throws
+/// InputError naming file and entry if it is not a zip archive, damaged, truncated, encrypted,
+/// packed by an unknown method, or over a limit.
 void unzip(const std::filesystem::path& zip, const std::filesystem::path& folder,
            const UnzipLimits& limits = {});
 

@@ -15,7 +15,7 @@
 namespace hyperex::metrics {
 namespace {
 
-/// The triangles that hold no vertex of side `barred`; empty where that is none.
+/// Marks the triangles without any vertex of side `barred`. Empty if there is no such vertex.
 std::vector<char> triangles_without(const TriMesh& rest, const std::vector<int>& side, int barred) {
   std::vector<char> keep(static_cast<size_t>(rest.triangles.rows()), 1);
   bool any = false;
@@ -39,7 +39,7 @@ std::vector<int> with_counterpart(const Region* region, const Counterparts& pair
 
 Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
                           const std::vector<int>& side, double reach_m) {
-  // A foot this near is the reflected vertex itself, border or not.
+  // A closest point within this distance coincides with the mirror image, even on the border.
   constexpr double upon_m = 1e-6;
   std::vector<char> on_border(static_cast<size_t>(rest.points.rows()), 0);
   for (const auto& loop : boundary_loops(rest.triangles))
@@ -72,8 +72,8 @@ Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
     pairs.distance_m[row] = std::sqrt(foot.squared_distance);
     pairs.found[i] = pairs.distance_m[row] <= (border ? upon_m : reach_m);
   };
-  // Vertices that follow each other are mostly neighbours: from the foot of one that of the next is
-  // found sooner.
+  // Consecutive vertices are usually neighbours, so the search starts at the result for the
+  // previous one.
   tbb::parallel_for(tbb::blocked_range<size_t>(0, count), [&](const auto& range) {
     const std::vector<char>* last = nullptr;
     ClosestPoint foot;

@@ -34,7 +34,7 @@ std::vector<double> spread_of(const std::vector<SymmetryCurve>& curves, double c
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const SymmetryCurve& curve : curves) {
       const double size = std::abs(curve.xi_left[k] - curve.xi_right[k]);
-      // A NaN must reach both bounds: min and max would drop it.
+      // NaN must be propagated to both bounds; std::min and std::max would ignore it.
       const double s = size >= clear * curve.floor ? std::log(size) : std::nan("");
       low = std::isnan(s) ? s : std::isnan(low) ? low : std::min(low, s);
       high = std::isnan(s) ? s : std::isnan(high) ? high : std::max(high, s);

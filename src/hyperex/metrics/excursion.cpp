@@ -51,7 +51,7 @@ SideExcursion side_of(const motion::Motion& motion, int column, double lowpass_h
   return side;
 }
 
-/// Root mean square of speeds over the quietest half second; NaN where none is measured.
+/// Root mean square speed over the quietest half second; NaN if none is measured.
 double quietest_rms(const std::vector<double>& time_s, const std::vector<double>& speed) {
   constexpr double window_s = 0.5;
   double least = kNan;
@@ -67,7 +67,7 @@ double quietest_rms(const std::vector<double>& time_s, const std::vector<double>
   return least;
 }
 
-/// The share of a speed's variance over time that jitter does not explain.
+/// The share of a speed's variance over time that is not explained by jitter.
 double signal_share(const std::vector<double>& speed, double jitter_variance) {
   double n = 0, sum = 0, squares = 0;
   for (const double v : speed)
@@ -97,12 +97,12 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
       bb += db * db;
       ab += da * db;
     }
-  // Below a micrometre a second a speed does not vary.
+  // Below 1 um/s, a speed counts as constant.
   constexpr double still = 1e-6;
   return n > 2 && aa > still * n && bb > still * n ? ab / std::sqrt(aa * bb) : kNan;
 }
 
-/// "48" and "p48" are ibug68_48 without its name.
+/// "48" and "p48" are short names of ibug68_48.
 std::string full_name(const std::string& name) {
   const std::string digits = name.starts_with("p") ? name.substr(1) : name;
   const bool number =
@@ -144,7 +144,8 @@ void judge_speeds(const motion::Motion& motion, const SpeedFloor& floor, double 
   pair.peak_speed_undecided =
       !(std::abs(l.peak_speed_mm_s - r.peak_speed_mm_s) >= pair.peak_speed_floor_mm_s);
   pair.path_undecided = !(std::abs(l.path_mm - r.path_mm) >= pair.path_floor_mm);
-  const double jitter_variance = std::pow(wider * floor.rms_mm_s, 2) / 3;  // along the way
+  // One of three components.
+  const double jitter_variance = std::pow(wider * floor.rms_mm_s, 2) / 3;
   constexpr double least_share = 0.9;
   pair.speed_correlation_undecided =
       !(std::sqrt(signal_share(left, jitter_variance) * signal_share(right, jitter_variance)) >=

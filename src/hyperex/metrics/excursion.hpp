@@ -10,49 +10,55 @@
 
 namespace hyperex::metrics {
 
-/// 98 % of the speed (in square) of real mouth corners that smile lies below it: docs/symmetry.md.
+/// Cut-off frequency. For the mouth corners in real smiles, 98 % of the power of the velocity lies
+/// below it: docs/symmetry.md.
 constexpr double kUsualLowpass_hz = 6;
 
-/// Distance of a point (mean of `columns`) from its place in the first sample, mm a sample; NaN
-/// where not measured.
+/// Distance of a point from its position in the first sample, mm, one value per sample. The point
+/// is the mean of `columns`. NaN where it is not measured.
 std::vector<double> distance_from_rest_mm(const motion::Motion& motion,
                                           const std::vector<int>& columns);
-/// Its speed, mm/s, smoothed by lowpassed(): lowpass.hpp. `lowpass_hz` 0: |x(k+1) - x(k-1)| /
-/// (t(k+1)
-/// - t(k-1)), one-sided at both ends. NaN where a sample that it takes is not measured, and for a
-/// motion of one sample.
+/// Speed of the point, mm/s, smoothed by lowpassed() (lowpass.hpp). With `lowpass_hz` = 0, it is
+/// not smoothed:
+///   |x(k+1) - x(k-1)| / (t(k+1) - t(k-1)),
+/// one-sided at both ends. NaN if a sample that is needed is not measured, and for a motion of a
+/// single sample.
 std::vector<double> speed_mm_s(const motion::Motion& motion, const std::vector<int>& columns,
                                double lowpass_hz = 0);
 
 struct SideExcursion {
   double excursion_mm = 0;     ///< largest distance from the place in the first sample
-  double path_mm = 0;          ///< length of the whole way, smoothed, from sample to sample
-  double peak_speed_mm_s = 0;  ///< largest speed, smoothed; not at the ends (greatest_inside)
+  double path_mm = 0;          ///< length of the smoothed path over all samples
+  double peak_speed_mm_s = 0;  ///< largest smoothed speed, excluding both ends (greatest_inside)
 };
 
-/// A point and its counterpart on the other side. Ratios are right over left (which side is
-/// affected is not known); NaN where the left is below a micrometre, or a micrometre a second, or
-/// below its floor.
+/// A point and its counterpart on the other side. Ratios are right over left, as the affected side
+/// is not known. A ratio is NaN if the left value is below 1 um or 1 um/s, or below its floor.
 struct PairExcursion {
   std::string name;           ///< "cheilion", "ibug68_48/54" (right/left)
   int left = -1, right = -1;  ///< columns of the motion
   SideExcursion left_side, right_side;
   double excursion_ratio = 0, path_ratio = 0, speed_ratio = 0;
-  double speed_correlation = 0;  ///< Pearson's, of both speeds over time; NaN where one is constant
-  /// What jitter alone makes of a side at rest (speed_floor.hpp), widened where the
-  /// quieter side's quietest half second moves more: trackers' jitter is not white. 0: none known.
+  /// Pearson's correlation of the two speeds over time; NaN if one is constant.
+  double speed_correlation = 0;
+  /// The values that jitter alone produces for a point at rest (speed_floor.hpp). They are
+  /// increased in proportion if both sides move faster than that even in their quietest half
+  /// second, because the jitter of trackers is not white. 0: unknown.
   double peak_speed_floor_mm_s = 0, path_floor_mm = 0;
-  bool peak_speed_undecided = false, path_undecided = false;  ///< the sides differ by less
-  /// Jitter lowers the correlation by more than a tenth: with n the share of jitter in a speed's
-  /// variance over time, sqrt((1 - n_L) (1 - n_R)) < 0.9.
+  /// The difference between the sides is below the floor.
+  bool peak_speed_undecided = false, path_undecided = false;
+  /// True if jitter lowers the correlation by more than a tenth: sqrt((1 - n_L) (1 - n_R)) < 0.9,
+  /// with n the share of jitter in the variance of a speed over time.
   bool speed_correlation_undecided = false;
-  /// What the excursions of a symmetric motion differ by, in 95 % of motions, by jitter alone:
-  /// 1.96 * 2 jitter (two places a side, to first order along the way); 0 where none is known.
+  /// For a symmetric motion, 95 % of the differences between the two excursions that jitter alone
+  /// produces are below this: 1.96 * 2 jitter (two positions per side, to first order along the
+  /// path). 0 if the jitter is unknown.
   double jitter_floor_mm = 0;
-  double mesh_floor_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none (mesh_floor.hpp)
-  bool undecided = false;  ///< the excursions differ by less than the larger floor
-  /// The counterpart's excursion in the run's mirrored twin (mesh_floor.hpp): on a mirrored mesh
-  /// that of this side; NaN without a twin.
+  /// NaN: no floor known (mesh_floor.hpp).
+  double mesh_floor_mm = std::numeric_limits<double>::quiet_NaN();
+  bool undecided = false;  ///< the difference between the excursions is below the larger floor
+  /// The excursion of the counterpart in the mirrored twin of the run (mesh_floor.hpp). In the
+  /// twin, the motion of this side is carried out by the other side. NaN without a twin.
   double twin_left_mm = std::numeric_limits<double>::quiet_NaN();
   double twin_right_mm = std::numeric_limits<double>::quiet_NaN();
 
@@ -60,28 +66,30 @@ struct PairExcursion {
   double floor_mm() const { return std::fmax(jitter_floor_mm, mesh_floor_mm); }
 };
 
-/// What clinics measure of a smile: how far the corners of the mouth travel.
+/// The clinical measure of a smile: the excursion of the corners of the mouth.
 struct Commissure {
   int left = -1, right = -1;  ///< columns: cheilion, or ibug68_54 and 48; -1 where there is none
-  std::vector<double> left_mm, right_mm;                     ///< distance from rest, a sample
-  std::vector<double> left_mm_s, right_mm_s;                 ///< speed
-  double left_from_midlip_mm = 0, right_from_midlip_mm = 0;  ///< see below
+  std::vector<double> left_mm, right_mm;      ///< distance from rest, one value per sample
+  std::vector<double> left_mm_s, right_mm_s;  ///< speed
+  double left_from_midlip_mm = 0, right_from_midlip_mm = 0;  ///< see Excursions::commissure
 };
 
 struct Excursions {
   std::vector<PairExcursion> pairs;  ///< in the order of the motion's names
-  /// Empty curves without its points. from_midlip: the change of greatest size, with its sign, of
-  /// the distance from the middle of the lower lip (labiale_inferius, or ibug68_57) to the corner.
+  /// The curves are empty if its points are absent. left_from_midlip_mm and right_from_midlip_mm:
+  /// the change of the distance between the corner and the middle of the lower lip
+  /// (labiale_inferius or ibug68_57). Of all samples, that with the greatest absolute change
+  /// counts; the sign is kept.
   Commissure commissure;
   double jitter_m = 0;
-  double lowpass_hz = 0;  ///< that speeds and paths were smoothed with; 0: not
+  double lowpass_hz = 0;  ///< cut-off used to smooth speeds and paths; 0: not smoothed
 };
 
-/// The excursions of every pair of points that a motion (head pose taken out) names: NAME_L and
-/// NAME_R, and the mirrored iBUG-68 points as ibug68_K, K or pK; those not measured in the first
-/// sample are left out. L and R are the subject's own sides. Speeds and paths of a motion with
-/// jitter are smoothed with the cut-off `lowpass_hz` (>= 0; 0: not); an exact motion is left as it
-/// is.
+/// The excursions of all pairs of points of a motion without head pose: NAME_L and NAME_R, and
+/// mirrored iBUG-68 points, named ibug68_K, K or pK. Pairs that are not measured in the first
+/// sample are omitted. L and R are the subject's own sides. If jitter_m is above 0, speeds and
+/// paths are smoothed with the cut-off `lowpass_hz` (>= 0; 0: not smoothed); an exact motion is
+/// never smoothed.
 Excursions excursions_of(const motion::Motion& motion, double jitter_m = 0,
                          double lowpass_hz = kUsualLowpass_hz);
 

@@ -15,7 +15,8 @@ fem::Hyperelastic without_branches(fem::Hyperelastic law) {
 }  // namespace
 
 fem::Material elastic_material(const Performance& p) {
-  // Values are rounded to float, as the written stress always was: its last digits stay the same.
+  // The values are rounded to float so that the results agree exactly with the stress written so
+  // far.
   fem::Material material = p.material;
   for (std::vector<double>* values : {&material.young_pa, &material.poisson})
     for (double& value : *values) value = static_cast<float>(value);
@@ -33,7 +34,8 @@ FiniteState FiniteTissue::at(const Points& d) const {
   const Eigen::VectorXd flat = Eigen::Map<const Eigen::VectorXd>(d.data(), d.size());
   FiniteState state;
   const std::scoped_lock lock(one_at_a_time_);
-  // Isolated: else a thread that holds the lock might take up another frame and wait for itself.
+  // Isolated: otherwise a thread that holds the lock might start on another frame and wait for
+  // itself.
   tbb::this_task_arena::isolate([&] {
     state.green_lagrange = form_.green_lagrange(flat);
     state.cauchy_pa = form_.cauchy_stress_pa(flat);

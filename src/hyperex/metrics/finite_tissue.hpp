@@ -7,26 +7,27 @@
 
 namespace hyperex::metrics {
 
-/// What a performance's tissue is made of, as elastic stress needs it: no mass, no viscosity.
+/// The material of a performance's tissue for computing elastic stress: without mass and viscosity.
 fem::Material elastic_material(const simulate::Performance& performance);
 
-/// Per tetrahedron, at one displacement.
+/// The state at one displacement, one value per tetrahedron.
 struct FiniteState {
   fem::VoigtRows green_lagrange;  ///< engineering shear
   fem::VoigtRows cauchy_pa;       ///< with the pressure of the element's groups
   Eigen::VectorXd von_mises_pa;   ///< of cauchy_pa
   Eigen::VectorXd volume_ratio;   ///< J
-  Points stretch;                 ///< principal ones, rising
+  Points stretch;                 ///< principal stretches, increasing
 };
 
-/// Strain and stress of a performance at finite strain: the elastic part alone, without viscosity
-/// and Maxwell branches. Stress is NaN in elements that are turned inside out.
+/// Elastic strain and stress of a performance at finite strain, without viscosity and Maxwell
+/// branches. The stress is NaN in inverted elements.
 class FiniteTissue {
  public:
-  /// Of its nodes, tetrahedra, values and model; keeps nothing of it.
+  /// Copies the nodes, tetrahedra, material values and model of the performance; keeps no
+  /// reference.
   explicit FiniteTissue(const simulate::Performance& performance);
-  /// At the displacement `d` (|nodes| x 3, metres). May be called from several threads, which
-  /// wait for one another.
+  /// The state at displacement `d` (|nodes| x 3, metres). May be called from several threads; the
+  /// calls are executed one at a time.
   FiniteState at(const Points& d) const;
 
  private:

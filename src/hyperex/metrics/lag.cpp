@@ -12,7 +12,7 @@
 namespace hyperex::metrics {
 namespace {
 
-/// Cubic Hermite between samples, held outside.
+/// Cubic Hermite interpolation between samples, constant outside.
 class Spline {
  public:
   Spline(const std::vector<double>& t, const std::vector<double>& y)
@@ -43,7 +43,7 @@ double pearson(const std::vector<double>& a, const std::vector<double>& b) {
   return scale > 0 ? (dx * dy).sum() / scale : kNan;
 }
 
-/// By more than rounding.
+/// Whether the values vary by more than rounding.
 bool varies(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return *most - *least > 1e-12 * std::max(std::abs(*least), std::abs(*most));
@@ -100,7 +100,7 @@ double hysteresis_of(const std::vector<double>& input, const std::vector<double>
   double twice = 0;
   for (size_t k = 0; k < input.size(); ++k) {
     const size_t next = (k + 1) % input.size();
-    // About the first point, for the digits' sake.
+    // Relative to the first point, to reduce rounding errors.
     twice += (input[k] - input[0]) * (response[next] - response[0]) -
              (input[next] - input[0]) * (response[k] - response[0]);
   }

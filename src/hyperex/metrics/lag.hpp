@@ -6,36 +6,38 @@
 
 namespace hyperex::metrics {
 
-/// How far a response trails its input.
+/// The delay of a response relative to its input.
 struct Lag {
-  double lag_s = 0;        ///< response(t) is most like input(t - lag): positive where it trails
-  double correlation = 0;  ///< Pearson's at that lag
-  bool at_limit = false;   ///< the best lag is the largest looked at: there may be a better one
+  /// The lag that maximises the correlation of response(t) with input(t - lag); positive: delayed.
+  double lag_s = 0;
+  double correlation = 0;  ///< Pearson's correlation at that lag
+  bool at_limit = false;   ///< the lag is the largest one examined; a greater one may be better
 };
 
-/// Cross-correlation below the step of sampling: the response is interpolated by the C2 cubic
-/// spline at rest at both ends (motion/resample.hpp), and Pearson's correlation of input(t_k) and
-/// response(t_k + lag) over the samples for which t_k - most and t_k + most lie within the signals
-/// is maximised over |lag| <= most: on a grid of a quarter of the median step, then by parabolas
-/// through three lags ever closer. A signal shifted by 0.37 steps is found to 0.001 steps where it
-/// has 15 samples a period or more (lag_test.cpp). Times strictly rise and are common to both.
-/// NaN where fewer than eight samples are left or a signal does not vary. Throws
-/// std::invalid_argument where sizes differ or most_lag_s is not above 0.
+/// Finds a lag by cross-correlation, with a resolution finer than the sampling step. The response
+/// is interpolated by a C2 cubic spline with zero rates at both ends (motion/resample.hpp).
+/// Pearson's correlation of input(t_k) and response(t_k + lag) is maximised over |lag| <=
+/// most_lag_s, using the samples for which t_k - most_lag_s and t_k + most_lag_s lie within the
+/// signals. The search uses a grid of a quarter of the median step, then parabolas through three
+/// increasingly close lags. For a signal with at least 15 samples per period, a shift of 0.37 steps
+/// is found to within 0.001 steps (lag_test.cpp). Times must increase strictly and are common to
+/// both signals. NaN if fewer than eight samples remain or if a signal is constant. Throws
+/// std::invalid_argument if sizes differ or if most_lag_s is not above 0.
 Lag lag_of(const std::vector<double>& time_s, const std::vector<double>& input,
            const std::vector<double>& response, double most_lag_s = 0.1);
 
-/// Area that the curve of response over input encloses, closed by a straight line from its end to
-/// its start, over the area of the box about it:
+/// The area enclosed by the curve of response over input, divided by the area of its bounding box:
 ///   H = |1/2 sum_k (i_k r_k+1 - i_k+1 r_k)| / ((max i - min i) (max r - min r)).
-/// 0: the response depends on the input alone. For harmonic signals H = pi/4 sin(delta), with
-/// delta the phase by which the response trails (the ellipse of a linear viscoelastic body: R.
-/// Lakes, Viscoelastic Materials, Cambridge University Press, 2009). A loop run through n times
-/// counts n times. NaN where a signal does not vary. Throws std::invalid_argument where sizes
-/// differ.
+/// The curve is closed by a straight line from its end to its start. H = 0 if the response depends
+/// on the input alone. For harmonic signals, H = pi/4 sin(delta), with delta the phase lag of the
+/// response (the ellipse of a linear viscoelastic body: R. Lakes, Viscoelastic Materials, Cambridge
+/// University Press, 2009). A loop that is traversed n times counts n times. NaN if a signal is
+/// constant. Throws std::invalid_argument if sizes differ.
 double hysteresis_of(const std::vector<double>& input, const std::vector<double>& response);
 
-/// The displacement of a moving point as one signal, m: its component along the direction in which
-/// it is farthest from where it first was. `positions` N x 3, finite. Zeros where it never moves.
+/// The displacement of a moving point as a scalar signal, m: its component along the direction of
+/// its greatest displacement from the first position. `positions`: N x 3, finite. Zeros if it never
+/// moves.
 std::vector<double> along_farthest(const Points& positions);
 
 }  // namespace hyperex::metrics

@@ -26,12 +26,12 @@ SmoothTrack unsmoothed(const std::vector<double>& time_s, const Points& track) {
   return out;
 }
 
-/// Reinsch's equations of the samples measured, t and y: (R + lambda Q' W^-1 Q) g = Q' y, f = y -
-/// lambda W^-1 Q g, g the second derivatives at the inner samples.
+/// Solves Reinsch's equations for the measured samples t and y: (R + lambda Q' W^-1 Q) g = Q' y, f
+/// = y - lambda W^-1 Q g. g are the second derivatives at the inner samples.
 SmoothTrack spline(const Eigen::VectorXd& t, const Points& y, double lambda) {
   const Index n = t.size(), inner = n - 2;
   const Eigen::VectorXd h = t.tail(n - 1) - t.head(n - 1);
-  Eigen::VectorXd weight(n);  // the time that a sample stands for
+  Eigen::VectorXd weight(n);  // time interval that a sample represents
   weight(0) = h(0), weight(n - 1) = h(n - 2);
   for (Index i = 1; i + 1 < n; ++i) weight(i) = (h(i - 1) + h(i)) / 2;
   std::vector<Eigen::Triplet<double>> q, r;
@@ -50,7 +50,7 @@ SmoothTrack spline(const Eigen::VectorXd& t, const Points& y, double lambda) {
   R.setFromTriplets(r.begin(), r.end());
   const Eigen::SparseMatrix<double> system =
       R + lambda * (Q.transpose() * weight.cwiseInverse().asDiagonal() * Q);
-  // The natural order keeps the band; nothing is gained by another.
+  // The system is banded. The natural order keeps the band, and no other order is better.
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
                               Eigen::NaturalOrdering<int>>
       factor(system);

@@ -19,7 +19,7 @@ double half_sum(const Stretches& values) {
 
 double greatest_mm(const std::vector<double>& distances) {
   double most = 0;
-  for (const double d : distances) most = d > most ? d : most;  // NaN is passed over
+  for (const double d : distances) most = d > most ? d : most;  // NaN is ignored
   return most;
 }
 
@@ -38,7 +38,8 @@ std::vector<Stretches> twin_remainders(const motion::Motion& run, const motion::
 
 std::vector<double> xi_mesh_floor(const motion::Motion& run, const motion::Motion& twin,
                                   const std::vector<Stretches>& remainders) {
-  // Two places a side, as excursions: a jitter of this size makes a difference of kResolution_m.
+  // As for excursions, there are two positions per side: this jitter gives a difference of
+  // kResolution_m.
   std::vector<double> floor = symmetry_noise(run, kResolution_m / (2 * two_sided_95));
   if (floor.size() != remainders.size() || twin.positions.size() != remainders.size())
     throw std::invalid_argument("a run and its twin must have the same samples");

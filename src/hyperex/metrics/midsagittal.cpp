@@ -18,8 +18,8 @@ namespace hyperex::metrics {
 namespace {
 
 constexpr double reach_m = 0.010;
-constexpr double least_cosine = 0.5;  // of normals, 60 degrees
-constexpr int most_points = 5000;     // of the surface that are laid on it
+constexpr double least_cosine = 0.5;  // between normals: 60 degrees
+constexpr int most_points = 5000;     // number of surface points used for matching
 constexpr int most_rounds = 60;
 constexpr int most_idle_rounds = 4;
 constexpr double most_turn_deg = 15, most_shift_m = 0.015;
@@ -82,7 +82,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The surface that is laid on its reflection.
+/// The surface that is matched with its mirror image.
 struct Surface {
   const TriMesh& mesh;
   SurfaceTree tree;
@@ -119,12 +119,13 @@ struct Surface {
   }
 };
 
-/// A vertex (about the middle of the face), the foot of its reflection and the normal there.
+/// A vertex (relative to the middle of the face), the closest point to its mirror image, and the
+/// normal there.
 struct Contact {
   Vec3 p, foot, normal;
 };
 
-/// `feet`: of the round before, or empty; those of this round, then.
+/// `feet`: closest points of the previous round, or empty; replaced by those of this round.
 std::vector<Contact> contacts(const Surface& surface, const MidsagittalPlane& plane,
                               const Vec3& middle, std::vector<ClosestPoint>& feet) {
   Points reflected(static_cast<Eigen::Index>(surface.sample.size()), 3);
@@ -145,8 +146,8 @@ std::vector<Contact> contacts(const Surface& surface, const MidsagittalPlane& pl
   return list;
 }
 
-/// One Gauss-Newton step on the weighted residuals normal . (reflected - foot); the length of the
-/// step (radian, and metre over 0.1 m). `delta` is the offset about the middle.
+/// One Gauss-Newton step on the weighted residuals normal . (reflected - foot). Returns the length
+/// of the step (radian, and metre over 0.1 m). `delta`: the offset relative to the middle.
 double step(const std::vector<Contact>& list, Vec3& n, double& delta, double& rms) {
   std::vector<double> residual, size;
   for (const Contact& c : list) {
@@ -217,7 +218,8 @@ MidsagittalPlane midsagittal_plane(const TriMesh& rest, const io::Landmarks& lan
   double delta = start.offset_m - start.normal.dot(middle);
   const double first_delta = delta;
   std::vector<ClosestPoint> feet;
-  // On a scan the steps stay at some micrometres in the end, as feet change from facet to facet.
+  // On a scan, the steps finally fluctuate by some micrometres, because closest points change
+  // between triangles. The iteration therefore also ends when the steps no longer decrease.
   double least = std::numeric_limits<double>::infinity();
   int idle_rounds = 0;
   for (plane.rounds = 0; plane.rounds < most_rounds;) {

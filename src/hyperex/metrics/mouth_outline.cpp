@@ -14,7 +14,7 @@ namespace {
 constexpr double kNear_m = 0.010;
 constexpr double kStep_m = 0.001, kSmooth_m = 0.0015;
 
-/// Points of the closed line at equal distances along it, about `step_m`.
+/// Points of the closed line at equal distances of about `step_m` along it.
 Points resampled(const Points& line, double step_m) {
   const Eigen::Index n = line.rows();
   std::vector<double> along(std::size_t(n) + 1, 0);
@@ -35,7 +35,7 @@ Points resampled(const Points& line, double step_m) {
   return out;
 }
 
-/// By a Gaussian of `sigma` samples along the closed line.
+/// Smooths the closed line by a Gaussian of `sigma` samples.
 Points smoothed(const Points& line, double sigma) {
   const Eigen::Index n = line.rows();
   const auto reach = std::min(n / 2, Eigen::Index(std::ceil(4 * sigma)));

@@ -4,7 +4,7 @@
 
 namespace hyperex::metrics {
 
-/// For a figure that these data do not give.
+/// The value of a figure that cannot be computed from the data.
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace hyperex::metrics

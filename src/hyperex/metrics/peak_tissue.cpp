@@ -26,7 +26,7 @@ TetSpread spread_of(const Eigen::VectorXd& values, const Inverted& inverted) {
           sound};
 }
 
-/// Without those turned inside out; none where none is left.
+/// The spread without inverted tetrahedra; nothing if none remains.
 std::optional<TetSpread> spread_of_sound(const Eigen::VectorXd& values, const Inverted& inverted) {
   Eigen::VectorXd sound(values.size());
   Eigen::Index count = 0;

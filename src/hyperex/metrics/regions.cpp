@@ -16,7 +16,8 @@ namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
-// Where a region's landmarks come from: a run of iBUG points, and names beside or instead of them.
+// The landmarks that define a region: a range of iBUG points and, in addition or instead, named
+// ones.
 struct Seeds {
   std::vector<Vec3> points;
   int ibug_found = 0, ibug_wanted = 0;
@@ -41,7 +42,7 @@ void add_names(Seeds& seeds, const io::Landmarks& landmarks,
       seeds.points.push_back(found->second);
 }
 
-// iBUG points where all are there; else those there and the names.
+// The iBUG points if all are given; otherwise those that are given and the named landmarks.
 Seeds seeds_of(const io::Landmarks& landmarks, int first, int last,
                const std::vector<std::string>& names) {
   Seeds seeds = ibug_seeds(landmarks, first, last);
@@ -80,7 +81,7 @@ class Builder {
  public:
   Builder(const Points& rest, Regions& out) : rest_(rest), out_(out) {}
 
-  // Notes what the region rests on; whether it can be defined.
+  // Notes which landmarks define the region. Returns whether it can be defined.
   bool defined(const std::string& name, const Seeds& seeds, size_t needed) {
     if (seeds.points.size() < needed) {
       out_.notes.push_back(
@@ -125,7 +126,7 @@ Seeds eye_seeds(const io::Landmarks& landmarks) {
                    "palpebrale_inferius_L", "palpebrale_inferius_R"});
 }
 
-// Within 35 mm of the brows, above the nearest of them.
+// The vertices within 35 mm of the brows and above the nearest of their points.
 Mask above_brows(const Points& rest, const std::vector<Vec3>& brows, const Vec3& up) {
   Mask mask = within(rest, brows, 0.035);
   for (Eigen::Index i = 0; i < rest.rows(); ++i) {

@@ -13,10 +13,10 @@
 namespace hyperex::metrics {
 namespace {
 
-/// With fewer neighbours a dent cannot be measured.
+/// The least number of neighbours for the fit.
 constexpr std::size_t kFewest = 8;
 
-/// Vertices within the reach of one, along edges; kept between calls to allocate nothing.
+/// The vertices within the reach of a vertex along edges. Kept between calls to avoid allocation.
 class Around {
  public:
   Around(const Points& points, const std::vector<std::vector<int>>& neighbours)

@@ -4,18 +4,20 @@
 
 namespace hyperex::metrics {
 
-/// How crumpled a motion makes the skin: what it moves each vertex in and out by beyond a smooth
-/// motion of the skin around. Within `kRoughnessReach_m` of a vertex, along the skin's edges, the
-/// displacements' components along its normal are fitted by an affine function of the place in its
-/// tangent plane; the rest at the vertex itself is its roughness. Stretching, turning and bending
-/// over longer ways count little; dents as wide as the reach, patch by patch, count whole. The
-/// surface at rest does not enter: a rough scan that moves smoothly has none.
+/// Roughness of a displacement field of the skin: its normal component minus a smooth fit. At each
+/// vertex, the components of the displacements along the vertex normal are fitted by an affine
+/// function of the position in the tangent plane. The fit uses the vertices within
+/// `kRoughnessReach_m` along the edges. The residual at the vertex itself is its roughness.
+/// Stretching, rotation and bending over greater lengths contribute little; dents about as wide as
+/// the reach contribute fully. The shape at rest has no effect: a rough scan with a smooth motion
+/// has no roughness.
 struct Roughness {
-  double rms_mm = 0;  ///< over all vertices that are judged
+  double rms_mm = 0;  ///< over all evaluated vertices
   double p99_mm = 0;  ///< 99th percentile
   double greatest_mm = 0;
-  int roughest = -1;        ///< the vertex; -1 where none is judged
-  Eigen::Index judged = 0;  ///< those that have neighbours on all sides: none near a border
+  int roughest = -1;  ///< vertex with the greatest value; -1 if none is evaluated
+  /// Number of evaluated vertices: those with neighbours on all sides, not near a border.
+  Eigen::Index judged = 0;
 };
 
 inline constexpr double kRoughnessReach_m = 0.006;

@@ -4,16 +4,17 @@
 
 namespace hyperex::metrics {
 
-/// Speeds and paths that jitter alone gives a point at rest.
+/// Speeds and path lengths that jitter alone produces for a point at rest.
 struct SpeedFloor {
-  double peak_mm_s = 0;  ///< largest speed: 95 % of such tracks stay under it
-  double path_mm = 0;    ///< length of the way, likewise
+  double peak_mm_s = 0;  ///< largest speed; 95 % of such tracks stay below it
+  double path_mm = 0;    ///< path length; 95 % of such tracks stay below it
   double rms_mm_s = 0;   ///< root mean square speed
 };
 
-/// From 200 tracks of white noise with a standard deviation of `jitter_m` (>= 0) a coordinate,
-/// sampled at `time_s` and smoothed by lowpassed(time_s, ., cutoff_hz). The seed is fixed: the same
-/// input gives the same floors. All 0 where jitter_m is 0 or there are fewer than three samples.
+/// Estimated from 200 tracks of white noise with standard deviation `jitter_m` (>= 0) per
+/// coordinate, sampled at `time_s` and smoothed by lowpassed(time_s, ., cutoff_hz). The random seed
+/// is fixed, so that the same input gives the same floors. All are 0 if jitter_m is 0 or if there
+/// are fewer than three samples.
 SpeedFloor speed_floor(const std::vector<double>& time_s, double jitter_m, double cutoff_hz);
 
 }  // namespace hyperex::metrics

@@ -6,8 +6,8 @@
 
 namespace hyperex::metrics {
 
-/// Summary of distances. Median and 95th percentile interpolate between order statistics
-/// (Hyndman and Fan's type 7). All NaN where there is none.
+/// Statistics of distances. Median and 95th percentile interpolate between order statistics (type 7
+/// of Hyndman and Fan). All are NaN if there is no distance.
 struct DistanceStatistics {
   double mean_mm = 0, median_mm = 0, rms_mm = 0, p95_mm = 0, max_mm = 0;
   Eigen::Index count = 0;
@@ -18,13 +18,13 @@ DistanceStatistics statistics_of(const Eigen::VectorXd& distance_m);
 DistanceStatistics statistics_of(const Eigen::VectorXd& distance_m,
                                  const std::vector<int>& vertices);
 
-/// From each point of `a` to the closest point of surface `b` (m). One-sided: what of `b` lies far
-/// from `a` does not count. It flatters where a surface slides along itself. Computed in parallel.
-/// Throws std::invalid_argument where b is no mesh.
+/// Distance (m) from each point of `a` to the closest point of the surface `b`. This is one-sided:
+/// parts of `b` far from `a` have no effect. Tangential differences are underestimated. Computed in
+/// parallel. Throws std::invalid_argument if b is not a valid mesh.
 Eigen::VectorXd distance_to_surface(const Points& a, const TriMesh& b);
 
-/// Between points of the same index (m), over the first `count` of each. Throws
-/// std::invalid_argument where one has fewer.
+/// Distance (m) between points of equal index, for the first `count` points. Throws
+/// std::invalid_argument if `a` or `b` has fewer points.
 Eigen::VectorXd distance_to_corresponding(const Points& a, const Points& b, Eigen::Index count);
 
 }  // namespace hyperex::metrics

@@ -94,7 +94,7 @@ Vec3 position(const Points& sample, const Columns& columns) {
   return sum / static_cast<double>(columns.size());
 }
 
-// From cheilion to the four others.
+// The vectors from cheilion to the other four points.
 std::array<Vec3, 4> rays(const Points& sample, const std::array<Columns, 5>& side) {
   const Vec3 cheilion = position(sample, side[0]);
   std::array<Vec3, 4> all;
@@ -215,7 +215,7 @@ double jitter_at_rest(const motion::Motion& landmarks, double window_s) {
     double squares = 0;
     for (const int column : columns) {
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero(), of_squares = sum;
-      // About the first sample, for the digits' sake.
+      // Relative to the first sample, to reduce rounding errors.
       const Eigen::RowVector3d about = landmarks.positions[first].row(column);
       for (size_t k = first; k < end; ++k) {
         const Eigen::RowVector3d d = landmarks.positions[k].row(column) - about;

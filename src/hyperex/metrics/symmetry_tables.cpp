@@ -14,7 +14,7 @@ std::string field(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : std::string();
 }
 
-/// A field each, or as many empty ones.
+/// The value as a field, or an empty field.
 std::string at(const std::vector<double>& values, size_t i) {
   return i < values.size() ? field(values[i]) : std::string();
 }

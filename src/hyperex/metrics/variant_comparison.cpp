@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNearMouth_m = 0.025;
 
-/// Positions of a landmark over time; empty where there is none of that name.
+/// Positions of a landmark over time; empty if there is none with that name.
 Points track_of(const motion::Motion& m, const std::string& name) {
   const int row = m.index_of(name);
   if (row < 0) return {};
@@ -55,7 +55,7 @@ double mean(const Eigen::VectorXd& values, const Eigen::VectorXd& weight) {
   return values.dot(weight) / weight.sum();
 }
 
-/// At the peak: how far either side of the face moves, in the mean over its area.
+/// Displacements at the peak, averaged over the area of each side of the face.
 void measure_sides(const Asymmetry& map, const TriMesh& rest, const PointsF& displacement,
                    const Eigen::VectorXd& area, VariantComparison& c) {
   double sum_mm[2] = {0, 0}, all[2] = {0, 0};
@@ -69,14 +69,14 @@ void measure_sides(const Asymmetry& map, const TriMesh& rest, const PointsF& dis
   c.mean_displacement_right_mm = sum_mm[1] / all[1];
 }
 
-/// The border of the lips, corners included, as ibug68_48 to 59 go round it.
+/// The outer border of the lips including the corners, in the order of ibug68_48 to 59.
 Points lip_outline(const io::Landmarks& landmarks) {
   Points outline(12, 3);
   for (int k = 0; k < 12; ++k) outline.row(k) = landmarks.at(face::ibug(48 + k)).transpose();
   return outline;
 }
 
-/// The value of the greatest size; 0 where there is none.
+/// The value with the greatest absolute value; 0 if there is none.
 double at_greatest(const std::vector<double>& values) {
   const int at = greatest_sample(values);
   return at < 0 ? 0 : values[std::size_t(at)];
@@ -88,7 +88,7 @@ bool comes_back(const std::vector<double>& input) {
   return std::abs(input.back()) < 0.5 * most;
 }
 
-/// Where a vertex is farthest from base, and how far it has moved there at the peak.
+/// Finds the vertex with the greatest distance from base, and its displacements at the peak.
 void measure_farthest(const simulate::Performance& own, const simulate::Performance& p,
                       const io::Landmarks& landmarks, VariantComparison& c) {
   const auto peak = std::size_t(own.peak_frame);
@@ -128,7 +128,7 @@ void measure_commissures(const ComparedRun& base, const ComparedRun& run, Varian
     }
 }
 
-/// Lag and hysteresis of the response behind what drives it.
+/// Computes lag and hysteresis of the response relative to the driven point.
 void measure_lag(const simulate::Performance& own, const simulate::Performance& p,
                  const motion::Motion& recorded, const ResponsePair& pair, VariantComparison& c) {
   c.lag.lag_s = c.lag.correlation = c.hysteresis = std::nan("");

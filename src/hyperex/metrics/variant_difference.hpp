@@ -6,34 +6,35 @@
 
 namespace hyperex::metrics {
 
-/// Per vertex, how far apart two performances of one skin are at the same times (m). `change`
-/// says which moves more: |u_b| - |u_a| at the peak, below 0 where b moves less.
+/// Distance (m) between the positions of each vertex in two performances of the same skin at the
+/// same times. `change_at_peak_m` is |u_b| - |u_a| at the peak, negative if the vertex moves less
+/// in b.
 struct VariantDifference {
-  Eigen::VectorXd greatest_m;  ///< over all frames
+  Eigen::VectorXd greatest_m;  ///< maximum over all frames
   Eigen::VectorXd at_peak_m;   ///< at the given frame
   Eigen::VectorXd rms_m;       ///< root mean square over all frames
   Eigen::VectorXd change_at_peak_m;
-  std::vector<double> frame_rms_m, frame_max_m;  ///< over the vertices, a frame
+  std::vector<double> frame_rms_m, frame_max_m;  ///< over all vertices, one value per frame
 };
 
-/// `a`, `b`: displacements of the same vertices (m), a frame each at the same times. Throws
-/// std::invalid_argument where numbers of frames or vertices differ, there is no frame, or
-/// `peak_frame` is none.
+/// `a`, `b`: displacements of the same vertices (m), one entry per frame, at the same times. Throws
+/// std::invalid_argument if the numbers of frames or vertices differ, if there is no frame, or if
+/// `peak_frame` is out of range.
 VariantDifference variant_difference(const std::vector<PointsF>& a, const std::vector<PointsF>& b,
                                      int peak_frame);
 
 /// The greatest displacement of any vertex in any frame, m; 0 where there is none.
 double greatest_displacement_m(const std::vector<PointsF>& frames);
 
-/// Share of the summed squared distance that lies within `radius_m` (straight, at rest) of a closed
-/// line through `outline`, which one point alone may be:  sum_near w d^2 / sum w d^2. `weight`: a
-/// value per vertex, such as vertex_areas(), so that the share does not depend on where the mesh is
-/// fine; empty: all vertices alike. NaN where all distances are 0. Throws std::invalid_argument
-/// where sizes differ or there is no line.
+/// Share of the sum of squared distances that lies near a line: sum_near w d^2 / sum w d^2. Near
+/// means within `radius_m` (straight-line distance at rest) of the closed line through `outline`,
+/// which may be a single point. `weight`: one value per vertex, such as vertex_areas(), which makes
+/// the share independent of the local mesh density; empty: equal weights. NaN if all distances are
+/// 0. Throws std::invalid_argument if sizes differ or if there is no line.
 double share_within(const Eigen::VectorXd& distance, const Points& rest, const Points& outline,
                     double radius_m, const Eigen::VectorXd& weight = {});
 
-/// A third of the area of the triangles around each vertex, m^2.
+/// Area associated with each vertex, m^2: a third of the area of the triangles around it.
 Eigen::VectorXd vertex_areas(const TriMesh& mesh);
 
 }  // namespace hyperex::metrics

@@ -16,7 +16,7 @@ std::string cell(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
 }
 
-/// The figures of a row, each under the name that it has in variants.csv and summary.json.
+/// The figures of a row, with their names in variants.csv and summary.json.
 std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& c) {
   return {{"greatest_displacement_mm", c.greatest_displacement_mm},
           {"greatest_distance_mm", c.greatest_distance_mm},

@@ -9,23 +9,23 @@
 
 namespace hyperex::metrics {
 
-/// CSV, a row a run, base first: variant, the figures of VariantComparison (empty where they are
-/// not known), farthest_near, and the pair of points for which lag and hysteresis are reported.
+/// Writes a CSV with one row per run, base first: variant, the figures of VariantComparison (empty
+/// if unknown), farthest_near, and the pair of points for which lag and hysteresis are given.
 void write_variants_csv(const std::filesystem::path& file, const VariantComparison& base,
                         const std::vector<VariantComparison>& compared, const ResponsePair& pair);
 
 /// The excursions of a variant's run.
 struct NamedExcursions {
   std::string name;
-  const Excursions& excursions;  ///< of the pairs that base has
+  const Excursions& excursions;  ///< of the same pairs as in base
 };
 
-/// CSV, a row per variant, pair of landmarks and side: how far it travels in base and in the
-/// variant, the change with its band and whether it is larger (change_of).
+/// Writes a CSV with one row per variant, pair of landmarks and side: the excursion in base and in
+/// the variant, the change, its band, and whether the change is larger than the band (change_of).
 void write_variant_excursions_csv(const std::filesystem::path& file, const Excursions& base,
                                   const std::vector<NamedExcursions>& variants);
 
-/// A row of variants.csv under the same names; null where a figure is not known.
+/// A row of variants.csv with the same names; null if a figure is unknown.
 nlohmann::ordered_json json_of(const VariantComparison& comparison);
 
 }  // namespace hyperex::metrics

@@ -9,8 +9,8 @@
 namespace hyperex::motion {
 
 struct PointGain {
-  std::string point;  ///< a name of the motion
-  double gain = 1;    ///< of its displacement from the first sample
+  std::string point;  ///< name of a point of the motion
+  double gain = 1;    ///< factor on its displacement from the first sample
 
   static constexpr const char* about = "A gain on one point of a recording.";
   template <class Visitor>
@@ -20,15 +20,16 @@ struct PointGain {
   }
 };
 
-/// The motion with the displacements of the named points from their place in the first sample
-/// multiplied; all other points stay as they were. What lies between points takes its share from
-/// whoever interpolates them (simulate/drive/drive), so nothing is spread here. Points not measured
-/// stay NaN. Throws InputError for a name that the motion has not, a name given twice, a gain that
-/// is negative or not finite, and a point with a gain that is not measured in the first sample.
+/// The motion, with the displacement of each named point from its position in the first sample
+/// multiplied by the point's gain. All other points stay as they were. The skin between the points
+/// follows later, by interpolation (simulate/drive/drive). Points not measured stay NaN. Throws
+/// InputError for a name that is not in the motion, a name given twice, a gain that is negative or
+/// not finite, and a point with a gain that is not measured in the first sample.
 Motion with_point_gains(const Motion& motion, const std::vector<PointGain>& gains);
 
-/// The same path in `scale` times the time; the first sample's time stays. 2: twice as slow, half
-/// the speed. Throws InputError where scale is not above 0 or not finite.
+/// The same path in `scale` times the time; the time of the first sample does not change. With
+/// scale = 2 the motion takes twice as long, at half the speed. Throws InputError where `scale` is
+/// not finite or not above 0.
 Motion time_scaled(const Motion& motion, double scale);
 
 }  // namespace hyperex::motion

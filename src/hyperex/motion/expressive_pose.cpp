@@ -22,11 +22,11 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kLeastJitter_m = 1e-7;
 constexpr double kSmoothing_s = 0.1;
-// Amplitudes of expression that are tried: 0.0001, 0.0002, ... 6.6 standard deviations. The least
-// lets points that do not move at all carry the pose alone.
+// The amplitudes of expression that are tried: 0.0001, 0.0002, ... 6.6 standard deviations. With
+// the smallest amplitude, points that do not move at all determine the pose alone.
 constexpr double kLeastAmplitude = 1e-4;
 constexpr int kAmplitudes = 17, kUsualIndex = 12;
-// A weak prior against amplitudes beyond all measure, which a face of few points may suggest.
+// A weak prior against very large amplitudes, which a face with few points may suggest.
 constexpr double kUsualAmplitude = 0.5, kPriorWeight = 0.5;
 
 Eigen::Matrix3d cross_matrix(const Vec3& v) {
@@ -37,7 +37,7 @@ Eigen::Matrix3d cross_matrix(const Vec3& v) {
 
 using Amplitudes = std::array<double, 2>;  // of upper and lower face
 
-/// The landmarks measured in a sample, with all that does not depend on the sample but on which
+/// The landmarks measured in a sample, with all quantities that depend only on which landmarks
 /// these are.
 class Witnesses {
  public:
@@ -79,7 +79,7 @@ class Witnesses {
     return w;
   }
 
-  /// Minus twice the restricted log likelihood of residuals, less a constant.
+  /// Minus twice the restricted log likelihood of the residuals, up to a constant.
   static double misfit(const Weighing& w, const Eigen::VectorXd& residual, const Amplitudes& a) {
     const Eigen::VectorXd white = w.factor.matrixL().solve(residual);
     const Vector6 explained = w.whitened.transpose() * white;
@@ -89,7 +89,8 @@ class Witnesses {
     return sum;
   }
 
-  /// Where the landmarks are, seen in the head, less where they were: 3 per landmark.
+  /// The positions of the landmarks in the head's frame, minus those in sample 0: 3 numbers per
+  /// landmark.
   Eigen::VectorXd residual(const Points& now, const Eigen::Isometry3d& pose) const {
     const Eigen::Isometry3d back = pose.inverse();
     Points left =
@@ -102,7 +103,7 @@ class Witnesses {
   }
 
   UncertainPose refined(const Weighing& w, const Points& now, Eigen::Isometry3d pose) const {
-    constexpr int kIterations = 4;  // turns that are left over are small: two would do
+    constexpr int kIterations = 4;  // the remaining rotations are small: two would be enough
     for (int i = 0; i < kIterations; ++i) {
       const Eigen::VectorXd white = w.factor.matrixL().solve(residual(now, pose));
       const Vector6 step = w.covariance * (w.whitened.transpose() * white);
@@ -125,7 +126,7 @@ class Witnesses {
   Eigen::VectorXd trust_;
 };
 
-/// One sample's landmarks as rows of those known.
+/// The landmarks measured in one sample; `seen` are indices into the known landmarks.
 struct Sample {
   std::vector<int> seen;
   Points now;
@@ -141,7 +142,7 @@ Sample sample_of(const Points& positions, const std::vector<KnownLandmark>& land
   return sample;
 }
 
-/// Keeps the witnesses of the last sample: most samples have the same.
+/// Keeps the Witnesses of the last sample, since most samples have the same landmarks.
 class WitnessKeeper {
  public:
   WitnessKeeper(const Motion& motion, const std::vector<KnownLandmark>& landmarks, double jitter_m)
@@ -163,8 +164,8 @@ class WitnessKeeper {
     return witnesses_.front();
   }
 
-  /// The likeliest amplitudes of a sample, on the grid, found downhill from `before` and from
-  /// usual ones: there may be more than one valley.
+  /// The most likely amplitudes of a sample on the grid. A descent starts from `before` and another
+  /// from usual amplitudes, since there may be more than one minimum.
   std::array<int, 2> likeliest(const Sample& sample, const std::array<int, 2>& before) {
     const Witnesses& witnesses = of(sample.seen);
     const Eigen::VectorXd residual =
@@ -209,7 +210,7 @@ class WitnessKeeper {
   std::map<std::array<int, 2>, Witnesses::Weighing> weighings_;
 };
 
-/// The likeliest amplitudes about sample k, their logarithms smoothed over time.
+/// The most likely amplitudes at sample k; their logarithms are smoothed over time.
 template <typename Times, typename Found>
 Amplitudes smoothed(const Times& time_s, const Found& found, std::size_t k) {
   constexpr double kFar = 4;
@@ -268,7 +269,8 @@ std::vector<UncertainPose> expressive_poses(const Motion& motion,
     const Amplitudes a = smoothed(motion.time_s, found, k);
     poses.push_back(
         witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)));
-    // A lift of the brows that the pose has swallowed leaves no trace in the lower face.
+    // A motion of the brows that was taken for a motion of the head leaves no trace in the lower
+    // face.
     if (a[0] > a[1]) poses.back().covariance = witnesses.weigh({a[0], a[0]}).covariance;
     progress.update(long(samples + k + 1));
   }

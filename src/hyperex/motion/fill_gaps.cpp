@@ -31,7 +31,8 @@ void check_steps(const Motion& motion, double max_gap_s) {
                                  motion.time_s[i], steps[i], max_gap_s));
 }
 
-/// Slope of a point at a measured sample from its measured neighbour on the far side of the gap.
+/// Slope of a point at a measured sample, towards its neighbour on the side away from the gap; zero
+/// where that neighbour is not measured.
 Eigen::RowVector3d slope(const Motion& motion, int point, int sample, int away) {
   const int other = sample + away;
   if (other < 0 || other >= int(motion.time_s.size()) || !measured(motion, other, point))

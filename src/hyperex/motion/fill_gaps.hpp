@@ -9,15 +9,15 @@ namespace hyperex::motion {
 
 enum class GapFill {
   linear,
-  cubic  ///< Hermite, with the slopes of the samples beside the gap
+  cubic  ///< Hermite; its slopes come from the samples on either side of the gap
 };
 
 struct GapOptions {
-  double max_gap_s = 0.2;  ///< >= 0; from the last sample before to the first after
+  double max_gap_s = 0.2;  ///< >= 0; time from the last sample before the gap to the first after it
   GapFill fill = GapFill::linear;
 };
 
-/// One stretch of NaN that was filled.
+/// A run of samples (NaN) of one point that was filled.
 struct FilledGap {
   std::string point;
   double from_s = 0, to_s = 0;  ///< first and last sample that had no value
@@ -30,9 +30,10 @@ struct FilledMotion {
 };
 
 /// Fills stretches where a point was not measured. A gap at the start or the end is filled with the
-/// nearest measured position. Throws InputError naming point, start and length of the first gap
-/// longer than `max_gap_s`, a point that never was measured, or a hole in the samples themselves:
-/// a step longer than `max_gap_s` and than five usual (median) steps.
+/// nearest measured position. Throws InputError for a gap longer than `max_gap_s`, naming the
+/// point, the start and the length of the first one; for a point that was never measured; and for
+/// missing samples, which show as a time step longer than both `max_gap_s` and five times the
+/// median step.
 FilledMotion fill_gaps(const Motion& motion, const GapOptions& options = {});
 
 }  // namespace hyperex::motion

@@ -10,11 +10,11 @@ namespace hyperex::motion {
 namespace {
 
 constexpr std::size_t kOrder = 4, kFewestSamples = 20, kFewestDifferences = 5;
-constexpr double kMedianOfNormal = 0.6745;  // of the size, in standard deviations
+constexpr double kMedianOfNormal = 0.6745;  // median absolute value of a standard normal variable
 using Weights = std::array<double, kOrder + 1>;
 
-/// Of the fourth divided difference at these times, scaled so that white noise keeps its variance:
-/// at even times (1, -4, 6, -4, 1) / sqrt(70).
+/// Weights of the fourth divided difference at these times, scaled so that white noise keeps its
+/// variance: at even times (1, -4, 6, -4, 1) / sqrt(70).
 Weights weights_at(const std::vector<double>& time_s, std::size_t first, std::size_t stride) {
   Weights weights;
   const double length = time_s[first + kOrder * stride] - time_s[first];
@@ -29,7 +29,8 @@ Weights weights_at(const std::vector<double>& time_s, std::size_t first, std::si
   return weights;
 }
 
-/// Fourth differences of a point, a row each; where it is not measured there is none.
+/// Fourth differences of a point, one row each. Differences with a sample that is not measured are
+/// left out.
 std::vector<Eigen::RowVector3d> differences(const Motion& motion, int column, std::size_t stride) {
   std::vector<Eigen::RowVector3d> out;
   for (std::size_t k = 0; k + kOrder * stride < motion.positions.size(); ++k) {
@@ -78,7 +79,8 @@ double jitter_of_differences(const Motion& motion, const std::vector<int>& colum
 
 double jitter_of_motion(const Motion& motion, const std::vector<int>& columns) {
   if (motion.positions.size() < kFewestSamples) return std::numeric_limits<double>::quiet_NaN();
-  constexpr double growth = 256;  // of a smooth motion's squared differences: (2^4)^2
+  constexpr double growth =
+      256;  // squared differences of a smooth motion at twice the step: (2^4)^2
   const double near = variance_of(motion, columns, 1), far = variance_of(motion, columns, 2);
   const double variance = (growth * near - far) / (growth - 1);
   return std::sqrt(variance < 0 ? 0 : variance);

@@ -18,7 +18,7 @@ constexpr double kMillimetre = 1e-3;
 constexpr std::size_t kTexts = 3, kNumbersBeforeModes = 6;
 constexpr double kCorrelationLength_m = 0.04, kShared = 0.9;
 
-// Our own file: a fault in it is a fault of the build.
+// The file is part of the program: an error in it is an error of the build.
 void require(bool sound) {
   if (!sound) throw std::logic_error("the table of moving landmarks in this program is damaged");
 }
@@ -29,7 +29,7 @@ double metres(std::string_view cell) {
   return kMillimetre * *number;
 }
 
-/// Columns of the modes of a part, three each; `after` is where they begin.
+/// The number of modes of a part. Each has three columns, whose names begin with `part`.
 Eigen::Index modes_named(const std::vector<std::string_view>& header, std::string_view part) {
   Eigen::Index columns = 0;
   for (const auto name : header) columns += name.size() > part.size() && name.starts_with(part);
@@ -75,7 +75,7 @@ LandmarkMotion parsed() {
   return table;
 }
 
-/// Covariance of motion beyond the modes of two landmarks: a part of the face moves for itself.
+/// Covariance between two landmarks of the motion that the modes do not describe.
 Eigen::Matrix3d beyond_modes(const LandmarkMotion& table, int a, int b) {
   const double distance_m = (table.rest_m.row(a) - table.rest_m.row(b)).norm();
   const double alike =

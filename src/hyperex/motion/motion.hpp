@@ -8,26 +8,27 @@
 
 namespace hyperex::motion {
 
-/// Named points over time, in metres: the contract between whatever measured them and the rest.
-/// Immutable by convention: each operation returns a new one.
+/// Named points over time, in metres. All sources of motion produce this type, and the rest of the
+/// program uses only this type. Immutable by convention: each operation returns a new one.
 struct Motion {
   std::vector<std::string> names;  ///< P of them, unique, e.g. "ibug68_48"
   std::vector<double> time_s;      ///< N of them, strictly rising
   std::vector<Points> positions;   ///< N times P x 3, metres; a row of NaN where not measured
   Triangles triangles;             ///< of the tracked mesh over the P points; may be empty
-  /// N poses reference_from_head where head pose has been taken out of `positions` (which then are
-  /// in the face's frame); empty where it has not.
+  /// N poses reference_from_head where the head pose has been removed from `positions` (which then
+  /// are in the face's frame); empty where it has not been removed.
   std::vector<Eigen::Isometry3d> head_pose;
-  std::vector<int> lines;  ///< of `source`, of each sample, for errors; empty where not known
+  std::vector<int> lines;  ///< line of `source` of each sample, for errors; empty where not known
   std::string source;      ///< what to name in errors: the file, or empty
   std::string unit_note;   ///< which length unit was read and why, for the log
 
   int index_of(const std::string& name) const;  ///< -1 where there is none
-  /// All points at time t: linear between samples, the first and last sample held outside.
+  /// All points at time t: linear between samples. Before the first and after the last sample, that
+  /// sample's positions.
   Points at(double t) const;
 };
 
-/// What errors name: `source`, else "motion".
+/// The name used in errors: `source`, or "motion" where that is empty.
 std::string named(const Motion& motion);
 /// Throws InputError in one line, "SOURCE: message".
 [[noreturn]] void refuse(const Motion& motion, const std::string& message);

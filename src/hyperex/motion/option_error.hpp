@@ -6,11 +6,11 @@
 
 namespace hyperex::motion {
 
-/// An InputError that an option would mend. Whoever gives the option another name, as files of
-/// settings do, says the sentence anew with that name.
+/// An InputError that can be resolved by setting an option. A caller that has another name for the
+/// option, such as a key of a scene file, writes the sentence again with that name.
 class OptionError : public InputError {
  public:
-  /// The sentence is BEFORE, OPTION and AFTER one behind the other. `option`: as it is named here.
+  /// The sentence is BEFORE, OPTION and AFTER, joined. `option`: its name in this library.
   OptionError(const std::string& file, std::string before, std::string option, std::string after);
 
   const std::string& option() const { return option_; }

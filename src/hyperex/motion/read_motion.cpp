@@ -27,13 +27,14 @@ namespace {
 namespace fs = std::filesystem;
 using io::LengthUnit;
 
-/// The span of a face's points, metres: so narrow that only one of mm, cm and m fits.
+/// The span of a face's points, metres. The interval is so narrow that only one of mm, cm and m
+/// fits.
 constexpr double kLeastSpan = 0.05, kLargestSpan = 0.45;
-/// What a stated unit must give at least and at most: a few points of a mouth, a head and
+/// The smallest and the largest span in a stated unit: from a few points of a mouth to a head and
 /// shoulders.
 constexpr double kLeastStatedSpan = 0.01, kLargestStatedSpan = 1.0;
 
-/// Takes "_mm", "_cm" or "_m" off the end of `text`.
+/// Removes "_mm", "_cm" or "_m" from the end of `text`.
 std::optional<LengthUnit> take_unit(std::string& text) {
   const auto cut = text.rfind('_');
   if (cut == std::string::npos || cut == 0) return {};
@@ -89,7 +90,8 @@ void add_coordinate(const io::CsvTable& table, Columns& columns, int column) {
   point->column[std::size_t(axis)] = column;
 }
 
-/// Common tables of other kinds, recognised by their columns, and which command reads them.
+/// Refuses common tables of other kinds, recognised by their columns, and names the option that
+/// reads them.
 void refuse_other_tables(const io::CsvTable& table) {
   const auto has = [&](const char* wanted) {
     return std::any_of(table.names.begin(), table.names.end(),
@@ -107,7 +109,8 @@ void refuse_other_tables(const io::CsvTable& table) {
 constexpr const char* kNoTime =
     "this is no recording: it has no column of time (time_s, time or timestamp)";
 
-/// A table, as one of results; of one of texts, not of numbers, that matters more than its texts.
+/// Reads a table of numbers. A table of words without a time column is refused for the missing
+/// column, which says more about the error than the first word.
 io::CsvTable read_table(const fs::path& file) {
   try {
     return io::read_csv(file);
@@ -153,7 +156,7 @@ Columns find_columns(const io::CsvTable& table) {
   return columns;
 }
 
-/// 68 numbered points are those of the usual annotation.
+/// Renames 68 numbered points to the names of the usual annotation.
 void name_ibug68(Columns& columns) {
   if (columns.points.size() != 68) return;
   std::set<std::string> expected;
@@ -226,7 +229,7 @@ void scale_to_metres(const fs::path& file, const Columns& columns, std::optional
                                        span < kLeastStatedSpan ? "small" : "large"));
 }
 
-/// Its times are no numbers, so that reading the table would speak of the first of them.
+/// The times in such a file are not numbers; an error about the first of them would mislead.
 void refuse_live_link(const fs::path& file) {
   if (lower_case(read_file(file).substr(0, 27)).starts_with("timecode,blendshapecount"))
     throw OptionError(file,
@@ -259,7 +262,7 @@ Motion from_csv(const fs::path& file, std::optional<LengthUnit> stated) {
     for (Eigen::Index p = 0; p < sample.rows(); ++p)
       for (int axis = 0; axis < 3; ++axis)
         sample(p, axis) = table.values(k, columns.points[std::size_t(p)].column[std::size_t(axis)]);
-    // A point with one coordinate lost is lost.
+    // A point with one missing coordinate counts as not measured.
     for (Eigen::Index p = 0; p < sample.rows(); ++p)
       if (!sample.row(p).allFinite())
         sample.row(p).setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -23,7 +23,7 @@ Eigen::MatrixXd monotone_slopes(const std::vector<double>& t, const Eigen::Matri
   return m;
 }
 
-/// The interval of rising times that holds t, and the share of it passed.
+/// The interval of rising times that contains t, and the share of the interval before t.
 struct Place {
   std::size_t before;
   double share, length;
@@ -51,7 +51,7 @@ Eigen::Isometry3d pose_at(const Motion& motion, double t) {
 
 }  // namespace
 
-// A tridiagonal system, diagonally dominant: solved without pivoting.
+// Solves a tridiagonal, diagonally dominant system without pivoting.
 Eigen::MatrixXd spline_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y) {
   const Eigen::Index n = y.rows();
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, y.cols());

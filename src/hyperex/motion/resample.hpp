@@ -9,17 +9,16 @@ namespace hyperex::motion {
 
 enum class Interpolation {
   linear,  ///< velocity jumps at the samples
-  /// Cubic spline through the samples, C2, at rest (zero velocity) at both ends: a motion that
-  /// starts from rest and is held after its last sample has no jump of velocity anywhere. May
-  /// overshoot.
+  /// C2 cubic spline through the samples with zero velocity at both ends. A motion that starts from
+  /// rest and is held after its last sample then has no jump of velocity anywhere. May overshoot.
   cubic,
-  /// Cubic Hermite with the slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984), C1:
-  /// never leaves the range of the two samples beside it.
+  /// C1 cubic Hermite with the slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984).
+  /// Between two samples it stays within the range of their values.
   monotone
 };
 
-/// First derivatives at rising times `t` of the C2 cubic splines through the columns of `y` (one
-/// row per time), zero at both ends.
+/// First derivatives, at the rising times `t`, of the C2 cubic splines through the columns of `y`
+/// (one row per time). The derivatives at both ends are zero.
 Eigen::MatrixXd spline_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y);
 
 /// The positions of a motion as functions of time: built once, evaluated often. Before the first

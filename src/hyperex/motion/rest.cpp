@@ -16,14 +16,14 @@ constexpr double kStretch_s = 0.3, kStart_s = 0.1, kNearer = 0.65;
 constexpr std::size_t kFewest = 5;
 constexpr double kLeastSpread = 0.05;
 
-/// Samples [first, last) within a stretch, at least one.
+/// Samples [first, last) in a stretch, at least one.
 std::pair<std::size_t, std::size_t> samples_of(const Motion& motion, const RestStretch& stretch) {
   const auto& t = motion.time_s;
   const double slack = 1e-9, start = t.front();
   const auto from = std::lower_bound(t.begin(), t.end(), start + stretch.from_s - slack);
   const auto to = std::upper_bound(t.begin(), t.end(), start + stretch.to_s + slack);
   if (from < to) return {std::size_t(from - t.begin()), std::size_t(to - t.begin())};
-  // No sample in it: the nearest.
+  // No sample lies in the stretch: take the nearest.
   const double middle = start + 0.5 * (stretch.from_s + stretch.to_s);
   const auto nearest = std::min_element(t.begin(), t.end(), [&](double a, double b) {
     return std::abs(a - middle) < std::abs(b - middle);
@@ -32,7 +32,7 @@ std::pair<std::size_t, std::size_t> samples_of(const Motion& motion, const RestS
   return {index, index + 1};
 }
 
-/// Means of the measured rows; NaN where a point is not measured in any.
+/// Means of the measured rows; NaN where a point is not measured in any sample.
 Points mean_of(const std::vector<Points>& positions, std::size_t first, std::size_t last) {
   Points sum = Points::Zero(positions[first].rows(), 3);
   Eigen::VectorXd count = Eigen::VectorXd::Zero(sum.rows());
@@ -53,7 +53,7 @@ double usual_step_s(const Motion& motion) {
   return steps[steps.size() / 2];
 }
 
-/// Puts a course from `rest` to the first sample before it.
+/// Puts a transition from `rest` to the first sample before the motion.
 void lead_in(Motion& motion, const Points& rest) {
   const double step_s = std::min(usual_step_s(motion), rest_lead_s / 5);
   const int steps = int(std::ceil(rest_lead_s / step_s));
@@ -100,7 +100,7 @@ Common common_of(const Motion& motion, const io::Landmarks& at_rest) {
   return common;
 }
 
-/// The samples from `start_s` after the first one on.
+/// The samples at and after `start_s`, counted from the first sample.
 Motion from_time(const Motion& motion, double start_s) {
   const auto& t = motion.time_s;
   const auto first = std::lower_bound(t.begin(), t.end(), t.front() + start_s - 1e-9) - t.begin();

@@ -18,18 +18,19 @@ namespace hyperex::motion {
 
 namespace {
 
-// Below this the turn about the line through the points is mostly noise.
+// Below this spread, the rotation about the line through the points is mostly noise.
 constexpr double kLeastSkullSpread = 0.02;
-// Residuals under this are what any sensor has, and no reason to doubt a point (m).
+// Smaller residuals (m) occur with any sensor and are no reason to lower a point's weight.
 constexpr double kResidualFloor = 1e-5;
 
-/// The tip of the nose goes with the upper lip: better than a line, worse than anything else.
+/// The tip of the nose moves with the upper lip: it is used only where the other points lie close
+/// to a line.
 const std::vector<std::string> kNoseTip = {face::ibug(30), "pronasale"};
-// Eye corners alone spread less than this about their line.
+// The spread of the eye corners alone about their line is smaller than this.
 constexpr double kWellSpread = 0.2;
-// 95 % of a Gaussian lie within this many standard deviations.
+// 95 % of a Gaussian lie within this many standard deviations of the mean.
 constexpr double kWithin95 = 1.96;
-// What real and made-up expressions strayed beyond the prior's word, see docs/tracking.md.
+// By how much real and synthetic expressions exceeded the prior's bounds, see docs/tracking.md.
 constexpr double kBeyondPrior = 2;
 
 Points rows_of(const Points& all, const std::vector<int>& rows) {
@@ -38,7 +39,7 @@ Points rows_of(const Points& all, const std::vector<int>& rows) {
   return some;
 }
 
-/// "a, b, c and 4 more": as many names as fit into a message, which must not be truncated.
+/// "a, b, c and 4 more": as many names as fit into a message without being truncated.
 std::string listed(std::vector<std::string> names) {
   constexpr std::size_t most_letters = 240;
   std::size_t shown = 0, letters = 0;
@@ -50,9 +51,9 @@ std::string listed(std::vector<std::string> names) {
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// Those that could be named as moving with the skull: those that were found to keep their
-/// distances; else the motion's other points. Of a face's own points the usual ones are known
-/// already, so that others, of a helmet say, come first.
+/// The points that could be named as moving with the skull: those found to keep their distances,
+/// else the motion's other points. Names that are not landmarks of a face (of markers on a helmet,
+/// for example) come first, since the usual landmarks are tried already.
 std::string other_names(const Motion& motion, const std::vector<int>& known) {
   if (const auto still = find_still_points(motion); !still.empty())
     return "these keep their distances from each other, as points of the skull do: " +
@@ -89,10 +90,10 @@ std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::stri
   return indices;
 }
 
-/// The rigid points of one sample that are measured there and in sample 0.
+/// The rigid points that are measured both in one sample and in sample 0.
 struct Pairs {
   Points reference, current;
-  std::vector<int> rows;  ///< into the list of rigid points
+  std::vector<int> rows;  ///< indices into the list of rigid points
 };
 
 Pairs pairs_at(const Motion& motion, const std::vector<int>& rigid, std::size_t k) {
@@ -148,7 +149,8 @@ Eigen::VectorXd weights_of(const Pairs& pairs, const Eigen::VectorXd& weights) {
   return own;
 }
 
-/// How a point at `arm` from the centre moves with a small turn and shift.
+/// Derivative of the position of a point at `arm` from the centre, with respect to a small rotation
+/// and translation.
 Eigen::Matrix<double, 3, 6> pose_derivative(const Vec3& arm) {
   Eigen::Matrix<double, 3, 6> d;
   d << 0, arm.z(), -arm.y(), 1, 0, 0,  //
@@ -157,7 +159,8 @@ Eigen::Matrix<double, 3, 6> pose_derivative(const Vec3& arm) {
   return d;
 }
 
-/// The covariance that the residuals of points which move independently give.
+/// The pose with the covariance estimated from the residuals, which assumes that the points move
+/// independently.
 UncertainPose with_covariance(const Pairs& pairs, const Eigen::VectorXd& weights,
                               const Eigen::Isometry3d& pose) {
   UncertainPose known{pose, {}, pairs.reference.colwise().mean().transpose()};
@@ -174,7 +177,7 @@ UncertainPose with_covariance(const Pairs& pairs, const Eigen::VectorXd& weights
   return known;
 }
 
-/// Poses of stated points: Kabsch, a point that strays counting less.
+/// Poses from given points by Kabsch's method; points with larger residuals have smaller weights.
 std::vector<UncertainPose> poses_of_stated(const std::vector<Pairs>& pairs, std::size_t points,
                                            int reweightings) {
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(Eigen::Index(points));
@@ -191,7 +194,8 @@ std::vector<UncertainPose> poses_of_stated(const std::vector<Pairs>& pairs, std:
   return uncertain;
 }
 
-/// The head's points in the frame of sample 0, and how far an error of the pose may shift them.
+/// Moves all points into the frame of sample 0, and bounds how far an error of the pose may shift
+/// them.
 void take_out(const std::vector<UncertainPose>& poses, double widening, StabilisedMotion& result) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const UncertainPose& at = poses[k];

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostStillSamples = 200;
 constexpr std::size_t kLeastStillPoints = 4;
-constexpr double kLeastStillSpread = 0.02;  // as stabilise() needs it
+constexpr double kLeastStillSpread = 0.02;  // the least that stabilise() accepts
 
 std::vector<int> candidates(const Motion& motion) {
   std::vector<std::string> moves;
@@ -27,7 +27,7 @@ std::vector<int> candidates(const Motion& motion) {
   return out;
 }
 
-/// How far the distance of two of `points` changes, at most.
+/// The largest change of the distance between each pair of `points`.
 Eigen::MatrixXd distance_changes(const Motion& motion, const std::vector<int>& points) {
   const auto count = Eigen::Index(points.size());
   Eigen::MatrixXd most = Eigen::MatrixXd::Zero(count, count);

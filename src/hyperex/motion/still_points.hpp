@@ -8,17 +8,18 @@
 namespace hyperex::motion {
 
 /// Points that keep their distances from each other over the whole recording, as points fixed to
-/// the skull do: the largest set that grows from one point and in which no distance changes by more
-/// than kStillPoints_m, in the motion's order. Points of mouth and jaw (ibug68_4 to 12 and 48 to
-/// 67) are left out, since lower lip and chin go together too. Empty where fewer than four are
-/// found, or where they lie nearly on a line. At most some 200 samples are looked at.
+/// the skull do. A set is grown from each point in turn, such that no distance in it changes by
+/// more than kStillPoints_m; the largest set is returned, in the motion's order. Points of the
+/// mouth and the jaw (ibug68_4 to 12 and 48 to 67) are left out, since the lower lip and the chin
+/// also move together. Empty where fewer than four points are found, or where they lie nearly on a
+/// line. Of a long recording 200 to 400 evenly spaced samples are used.
 std::vector<std::string> find_still_points(const Motion& motion);
 
-/// Of a marker that is glued to the skin over bone, and of the noise of its measurement.
+/// Allows for the motion of a marker glued to the skin over bone, and for measurement noise.
 inline constexpr double kStillPoints_m = 1e-3;
 
-/// Whether a motion has enough of the usual points of the skull (default_rigid_points) to find the
-/// head's pose.
+/// Whether a motion has enough of the usual points of the skull (default_rigid_points) to estimate
+/// the head pose.
 bool has_pose_points(const Motion& motion);
 
 /// The points to name as moving with the skull where has_pose_points() is false:

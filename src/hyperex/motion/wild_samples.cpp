@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::ptrdiff_t kHalfWindow = 2;
 
-/// Each coordinate's median; NaN where there is no measured row.
+/// The median of each coordinate; NaN where there are no rows.
 Eigen::RowVector3d median_row(const std::vector<Eigen::RowVector3d>& rows) {
   Eigen::RowVector3d out;
   out.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -29,10 +29,12 @@ Eigen::RowVector3d median_row(const std::vector<Eigen::RowVector3d>& rows) {
   return out;
 }
 
-/// A point less the median of its readings around sample k; NaN where fewer than three are there.
+/// A point minus the median of its readings around sample k; NaN where fewer than three of them are
+/// measured.
 Eigen::RowVector3d off_its_neighbours(const Motion& m, std::size_t k, Eigen::Index point) {
   const auto count = std::ptrdiff_t(m.positions.size());
-  // At the ends the window is moved, not cut: a wild first sample has four others beside it.
+  // At the ends the window is shifted, not shortened: the first sample has four others in its
+  // window.
   const std::ptrdiff_t first =
       std::clamp(std::ptrdiff_t(k) - kHalfWindow, std::ptrdiff_t(0), count - 2 * kHalfWindow - 1);
   std::vector<Eigen::RowVector3d> near;
@@ -43,7 +45,8 @@ Eigen::RowVector3d off_its_neighbours(const Motion& m, std::size_t k, Eigen::Ind
   return m.positions[k].row(point) - median_row(near);
 }
 
-/// Writes the readings that are NaN in `sound` alone, from those of `sound` around them.
+/// Interpolates one wild reading from the readings of `sound` around it. In `sound` all wild
+/// readings are NaN.
 void interpolate(const Motion& sound, const WildSample& wild, Motion& to) {
   const Eigen::Index row = sound.index_of(wild.point);
   const auto measured = [&](std::size_t k) { return sound.positions[k].row(row).allFinite(); };

@@ -9,7 +9,7 @@ namespace hyperex::muscles {
 void bounded_least_squares(const Eigen::MatrixXd& h, const Eigen::VectorXd& g,
                            const Eigen::VectorXd& lower, Eigen::VectorXd& x) {
   const Eigen::Index n = g.size();
-  constexpr int kBlockSteps = 10;  // without progress, before Murty's rule
+  constexpr int kBlockSteps = 10;  // block steps without progress, before Murty's rule is used
   std::vector<char> bound(n);
   for (Eigen::Index i = 0; i < n; ++i) bound[i] = x[i] <= lower[i];
   int patience = kBlockSteps;

@@ -4,11 +4,12 @@
 
 namespace hyperex::muscles {
 
-/// Minimises x'Hx/2 - g'x over x >= lower (entries may be -infinity), H symmetric positive
-/// definite. Block principal pivoting (Judice and Pires, Comput. Oper. Res. 21, 1994): exchanges
-/// all entries that break the conditions of optimality at once, and one at a time, by Murty's rule,
-/// where that makes no more progress; this ends in finitely many steps. `x`: the start, entries
-/// equal to `lower` being bound; then the solution.
+/// Minimises x'Hx/2 - g'x subject to x >= lower (entries may be -infinity); H is symmetric positive
+/// definite. Block principal pivoting (Judice and Pires, Comput. Oper. Res. 21, 1994): all entries
+/// that violate the optimality conditions change between bound and free at once. Where that makes
+/// no more progress, they change one at a time by Murty's rule, so that the method ends in finitely
+/// many steps. `x` holds the starting point, whose entries at or below `lower` start as bound, and
+/// receives the solution.
 void bounded_least_squares(const Eigen::MatrixXd& h, const Eigen::VectorXd& g,
                            const Eigen::VectorXd& lower, Eigen::VectorXd& x);
 

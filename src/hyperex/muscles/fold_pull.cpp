@@ -13,16 +13,17 @@
 namespace hyperex::muscles {
 namespace {
 
-/// Below this weight the skin is not pulled.
+/// Where the weight is below this, the skin is not pulled.
 constexpr double kLeastSkinWeight = 1e-3;
 constexpr int kPieces = 40;
 
-/// Template mm, outwards and up: from the wing of the nose to the fold's upper end, from the corner
-/// of the mouth to its lower end, and the bow between. Read off the groove of a real smile, which
-/// it meets to 2 mm (docs/muscles.md).
+/// Offsets outwards and up, in mm on the template's face: from the wing of the nose to the fold's
+/// upper end, from the corner of the mouth to its lower end, and the largest outward bow between
+/// them. Measured on the groove of a real smile; the line agrees with it to 2 mm (docs/muscles.md).
 constexpr double kUpper_mm[2] = {4.5, 5}, kLower_mm[2] = {10, 0}, kBow_mm = 1.5;
 
-/// The part from share `from` to share `to` of a line with points at equal shares.
+/// The part of a line between the shares `from` and `to` of its length. The points of the line are
+/// equally spaced.
 MuscleLine part_of(const Points& line, double from, double to) {
   const auto at = [&](double share) {
     const double x = share * double(line.rows() - 1);

@@ -5,17 +5,18 @@
 
 namespace hyperex::muscles {
 
-/// The line in the skin along which the fold from nose to mouth (nasolabial fold) forms, of the
-/// subject's left or right side. From beside the wing of the nose to beside the corner of the
-/// mouth; n x 3, m, on the skin, equally spaced along the line.
+/// The line in the skin along which the fold from nose to mouth (nasolabial fold) forms, on the
+/// subject's left or right side. It runs from beside the wing of the nose to beside the corner of
+/// the mouth. n x 3, m, equally spaced along the line.
 Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left);
 
 /// Nodal forces (3 |nodes|, N) of a muscle whose fibres end in the skin along a part of the fold
-/// (TemplateMuscle::fold_from, fold_to). `fold`: the nasolabial_fold() of its side. On skin at the
-/// distance d from that part of the line, per area:
+/// (TemplateMuscle::fold_from, fold_to). `fold`: the nasolabial_fold() of the muscle's side. The
+/// force per area of skin at the distance d from that part of the line is
 ///   exp(-(d / width)^2) (cos(a) t - sin(a) n),
-/// t the direction in the skin towards the muscle's origin, n the outward normal, a and width
-/// FoldShape's. Not normalised: the caller scales. Zero for a muscle that does not end in the fold.
+/// where t is the direction in the skin towards the muscle's origin, n the outward normal, a the
+/// angle FoldShape::inwards_deg and width FoldShape::width_mm. Not normalised: the caller scales
+/// the result. Zero for a muscle that does not end in the fold.
 Eigen::VectorXd fold_pull(const MuscleLine& line, const TemplateMuscle& muscle, const Points& fold,
                           const tissue::TissueMesh& mesh, const FoldShape& shape);
 

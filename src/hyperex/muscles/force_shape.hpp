@@ -5,17 +5,17 @@ namespace hyperex::muscles {
 
 /// How a muscle's force spreads in the tissue around its line.
 struct ForceShape {
-  double band = 2.1;  ///< weight exp(-(r / R)^2) at distance r, R = band x width
-  double ramp = 6;    ///< a pull grows with this power of the share s of the way from the origin
-  double tangential = 0.54;  ///< share of the force normal to the skin that is removed: 0 to 1
-  double midline_m = 0.005;  ///< a muscle's force fades within this of the other side's; 0: no cut
+  double band = 2.1;         ///< weight exp(-(r / R)^2) at distance r, R = band x width
+  double ramp = 6;           ///< a pull varies as s^ramp, s the share of the length from the origin
+  double tangential = 0.54;  ///< share of the force's component normal to the skin removed: 0 to 1
+  double midline_m = 0.005;  ///< the force vanishes this far beyond the midline; 0: no limit
   bool operator==(const ForceShape&) const = default;
 };
 
 /// How muscles that end in the skin along the fold from nose to mouth pull there.
 struct FoldShape {
-  double width_mm = 2.5;    ///< weight exp(-(d / width)^2) at distance d, on the template's face
-  double inwards_deg = 30;  ///< of the pull, from the skin's tangent plane into the tissue
+  double width_mm = 2.5;    ///< weight exp(-(d / width)^2) at distance d; on the template's face
+  double inwards_deg = 30;  ///< angle of the pull below the skin's tangent plane, into the tissue
   bool operator==(const FoldShape&) const = default;
 };
 

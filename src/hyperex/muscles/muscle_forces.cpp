@@ -10,10 +10,10 @@
 namespace hyperex::muscles {
 namespace {
 
-/// Below this weight the tissue is not pulled.
+/// Where the weight is below this, the tissue is not pulled.
 constexpr double kLeastWeight = 1e-3;
 
-/// 0 to 1, smooth, over -1 to 1.
+/// Rises smoothly from 0 at x = -1 to 1 at x = 1.
 double smooth_step(double x) {
   const double t = std::clamp(0.5 * (x + 1), 0.0, 1.0);
   return t * t * (3 - 2 * t);

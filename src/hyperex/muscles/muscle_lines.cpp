@@ -62,7 +62,8 @@ class Laying {
   }
   Vec3 on_skin(const Vec3& p) const { return skin_.query(p).point; }
 
-  /// The skin's closest point, moved towards the inner surface by a share of the thickness.
+  /// The closest point of the skin, moved towards the inner surface by the share `depth` of the
+  /// thickness.
   Vec3 sunk(const Vec3& p, double depth) const {
     const ClosestPoint c = skin_.query(p);
     Vec3 inner = Vec3::Zero();
@@ -74,7 +75,8 @@ class Laying {
     return (1 - depth) * c.point + depth * inner;
   }
 
-  /// Where none is given: by way between the neighbours that have one.
+  /// Depths of the places. Where none is given, it is interpolated by distance along the path
+  /// between the neighbours that have one.
   static std::vector<double> depths(const std::vector<TemplatePlace>& path,
                                     const std::vector<Vec3>& at) {
     std::vector<double> depth(path.size()), way(path.size(), 0);

@@ -12,7 +12,7 @@
 namespace hyperex::muscles {
 
 namespace {
-/// Letters in small, all else parts them.
+/// The words of a text in lower case; all characters other than letters separate words.
 std::set<std::string> words_of(const std::string& text) {
   std::set<std::string> words;
   std::string word;
@@ -24,14 +24,15 @@ std::set<std::string> words_of(const std::string& text) {
   return words;
 }
 
-/// The side that words name, which are taken out: "L", "R", or "" for neither or both.
+/// The side that the words name: "L", "R", or "" for neither or both. Its words are removed from
+/// `words`.
 std::string side_in(std::set<std::string>& words) {
   const bool right = words.erase("right") + words.erase("r") > 0;
   const bool left = words.erase("left") + words.erase("l") > 0;
   return right == left ? "" : right ? "R" : "L";
 }
 
-/// On the side, or on both, the right one first.
+/// Appends `stem` with the side; with both sides, right first, where `side` is empty.
 void add_sided(const std::string& stem, const std::string& side, std::vector<std::string>& names) {
   for (const char* one : {"R", "L"})
     if (side.empty() || side == one) names.push_back(stem + "_" + one);

@@ -7,14 +7,15 @@
 
 namespace hyperex::muscles {
 
-/// Muscles that a wrong name of a gain ("zygomaticus_R", "frontalis medial part_L") may mean: those
-/// on its side whose Latin name contains all its words. Empty where it has no side or no muscle
-/// matches.
+/// The muscles that a wrong name in a gain ("zygomaticus_R", "frontalis medial part_L") may mean:
+/// those on its side whose Latin name contains all of its words. Empty where the name has no side
+/// or no muscle matches.
 std::vector<std::string> muscles_called(const std::string& name,
                                         const MuscleTable& among = muscle_template());
 
-/// What a wrong name of a gain may mean, best first: "right" the whole side, "zygomatic" the branch
-/// of the nerve on both, "zygomaticus_R" the muscles of that name. Empty where nothing matches.
+/// What a wrong name in a gain may mean, best first. "right" means the whole side, "zygomatic" the
+/// branch of the nerve on both sides, "zygomaticus_R" the muscles of that name. Empty where nothing
+/// matches.
 std::vector<std::string> gains_meant(const std::string& name,
                                      const MuscleTable& among = muscle_template());
 

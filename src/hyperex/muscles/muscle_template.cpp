@@ -91,7 +91,7 @@ class PlaceReader {
   std::string_view rest_;
 };
 
-/// One table, with the errors that name it.
+/// Reads one table; its errors name the table.
 class MuscleReader {
  public:
   MuscleReader(const toml::table& table, const std::string& source)
@@ -131,7 +131,7 @@ class MuscleReader {
     throw InputError(source_, fmt::format("muscle {}: {}: expected {}",
                                           name_.empty() ? "without name" : name_, key, expected));
   }
-  /// `otherwise` where the key is not given.
+  /// The value of a key; `otherwise` where the key is not given.
   template <class T>
   T value(const char* key, const T& otherwise, const std::string& expected) const {
     if (!table_.contains(key)) return otherwise;

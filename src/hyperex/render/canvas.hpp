@@ -18,11 +18,11 @@ struct TextStyle {
   bool bold = false;
 };
 
-/// A scale of the map moss with ticks at round numbers, laid out vertically.
+/// A vertical colour scale of the map moss, with ticks at round numbers.
 struct ColourBar {
   Range range;
   std::string label;      ///< above the bar, with the unit: "distance (mm)"
-  bool open_end = false;  ///< values beyond the top exist; they have its colour, and a mark says so
+  bool open_end = false;  ///< some values exceed the top; they have its colour, and a mark shows it
 };
 
 /// Round tick values (steps of 1, 2 or 5 times a power of ten) within `range`, about `wanted`.
@@ -46,8 +46,8 @@ class Canvas {
   double text(double x, double y, const std::string& utf8, const TextStyle& style = {});
   double text_width(const std::string& utf8, const TextStyle& style = {}) const;
   void draw(const Image& image, int x, int y);
-  /// The bar's column is 16 px wide with its ticks to the right (about 60 px); the label stands
-  /// above y, so leave about 20 px there.
+  /// The bar is 16 px wide, with its ticks to the right (about 60 px). The label is above y and
+  /// needs about 20 px there.
   void colour_bar(double x, double y, double height_px, const ColourBar& bar);
   Image image() const;
 

@@ -10,15 +10,16 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// The interval that a colour map spans; values outside take the end's colour. low < high.
+/// The interval that a colour map spans; values outside get the colour of the nearer end. low <
+/// high.
 struct Range {
   double low = 0, high = 1;
 };
 
 /// From pale to dark green in even steps of lightness (OKLCH 0.91 to 0.34, hue 100 to 165 degrees;
-/// B. Ottosson 2020), readable without colour vision: what hardly moves stays light, as a dark face
-/// hides its features. The report's map "moss" (web/src/replay/face/colour.ts) has the same values.
-/// `share` is clamped to 0..1.
+/// B. Ottosson 2020), readable without colour vision. Small values are light, since dark colours
+/// hide the features of a face. The report's map "moss" (web/src/replay/face/colour.ts) has the
+/// same values. `share` is clamped to 0..1.
 Colour moss(double share);
 
 /// Where `value` lies in `range`, 0 to 1, clamped.

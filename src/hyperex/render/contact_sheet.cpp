@@ -7,7 +7,7 @@
 namespace hyperex::render {
 namespace {
 
-/// Where the head leaves room in any view.
+/// The marks are at the upper edge, where the head leaves room in any view.
 void draw_marks(Canvas& canvas, const SheetPicture& picture, int x, int y) {
   constexpr double inset = 12, size_px = 15;
   const double line = y + inset + size_px - 3, right = x + picture.image.width - inset;
@@ -20,7 +20,7 @@ void draw_marks(Canvas& canvas, const SheetPicture& picture, int x, int y) {
   letter(right, picture.marks.at_right, Align::right);
 }
 
-/// A long name is written smaller, and not over the next one.
+/// A long caption is written smaller, so that it does not overlap the next one.
 TextStyle caption_style(const Canvas& canvas, const std::string& caption, int width_px) {
   TextStyle style{.size_px = 13, .align = Align::centre};
   const double width = canvas.text_width(caption, style);

@@ -9,8 +9,9 @@ namespace hyperex::render {
 
 namespace {
 
-/// Rays through the origin become parallel to z and planes stay planes:
-/// (x, y, z) -> (r x / z, r y / z, r^2 / z), which at z = r leaves lengths as they are.
+/// Maps rays through the origin to parallels of z and keeps planes plane:
+///   (x, y, z) -> (r x / z, r y / z, r^2 / z).
+/// At z = r it keeps lengths.
 Points straightened(const Points& points, double r) {
   Points out(points.rows(), 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {

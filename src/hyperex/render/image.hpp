@@ -21,10 +21,11 @@ struct Image {
   }
 };
 
-/// PNG, whole or not at all. Throws InputError where the file cannot be written.
+/// Writes a PNG. The file appears complete or not at all. Throws InputError where it cannot be
+/// written.
 void write_png(const std::filesystem::path& file, const Image& image);
 
-/// The PNG's bytes: for pictures inside a page.
+/// The PNG's bytes, to be embedded in a page.
 std::vector<std::uint8_t> png_bytes(const Image& image);
 
 }  // namespace hyperex::render

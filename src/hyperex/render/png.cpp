@@ -18,7 +18,7 @@ void append_number(Bytes& bytes, std::uint32_t number) {
     bytes.push_back(static_cast<std::uint8_t>(number >> shift));
 }
 
-/// Length, kind, bytes, CRC-32 of the latter two.
+/// A chunk: length, kind, bytes, and the CRC-32 of the latter two.
 void append_chunk(Bytes& png, std::string_view kind, const Bytes& bytes) {
   append_number(png, static_cast<std::uint32_t>(bytes.size()));
   const auto start = png.size();
@@ -28,7 +28,7 @@ void append_chunk(Bytes& png, std::string_view kind, const Bytes& bytes) {
                          crc32(0, png.data() + start, static_cast<uInt>(png.size() - start))));
 }
 
-/// Each row less the one above it, "Up" before it.
+/// Each row minus the row above it, preceded by the code of the filter "Up".
 Bytes filtered(const Image& image) {
   constexpr std::uint8_t up = 2;
   const std::size_t row = 3 * std::size_t(image.width);
@@ -52,10 +52,11 @@ std::vector<std::uint8_t> png_bytes(const Image& image) {
   Bytes header;
   append_number(header, static_cast<std::uint32_t>(image.width));
   append_number(header, static_cast<std::uint32_t>(image.height));
-  // Bits a channel, red green blue, the one compression, the one set of filters, not interlaced.
+  // Bits per channel, colour type RGB, the only compression method, the only filter method, not
+  // interlaced.
   header.insert(header.end(), {8, 2, 0, 0, 0});
   append_chunk(png, "IHDR", header);
-  // By which a later command knows the file for one of its own.
+  // Later commands recognise the program's own files by this text.
   constexpr std::string_view made_by("Software\0Hyperex", 16);
   append_chunk(png, "tEXt", {made_by.begin(), made_by.end()});
   const Bytes rows = filtered(image);

@@ -11,14 +11,15 @@
 namespace hyperex::render {
 namespace {
 
-/// Corners lie on a grid of 2^-14 samples. The test on which side of an edge a sample lies is then
-/// exact in double precision (pictures of up to 4096 samples), and antisymmetric in the edge.
+/// Rounds to a grid of 2^-14 samples, on which all corners lie. The test on which side of an edge a
+/// sample lies is then exact in double precision (for pictures of up to 4096 samples), and
+/// antisymmetric in the edge.
 double on_grid(double samples) {
   constexpr double per_sample = 1 << 14;
   return std::nearbyint(samples * per_sample) / per_sample;
 }
 
-/// Of a number that is not much larger than a picture; 0 for one below.
+/// Rounds up a number that fits an int; 0 for a negative one.
 int rounded_up(double samples) {
   if (samples <= 0) return 0;
   const auto below = int(samples);
@@ -27,23 +28,23 @@ int rounded_up(double samples) {
 
 using Plane = Raster::Plane;
 
-/// A triangle over a box of samples, which begins at its first.
+/// A triangle over a box of samples; the planes start at the box's first sample.
 struct Cover {
-  Plane inside[3];  // of each edge, not below 0 on the triangle's side of it
+  Plane inside[3];  // one per edge; not below 0 on the triangle's side
   Plane z;          // depth
   int columns, rows;
 };
 
-/// Samples that are looked at together, in blocks of as many rows and columns: most triangles of a
-/// face fit in one, so that no branch depends on their size.
+/// Samples are processed in blocks of this many rows and columns. Most triangles of a face fit into
+/// one block, so that no branch depends on their size.
 constexpr int kBlock = 4;
 
-/// Triangles whose corners are prefetched: no cache could foresee them.
+/// Corners are prefetched for this many triangles ahead, since their addresses are not predictable.
 constexpr int kAhead = 6;
 
-/// Into samples whose rows are `stride` apart: where the triangle is nearer than what was seen.
-/// Looks at up to kBlock - 1 samples beyond the box in each row and column: they do not lie in the
-/// triangle, or beyond the band.
+/// Writes the triangle into the samples where it is nearer than the nearest one so far. Rows of
+/// samples are `stride` apart. Up to kBlock - 1 samples beyond the box are processed in each row
+/// and column; they lie outside the triangle or the band.
 HX_CLONES void keep_nearer(const Cover& cover, int id, int stride, float* nearest, int* seen) {
   const Plane a = cover.inside[0], b = cover.inside[1], c = cover.inside[2];
   for (int y0 = 0; y0 < cover.rows; y0 += kBlock)
@@ -63,7 +64,7 @@ HX_CLONES void keep_nearer(const Cover& cover, int id, int stride, float* neares
       }
 }
 
-/// Twice the area of (p, q, sample) over a box that begins at sample (x, y).
+/// Twice the area of the triangle (p, q, sample), over a box that begins at sample (x, y).
 template <class Corner>
 Plane edge(const Corner& p, const Corner& q, double x, double y) {
   return {(p.x - x) * (q.y - y) - (p.y - y) * (q.x - x), p.y - q.y, q.x - p.x};
@@ -108,7 +109,7 @@ bool Raster::may_be_seen(Triangle& t) const {
   const Corner &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
   const auto [left, right] = std::minmax({a.x, b.x, c.x});
   const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-  // Before any rounding; false, too, where a coordinate is not finite.
+  // This test comes before any rounding. It is also false where a coordinate is not finite.
   if (!(right >= 0 && left <= width_ - 1 && bottom >= 0 && top <= height_ - 1)) return false;
   if (!std::isfinite(left + right + top + bottom + a.z + b.z + c.z)) return false;
   const int first_x = rounded_up(left), first_y = rounded_up(top);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Inside the room: Embree's scene of some surfaces as one camera sees it.
+// Internal to the module: the Embree scene of some surfaces as one camera sees it.
 #include <optional>
 #include <vector>
 
@@ -17,8 +17,8 @@ struct Hit {
   Eigen::Vector3f normal;        // of the facet, camera frame, unit
 };
 
-/// All in the camera's frame (x right, y up, z to the viewer, origin at the target), where rays run
-/// along -z.
+/// All quantities are in the camera's frame (x right, y up, z towards the viewer, origin at the
+/// target); rays run along -z.
 class RayScene {
  public:
   RayScene(const std::vector<Surface>& surfaces, const Camera& camera);
@@ -31,7 +31,7 @@ class RayScene {
 
  private:
   EmbreeScene scene_;
-  float above_ = 1;  // z above everything
+  float above_ = 1;  // a z above all surfaces
 };
 
 }  // namespace hyperex::render

@@ -26,7 +26,7 @@ Vec3f linear(const Colour& colour) {
       .cast<float>();
 }
 
-/// Of a channel's byte.
+/// Linear light of a channel's byte.
 float linear_byte(std::uint8_t byte) {
   static const auto table = [] {
     std::array<float, 256> t{};
@@ -41,8 +41,8 @@ std::uint8_t srgb_byte_exactly(float light) {
       std::lround(255 * std::clamp(srgb_from_linear(std::min(light, 1.f)), 0.0, 1.0)));
 }
 
-/// The same from a table of the byte at 4096 lights: where the next light's byte is another, the
-/// power is taken.
+/// The same, from a table of the bytes at 4096 intensities. Where the bytes on both sides of an
+/// intensity differ, it is computed exactly.
 std::uint8_t srgb_byte(float light) {
   constexpr int last = 4095;
   static const auto table = [] {
@@ -66,8 +66,9 @@ const ColourTable& linear_moss() {
   return table;
 }
 
-// A surface made ready: normals in the camera's frame, and per vertex either the scalar (mapped
-// where the ray lands, so that colours do not mix through the map) or a colour.
+// A surface prepared for drawing: normals in the camera's frame, and a colour for each vertex
+// unless it has a scalar. The scalar is interpolated first and then mapped to a colour, since
+// interpolated colours would leave the colour map.
 struct Prepared {
   const Surface* surface;
   PointsF normals;
@@ -92,7 +93,7 @@ struct Prepared {
         const Vec3 a = mesh.points.row(mesh.triangles(f, 0));
         const Vec3 b = mesh.points.row(mesh.triangles(f, 1));
         const Vec3 c = mesh.points.row(mesh.triangles(f, 2));
-        const Vec3 normal = (b - a).cross(c - a);  // weighs by area
+        const Vec3 normal = (b - a).cross(c - a);  // its length weights by area
         for (int k = 0; k < 3; ++k) sum.row(mesh.triangles(f, k)) += normal.transpose();
       }
       normals = (sum * camera_from_world.transpose()).rowwise().normalized().cast<float>();
@@ -103,7 +104,8 @@ struct Prepared {
   }
 };
 
-// A triangle as its samples take it from the surface: copied, since they lie in several rows.
+// The corner values of a visible triangle. They are copied, since in the surface they are in
+// separate rows.
 class Corners {
  public:
   Corners() = default;
@@ -121,7 +123,7 @@ class Corners {
     }
   }
 
-  /// Asks the memory for what the constructor reads.
+  /// Prefetches the memory that the constructor reads.
   static void fetch(const Prepared& prepared, const Raster::Drawn& drawn) {
     const Surface& s = *prepared.surface;
     const auto vertices = s.mesh.triangles.row(drawn.triangle);
@@ -167,13 +169,13 @@ struct Sum {
   int hits = 0;
 };
 
-/// What a thread needs for a band, kept from one to the next: new memory would cost more than what
-/// is done in it.
+/// Buffers of a thread for one band. They are kept from band to band, since allocating them would
+/// cost more than using them.
 struct Room {
   Raster::Seen seen;
-  std::vector<char> known;       // of each of the band's triangles, that it is in `visible`
-  std::vector<int> visible;      // those that a sample sees
-  std::vector<Corners> corners;  // of these, at the triangle's index in the band
+  std::vector<char> known;       // for each triangle of the band, whether it is in `visible`
+  std::vector<int> visible;      // indices of the triangles that a sample sees
+  std::vector<Corners> corners;  // of the visible triangles, at the triangle's index in the band
   std::vector<Sum> row;
 };
 
@@ -207,7 +209,7 @@ struct Lamps {
   Vec3f half_way = (key + Vec3f::UnitZ()).normalized();
 };
 
-// Key lamp up left of the camera, fill lamp at its right, light from all around, and a sheen that
+// Key lamp up left of the camera, fill lamp at its right, ambient light, and a specular term that
 // keeps the relief visible where the colour is dark.
 Vec3f shaded(const Lamps& lamps, const Vec3f& colour, Vec3f normal, bool back) {
   if (back) normal = -normal;
@@ -220,7 +222,7 @@ Vec3f shaded(const Lamps& lamps, const Vec3f& colour, Vec3f normal, bool back) {
   return (colour * light).array() * (back ? 0.4f : 1.f) + (back ? 0.f : sheen);
 }
 
-/// How near to the viewer each sample of a picture is, so that lines and markers can be hidden.
+/// The depth at each sample of a picture, to decide which lines and markers are hidden.
 class DepthPicture {
  public:
   DepthPicture(int width, int height, double m_per_sample)
@@ -228,14 +230,14 @@ class DepthPicture {
         height_(height),
         m_per_sample_(m_per_sample),
         nearest_(std::size_t(width) * std::size_t(height)) {}
-  /// Rows that a band saw.
+  /// Copies the rows of a band.
   void take(const Raster::Seen& seen) {
     for (int y = 0; y < seen.rows; ++y)
       std::copy_n(seen.nearest.data() + std::ptrdiff_t(y) * seen.stride, width_,
                   nearest_.data() + std::ptrdiff_t(seen.first_row + y) * width_);
   }
-  /// Whether a surface lies more than `bias_m` in front of the point (camera frame) at the sample
-  /// next to it.
+  /// Whether a surface lies more than `bias_m` in front of the point (camera frame), at the sample
+  /// nearest to the point.
   bool hides(const Vec3& point, double bias_m) const {
     const double x = std::nearbyint(point[0] / m_per_sample_ + width_ / 2.0 - 0.5);
     const double y = std::nearbyint(height_ / 2.0 - 0.5 - point[1] / m_per_sample_);
@@ -249,7 +251,7 @@ class DepthPicture {
   std::vector<float> nearest_;
 };
 
-/// `depth`: filled where there is one.
+/// Fills `depth` too, if it is not null.
 void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& surfaces,
            const Camera& camera, const RenderOptions& options, Image& image, DepthPicture* depth) {
   constexpr int band_px = 8;
@@ -300,7 +302,7 @@ void paint(const std::vector<Prepared>& prepared, const std::vector<Surface>& su
   });
 }
 
-// Visible stretches of a line, tested piece by piece of about two pixels.
+// Draws the visible stretches of a line, tested in pieces of about two pixels.
 void draw_line(const Polyline& line, const DepthPicture& depth, const Camera& camera,
                const RenderOptions& options, Canvas& canvas) {
   const Eigen::Matrix3d camera_from_world = camera.axes();

@@ -14,16 +14,16 @@ namespace hyperex::render {
 /// |V| x 3, 0 to 255.
 using VertexColours = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// What is drawn of a surface. It is coloured by `scalar` where given, else by `colours`, else
-/// plain. The mesh is referred to, not copied.
+/// A surface to draw. It is coloured by `scalar` where given, else by `colours`, else by `plain`.
+/// The mesh is held by reference, not copied.
 struct Surface {
   const TriMesh& mesh;
   Eigen::VectorXf scalar =
-      {};  ///< one per vertex, through the map moss over `range`; NaN: plain there
+      {};  ///< one per vertex, coloured by the map moss over `range`; NaN: plain there
   Range range = {};
   VertexColours colours = {};
   Colour plain = palette::skin;
-  bool smooth = true;  ///< shaded by averaged vertex normals; false: facet by facet
+  bool smooth = true;  ///< true: shaded by averaged vertex normals; false: by facet normals
 };
 
 /// A disc of fixed size at a point; drawn where no surface hides the point.
@@ -43,23 +43,23 @@ struct Polyline {
 
 struct RenderOptions {
   int width_px = 480, height_px = 600;
-  int samples = 2;  ///< rays a pixel and axis, >= 1
+  int samples = 2;  ///< rays per pixel along each axis, >= 1
   Colour background = palette::background;
-  /// How far below a surface (along the view) a marker or line still shows, m.
+  /// A marker or line is drawn if it lies less than this behind a surface, along the view, m.
   double overlay_bias_m = 1e-3;
-  /// Where a surface is seen from behind (its triangles run clockwise) the background is painted.
+  /// Paints the background where a surface is seen from behind (its triangles run clockwise).
   bool hide_backs = false;
 };
 
-/// Draws the surfaces as parallel rays meet them (back faces darkened) under two
-/// lamps fixed to the camera, then draws markers and lines over them. The same picture for any
-/// number of threads. Throws std::invalid_argument where sizes do not agree (scalar or colours and
-/// vertices; an index out of range; no pixels).
+/// Draws the surfaces with parallel rays under two lamps fixed to the camera, back faces darker,
+/// then draws markers and lines over them. The picture does not depend on the number of threads.
+/// Throws std::invalid_argument where sizes do not agree (scalar or colours and vertices; an index
+/// out of range; no pixels).
 Image render(const std::vector<Surface>& surfaces, const Camera& camera,
              const RenderOptions& options = {}, const std::vector<Marker>& markers = {},
              const std::vector<Polyline>& lines = {});
 
-/// Where the ray through a place of the picture first meets a surface.
+/// Where the ray through a position in the picture first meets a surface.
 struct Picked {
   int surface = -1, triangle = -1;
   Vec3 weights = Vec3::Zero();  ///< barycentric
@@ -67,8 +67,8 @@ struct Picked {
   double facing = 0;  ///< cosine between the facet's normal and the view; < 0: from behind
 };
 
-/// Rays through places of a picture of that camera: `places` n x 2, x right, y down, pixel centres
-/// at half integers. Nothing where a ray meets no surface.
+/// Casts rays through positions in a picture of that camera. `places`: n x 2, x right, y down,
+/// pixel centres at half integers. An entry is empty where the ray meets no surface.
 std::vector<std::optional<Picked>> pick(const std::vector<Surface>& surfaces, const Camera& camera,
                                         int width_px, int height_px,
                                         const Eigen::MatrixX2d& places);

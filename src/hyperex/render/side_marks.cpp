@@ -4,8 +4,8 @@
 namespace hyperex::render {
 
 SideMarks side_marks(const Camera& camera, const Vec3& subjects_left) {
-  // Of the breadth of the face as the picture shows it: a view within 20 degrees of the profile
-  // has no room for both sides.
+  // Share of the breadth of the face that the picture must show: within 20 degrees of the profile
+  // there is no room for both letters.
   constexpr double least_breadth = 0.35;
   const Vec3 seen = camera.axes() * subjects_left.normalized();
   if (seen.x() >= least_breadth) return {.at_left = "R", .at_right = "L"};

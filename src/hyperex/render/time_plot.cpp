@@ -62,7 +62,7 @@ void draw_curves(Canvas& canvas, const TimePlot& plot, const std::vector<double>
     for (std::size_t i = 1; i < time.size(); ++i) {
       const double from = curve->values[i - 1], to = curve->values[i];
       const auto shown = [&](double v) { return v >= plot.range.low && v <= plot.range.high; };
-      if (!shown(from) || !shown(to)) continue;  // nor a gap
+      if (!shown(from) || !shown(to)) continue;  // true for a gap too
       canvas.line(place_x(plot, time[i - 1]), place_y(plot, from), place_x(plot, time[i]),
                   place_y(plot, to), curve->colour, 2);
     }
@@ -95,7 +95,8 @@ Colour category_colour(std::size_t index, bool dark) {
 }
 
 std::size_t face_category(std::size_t face) {
-  // Base is grey; a seventh face and more take the sides' colours, for want of others.
+  // The base case is grey. Faces from the seventh on reuse the sides' colours, since there are no
+  // others.
   static constexpr std::array<std::size_t, category_count> order = {
       7, 2, 3, 4, 6, 5, left_category, right_category};
   return order[face % category_count];

@@ -30,8 +30,10 @@ struct GlbReport {
 /// colours, else a plain skin tone. A performance without motion is written as a still mesh. Teeth
 /// are nodes of their own, upper_teeth and lower_teeth; the lower ones move by rotation and
 /// translation, as performance.jaw_now_from_rest has them. The report's eyeballs, where landmarks
-/// tell of eyes, are eye_R and eye_L, which stand still. Throws InputError where the file cannot be
-/// written, std::invalid_argument where the performance and the scan do not belong together.
+/// tell of eyes, are eye_R and eye_L, which stand still. Its pockets behind mouth, eyes and
+/// nostrils are a second part of the skin's mesh, "cavity", unlit, with the same morph targets.
+/// Throws InputError where the file cannot be written, std::invalid_argument where the performance
+/// and the scan do not belong together.
 GlbReport write_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options = {});
 

@@ -16,8 +16,8 @@ struct Bump {
   double reach_mm = 10;  ///< > 0
 };
 
-/// The sum of all at `points` (metres, the landmarks' frame): one row per point, metres.
-/// std::out_of_range for a landmark that is not there.
+/// The sum of all bumps at `points` (metres, the landmarks' frame): one row per point, metres.
+/// Throws std::out_of_range where a landmark is missing.
 Points displacement(const std::vector<Bump>& bumps, const io::Landmarks& landmarks,
                     const Points& points);
 

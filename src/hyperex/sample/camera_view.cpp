@@ -70,7 +70,7 @@ cv::Mat depth_of(const TriMesh& camera_mesh, const capture::Intrinsics& camera) 
            u <= std::min(camera.width_px - 1, int(high.x())); ++u) {
         const Vec3 w = weights_of * Vec3(u, v, 1);
         if (w.minCoeff() < 0) continue;
-        // Linear in the picture is 1 / z.
+        // 1 / z is linear in the picture's coordinates.
         const auto z = float(1 / w.dot(corners.row(2).transpose().cwiseInverse()));
         float& known = depth.at<float>(v, u);
         if (known == 0 || z < known) known = z;

@@ -32,7 +32,7 @@ void join_lips(TriMesh& mesh) {
   HX_ASSERT(false);
 }
 
-/// Far in front of the face the grading vanishes.
+/// With a centre far in front of the face, the edge length is practically uniform.
 TriMesh remeshed(const TriMesh& mesh, double edge_m) {
   return remesh_graded(mesh, {.edge_m = edge_m, .focus = Vec3::Zero(), .centre = {0, 0, 100}});
 }
@@ -51,7 +51,7 @@ TriMesh without_balls(const TriMesh& mesh, const std::vector<Vec3>& centres, dou
   return without_triangles(mesh, drop);
 }
 
-/// Breaks triangles off the outer border, the longest.
+/// Removes random triangles along the outer border, which is the longest loop.
 TriMesh ragged(TriMesh mesh, double share) {
   Noise noise(kBorderSeed);
   for (int round = 0; round < kRaggedRounds; ++round) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Random numbers that depend on their seed alone: the standard fixes the generator's bits but not
-// those of its distributions.
+// Random numbers that depend on their seed alone. The C++ standard specifies the generator's bits
+// but not those of its distributions, so that these are written here.
 #include <cmath>
 #include <cstdint>
 #include <numbers>

@@ -31,7 +31,7 @@ render::VertexColours one_colour(const TriMesh& mesh, int r, int g, int b) {
 }  // namespace
 
 Person::Person(const anatomy::EmbeddedFace& face) : triangles_(face.mesh.triangles) {
-  // The canonical vertices come first among the embedded face's, in their order.
+  // The canonical vertices are the first ones of the embedded face, in the same order.
   const auto& contour = face::lip_contour();  // the upper lip, then the lower one back
   for (std::size_t i = 0; i <= contour.size() / 2; ++i)
     lip_line_.push_back((face.mesh.points.row(contour[i]) +

@@ -11,7 +11,7 @@
 
 namespace hyperex::sample {
 
-/// What a face does at one moment, each as a share of its peak.
+/// The state of a face at one moment; each value is a share of its peak.
 struct Pose {
   double jaw_open = 0;
   double smile = 0;  ///< of the right side alone
@@ -20,18 +20,18 @@ struct Pose {
 /// A face that can open its jaw and smile on one side, in the head's frame: x to the subject's
 /// left, y up, z forward, metres.
 ///
-/// It does not move as the tracker's model does. The jaw turns about an axis through the condyles,
+/// Its motion is not that of the tracker's model. The jaw turns about an axis through the condyles,
 /// a tenth of the face's width inwards from the outline beside the ears (as in
-/// motion/embedded_motion.hpp). A vertex follows it by a smooth step of its height below the line
-/// of the lips; the step is sharp between the lips and widens from their corners to the ears. The
-/// smile is a sum of bumps (bumps.hpp).
+/// motion/embedded_motion.hpp). The share by which a vertex follows the jaw is a smooth step of its
+/// depth below the line of the lips. The step is sharp between the lips and widens from their
+/// corners to the ears. The smile is a sum of bumps (bumps.hpp).
 class Person {
  public:
   static constexpr double kJawPeak_deg = 12;
-  /// How far the corner of the mouth goes in a smile: outwards, up and back.
+  /// Displacement of the corner of the mouth in a smile: outwards, up and back.
   static inline const Vec3 kSmile_mm = Vec3(-6, 8, -4);
 
-  /// `face`: of anatomy::embedded_face()'s vertices, wherever they have been moved to.
+  /// `face`: has the vertices of anatomy::embedded_face(), which may have been moved.
   explicit Person(const anatomy::EmbeddedFace& face);
 
   /// The skin's vertices and all 68 landmarks.
@@ -40,7 +40,8 @@ class Person {
   const Triangles& triangles() const { return triangles_; }
   const render::VertexColours& colours() const { return colours_; }
 
-  /// Eyeballs, and pockets behind the openings of a skin: what else is seen, in the head's frame.
+  /// The other visible parts, in the head's frame: eyeballs, and pockets behind the openings of a
+  /// skin.
   struct Part {
     TriMesh mesh;
     render::VertexColours colours;
@@ -48,14 +49,14 @@ class Person {
   std::vector<Part> behind(const Points& skin) const;
 
  private:
-  /// Points and how they move.
+  /// Points and their displacements.
   struct Moving {
     Points rest, smile;         // m; the smile at its peak
     Eigen::VectorXd jaw_share;  // 0 to 1
     Points at(const Pose& pose, const Vec3& condyle) const;
   };
   Moving moving(const Points& rest, const io::Landmarks& landmarks) const;
-  /// How far a point at rest follows the jaw.
+  /// How far a point follows the jaw, from its position at rest.
   double jaw_share(const Vec3& p) const;
 
   std::vector<Vec3> lip_line_;  // from corner to corner, x rising

@@ -19,11 +19,11 @@ struct ClipOptions {
   capture::Intrinsics camera;  ///< centred, fx = fy (colour_of)
   double rate_hz = 30;
   double depth_noise_m = 0.001;  ///< standard deviation of each reading
-  double colour_noise = 2;       ///< of each channel, of 255
+  double colour_noise = 2;       ///< standard deviation of each channel, of 255
 };
 
-/// A clip of a person, drawn by the render room as a camera of colour and depth sees it, and what
-/// the face truly did. Noise depends on the frame's index alone: the same clip every time.
+/// A clip of a person as a colour and depth camera sees it, drawn by the renderer, and the true
+/// motion. The noise depends on the frame's index alone, so that the clip is always the same.
 class RenderedFace : public capture::FrameSource {
  public:
   RenderedFace(Person person, std::vector<Moment> moments, const ClipOptions& options);
@@ -34,7 +34,7 @@ class RenderedFace : public capture::FrameSource {
   std::optional<std::size_t> frame_count() const override { return moments_.size(); }
   std::optional<capture::Frame> next() override;
 
-  /// The truth of all frames; jaw_open is the jaw's angle as a share of its peak.
+  /// The true values of all frames; jaw_open is the jaw's angle as a share of its peak.
   tracking::Truth truth() const;
 
  private:
@@ -44,8 +44,9 @@ class RenderedFace : public capture::FrameSource {
   std::size_t next_ = 0;
 };
 
-/// The head before a camera, upright and looking at it from `distance_m`; turned by `yaw_deg` to
-/// its left and nodding by `nod_deg`, moved by `right_m` and `back_m` in the camera's frame.
+/// The head in front of a camera, upright and facing it at `distance_m`, then turned by `yaw_deg`
+/// to its left and by `nod_deg` downwards, and moved by `right_m` and `back_m` in the camera's
+/// frame.
 struct HeadPlace {
   double distance_m = 0.6, yaw_deg = 0, nod_deg = 0, right_m = 0, back_m = 0;
 };

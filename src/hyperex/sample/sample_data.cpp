@@ -28,7 +28,7 @@ constexpr int kSize_px = 320;
 constexpr ClipOptions kClip = {
     .camera = {640, 640, (kSize_px - 1) / 2.0, (kSize_px - 1) / 2.0, kSize_px, kSize_px}};
 
-/// 0 at the ends of a span of frames, 1 in its middle.
+/// Rises from 0 at the start of a range of frames to 1 in its middle, and falls back to 0.
 double there_and_back(std::size_t frame, std::size_t first, std::size_t count) {
   if (frame < first || frame >= first + count) return 0;
   const double phase = 2 * std::numbers::pi * double(frame - first + 1) / double(count);

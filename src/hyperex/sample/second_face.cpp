@@ -33,7 +33,7 @@ const std::vector<Bump> kShape = {
     {"cheek_L", {1, 2, -1.5}, 16},
     {"ibug68_19", {0, 1, 2}, 13},
     {"ibug68_24", {0, 1, 2}, 13},
-    // what differs from side to side
+    // differences between the sides
     {"pronasale", {1.0, 0, 0}, 12},
     {"cheilion_R", {0, -1.0, 0}, 12},
     {"pogonion", {-1.5, 0, 0}, 20},
@@ -41,10 +41,10 @@ const std::vector<Bump> kShape = {
     {"ibug68_24", {0, 1.2, 0}, 12},
 };
 
-constexpr double kClosed = 0.85;            // of the gap between the embedded face's lips
-constexpr double kLowerLipReach_m = 0.015;  // below it nothing rises
+constexpr double kClosed = 0.85;            // share of the gap between the embedded face's lips
+constexpr double kLowerLipReach_m = 0.015;  // the rise decays downwards as a Gaussian of this sigma
 
-/// The lips from corner to corner, x rising: where they end above and below the gap.
+/// The upper and the lower edge of the gap between the lips, from corner to corner, with rising x.
 struct Gap {
   std::vector<Vec3> upper, lower;
 
@@ -55,7 +55,8 @@ struct Gap {
       lower.push_back(points.row(contour[(contour.size() - i) % contour.size()]).transpose());
     }
   }
-  /// How far a point rises: the lower lip's edge by its share of the gap, what is below it less.
+  /// How far a point rises. The edge of the lower lip rises by a share of the gap; points below it
+  /// rise less.
   double rise(const Vec3& p) const {
     if (p.x() <= lower.front().x() || p.x() >= lower.back().x()) return 0;
     std::size_t k = 1;

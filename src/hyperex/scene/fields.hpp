@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Keys of scene files from a struct that describes its options (core/describe.hpp).
+// Makes keys of scene files from a struct that describes its options (core/describe.hpp).
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -46,7 +46,8 @@ constexpr Kind kind_of(const OptionDetails& details) {
     return Kind::choice;
 }
 
-/// The words of a choice, in the order of the enumeration's; what an optional has for nothing last.
+/// The words of a choice, in the order of the enumeration. For an optional, the word for "no value"
+/// comes last.
 template <class Value>
 std::vector<std::string> choices_of(const OptionDetails& details) {
   std::vector<std::string> choices;
@@ -72,8 +73,8 @@ struct Itself {
   auto& operator()(auto& owner) const { return owner; }
 };
 
-/// Functions that return a member: plain ones, so that what is done with it is compiled once a
-/// type.
+/// Functions that return a member. They are plain function pointers, so that the code which uses
+/// them is compiled once per type.
 template <class Owner, class Value>
 struct Reach {
   Value& (*change)(Owner&);
@@ -97,7 +98,7 @@ Field<Owner> field_of(KeyInfo info, Reach<Owner, Value> reach) {
   return field;
 }
 
-/// Names, or the single word "all" for a flag beside them.
+/// A list of names, or the single word "all", which sets a separate flag.
 template <class Owner>
 Field<Owner> one_or_all_field(KeyInfo info, Reach<Owner, std::vector<std::string>> reach,
                               Reach<Owner, bool> reach_all) {
@@ -116,7 +117,7 @@ Field<Owner> one_or_all_field(KeyInfo info, Reach<Owner, std::vector<std::string
   return field;
 }
 
-/// A table { name = number }, into rows of the two.
+/// A table { name = number }, stored as rows of a name and a number.
 template <class Owner, class Row>
 Field<Owner> factors_field(KeyInfo info, Reach<Owner, std::vector<Row>> reach) {
   const Field<Row>&word = columns_of<Row>()[0], &factor = columns_of<Row>()[1];

@@ -10,7 +10,7 @@ namespace hyperex::scene {
 namespace {
 using nlohmann::json;
 
-/// The last part of a path: that of a folder also where a slash ends it.
+/// The last part of a path, with or without a slash at its end.
 std::string last_part(const std::string& text) {
   const std::filesystem::path path(text);
   return (path.has_filename() ? path : path.parent_path()).filename().generic_string();
@@ -76,7 +76,7 @@ std::string with_file_names(const Scene& scene, std::string note) {
   if (scene.output.full_paths) return note;
   std::vector<std::string> paths;
   add_paths(scene, paths);
-  // Longer ones first: the path of a folder may begin that of another input.
+  // Longer paths first, since the path of one input may be the beginning of another's.
   std::sort(paths.begin(), paths.end(),
             [](const auto& a, const auto& b) { return a.size() > b.size(); });
   for (const std::string& path : paths) {

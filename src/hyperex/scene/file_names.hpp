@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Outputs are passed on, and the folders that inputs lie in may tell a patient's name: what is
-// written of a scene names its files without their folders, unless output.full_paths is set.
+// Outputs are passed on to others, and the folders of the inputs may contain a patient's name.
+// Outputs therefore contain the names of a scene's files without their folders, unless
+// output.full_paths is set.
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,17 +11,18 @@
 
 namespace hyperex::scene {
 
-/// options_json(scene) with `named(path)` in the place of each path, those in rows of tables too.
+/// options_json(scene) with each path replaced by `named(path)`, also in rows of tables.
 nlohmann::json options_with_paths(const Scene& scene,
                                   const std::function<std::string(const std::string&)>& named);
 
-/// options_json(scene).
+/// options_json(scene), with file names for paths unless output.full_paths is set.
 nlohmann::json echoed_options(const Scene& scene);
 
-/// Changes of a variant, by key.
+/// The changes of a variant, by key, with paths treated in the same way.
 nlohmann::json echoed_changes(const Scene& scene, const nlohmann::json& changes);
 
-/// A note, in which messages of readers may name the scene's inputs or files inside of them.
+/// A note with paths treated in the same way. Messages from readers of files may contain the paths
+/// of the scene's inputs, or of files inside them.
 std::string with_file_names(const Scene& scene, std::string note);
 
 }  // namespace hyperex::scene

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names that are no keys any more or never were, and what to give in their place.
+// Names that are no longer keys or never were, and what to use instead.
 #include <map>
 
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::scene {
 namespace {
-/// Keys of earlier scene files, and what they are named now.
+/// Keys of earlier scene files, and their present names.
 const std::map<std::string, std::string> renamed_keys = {
     {"output.contact_times_s", "output.picture_times_s"},
     {"support.muscle_kpa_per_mm", "support.field_kpa_per_mm"}};
@@ -14,7 +14,7 @@ const std::map<std::string, std::string> renamed_keys = {
 const std::map<std::string, std::string> removed_keys = {
     {"solver.linear",
      "no such key: it was removed, as Cholesky factorisation is the only way left"}};
-/// Constants of a law in kPa, which follow from keys that are there: what to give in their place.
+/// Constants of a law in kPa that follow from existing keys, and which keys to use instead.
 const std::map<std::string, std::string> derived_keys = {
     {"yeoh_c10", "tissue.young_kpa = 4 (1 + tissue.poisson) C10"},
     {"yeoh_c20", "tissue.yeoh_c20 = C20 / C10, with tissue.young_kpa = 4 (1 + tissue.poisson) C10"},
@@ -27,7 +27,7 @@ const std::map<std::string, std::string> derived_keys = {
     {"mu", "tissue.young_kpa = 2 (1 + tissue.poisson) mu"},
     {"bulk", "tissue.poisson = (3 K - E) / (6 K), with E the tissue.young_kpa"}};
 
-/// "tissue.yeoh_c10_kpa" is "yeoh_c10", "tissue.c10" too.
+/// Finds "yeoh_c10" for "tissue.yeoh_c10_kpa" and for "tissue.c10".
 std::string derived_key(const std::string& name) {
   if (section_of(name) != "tissue") return {};
   std::string stem = name.substr(7);

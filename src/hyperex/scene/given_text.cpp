@@ -10,8 +10,8 @@ namespace hyperex::scene {
 namespace {
 using nlohmann::json;
 
-/// A path as read may be relative to the current folder; in a scene file it would be relative to
-/// that file's.
+/// Makes paths absolute: as read they may be relative to the current folder, while paths in a scene
+/// file are relative to that file.
 void make_absolute(const KeyInfo& info, json& value) {
   if (info.kind == Kind::path && value.is_string() && !value.get<std::string>().empty() &&
       std::find(info.choices.begin(), info.choices.end(), value) == info.choices.end())

@@ -6,11 +6,12 @@
 
 namespace hyperex::scene {
 
-/// Sets "tissue.young_kpa" in a table as a scene file has it: {"tissue": {"young_kpa": 300}}.
+/// Sets the value of a key such as "tissue.young_kpa" in a table laid out like a scene file:
+/// {"tissue": {"young_kpa": 300}}.
 void put_value(nlohmann::json& table, const std::string& key, nlohmann::json value);
 
-/// A scene file that gives what was given in a scene's file and by overrides, its variants too,
-/// with absolute paths: read_scene_text() of it makes the same scene.
+/// The text of a scene file that contains all values given in a scene's file and by overrides,
+/// including its variants, with absolute paths. read_scene_text() of it gives the same scene.
 std::string given_text(const Scene& scene);
 
 }  // namespace hyperex::scene

@@ -102,7 +102,7 @@ std::string show(const json& value) {
   }
   constexpr std::size_t longest = 80;
   if (text.size() <= longest) return text;
-  std::size_t cut = longest;  // not within a UTF-8 character
+  std::size_t cut = longest;  // do not cut within a UTF-8 character
   while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;
   return text.substr(0, cut) + "...";
 }

@@ -9,7 +9,7 @@
 namespace hyperex::scene {
 namespace {
 
-/// A section for each struct within the scene.
+/// Makes a section for each struct in the scene.
 class SectionMaker {
  public:
   template <class At>
@@ -34,8 +34,8 @@ std::size_t place_of(const Key& key) {
   return std::size_t(section - sections().begin());
 }
 
-/// Where a parameter of the tissue is not given the preset's holds, or the default: the echo shows
-/// that.
+/// A tissue parameter that is not given has the preset's value, or the default. The echo shows the
+/// value that is used.
 void show_used_tissue(Key& key) {
   for (int p = 0; p < tissue::parameter_count; ++p)
     if (key.name == "tissue." + tissue::parameter_info(p).key)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The table of keys, made from what the structs of options describe (core/describe.hpp): parsing,
-// --set, error messages, docs/scene.md and the echo of the options all walk through it.
+// The table of keys, made from the descriptions in the structs of options (core/describe.hpp).
+// Parsing, --set, error messages, docs/scene.md and the echo of the options all use it.
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -29,32 +29,32 @@ enum class Kind {
 
 /// What is wrong with a value.
 struct Complaint {
-  std::string below;     ///< part of the value: "", "[2]" or "[0].landmark" (0 is the first)
+  std::string below;     ///< position in the value: "", "[2]" or "[0].landmark" (0 is the first)
   nlohmann::json value;  ///< null where something is missing
   std::string expected;
 };
 
 /// One key of an options struct, without the struct.
 struct KeyInfo {
-  std::string name = {};  ///< "time.step_s"; of a column only "landmark"
+  std::string name = {};  ///< "time.step_s"; for a column only "landmark"
   Kind kind = Kind::text;
   Unit unit = {};
-  Bounds range = {0, 0};  ///< numbers: of the value, or of each element; in the unit of the key
+  Bounds range = {0, 0};  ///< numbers: of the value or of each element, in the unit of the key
   std::vector<std::string> choices = {};  ///< allowed words, besides what the kind allows
   std::size_t least = 0, most = 1000;     ///< lists: how many elements
-  bool required = false;                  ///< columns that are not may be left out
-  bool folder_too = false;                ///< of a path
+  bool required = false;                  ///< columns: whether it must be given
+  bool folder_too = false;                ///< paths: whether a folder is allowed too
   std::string description = {};           ///< a sentence or two
-  std::string only_where = {};            ///< a condition without which it has no effect
-  std::string member = {};                ///< of the struct: "support.skull_layer.along_pa_per_m"
+  std::string only_where = {};            ///< when the key has an effect; empty: always
+  std::string member = {};                ///< in the struct: "support.skull_layer.along_pa_per_m"
   std::vector<KeyInfo> columns = {};      ///< rows: the keys of each table
   std::string expected() const;           ///< "a number from 1 to 30 (mm)"
 };
 
-/// A key and its field. `set` leaves the field as it was where it complains.
+/// A key and access to its field. Where `set` returns complaints, the field is unchanged.
 template <class Owner>
 struct Field : KeyInfo {
-  /// Relative paths are taken from `folder`.
+  /// Relative paths are relative to `folder`.
   std::function<std::vector<Complaint>(Owner&, const nlohmann::json& value,
                                        const std::filesystem::path& folder)>
       set = {};
@@ -66,35 +66,37 @@ struct Section {
   std::string name, description;
 };
 
-const std::vector<Section>& sections();        ///< in the order of the page; "" holds the top level
+const std::vector<Section>& sections();        ///< in the order of the page; "" is the top level
 const std::vector<Key>& keys();                ///< in the order of the sections
 const Key* find_key(const std::string& name);  ///< null where there is none
 
-/// What to give in the place of a key of earlier versions or a constant of a law, in words; empty
+/// A text that says what to use instead of a key of earlier versions or a constant of a law; empty
 /// for every other name.
 std::string in_place_of(const std::string& name);
 
-/// Whether a key has a meaning for a drive by displacement alone: those of [region], and of
-/// [support] but jaw_points (which muscles, that fit the jaw to all points, can do without).
+/// Whether a key has a meaning only where displacements drive the face. These are the keys of
+/// [region], and of [support] except jaw_points. (Muscles fit the jaw to all points and need no
+/// jaw_points.)
 bool speaks_of_displacement(const std::string& key);
 
-/// Whether a key, where it is given, decides what drives: drive.by, and those that speak of
-/// displacement. Where none is given, in the scene or in a variant, muscles drive.
+/// Whether a key, if it is given, decides what drives the face: drive.by, and the keys of
+/// speaks_of_displacement(). Where a scene has variants and none of these keys is given, muscles
+/// drive.
 bool decides_the_drive(const std::string& key);
 
-/// What is expected in the place of an unknown name.
+/// The expected text for an unknown name: the nearest of `names`, or all of them.
 std::string one_of_names(const std::string& name, const std::vector<std::string>& names);
 /// "a", "b" or "c".
 std::string in_words(const std::vector<std::string>& choices);
 
-/// On one line, cut to a readable length; "nan" and "inf" as such.
+/// A value on one line, cut to a readable length; "nan" and "inf" are written as such.
 std::string show(const nlohmann::json& value);
 
 /// "time.step_s" -> "time", "title" -> "".
 std::string section_of(const std::string& key);
 
-/// The candidate most like `name`, typing slips, a missing unit or another section allowed for;
-/// empty where none is near.
+/// The candidate most like `name`, allowing for typing errors, a missing unit or another section;
+/// empty where none is similar.
 std::string nearest(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace hyperex::scene

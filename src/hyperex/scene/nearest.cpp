@@ -22,7 +22,7 @@ std::string section_of(const std::string& key) {
 std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
   const std::string given = lower_case(name).substr(0, 100), given_last = last_of_key(given);
   const std::string given_section = section_of(given);
-  // Of keys as near as each other, the one whose section is.
+  // Among equally near keys, the one with the nearest section is chosen.
   const auto off_section = [&](const std::string& candidate) {
     return given_section.empty() ? 0 : slips(given_section, section_of(lower_case(candidate)));
   };
@@ -30,7 +30,8 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
   std::size_t best_slips = std::max<std::size_t>(1, given_last.size() / 3) + 1;
   for (const auto& candidate : candidates) {
     const std::string last = last_of_key(candidate);
-    // The same last part in another section, or without its unit, is as near as one slip.
+    // The same last part in another section, or without its unit, counts as at most one typing
+    // error.
     std::size_t far =
         std::min(slips(given, lower_case(candidate)), slips(given_last, lower_case(last)) + 1);
     if (!given_last.empty() && last.rfind(given_last + "_", 0) == 0)

@@ -10,7 +10,7 @@
 namespace hyperex::scene {
 namespace {
 
-/// As a word of a command line.
+/// The path quoted as one word of a command line.
 std::string quoted(const std::string& path) {
   std::string out = "'";
   for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -21,7 +21,7 @@ std::string quoted(const std::string& path) {
   return plain ? path : out;
 }
 
-/// Comments end with the line.
+/// Replaces line breaks, since a comment ends with its line.
 std::string in_one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';

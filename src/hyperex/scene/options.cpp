@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of a scene as its messages and the echo have them.
+// The options of a scene, for messages and the echo.
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::scene {
 using nlohmann::json;
 
 namespace {
-/// `value` of "drive.points", at `below` = "[2]" or "[0].landmark"; null where there is no such.
+/// The part of `value` (of "drive.points", for example) at `below`, "[2]" or "[0].landmark"; null
+/// where there is no such part.
 json part_of(json value, std::string below) {
   const auto open = below.find('['), close = below.find(']');
   if (open == 0 && close != std::string::npos) {
@@ -26,7 +27,7 @@ InputProblem problem_at(const Scene& scene, const std::string& key, const std::s
   const Key* found = find_key(whole);
   const json value = found ? part_of(found->get(scene), key.substr(whole.size())) : json(nullptr);
   Origin origin{scene.file, 0};
-  for (const std::string& name : {whole, key})  // the more precise one last
+  for (const std::string& name : {whole, key})  // the more precise one last, so that it wins
     if (const auto at = scene.origins.find(name); at != scene.origins.end()) origin = at->second;
   return {origin.file, origin.line, key, value.is_null() ? "" : show(value), expected};
 }

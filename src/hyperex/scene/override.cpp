@@ -12,7 +12,8 @@ using nlohmann::json;
 
 namespace {
 
-/// "muscles.gain={side_L=...}" for a name in a table of factors, "muscle.gain.side_L"; else empty.
+/// "muscles.gain={side_L=...}" for a name in a table of factors, such as "muscle.gain.side_L";
+/// empty for all others.
 std::string in_table_of_factors(const std::string& name, const std::vector<std::string>& all) {
   const auto last = name.rfind('.');
   if (last == std::string::npos || section_of(name).size() == last) return "";

@@ -25,33 +25,33 @@ struct GivenValue {
   json value;
   Origin origin;
   bool is_override = false;
-  fs::path folder = {};  ///< that a relative path is taken from
+  fs::path folder = {};  ///< relative paths are relative to it
 };
 
-/// Names of keys in messages: on one line even where someone quoted a strange one.
+/// The name of a key for messages, on one line even if it contains blanks or line breaks.
 std::string plain(const std::string& key) {
   const bool bare = std::all_of(key.begin(), key.end(), [](unsigned char c) { return c > ' '; });
   return bare ? key : show(key);
 }
 
-/// A scene being read: what was given, what came of it, what is wrong.
+/// A scene being read: the values given, the scene made of them, and the problems found.
 class Reader {
  public:
   explicit Reader(const fs::path& file) { scene.file = file; }
-  /// False where nothing could be read at all.
+  /// Returns false where nothing could be read at all.
   bool take_file();
   bool take_text(const std::string& text);
   void take_override(const Override& given);
   void settle_motion();
-  /// Where no key says what drives: muscles in a scene with variants, save where the keys given
-  /// have a meaning for displacement alone.
+  /// Whether neither the scene nor a variant gives a key that decides what drives the face
+  /// (decides_the_drive()).
   bool drive_is_open() const;
   void settle_drive();
   void fill();
-  /// Variants have the same table.
+  /// Sets the table of muscles, which is the same for all variants.
   void settle_muscles() { scene.muscles.own = muscles_of_scene(); }
   void check_together();
-  /// Reads the scene once more for each variant, its changes in the place of what was given.
+  /// Fills the scene once more for each variant; its changes replace the values given.
   void settle_variants();
 
   Scene scene;
@@ -60,28 +60,27 @@ class Reader {
  private:
   void take_section(const std::string& name, const json& value);
   void settle_variant(const json& block, const std::string& at);
-  /// The variant's own name, or that of its preset, which is known; nothing where it may not be
-  /// called so.
+  /// The variant's own name, or that of its (known) preset; nothing where the name is not allowed.
   std::optional<std::string> name_of_variant(const json& block, const std::string& at);
-  /// The variant's keys, over those of the preset that it names; nothing where there is no such.
+  /// The variant's keys, which override those of its preset; empty if there is no such preset.
   std::map<std::string, json> changes_with_preset(const json& block, const std::string& at);
   void take(const std::string& key, const GivenValue& given);
   void complain(const Origin& origin, const std::string& key, const json& value,
                 const std::string& expected);
   void complain_given(const std::string& key, const std::string& expected);
-  /// Of a part of a given key, ".zyg_major_L" of muscles.gain.
+  /// Complains about a part of a given key, such as ".zyg_major_L" of muscles.gain.
   void complain_part(const std::string& key, const std::string& below, const json& value,
                      const std::string& expected);
-  /// Whether gains name muscles of the scene's table.
+  /// Checks that gains name muscles of the scene's table.
   void check_gains();
-  /// What finite strain does not go with.
+  /// Checks for options that finite strain does not support.
   void check_strain();
   muscles::MuscleTable muscles_of_scene();
   Origin in_file(const std::string& name) const;
 
   std::map<std::string, int> lines_;
   std::map<std::string, GivenValue> given_;
-  json variants_;  // [[variant]] as the file has it
+  json variants_;  // [[variant]] as in the file
 };
 
 void Reader::complain(const Origin& origin, const std::string& key, const json& value,
@@ -190,7 +189,7 @@ void Reader::take_override(const Override& given) {
   const std::string value_text = text.substr(equals + 1);
   const Key* key = find_key(name);
   json value = parse_toml_value(value_text).value_or(value_text);
-  // A file may well be called 7 or 2024-01-01.
+  // A file may be called 7 or 2024-01-01, which TOML reads as a number or a date.
   const bool wordy =
       key && (key->kind == Kind::text || key->kind == Kind::choice || key->kind == Kind::path);
   if (wordy && !value.is_string()) value = value_text;
@@ -200,7 +199,7 @@ void Reader::take_override(const Override& given) {
     take(name, {value, origin, true, folder});
 }
 
-/// One source of motion: an override takes the place of what the file gives.
+/// There is one source of motion: an override replaces the one in the file.
 void Reader::settle_motion() {
   static constexpr const char* sources[] = {"motion.file", "motion.recording", "motion.openface",
                                             "motion.arkit"};
@@ -222,7 +221,7 @@ void Reader::settle_motion() {
     complain_given(given[i], fmt::format("one source of motion, and {} is given", given[0]));
 }
 
-/// Nothing in the scene or in a variant says what drives: muscles do.
+/// Where this is true and the scene has variants, muscles drive (settle_drive()).
 bool Reader::drive_is_open() const {
   for (const auto& [key, given] : given_)
     if (decides_the_drive(key)) return false;
@@ -265,7 +264,7 @@ void Reader::complain_part(const std::string& key, const std::string& below, con
   const std::string part = key + below;
   Origin at = given.origin;
   if (!given.is_override && lines_.count(part)) at.line = lines_.at(part);
-  // A missing column has no line of its own: its table has.
+  // A missing column has no line: take that of its table.
   else if (!given.is_override && lines_.count(part.substr(0, part.rfind('.'))))
     at.line = lines_.at(part.substr(0, part.rfind('.')));
   complain(at, part, value, expected);
@@ -279,7 +278,7 @@ void Reader::complain_given(const std::string& key, const std::string& expected)
     complain(found->second.origin, key, found->second.value, expected);
 }
 
-/// Empty: the program's own.
+/// Empty where the program's own table is used.
 muscles::MuscleTable Reader::muscles_of_scene() {
   if (scene.muscles_file.empty() && scene.muscles_without.empty()) return {};
   muscles::MuscleTable all;
@@ -374,7 +373,7 @@ std::map<std::string, json> Reader::changes_with_preset(const json& block, const
              one_of_names(given.is_string() ? given.get<std::string>() : "", names));
     return {};
   }
-  changes.merge(changes_of(preset->changes));  // the variant's own hold
+  changes.merge(changes_of(preset->changes));  // keys that are there stay: the variant's own
   return changes;
 }
 
@@ -437,7 +436,7 @@ void Reader::settle_variant(const json& block, const std::string& at) {
 }
 
 void Reader::settle_variants() {
-  if (variants_.is_null() || !problems.empty()) return;  // else each would tell them again
+  if (variants_.is_null() || !problems.empty()) return;  // else each would repeat them
   if (!variants_.is_array()) {
     complain(in_file("variant"), "variant", nullptr, "tables, [[variant]]");
     return;
@@ -446,8 +445,8 @@ void Reader::settle_variants() {
     settle_variant(variants_[i], fmt::format("variant[{}]", i));
 }
 
-/// The scene as far as it could be read, and everything that is wrong with it: the file's problems
-/// by line, then those of the overrides. `text`: in the place of what the file holds; null: that.
+/// The scene as far as it could be read, and all problems: those of the file by line, then those of
+/// the overrides. `text`: used instead of the file's content; null: the file is read.
 Reader read(const fs::path& file, const std::vector<Override>& overrides,
             const std::string* text = nullptr) {
   Reader reader(file);

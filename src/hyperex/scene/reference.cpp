@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// docs/scene.md, from the table of keys.
+// Writes docs/scene.md from the table of keys.
 #include <fmt/format.h>
 
 #include "hyperex/scene/keys.hpp"

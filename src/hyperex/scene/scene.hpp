@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A scene: everything one run needs, as plain options. Lengths in metres, SI throughout; the units
-// in the names of the file's keys (docs/scene.md) are converted when the file is read.
+// A scene: all options of a run. Lengths are in metres, all units SI. The units in the names of the
+// file's keys (docs/scene.md) are converted when the file is read.
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -24,7 +24,7 @@
 
 namespace hyperex::scene {
 
-/// A file of the user's, or what the program carries inside ("embedded" in the scene file).
+/// A file of the user, or data that are part of the program ("embedded" in the scene file).
 struct Source {
   bool embedded = false;
   std::filesystem::path file;  ///< empty where embedded
@@ -33,7 +33,7 @@ struct Source {
 struct ScanOptions {
   Source source;                       ///< required; embedded: the canonical face
   std::optional<io::LengthUnit> unit;  ///< none: guessed from the size ("guess")
-  std::filesystem::path landmarks;     ///< empty: found on the scan, or the embedded face's own
+  std::filesystem::path landmarks;     ///< empty: found on the scan, or those of the embedded face
   std::optional<io::LengthUnit> landmarks_unit;  ///< none: as the file says ("file")
 
   static constexpr const char* about = "The face at rest.";
@@ -57,19 +57,19 @@ struct ScanOptions {
 
 struct MotionOptions {
   // One of these four is required.
-  Source source;                          ///< named points; embedded: a mouth opening, 2.7 s
+  Source source;                          ///< named points; embedded: a mouth opening of 2.7 s
   std::filesystem::path recording;        ///< of a camera: a folder or a file
   std::filesystem::path openface, arkit;  ///< expressions: action units, blend shapes
-  std::filesystem::path candide;       ///< CANDIDE-3's file, which they move; empty: canonical face
-  std::optional<io::LengthUnit> unit;  ///< none: as the file says ("file")
-  bool mirrored = false;               ///< the recording's pictures are a mirror's
-  std::vector<std::string> rigid_points;  ///< carry the head's pose; empty: chosen automatically
-  /// Seconds from the start at which the face is at rest: none (the first sample), one time, or
-  /// from and to.
+  std::filesystem::path candide;          ///< face model, CANDIDE-3; empty: canonical face
+  std::optional<io::LengthUnit> unit;     ///< none: as the file says ("file")
+  bool mirrored = false;                  ///< whether the recording's pictures are mirrored
+  std::vector<std::string> rigid_points;  ///< determine the head pose; empty: chosen automatically
+  /// When the face is at rest, in seconds from the start: empty (the first sample), one time, or a
+  /// start and an end.
   std::vector<double> rest_s;
   double start_s = 0;                          ///< where the run begins in the recording
   double max_gap_s = 0.2;                      ///< longest gap that is interpolated
-  std::vector<motion::PointGain> point_gains;  ///< besides, on single points
+  std::vector<motion::PointGain> point_gains;  ///< in addition to motion.gain
   double time_scale = 1;                       ///< 2: twice as slow
 
   static constexpr const char* about = "The recorded expression.";
@@ -157,9 +157,9 @@ constexpr auto words_of(TeethShape) {
 }
 
 struct TeethOptions {
-  TeethShape shape = TeethShape::arch;  ///< of a jaw of which no file is given
+  TeethShape shape = TeethShape::arch;  ///< for a jaw without a file
   std::filesystem::path upper, lower;   ///< scans of teeth, in the frame of the scan
-  std::optional<io::LengthUnit> unit;   ///< of both; none: the scan's ("scan")
+  std::optional<io::LengthUnit> unit;   ///< of both; none: that of the scan ("scan")
 
   static constexpr const char* about =
       "The teeth behind the lips. They are drawn; with contact.teeth the tissue touches them.";
@@ -181,16 +181,16 @@ struct TeethOptions {
 
 struct OutputOptions {
   bool vtu = true, glb = true, report = true;
-  int vtu_every = 1;              ///< write every n-th frame
-  bool vtu_strain = true;         ///< the strain tensor in them
-  bool variants_vtu = false;      ///< frames of each variant too
-  double glb_tolerance_m = 1e-4;  ///< of any vertex in any frame
+  int vtu_every = 1;              ///< writes every n-th frame
+  bool vtu_strain = true;         ///< includes the strain tensor
+  bool variants_vtu = false;      ///< writes the frames of each variant too
+  double glb_tolerance_m = 1e-4;  ///< largest error of any vertex in any frame
   double glb_max_mb = 20;         ///< of performance.glb
-  double most_gb = 2;             ///< of all outputs; a run that would write more does not begin
-  bool full_paths = false;        ///< of input files, in summary.json and report.html
+  double most_gb = 2;             ///< of all outputs; a run that would write more is refused
+  bool full_paths = false;        ///< write full paths in summary.json and report.html
   double symmetry_floor = 1e-6;
   double lowpass_hz = 6;    ///< cut-off for speeds and paths; 0: none
-  double jitter_m = -1e-3;  ///< of the recorded points; below 0: estimated from them
+  double jitter_m = -1e-3;  ///< of the recorded points; below 0: estimated from the points
 
   static constexpr const char* about = "What is written.";
   template <class Visitor>
@@ -246,18 +246,18 @@ struct OutputOptions {
   }
 };
 
-/// A face and its motion that a program hands over in memory, in place of scan.file and
+/// A face and its motion that a calling program passes in memory, instead of scan.file and
 /// motion.file.
 struct GivenFace {
-  std::shared_ptr<const io::Scan> scan;          ///< null: the scene names files
-  io::Landmarks landmarks;                       ///< metres, the scan's frame; empty: found
-  std::shared_ptr<const motion::Motion> motion;  ///< as recorded: metres, the head's pose included
+  std::shared_ptr<const io::Scan> scan;          ///< null: the files that the scene names are read
+  io::Landmarks landmarks;                       ///< metres, the scan's frame; empty: found on it
+  std::shared_ptr<const motion::Motion> motion;  ///< as recorded, in metres, with the head pose
 };
 
 /// Where a value came from.
 struct Origin {
   std::filesystem::path file;  ///< the scene file, or "--set"
-  int line = 0;                ///< 1-based; 0 where a line means nothing
+  int line = 0;                ///< 1-based; 0 where there is no line
 };
 
 struct Variant;
@@ -272,14 +272,14 @@ struct Scene {
   simulate::ModelOptions model;
   simulate::RegionOptions region;
   simulate::SupportOptions support;
-  simulate::MuscleOptions muscles;  ///< `own`: the program's as the two below change it
+  simulate::MuscleOptions muscles;  ///< `own`: the program's, changed by the next two
   std::filesystem::path muscles_file;
   std::vector<std::string> muscles_without;
-  simulate::DriveOptions drive;  ///< gain: of the key motion.gain
+  simulate::DriveOptions drive;  ///< its gain has the key motion.gain
   simulate::ContactOptions contact;
   TeethOptions teeth;
   simulate::SolverOptions solver;
-  /// peak_time_s, still_times_s (up to 12; none: spread_frames()): of the section output.
+  /// peak_time_s and still_times_s (up to 12; none: spread_frames()) belong to the section output.
   simulate::TimeOptions time;
   OutputOptions output;
   std::vector<Variant> variants;  ///< [[variant]], in the file's order
@@ -290,7 +290,8 @@ struct Scene {
   KeptResults kept;  ///< where found landmarks and tracked recordings are kept; nowhere by default
 
   static constexpr const char* about = "At the top of the file, before any section.";
-  /// Of structs the sections of the file: named as the members unless a key is given.
+  /// Each member that is a struct is a section of the file. A section has the member's name unless
+  /// a key is given.
   template <class Visitor>
   static void describe(Visitor& v) {
     v.option(HX_MEMBER(title), "Heads the report.");
@@ -319,33 +320,33 @@ struct Scene {
   }
 };
 
-/// The same face and motion with other tissue, support or drive: what a run compares with the
+/// The same face and motion with another tissue, support or drive, which a run compares with the
 /// scene itself.
 struct Variant {
   std::string name;        ///< printable ASCII
-  std::string folder;      ///< of its outputs: the name, '_' for what is awkward in a path
+  std::string folder;      ///< of its outputs: the name, '_' for characters awkward in a path
   nlohmann::json changes;  ///< "tissue.young_kpa": 400, as given
   Scene scene;             ///< with the changes; its own variants are empty
 };
 
-/// Sections whose keys a variant may change: what a run does again for each of them.
+/// The sections whose keys a variant may change. A run repeats these steps for each variant.
 const std::vector<std::string>& variant_sections();
 
-/// Reads a scene file (TOML, docs/scene.md), then `overrides` ("KEY=VALUE", the last wins, VALUE in
-/// TOML or a bare string). Paths in the file are relative to it, those of overrides to the current
-/// folder. Throws InputError with all problems at once, a line each: a torn file, unknown keys,
-/// wrong types, values out of range, keys or files that are missing.
+/// Reads a scene file (TOML, docs/scene.md), then `overrides` ("KEY=VALUE"; the last one of a key
+/// wins; VALUE is TOML or a bare string). Paths in the file are relative to the file, paths in
+/// overrides to the current folder. Throws one InputError with all problems, one line each: invalid
+/// TOML, unknown keys, wrong types, values out of range, missing keys or files.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The same of a text that stands in the place of the file's own; the file need not be there.
+/// The same, but reads `text` in place of the content of `file`, which need not exist.
 Scene read_scene_text(const std::string& text, const std::filesystem::path& file);
 
-/// The same problems, not thrown; empty for a sound scene.
+/// The same problems, returned instead of thrown; empty for a valid scene.
 std::vector<InputProblem> problems_of(const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides = {});
 
-/// A problem found later (e.g. a point that the motion does not hold) with the value of `key`,
-/// pointing to where that was given.
+/// A problem that is found later (for example a point that the motion does not have), with the
+/// value of `key` and the place where it was given.
 InputProblem problem_at(const Scene& scene, const std::string& key, const std::string& expected);
 
 /// All options by section and key, in the units of the key names, defaults included.

@@ -39,8 +39,8 @@ bool blank(const std::string& line) {
   return line.find_first_not_of(" \t\r") == std::string::npos;
 }
 
-/// Lines [first, last) of the i-th [[variant]], its sub-tables among them; comments and blank lines
-/// before the next header belong to that.
+/// Lines [first, last) of the i-th [[variant]], with its sub-tables. Comments and blank lines
+/// before the next header belong to that header.
 struct Stretch {
   std::size_t first, last;
 };
@@ -59,7 +59,7 @@ std::vector<Stretch> variant_lines(const std::vector<std::string>& lines) {
   return out;
 }
 
-/// A name that needs no quotes.
+/// The name of a key, in quotes where it needs them.
 std::string key_text(const std::string& name) {
   const bool bare = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-';
@@ -85,7 +85,7 @@ std::string variant_text(const json& block) {
   return text;
 }
 
-/// The table of a dotted name, or null.
+/// The table of a dotted name; null where there is none.
 const toml::table* table_at(const toml::table& root, const std::string& section) {
   return section.empty() ? &root : root[section].as_table();
 }
@@ -95,7 +95,7 @@ std::optional<std::size_t> offset_of(const std::vector<std::string>& lines,
   std::size_t offset = 0;
   if (at.line == 0 || at.line > lines.size() + 1) return std::nullopt;
   for (std::size_t i = 0; i + 1 < at.line; ++i) offset += lines[i].size() + 1;
-  // Columns count code points.
+  // A column counts code points, not bytes.
   const std::string& line = at.line <= lines.size() ? lines[at.line - 1] : lines.back();
   std::size_t byte = 0;
   for (unsigned column = 1; column < at.column && byte < line.size(); ++column) {
@@ -105,7 +105,7 @@ std::optional<std::size_t> offset_of(const std::vector<std::string>& lines,
   return offset + byte;
 }
 
-/// What `root` is after the change.
+/// `root` with the change.
 json changed(json root, const std::string& section, const std::string& name, const json& value) {
   json& table = section.empty() ? root : root[section];
   if (!table.is_object()) table = json::object();
@@ -117,7 +117,7 @@ json changed(json root, const std::string& section, const std::string& name, con
   return root;
 }
 
-/// By touching one place of the text; nothing where this knows none.
+/// Edits one place of the text; nothing where the layout is not one of those handled here.
 std::optional<std::string> edited(const std::string& text, const std::string& section,
                                   const std::string& name, const json& value) {
   std::vector<std::string> lines = lines_of(text);
@@ -127,7 +127,7 @@ std::optional<std::string> edited(const std::string& text, const std::string& se
   if (node) {
     const toml::source_region& at = node->source();
     if (value.is_null()) {
-      // Where the key has its lines for itself.
+      // Only where the key has its lines to itself.
       std::size_t first = at.begin.line - 1;
       const std::size_t last = at.end.line;
       const std::string& line = lines.at(first);
@@ -153,7 +153,7 @@ std::optional<std::string> edited(const std::string& text, const std::string& se
     lines.insert(lines.begin() + std::ptrdiff_t(end), line);
     return joined(lines);
   }
-  std::size_t before = 0;  // the first table
+  std::size_t before = 0;  // line of the first table
   while (before < lines.size() && !begins(lines[before], section.empty() ? "[" : "[[variant"))
     ++before;
   while (before > 0 && before < lines.size() && begins(lines[before - 1], "#")) --before;
@@ -164,7 +164,7 @@ std::optional<std::string> edited(const std::string& text, const std::string& se
   }
   std::vector<std::string> block;
   if (before > 0 && !blank(lines[before - 1])) block.push_back("");
-  if (table) {  // dotted keys or an inline table: no header may follow
+  if (table) {  // it has dotted keys or is an inline table: a header may not follow
     return std::nullopt;
   }
   block.push_back(header);
@@ -194,7 +194,7 @@ std::string toml_document(const json& root) {
 
 namespace {
 
-/// The whole document. Throws InputError for what TOML cannot hold.
+/// Writes the whole document. Throws InputError for a value that TOML cannot represent.
 std::string written_anew(const json& wanted, const std::string& key) {
   const std::string text = toml_document(wanted);
   try {

@@ -53,14 +53,14 @@ std::string line_of(const std::string& text, int line) {
   return found;
 }
 
-/// "größe = 2": a letter beyond ASCII in a key without quotes.
+/// Whether a key without quotes has a letter beyond ASCII: "größe = 2".
 bool has_bare_letter(const std::string& line) {
   const std::string key = line.substr(0, line.find('='));
   return key.find_first_of("\"'#") == std::string::npos &&
          std::any_of(key.begin(), key.end(), [](char c) { return (unsigned char)c >= 0x80; });
 }
 
-/// "gain = 0,3": decimals behind a comma, as many languages write them.
+/// Whether a number has a decimal comma, as usual in many languages: "gain = 0,3".
 bool has_decimal_comma(const std::string& line) {
   for (auto comma = line.find(','); comma != std::string::npos; comma = line.find(',', comma + 1)) {
     const auto is_digit = [&](std::size_t at) {
@@ -89,7 +89,7 @@ TomlValues parse_toml(const std::string& text) {
     for (char& c : why)
       if (static_cast<unsigned char>(c) < ' ') c = ' ';
     const int line = static_cast<int>(error.source().begin.line);
-    // What the parser meets in a string that goes on into the next line.
+    // The parser's errors for a string without a closing quote.
     if (why.find("string") != std::string::npos &&
         (why.find("unescaped control characters") != std::string::npos ||
          why.find("end-of-file") != std::string::npos ||
@@ -107,7 +107,7 @@ std::optional<json> parse_toml_value(const std::string& value) {
   try {
     const toml::table table = toml::parse("value = " + value);
     std::map<std::string, int> ignored;
-    // A line break in the value could smuggle in a second key.
+    // A line break in the value could add a second key.
     if (table.size() != 1) return std::nullopt;
     return convert(table.begin()->second, "", ignored);
   } catch (const toml::parse_error&) {
@@ -130,7 +130,7 @@ std::string toml_text(const json& value) {
     for (const auto& [key, item] : value.items()) add(json(key).dump() + " = " + toml_text(item));
     return "{" + parts + "}";
   }
-  // Numbers, words and JSON's escapes in texts are TOML too, save for DEL.
+  // Numbers, words and JSON's escapes in strings are valid TOML too, except for DEL.
   std::string text = value.dump();
   for (auto at = text.find('\x7f'); at != std::string::npos; at = text.find('\x7f', at))
     text.replace(at, 1, "\\u007f");

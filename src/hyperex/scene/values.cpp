@@ -34,13 +34,14 @@ fs::path resolve(const fs::path& folder, const std::string& path) {
   return (folder / path).lexically_normal();
 }
 
-/// "C:\new\table.ply" between double quotes holds a line break and a tab.
+/// Whether a path has control characters: "C:\new\table.ply" in double quotes contains a line break
+/// and a tab.
 bool holds_escape(const std::string& path) {
   return std::any_of(path.begin(), path.end(),
                      [](char c) { return static_cast<unsigned char>(c) < ' '; });
 }
 
-/// A file that exists, or where the key allows it a folder.
+/// Checks that the file (or the folder, where the key allows one) exists.
 Complaints check_file(const Given& given) {
   if (!is_word(given.value)) return wrong(given);
   const bool folder_too = given.key.folder_too;
@@ -140,7 +141,7 @@ json get_value(const KeyInfo&, const Source& member) {
   return member.embedded ? std::string("embedded") : member.file.generic_string();
 }
 
-/// Strictly rising numbers; where two are the most, one may stand without brackets.
+/// Strictly rising numbers. Where at most two are allowed, a single number needs no brackets.
 Complaints set_value(const Given& given, std::vector<double>& member) {
   const KeyInfo& key = given.key;
   json list = given.value;
@@ -226,11 +227,11 @@ std::string expected_gain(const std::string& name, const std::vector<std::string
 
 namespace {
 
-/// Of a percentage in the place of a factor: " (0.3 for 30 %)".
+/// A hint where a percentage was given instead of a factor: " (0.3 for 30 %)".
 std::string of_percent(const Bounds& range, const json& factor) {
   if (!factor.is_number()) return "";
   const double given = factor.get<double>();
-  constexpr double least = 10;  // below, it need not be one
+  constexpr double least = 10;  // a smaller number need not be a percentage
   return given > range.most && given >= least && given <= 100 && range.holds(given / 100)
              ? fmt::format(" ({:g} for {:g} %)", given / 100, given)
              : "";
@@ -239,12 +240,12 @@ std::string of_percent(const Bounds& range, const json& factor) {
 }  // namespace
 
 Complaints check_factors(const Given& given) {
-  // A date comes as a table of this one name.
+  // A date is converted to a table with this single name.
   if (!given.value.is_object() || given.value.contains("date or time")) return wrong(given);
   const auto& names = given.key.choices;
   Complaints complaints;
   for (const auto& [name, factor] : given.value.items()) {
-    // What has a side may be a muscle of the user's own, which is looked at with its table.
+    // A name with a side may be one of the user's own muscles; it is checked later with its table.
     const bool of_a_side = name.ends_with("_L") || name.ends_with("_R");
     if (!of_a_side && std::find(names.begin(), names.end(), name) == names.end())
       complaints.push_back({"." + name, factor, expected_gain(name, names)});
@@ -257,7 +258,7 @@ Complaints check_factors(const Given& given) {
 
 namespace {
 
-/// Of one table: unknown keys, and required ones that are missing.
+/// Checks one table for unknown keys, and for required keys that are missing.
 void check_row(const KeyInfo& key, const json& table, const std::string& row,
                Complaints& complaints) {
   std::vector<std::string> known;

@@ -12,8 +12,8 @@
 
 namespace hyperex::scene {
 
-// A value from JSON, and back: one pair for each type of member. `set_value` leaves the member as
-// it was where it complains. Relative paths are taken from `folder`.
+// Conversion of a value from and to JSON: one pair of functions for each type of member. Where
+// `set_value` returns complaints, the member is unchanged. Relative paths are relative to `folder`.
 struct Given {
   const KeyInfo& key;
   const nlohmann::json& value;
@@ -42,14 +42,14 @@ nlohmann::json get_value(const KeyInfo& key, const std::vector<double>& member);
 nlohmann::json get_value(const KeyInfo& key, const std::vector<std::string>& member);
 nlohmann::json get_value(const KeyInfo& key, const std::vector<Place>& member);
 
-/// Of a list of tables, without their cells; of a table { name = number }; of a choice: the place
-/// of the word.
+/// check_rows(): a list of tables, without their cells. check_factors(): a table { name = number }.
+/// check_choice(): a choice; sets `place` to the index of the word.
 Complaints check_rows(const Given& given);
-/// What is expected for a wrong name in muscles.gain, "another name; did you mean side_R?":
-/// `names`, all that there are, of which a misspelt one is found.
+/// The expected text for a wrong name in muscles.gain: "another name; did you mean side_R?".
+/// `names`: all valid names, among which a misspelt one is searched.
 std::string expected_gain(const std::string& name, const std::vector<std::string>& names,
                           const muscles::MuscleTable& table = muscles::muscle_template());
-/// Factors of muscles, the only ones that scenes have.
+/// Factors of muscles; scenes have no other factors.
 Complaints check_factors(const Given& given);
 Complaints check_choice(const Given& given, std::size_t& place);
 
@@ -65,7 +65,7 @@ nlohmann::json get_value(const KeyInfo&, Enum member) {
   return std::string(word_of(member));
 }
 
-/// The last word stands for nothing.
+/// The last word means "no value".
 template <Worded Enum>
 Complaints set_value(const Given& given, std::optional<Enum>& member) {
   std::size_t place = 0;
@@ -102,7 +102,7 @@ Complaints set_value(const Given& given, std::vector<Row>& member) {
   if (complaints.empty()) member = std::move(filled);
   return complaints;
 }
-/// Cells that may be left out and hold their defaults are.
+/// Leaves out optional cells that have their default values.
 template <Described Row>
 nlohmann::json get_value(const KeyInfo&, const std::vector<Row>& member) {
   auto list = nlohmann::json::array();

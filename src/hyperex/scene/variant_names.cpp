@@ -28,7 +28,7 @@ const std::vector<std::string>& variant_sections() {
 
 bool may_vary(const std::string& key) {
   const auto& sections = variant_sections();
-  // Variants answer the forces that the scene's muscles were found to make.
+  // Variants respond to the forces found for the scene's muscles, so that these must be the same.
   if (key == "muscles.file" || key == "muscles.without" || key == "muscles.shape_prior")
     return false;
   return key == "motion.gain" ||
@@ -72,7 +72,8 @@ std::string variant_folder(const std::string& name, const std::vector<Variant>& 
     else if (!folder.ends_with('_'))
       folder += '_';
   }
-  // A point first hides a folder, and some systems cut one last. There is a letter or digit.
+  // Removes dots at both ends: a leading dot hides a folder, and some systems remove a trailing
+  // one. The name has at least one letter or digit.
   folder.erase(folder.find_last_not_of("_.") + 1);
   folder.erase(0, folder.find_first_not_of("_."));
   const auto taken = [&](const std::string& text) {

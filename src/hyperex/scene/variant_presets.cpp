@@ -50,7 +50,7 @@ std::vector<VariantPreset> read_presets() {
       out.push_back(std::move(preset));
       out.push_back(std::move(left));
     }
-  } catch (const TornToml&) {  // our own file: a fault in it is a fault of the build
+  } catch (const TornToml&) {  // our own file: an error in it is an error of the build
     throw std::logic_error("the presets of variants inside this program are damaged");
   }
   return out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What tracking gives, for whatever shows or writes it: types alone, without OpenCV.
+// Results of tracking, for code that displays or writes them: types only, without OpenCV.
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <optional>
@@ -14,17 +14,17 @@ namespace hyperex::tracking {
 /// A person's face at rest.
 struct Neutral {
   Points points_m;        ///< |V| x 3, head frame
-  double scale = 1;       ///< of the person relative to the model
+  double scale = 1;       ///< size of the person relative to the model
   Eigen::VectorXd shape;  ///< weights of the model's shape units
-  bool metric = false;    ///< from depth; false: from the stated distance of the eyes
+  bool metric = false;    ///< true: size from depth; false: from the stated distance of the eyes
 };
 
-/// How well a frame was met.
+/// Quality of the fit of a frame.
 struct FitReport {
   double network_rms_px = 0;     ///< over the paired vertices
   double depth_rms_m = 0;        ///< over the vertices with depth
-  double depth_share = 0;        ///< of the vertices facing the camera that had depth
-  double photometric_share = 0;  ///< of the template's pixels that agree
+  double depth_share = 0;        ///< share of the vertices facing the camera that had depth
+  double photometric_share = 0;  ///< share of the template's pixels that agree
 };
 
 /// The face in one frame.

@@ -4,7 +4,7 @@
 
 namespace hyperex::anatomy {
 
-/// The embedded face, wider, longer, bent and turned: another person, landmarks known.
+/// The embedded face made wider, longer, bent and rotated: another person with known landmarks.
 inline EmbeddedFace another_face(double turned_rad) {
   EmbeddedFace face = embedded_face();
   const Eigen::Matrix3d turn =

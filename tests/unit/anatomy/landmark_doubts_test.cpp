@@ -150,7 +150,7 @@ TEST(LandmarkDoubts, HoldsOnRealFaces) {
   }
 }
 
-/// As another hand sets them: brows and jaw 5 mm off, alike on both sides.
+/// The landmarks as another person would set them: brows and jaw 5 mm off, equally on both sides.
 io::Landmarks set_otherwise(io::Landmarks landmarks) {
   for (auto& [name, p] : landmarks) {
     if (!name.starts_with("ibug68_")) continue;

@@ -113,7 +113,7 @@ io::Landmarks negated(io::Landmarks landmarks, const Vec3& sign) {
   return landmarks;
 }
 
-/// Refused with x and y negated, and so are landmarks that are mirrored.
+/// Checks that a scan with x and y negated is refused, and so are mirrored landmarks.
 void expect_axes_told(const TriMesh& scan, const io::Landmarks& all) {
   for (const auto& given :
        {all, only(all, kSeven), only(all, {"ibug68_36", "ibug68_45", "ibug68_30"})}) {
@@ -189,7 +189,7 @@ TEST(CompleteLandmarks, AllProblemsAreToldAtOnce) {
                  {"ibug68_30", "\nl.json: landmark elbow"});
 }
 
-/// A wall of two lips that meet in a groove along y = curve(x).
+/// The scan is a wall of two lips that meet in a groove along y = curve(x).
 TEST(LipLine, FollowsAGrooveAndFindsNoneOnABulge) {
   const auto curve = [](double x) { return 0.003 * std::sin(x * 60); };
   const auto wall = [&](double depth) {

@@ -14,7 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 using test::read_all;
 
-/// Frame i comes i periods after the first call, like a camera's; colour is all i.
+/// Frame i arrives i periods after the first call, as from a camera; all its colours are i.
 class Clockwork : public FrameSource {
  public:
   Clockwork(std::size_t frames, std::chrono::milliseconds period,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For the leak sanitizer: OpenNI2 unloads its drivers when it shuts down, and what they hold in
-// tables of their own is then taken for lost, with nothing left to name it by. So they stay loaded.
+// For the leak sanitizer. OpenNI2 unloads its drivers when it shuts down; memory in the drivers'
+// own tables then counts as leaked and can no longer be attributed to them. The drivers are
+// therefore kept loaded.
 #include <dlfcn.h>
 
 #include <string>

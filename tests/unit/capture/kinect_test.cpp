@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Linked to libfreenect's fakenect library: a Kinect is there, and replays what the test recorded,
-// once a process, as it keeps its place in the recording. CTest gives each case its own.
+// Linked to libfreenect's fakenect library, which acts as a Kinect and replays the test's
+// recording. It does so once per process, since it keeps its position in the recording; CTest runs
+// each case in its own process.
 #include "hyperex/capture/kinect.hpp"
 
 #include <gmock/gmock.h>
@@ -34,7 +35,8 @@ cv::Mat colour(int frame) {
   return {480, 640, CV_8UC3, cv::Scalar(50 + frame, 100, 200)};
 }
 
-/// The upper half a wall that comes nearer, the lower half near with a right edge at column 320.
+/// The upper half is a wall that comes nearer; the lower half is near, with a right edge at column
+/// 320.
 cv::Mat raw_depth(int frame) {
   cv::Mat raw(480, 640, CV_16UC1, cv::Scalar(800 - 8 * frame));
   raw.rowRange(240, 480).colRange(0, 320) = 700;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An OpenNI2 driver for a camera that does not exist, so that the device's and the recording's way
-// through OpenNI2 can be tested. URI "made-up": 64 x 48, colour and depth at 50 Hz, 16 frames.
-// Frame i, before mirroring, of which it does what a PrimeSense does (on unless switched off):
+// An OpenNI2 driver for a camera that does not exist, to test how devices and recordings are read
+// through OpenNI2. URI "made-up": 64 x 48, colour and depth at 50 Hz, 16 frames. It mirrors frames
+// as a PrimeSense does, unless mirroring is switched off. Frame i before mirroring:
 //   colour: red = column, green = row, blue = 10 i
 //   depth:  1000 mm + 10 i + column; 500 mm more as long as registration is off
 #include <Driver/OniDriverAPI.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// OpenNI2 with a driver of our own (made_up_driver.cpp) beside its player of recordings.
+// OpenNI2 with a driver of our own (made_up_driver.cpp), and with its player of recordings.
 #include "hyperex/capture/openni.hpp"
 
 #include <OpenNI.h>
@@ -56,8 +56,8 @@ void record_here(const fs::path& file) {
   openni::OpenNI::shutdown();
 }
 
-/// Records the made-up device by OpenNI2's own recorder, mirrored as it comes. In a process of its
-/// own: OpenNI2 later asks whether the recorder's ended thread still lives, and crashes.
+/// Records the made-up device with OpenNI2's own recorder, mirrored by default. This runs in a
+/// process of its own, since OpenNI2 would later access the recorder's ended thread and crash.
 void record(const fs::path& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -74,7 +74,7 @@ void record(const fs::path& file) {
     throw std::runtime_error("the made-up device cannot be recorded");
 }
 
-/// As the driver makes frame `made`, unmirrored and registered.
+/// Checks that a frame is the driver's frame `made`, not mirrored, and registered.
 void expect_frame(const Frame& frame, int made) {
   EXPECT_TRUE(frame.valid) << frame.fault;
   ASSERT_EQ(frame.colour.type(), CV_8UC3);

@@ -14,7 +14,7 @@
 #ifndef __has_feature
 #define __has_feature(name) 0
 #endif
-// A sanitizer keeps freed memory by itself.
+// Sanitizers keep freed memory themselves.
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
     __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define HYPEREX_OTHER_ALLOCATOR
@@ -23,7 +23,7 @@
 namespace hyperex {
 namespace {
 
-/// Memory of this process that lies in the machine's, MiB.
+/// Resident memory of this process, MiB.
 double resident_mib() {
   std::size_t all = 0, resident = 0;
   if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {

@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// A run here lists its files in "list", a name a line.
+/// In these tests a run lists its files in "list", one name per line.
 std::set<std::string> listed(const fs::path& folder) {
   std::set<std::string> names;
   std::ifstream lines(folder / "list");

@@ -25,7 +25,7 @@ std::string shown(int wait_ms) {
   return ::testing::internal::GetCapturedStderr();
 }
 
-// First: the others have bars shown.
+// This test comes first, since the others switch bars on.
 TEST(Progress, ProgramsThatDoNotAskForBarsSeeNone) {
   EXPECT_EQ(shown(1050), "");
 }

@@ -32,7 +32,7 @@ TEST(Remarks, AreHeardByTheListenerAlone) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-// As Python's listener waits for the interpreter's lock.
+// A listener in Python, for example, waits for the interpreter's lock.
 TEST(Remarks, AListenerMayWaitForALockThatARemarkingThreadHolds) {
   std::mutex interpreter;
   std::atomic<int> heard = 0;

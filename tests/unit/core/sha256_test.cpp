@@ -13,7 +13,8 @@ std::string hash_of(const std::string& text, std::size_t piece) {
   return hash.hex();
 }
 
-// The examples of FIPS 180-4 (NIST, "Examples with Intermediate Values"), in pieces of any size.
+// The examples for FIPS 180-4 (NIST, "Examples with Intermediate Values"), added in pieces of any
+// size.
 TEST(Sha256, IsWhatTheStandardSays) {
   const std::pair<std::string, const char*> known[] = {
       {"", "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"},

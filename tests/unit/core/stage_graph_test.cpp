@@ -6,8 +6,8 @@
 namespace hyperex {
 namespace {
 
-/// Two numbers, their sum, a number found on the way, what rests on it, and a memory that is
-/// refilled.
+/// Two numbers, their sum, a number found on the way, the stages that depend on it, and a memory
+/// that is refilled.
 struct Sums : StageGraph {
   Source a{*this, "a"}, b{*this, "b"};
   Cached<int> sum{*this, "sum", {a, b}};

@@ -13,14 +13,14 @@ namespace hyperex::expression {
 namespace {
 using BlendShapesFile = io::testing::FileTest;
 
-/// Refused in one line that begins with the file and holds all `parts`.
+/// Checks that reading is refused in one line that begins with the file and contains all `parts`.
 template <class Read>
 void expect_refused(const std::filesystem::path& file, const std::vector<std::string>& parts,
                     const Read& read) {
   for (const auto& part : parts) io::testing::expect_refused(file, part, [&] { read(file); });
 }
 
-/// How a landmark has moved at `frame` since frame 0 (m).
+/// Displacement of a landmark from frame 0 to `frame` (m).
 Vec3 moved(const motion::Motion& motion, const std::string& name, std::size_t frame) {
   const int i = motion.index_of(name);
   return (motion.positions[frame].row(i) - motion.positions[0].row(i)).transpose();

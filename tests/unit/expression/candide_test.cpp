@@ -105,7 +105,7 @@ TEST(Candide, TheRealFileHasItsCounts) {
   EXPECT_EQ(model.animation_units[std::size_t(model.jaw_drop)].name, "Jaw drop");
 }
 
-/// candide3.wfm has its triangles running clockwise.
+/// The triangles in candide3.wfm run clockwise.
 TEST(Candide, TheModelsTrianglesFaceOutwardsAndItsVerticesArePairedAlikeOnBothSides) {
   const fs::path file = fs::path(HYPEREX_SHARED_DIR) / "data/candide/candide3.wfm";
   if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";

@@ -21,7 +21,8 @@ Vec3 moved(const std::string& shape, int vertex) {
   return shape_model().displacement.col(place_of(shape)).segment<3>(3 * vertex);
 }
 
-/// Sum over the vertices more than 10 mm left (sign 1) or right (-1) of the middle, m.
+/// Sum of the displacements of all vertices more than 10 mm left (sign 1) or right (-1) of the
+/// middle, m.
 double motion_of_side(Eigen::Index shape, double sign) {
   const Points& points = face::canonical_face().mesh.points;
   double sum = 0;

@@ -58,7 +58,7 @@ TEST(FaceFrame, NeedsItsLandmarks) {
   }
 }
 
-// Of a made-up face whose mouth lies 1 cm before its eyes and whose chin does not count.
+// A synthetic face whose mouth is 1 cm in front of its eyes. The chin has no effect.
 TEST(FaceFrame, OfCornersIsKnownByHand) {
   const io::Landmarks corners = {{"exocanthion_R", {-0.045, 0.03, 0}},
                                  {"exocanthion_L", {0.045, 0.03, 0}},

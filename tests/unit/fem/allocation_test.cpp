@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a time step allocates: nothing. Counted at malloc itself, which Eigen, the standard library
-// and CHOLMOD all call; not where a sanitiser has taken its place.
+// A time step must not allocate memory. Calls are counted in malloc itself, which Eigen, the
+// standard library and CHOLMOD all use. Not tested where a sanitizer replaces malloc.
 #include <gtest/gtest.h>
 
 #include <atomic>

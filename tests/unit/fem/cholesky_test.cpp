@@ -13,8 +13,8 @@
 namespace hyperex::fem {
 namespace {
 
-/// Bodies of random sizes, not joined: 1 x 1 blocks, paths, full blocks, and random graphs, their
-/// unknowns shuffled among each other. Both triangles.
+/// Separate bodies of random sizes (1 x 1 blocks, paths, full blocks, and random graphs) whose
+/// unknowns are mixed at random. Both triangles are stored.
 SparseMatrix random_bodies(int bodies, int most_unknowns, unsigned seed) {
   std::mt19937 random(seed);
   const auto share = [&] { return random() / static_cast<double>(std::mt19937::max()); };
@@ -56,7 +56,7 @@ SparseMatrix lower_of(const SparseMatrix& a) {
   return lower;
 }
 
-/// Both ways of solving against a dense factorisation.
+/// Compares both ways of solving with a dense factorisation.
 void expect_solves(Cholesky& cholesky, const SparseMatrix& a) {
   const Eigen::LLT<Eigen::MatrixXd> dense{Eigen::MatrixXd(a)};
   ASSERT_EQ(cholesky.size(), a.cols());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Complementarity, condensed compliance, and both together against closed forms of contact.
+// Complementarity, condensed compliance, and both together compared with closed forms of contact.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -54,7 +54,7 @@ TEST(Complementarity, TellsWhereItWasNotSolved) {
 }
 
 constexpr double kHeight = 0.01, kYoung = 20e3, kPoisson = 0.3;
-/// Modulus of a layer that cannot give way to the sides.
+/// Modulus of a layer that cannot deform sideways.
 constexpr double kConfined = kYoung * (1 - kPoisson) / ((1 + kPoisson) * (1 - 2 * kPoisson));
 
 /// A layer on a rigid base; nodes move along z alone.
@@ -128,7 +128,7 @@ TEST(CondensedInverse, IsReadOffAFactorThatEliminatesItsNodesLast) {
   EXPECT_LT((force - twin).cwiseAbs().maxCoeff(), 1e-10 * twin.cwiseAbs().maxCoeff());
 }
 
-/// Forces on the top by a rigid plane z = height - depth.
+/// Forces on the top of the layer from a rigid plane z = height - depth.
 Eigen::VectorXd pressed(const Layer& layer, const std::function<double(const Vec3&)>& depth) {
   PartitionedFactor factor(layer.stiffness, layer.prescribed, "test");
   const Eigen::MatrixXd c = condensed_inverse(factor, layer.top);
@@ -151,9 +151,9 @@ TEST(Contact, AFlatPunchPressesAConfinedLayerAsTheClosedFormHasIt) {
   EXPECT_NEAR(force.sum() / (0.02 * 0.015), kConfined * depth / kHeight, 1e-6 * kConfined);
 }
 
-/// A thin layer on a rigid base, nodes moving along z alone, is a bed of springs M / H in the limit
-/// H -> 0 (Johnson, Contact Mechanics, 1985, 5.8). A wedge d(x) = d0 (1 - x / a) then presses with
-/// M d0 a / 2 H a unit of width.
+/// In the limit H -> 0, a thin layer on a rigid base whose nodes move along z alone is a bed of
+/// springs M / H (Johnson, Contact Mechanics, 1985, 5.8). A wedge d(x) = d0 (1 - x / a) then
+/// presses with M d0 a / 2 H per unit of width.
 TEST(Contact, AWedgeOnAThinLayerConverges) {
   constexpr double d0 = 1e-4, a = 0.0213, length = 0.04, width = 0.001;
   const auto error = [&](int cells) {

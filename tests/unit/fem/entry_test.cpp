@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What callers hand to the solver by mistake is refused where it enters, by a sentence that names
-// the entry; nothing is computed from it and the caller's program goes on.
+// Invalid input of a calling program is refused at entry, by a sentence that names the entry.
+// Nothing is computed from it, and the calling program continues.
 #include "hyperex/fem/material/entry.hpp"
 
 #include <gmock/gmock.h>

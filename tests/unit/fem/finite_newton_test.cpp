@@ -153,7 +153,7 @@ TEST(FiniteNewton, LeavesNoForceOnFreeUnknownsAndReactsWithWhatPulls) {
   }
 }
 
-/// Full and modified Newton, from whatever start, find the same.
+/// Full and modified Newton find the same solution from every start.
 TEST(FiniteNewton, TheAnswerDoesNotDependOnTheWay) {
   const Block block(0.495, 200);
   std::vector<VectorXd> ends;
@@ -200,8 +200,9 @@ TEST(FiniteNewton, TheEstimatedErrorIsTheTrueOneOrMore) {
   }
 }
 
-// A step of 1e-7 s leaves a velocity by which the next one starts some 1e5 edges off: of the force
-// there, what 2e-5 of an edge takes is less than 1e-9.
+// A step of 1e-7 s leaves a velocity with which the next step starts about 1e5 edge lengths away.
+// At that start, the force for 2e-5 of an edge is less than 1e-9 of the whole force, so that a
+// tolerance relative to it would accept too large a remainder.
 TEST(FiniteNewton, AStartFarOffDoesNotExcuseWhatIsLeft) {
   test::BoxMesh box = test::box_mesh({2, 2, 2}, {2, 2, 2}, 0);
   constexpr int kInner = 13;
@@ -279,8 +280,8 @@ TEST(FiniteNewton, IsOfOrderTwoOnUnequalStepsToo) {
   EXPECT_NEAR(std::log2((d1 - d2).norm() / (d2 - d3).norm()), 2, 0.3);
 }
 
-/// What forces have done is in motion, in stretch, or dissipated; what is missing is what the
-/// method itself takes, which vanishes as the square of the step.
+/// The work of the forces goes into kinetic energy, strain energy and dissipation. The remainder is
+/// the method's own dissipation, which vanishes with the square of the step.
 TEST(FiniteNewton, BalancesItsEnergy) {
   const Block block(0.4, 0, 2e4, ElementKind::tet4_star, {3, 2, 2});
   const VectorXd force = block.pull({0.15, 0.3, 0.1});
@@ -414,8 +415,8 @@ TEST(FiniteNewton, RefusesABodyThatNothingHolds) {
   EXPECT_NO_THROW(FiniteNewton(form, {}, {})) << "inertia holds it";
 }
 
-/// Nodes of one end thrown to and fro from step to step, strains of a third: what lies between must
-/// not be carried away.
+/// The nodes of one end alternate from step to step, with strains of a third; the nodes between
+/// must not move away.
 TEST(FiniteNewton, ViolentAlternationDoesNotGrow) {
   const Block block(0.45, 400, 1.5e5);
   FiniteStrain form(block.assembler, block.material, {});
@@ -474,7 +475,7 @@ TEST(FiniteNewton, APotentialOfNodesPushesBack) {
   EXPECT_LT(newton.reaction()(test::complement(block.box.nodes.size(), block.held)).norm(), 1e-7);
 }
 
-/// Springs are those of a linear system with the same entries in its stiffness.
+/// Compared with a linear system that has the same entries in its stiffness.
 TEST(FiniteNewton, SpringsToTheGround) {
   const Block block(0.45);
   Hyperelastic law;
@@ -496,8 +497,8 @@ TEST(FiniteNewton, SpringsToTheGround) {
   EXPECT_LT((newton.displacement() - d).norm(), 1e-10 * d.norm());
 }
 
-/// A force that follows: always along the block's present direction at its end, so that the work
-/// it does lengthens the block and never turns it back.
+/// A follower force: always normal to the present line from the base to the tip, so that it turns
+/// with the body.
 TEST(FiniteNewton, HooksMayTurnForcesWithTheBody) {
   const Block block(0.45);
   FiniteStrain form(block.assembler, block.material, {});

@@ -26,12 +26,12 @@ std::vector<DilatationGroups> all_groups(const test::BoxMesh& mesh) {
   return {DilatationGroups{}, disjoint_stars(mesh.nodes.rows(), mesh.tets), kept};
 }
 
-/// Large, different at each node, without inverted elements up to some 2 mm.
+/// Large displacements, different at each node, without inverted elements up to about 2 mm.
 VectorXd motion(const test::BoxMesh& mesh, double size_m, unsigned seed = 5) {
   return size_m * test::random_vector(mesh.nodes.size(), seed);
 }
 
-/// d = Q (x + d) + c - x.
+/// The displacement after a rigid motion: Q (x + d) + c - x.
 VectorXd turned(const test::BoxMesh& mesh, const VectorXd& d, const Matrix3d& q) {
   VectorXd out(d.size());
   for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
@@ -46,7 +46,7 @@ Matrix3d rotation(double angle = 1.1) {
 }
 
 const RateRule kEuler{100, -100, 0, 0.01};
-/// BDF2 after a step half as long.
+/// BDF2 after a step of half the length.
 RateRule bdf2(double w = 2, double h = 0.01) {
   return {(1 + 2 * w) / ((1 + w) * h), -(1 + w) / h, w * w / ((1 + w) * h), h};
 }
@@ -172,7 +172,7 @@ TEST(FiniteStrain, RigidMotionCostsNothingAndTurnsForces) {
   }
 }
 
-/// What is dissipated at small strain: Stokes' law.
+/// At small strain the dissipation follows Stokes' law.
 TEST(FiniteStrain, ViscousForceAtSmallStrainIsStokes) {
   const auto mesh = box();
   const Material material = test::varied_material(mesh.tets.rows());
@@ -193,8 +193,8 @@ TEST(FiniteStrain, ViscousForceAtSmallStrainIsStokes) {
   EXPECT_LT((with - without - expected).norm(), 1e-5 * expected.norm());
 }
 
-/// A known rate of shape at large strain: uniform stretching F = diag(l, 1, 1), where Cauchy's
-/// viscous stress is 2 eta dev(D), D = diag(l'/l, 0, 0).
+/// A given rate at large strain: uniform stretching F = diag(l, 1, 1), where Cauchy's viscous
+/// stress is 2 eta dev(D) with D = diag(l'/l, 0, 0).
 TEST(FiniteStrain, ViscousStressAtLargeStrainIsNewtonsLaw) {
   const auto mesh = box();
   const double eta = 400, rate = 3;  // 1/s
@@ -259,8 +259,8 @@ TEST(FiniteStrain, BranchesRelaxAtHeldStretch) {
   }
 }
 
-/// A ramp of stress, for which the recursion is exact whatever the step: g (1 - exp(-t / tau)) tau
-/// of the stress's rate.
+/// For a stress that rises linearly the recursion is exact for any step: g (1 - exp(-t / tau)) tau
+/// times the rate of the stress.
 TEST(FiniteStrain, BranchesAreExactForALinearCourseOfStress) {
   const auto mesh = box();
   const Material material = test::uniform_material(mesh.tets.rows(), 1e5, 0.45, 0, 1000);
@@ -359,7 +359,7 @@ TEST(FiniteStrain, NumbersDoNotDependOnTheNumberOfThreads) {
   EXPECT_TRUE(std::equal(k1.valuePtr(), k1.valuePtr() + k1.nonZeros(), k2.valuePtr()));
 }
 
-/// Springs to the ground, as an energy of nodes.
+/// Springs to the ground, as an energy of the nodes.
 class Spring : public NodalPotential {
  public:
   double add_gradient(const VectorXd& d, VectorXd& gradient) const override {

@@ -113,8 +113,8 @@ TEST(Hyperelastic, DoesNotSeeRotations) {
     }
 }
 
-// Without volume change the closed forms of the textbooks: W of I1 and I2 alone. `p` is whatever
-// pressure keeps the lateral sides free.
+// The closed forms of textbooks for constant volume: W of I1 and I2 alone. `p` is the pressure at
+// which the lateral sides carry no force.
 TEST(Hyperelastic, UniaxialBiaxialAndSimpleShearAtConstantVolume) {
   const double mu = 2e4;
   for (const Hyperelastic& law : test::finite_laws()) {

@@ -24,7 +24,8 @@ Eigen::Matrix3d tensor_of_stress(const Vector6& s) {
   return m;
 }
 
-/// How far the law is from turning its stress with its strain, relative to the stress.
+/// Anisotropy of the law: by how much rotating the strain differs from rotating the stress,
+/// relative to the stress.
 double anisotropy(const Voigt& law) {
   const Eigen::Matrix3d r =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();

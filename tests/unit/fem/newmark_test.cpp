@@ -12,7 +12,7 @@ namespace {
 
 const std::pair<double, double> kBetaGamma[] = {{0.25, 0.5}, {0.3025, 0.6}, {0.5, 0.7}, {1.0, 1.5}};
 
-/// A distorted bar of every element kind and viscous form, held at one end, driven at the other.
+/// A distorted bar with every element kind and viscous form, held at one end, driven at the other.
 class NewmarkOn : public test::Conformance {
  protected:
   const test::BoxMesh box_ = test::box_mesh({4, 2, 2}, Vec3(0.04, 0.02, 0.02), 0.15);
@@ -126,8 +126,9 @@ TEST_P(NewmarkOn, StartsInEquilibrium) {
   EXPECT_EQ(newmark.acceleration().norm(), 0);
 }
 
-/// From rest under a motion that sets in with an acceleration: what step 1 adds to the acceleration
-/// vanishes with dt. The free part's is of the size of the driven part's from the start.
+/// From rest, under a motion that starts with an acceleration: the change of acceleration in step 1
+/// vanishes with dt. From the start, the acceleration of the free nodes is of the size of that of
+/// the driven ones.
 TEST_P(NewmarkOn, DoesNotJumpAtTheFirstStep) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(all_);
   const auto free = test::complement(all_, prescribed_);

@@ -196,7 +196,8 @@ TEST(ReducedModel, StandsStillWithoutInput) {
   EXPECT_EQ(r.displacement({0, 5}).rows(), on.layer.system.mass.cols());
 }
 
-/// Superposition: a model is linear, so the answer to two drives is the sum of the answers.
+/// Superposition: the model is linear, so that the response to two drives is the sum of the
+/// responses.
 TEST(ReducedModel, AddsResponses) {
   const Driven whole(3);
   ReducedModel model(whole.layer.system, whole.layer.prescribed);

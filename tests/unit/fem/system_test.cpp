@@ -31,7 +31,7 @@ TEST(Assemble, TheThreeMatricesShareOnePatternAndAreSymmetric) {
   }
 }
 
-/// Sums in the order of the elements, without patterns or threads.
+/// The reference sums in the order of the elements, without patterns or threads.
 TEST(Assemble, EqualsTheSumOfElementMatrices) {
   const auto box = test::box_mesh({3, 2, 2}, Vec3(0.03, 0.02, 0.02), 0.1);
   Material material = test::varied_material(box.tets.rows());
@@ -81,7 +81,7 @@ TEST(Assembler, RefillsASystemInPlaceForNewMaterials) {
   }
 }
 
-/// The element kind changes the resistance to a change of volume and nothing else.
+/// The element kind changes only the resistance to changes of volume.
 TEST(Assembler, KindsDifferInTheStiffnessAlone) {
   const auto box = test::box_mesh({4, 4, 3}, Vec3(0.04, 0.04, 0.03), 0.1);
   const Material material = test::varied_material(box.tets.rows());

@@ -30,7 +30,7 @@ void append_triangle(TriMesh& mesh, int a, int b, int c) {
   mesh.triangles.bottomRows(1) << a, b, c;
 }
 
-/// What holds whatever was wrong with the mesh.
+/// Conditions that hold for every cleaned mesh.
 void expect_sound(const CleanMesh& clean, const TriMesh& given) {
   std::set<std::pair<int, int>> directed;
   std::vector<char> used(clean.mesh.points.rows(), 0);

@@ -11,8 +11,8 @@
 namespace hyperex {
 namespace {
 
-/// The wall of a cup of radius 1 and height 2 about z, with or without its bottom, in a cup of
-/// `count` corners.
+/// The wall of a cup of radius 1 and height 2 about z, with or without its bottom, with `count`
+/// corners around.
 TriMesh cup(int count, bool with_bottom) {
   TriMesh mesh{Points(2 * count + 1, 3), Triangles((with_bottom ? 3 : 2) * count, 3)};
   for (int i = 0; i < count; ++i) {
@@ -43,8 +43,8 @@ TEST(CloseMesh, FillsWhatIsOpen) {
   }
 }
 
-/// A bent strip, whose one border runs round corners: a patch over those would take edges that are
-/// there.
+/// A bent strip with one border that runs around corners: a patch across a corner would use
+/// existing edges.
 TEST(CloseMesh, FillsTheOneBorderOfAStrip) {
   constexpr int along = 60, across = 9;
   TriMesh mesh{Points(along * across, 3), Triangles(2 * (along - 1) * (across - 1), 3)};

@@ -14,7 +14,7 @@ namespace {
 
 enum class Shape { random, obtuse, sliver, degenerate };
 
-// Loose triangles in the unit cube, of one kind.
+// Separate triangles of one kind in the unit cube.
 TriMesh triangles_of(Shape shape, int count, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -35,7 +35,8 @@ TriMesh triangles_of(Shape shape, int count, unsigned seed) {
   return mesh;
 }
 
-// q is the nearest point of a convex set exactly where (p - q).(v - q) <= 0 for all its corners v.
+// q is the nearest point of a convex set if and only if (p - q).(v - q) <= 0 for all its corners v.
+// Returns the largest violation.
 double optimality_gap(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({(p - q).dot(a - q), (p - q).dot(b - q), (p - q).dot(c - q)});
 }
@@ -60,7 +61,7 @@ TEST_P(OnShapes, TriangleAnswerIsOptimal) {
   }
 }
 
-// The same triangle and the same bits, from wherever on the surface the search begins.
+// The result has the same triangle and the same bits, wherever on the surface the search starts.
 TEST_P(OnShapes, AnAnswerFoundFromNearbyIsTheSame) {
   const TriMesh mesh = triangles_of(GetParam(), 400, 5);
   const SurfaceTree tree(mesh);
@@ -184,7 +185,7 @@ TEST(ClosestPoint, RefusesWhatIsNoMesh) {
   EXPECT_THROW(SurfaceTree{mesh}, std::invalid_argument);
 }
 
-/// Another task of the group has thrown: this one goes on to its end, with a whole tree.
+/// Another task of the group has thrown. This one continues to its end and builds a complete tree.
 TEST(SurfaceTree, IsBuiltWholeInACancelledGroupOfTasks) {
   const TriMesh mesh = triangles_of(Shape::random, 20000, 5);
   const Vec3 p(0.1, 0.2, 0.3);

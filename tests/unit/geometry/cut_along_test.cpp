@@ -16,7 +16,7 @@ test::Sheet curved() {
                           [](double x, double y) { return 3 * x * y - 2 * x * x; });
 }
 
-/// From left to right with a step up in the middle.
+/// A path from left to right with a step up in the middle.
 std::vector<int> stepped(const test::Sheet& sheet) {
   std::vector<int> path;
   for (int i = 2; i <= 5; ++i) path.push_back(sheet.vertex(i, 4));

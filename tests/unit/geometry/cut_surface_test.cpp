@@ -22,7 +22,7 @@ test::Sheet bump() {
   });
 }
 
-/// A smooth line over the sheet that runs along no edges, towards +x.
+/// A smooth line across the sheet towards +x that follows no edges.
 double line_y(double x) {
   return 0.0262 + 0.004 * std::sin(80 * x);
 }
@@ -36,7 +36,7 @@ Points wavy_line(double from = 0.012, double to = 0.049) {
   return line;
 }
 
-/// Every edge has one triangle or two that run it in opposite directions.
+/// Checks that every edge has one triangle, or two with opposite directions of the edge.
 void expect_oriented_manifold(const Triangles& triangles) {
   std::set<std::pair<int, int>> used;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)

@@ -21,7 +21,7 @@ test::Sheet rough_sheet() {
   return test::sheet_mesh({9, 7}, {9, 7}, [&](double, double) { return unit(generator); });
 }
 
-/// Bellman and Ford: every edge relaxed until nothing changes.
+/// The algorithm of Bellman and Ford: every edge is relaxed until nothing changes.
 std::vector<double> brute_force(const TriMesh& mesh, const std::vector<int>& seeds,
                                 const Cost& cost) {
   std::vector<double> sum(mesh.points.rows(), infinite);

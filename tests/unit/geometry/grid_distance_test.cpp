@@ -22,7 +22,7 @@ TriMesh box(const Vec3& half, const Vec3& centre = Vec3::Zero()) {
   return mesh;
 }
 
-/// Latitudes and longitudes.
+/// A ball meshed by latitudes and longitudes.
 TriMesh ball(double radius, const Vec3& centre, int rings = 96, int sectors = 192) {
   TriMesh mesh{Points(2 + (rings - 1) * sectors, 3), Triangles(2 * (rings - 1) * sectors, 3)};
   mesh.points.row(0) = centre + Vec3(0, 0, radius);

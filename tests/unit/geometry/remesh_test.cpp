@@ -28,7 +28,7 @@ GradedSize graded() {
   return size;
 }
 
-/// Length of each edge divided by the length wanted at its middle.
+/// The length of each edge divided by the wanted length at its middle.
 std::vector<double> length_ratios(const TriMesh& mesh, const GradedSize& size) {
   std::vector<double> ratios;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)

@@ -23,8 +23,8 @@ GradedSize even() {
   return size;
 }
 
-/// A sheet with a slit along its middle row; the rims beside the slit's left end drawn up to it, as
-/// smoothing folds leaves them.
+/// A sheet with a slit along its middle row. The rims beside the slit's left end are drawn
+/// together, as after smoothing of folds.
 struct Slit {
   TriMesh mesh;
   int end = 0;

@@ -13,7 +13,7 @@
 namespace hyperex {
 namespace {
 
-/// Two sheets of 20 mm that look up, the second 5 mm above the first and half as wide.
+/// Two sheets of 20 mm that face upwards; the second is 5 mm above the first and half as wide.
 TEST(BlockedShares, CountTheDirectionsInWhichSomethingStandsInTheWay) {
   const test::Sheet low = test::sheet_mesh({8, 8}, {0.02, 0.02}),
                     high = test::sheet_mesh({4, 8}, {0.01, 0.02},
@@ -34,7 +34,7 @@ TEST(BlockedShares, CountTheDirectionsInWhichSomethingStandsInTheWay) {
       << "5 mm are out of reach";
 }
 
-/// Leaves this process `more` bytes of address space beyond what it has.
+/// Limits this process to `more` bytes of address space beyond what it has.
 void allow_no_more_than(std::size_t more) {
   std::size_t pages = 0;
   if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
@@ -46,7 +46,7 @@ void allow_no_more_than(std::size_t more) {
   if (pages == 0 || ::setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(9);
 }
 
-// Embree goes on where it finds no memory: for a mesh without buffers, or a tree that is not there.
+// Embree continues when it runs out of memory, with a mesh without buffers or without a tree.
 TEST(BlockedSharesDeathTest, SayThatMemoryHasRunOut) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto blocked_within = [](std::size_t more) {

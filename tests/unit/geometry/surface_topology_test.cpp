@@ -13,7 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The sheet without the cells for which `gone(i, j)`.
+/// The sheet without the cells where `gone(i, j)` is true.
 test::Sheet with_holes(std::array<int, 2> cells, const std::function<bool(int, int)>& gone) {
   test::Sheet sheet = test::sheet_mesh(cells, {cells[0] * 1.0, cells[1] * 1.0});
   Triangles kept(0, 3);

@@ -12,7 +12,7 @@ namespace hyperex::metrics {
 namespace {
 using testing::Face;
 
-// A mirrored field: across odd in x, along even.
+// A mirror-symmetric field: the component across is odd in x, those along are even.
 PointsF mirrored_motion(const Points& rest) {
   PointsF u(rest.rows(), 3);
   for (Eigen::Index v = 0; v < rest.rows(); ++v) {
@@ -34,7 +34,7 @@ TEST(Asymmetry, OfAMirroredMotionIsZero) {
   EXPECT_LT(asymmetry_mm(all.plane, all.pairs, frames[0]).maxCoeff(), 1e-4);
 }
 
-// The left half is lifted by 4 mm: both halves then differ by 4 mm from their reflections.
+// The left half is lifted by 4 mm: both halves then differ from their reflections by 4 mm.
 TEST(Asymmetry, OfAOneSidedMotionIsItsLength) {
   for (const auto& pose : {Eigen::Isometry3d::Identity(), testing::some_pose()}) {
     Face face = testing::mirrored_face();
@@ -62,7 +62,8 @@ TEST(Asymmetry, OfAOneSidedMotionIsItsLength) {
   }
 }
 
-// A point sliding along the surface is seen: corresponding points are compared, not surfaces.
+// A point that slides along the surface is detected, since corresponding points are compared, not
+// surfaces.
 TEST(Asymmetry, SeesWhatSlidesAcross) {
   const Face face = testing::mirrored_face();
   PointsF u = PointsF::Zero(face.mesh.points.rows(), 3);
@@ -85,7 +86,7 @@ TEST(Asymmetry, AtRestIsTakenOut) {
   EXPECT_LT(all.frames[0].face_rms_mm, 0.15);
 }
 
-// Two sheets a tenth of a millimetre apart that change places in the mirror.
+// Two sheets, a tenth of a millimetre apart, that change places under reflection.
 TEST(Asymmetry, ALipIsNotTakenForTheOther) {
   TriMesh two{Points(6, 3), Triangles(2, 3)};
   two.points << -0.02, 0, 0, 0.02, 0, 0, 0, 0.02, 0,  //

@@ -8,7 +8,7 @@
 namespace hyperex::metrics {
 namespace {
 
-// xi_L - xi_R = size at all samples but the first.
+// A curve with the given xi_L - xi_R, sampled every 0.1 s.
 SymmetryCurve curve_of(const std::vector<double>& difference) {
   SymmetryCurve curve;
   for (std::size_t k = 0; k < difference.size(); ++k) {

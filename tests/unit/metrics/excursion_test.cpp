@@ -16,12 +16,13 @@ namespace {
 constexpr int samples = 61;
 constexpr double end_s = 2, left_m = 0.006;
 
-/// There and back once: 0 to 1 to 0.
+/// Once there and back: 0 to 1 to 0.
 double swing(double t) {
   return 0.5 * (1 - std::cos(2 * M_PI * t / end_s));
 }
 
-/// Mouth corners of which the left moves 6 mm and the right `share` of it, mirrored; the lip rests.
+/// Mouth corners of which the left one moves 6 mm, and the right one `share` of that, mirrored; the
+/// lip is at rest.
 motion::Motion smile(double share) {
   motion::Motion motion;
   motion.names = {"cheilion_L", "cheilion_R", "labiale_inferius"};
@@ -89,14 +90,15 @@ TEST(Excursion, ALateSideIsSeenInTheCorrelationOfSpeeds) {
   EXPECT_LT(p.speed_correlation, 0.5);
 }
 
-// 1.96 standard deviations of the difference of two excursions, each of two places.
+// The expected bound is 1.96 standard deviations of the difference of two excursions, each of which
+// is the difference of two positions.
 TEST(Excursion, JitterLeavesSmallDifferencesUndecided) {
   const motion::Motion motion = smile(0.9);  // differ by 0.6 mm
   EXPECT_FALSE(excursions_of(motion, 0.99 * 0.6e-3 / 3.92).pairs[0].undecided);
   EXPECT_TRUE(excursions_of(motion, 1.01 * 0.6e-3 / 3.92).pairs[0].undecided);
 }
 
-/// Eight still tenths of a second, then there and back; the left corner's peak speed is
+/// Eight tenths of a second at rest, then there and back; the peak speed of the left corner is
 /// `left_mm_s`.
 motion::Motion noisy_smile(double left_mm_s, double right_mm_s, double jitter_m, unsigned seed) {
   motion::Motion motion;

@@ -27,7 +27,7 @@ std::vector<double> sampled(const std::vector<double>& t,
 double opening(double t) {
   return t < 0 || t > 2.6 ? 0 : 0.5 * (1 - std::cos(2 * M_PI * t / 2.6));
 }
-// Faster: 15 samples a period, talk-like, within an envelope.
+// A faster motion, as in talking: 15 samples per period, within an envelope.
 double talk(double t) {
   return opening(t) * (1 + 0.5 * std::sin(2 * M_PI * 2 * t));
 }
@@ -49,7 +49,7 @@ TEST(Lag, OfASignalShiftedByAPartOfAStepIsFoundToAThousandthOfIt) {
   std::cout << "lag: " << worst << " steps off at most\n";
 }
 
-// What viscosity does: first-order response, whose lag at low frequency is its time constant.
+// Viscosity gives a first-order response, whose lag at low frequency is its time constant.
 TEST(Lag, OfAFirstOrderResponseIsItsTimeConstant) {
   const double step = 1 / 30.0, constant_s = 0.007, fine = 1e-5;
   const std::vector<double> t = sample_times(90, step);

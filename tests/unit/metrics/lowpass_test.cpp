@@ -75,7 +75,8 @@ TEST(Lowpass, AStraightLineStaysOne) {
   EXPECT_EQ(lowpassed(t, line, 0).value, line);
 }
 
-// White noise sampled every dt through 1 / (1 + (f / fc)^4): the variance of its rate of change is
+// White noise sampled every dt, filtered by 1 / (1 + (f / fc)^4). The variance of its time
+// derivative is
 //   2 s^2 dt (2 pi)^2 fc^3 int x^2 / (1 + x^4)^2 dx = 2 s^2 dt (2 pi)^2 fc^3 pi sqrt(2) / 16.
 TEST(Lowpass, TheFloorOfSpeedIsThatOfWhiteNoise) {
   const auto t = times(1200, 120);

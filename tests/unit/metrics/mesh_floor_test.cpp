@@ -10,7 +10,8 @@
 namespace hyperex::metrics {
 namespace {
 
-/// The ten points of S(t), mirror images in x = 0, and how each moves in the second sample.
+/// The ten points of S(t), mirror-symmetric about x = 0, and their displacements in the second
+/// sample.
 motion::Motion ten_points(const std::function<Vec3(const std::string&)>& moved) {
   motion::Motion motion;
   const std::vector<std::pair<std::string, Vec3>> left = {

@@ -28,8 +28,8 @@ TEST(Midsagittal, IsExactForAMirroredFaceHoweverItIsTurned) {
   }
 }
 
-// 0.3 mm of noise on every coordinate of the surface and 1 mm on the landmarks' leave the plane
-// within 0.15 degrees and 0.1 mm: the surface mends what the landmarks spoil.
+// With 0.3 mm of noise on every coordinate of the surface and 1 mm on the landmarks', the plane
+// stays within 0.15 degrees and 0.1 mm: the surface corrects the errors of the landmarks.
 TEST(Midsagittal, StandsNoiseOnSurfaceAndLandmarks) {
   double worst_deg = 0, worst_mm = 0, landmarks_deg = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
@@ -58,7 +58,7 @@ TEST(Midsagittal, StandsNoiseOnSurfaceAndLandmarks) {
   EXPECT_LT(worst_deg, landmarks_deg);
 }
 
-// A swelling of one cheek by 8 mm turns the plane little, as its vertices lose their weight.
+// A swelling of one cheek by 8 mm hardly rotates the plane, since its vertices get small weights.
 TEST(Midsagittal, ASwollenCheekHardlyTurnsIt) {
   Face face = testing::mirrored_face(2);
   const Vec3 cheek = face.landmarks.at("cheek_L");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The canonical face, whose halves are mirrored in x = 0, and how to turn and roughen it.
+// The canonical face, which is symmetric about x = 0, and functions to rotate and roughen it.
 #include <Eigen/Geometry>
 #include <random>
 
@@ -15,7 +15,7 @@ struct Face {
   io::Landmarks landmarks;
 };
 
-/// Each triangle cut in four `times` times, so that there are vertices enough.
+/// The mesh with each triangle cut into four, `times` times, to have enough vertices.
 inline TriMesh finer(TriMesh mesh, int times) {
   for (; times > 0; --times) {
     std::map<std::pair<int, int>, int> middle;

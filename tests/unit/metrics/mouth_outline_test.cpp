@@ -53,7 +53,8 @@ TEST(MouthOutline, OvalTurnsOnce) {
   EXPECT_EQ(outline->largest_jump_mm, 0);
 }
 
-/// A square notch of 5 mm: four more right angles, two of them back, less what smoothing takes.
+/// A square notch of 5 mm adds four right angles, two of them in the opposite direction, less the
+/// effect of smoothing.
 TEST(MouthOutline, NotchCountsAndSoDoesItsJump) {
   const TriMesh mesh = ring(240);
   const std::vector<int> rim = mouth_rim(mesh, inner_lips());

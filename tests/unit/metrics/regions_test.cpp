@@ -89,7 +89,7 @@ TEST_F(SubjectA, TurnedWithItsLandmarksTheFaceKeepsItsRegions) {
   }
 }
 
-// Vertices on a grid, 5 mm apart, and seven landmarks, as a scan may come with.
+// Vertices on a grid, 5 mm apart, and only seven landmarks.
 TEST(Regions, WithoutTheSixtyEightUseWhatThereIsAndSaySo) {
   Points grid(41 * 41, 3);
   for (int i = 0; i < 41; ++i)

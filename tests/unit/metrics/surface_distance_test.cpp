@@ -27,8 +27,8 @@ TEST(DistanceStatistics, OfAKnownSet) {
   EXPECT_EQ(some.count, 2);
 }
 
-// Many are sorted otherwise than few: of every size from nearly nothing to large, zero and twins
-// too.
+// Many values are sorted differently from few. The values range from nearly zero to large, with
+// zeros and duplicates.
 TEST(DistanceStatistics, OfManyAreThoseOfTheSortedValues) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> power(-300, 3);

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 const std::vector<std::string> anatomical = {"cheilion", "exocanthion", "palpebrale_inferius",
                                              "alare", "crista_philtri_inferior"};
 
-// A face mirrored at x = 0, at rest for two samples.
+// A face that is symmetric about x = 0, at rest for two samples.
 motion::Motion mirrored() {
   motion::Motion motion;
   Points sample(10, 3);
@@ -127,8 +127,8 @@ void add_noise(motion::Motion& motion, double jitter_m, std::mt19937& generator)
     for (Eigen::Index k = 0; k < sample.size(); ++k) sample.data()[k] += noise(generator);
 }
 
-// White noise on a symmetric motion stays under the floor in 95 of 100, at rest and moved, and with
-// a lid that is the mean of two points.
+// White noise on a symmetric motion stays below the floor in 95 of 100 cases, at rest and in
+// motion, also where a lid is the mean of two points.
 TEST(Symmetry, NoiseFloorHoldsNinetyFiveOfAHundredNoisyMotions) {
   constexpr double jitter_m = 3e-4;
   constexpr int trials = 4000;
@@ -176,7 +176,7 @@ TEST(Symmetry, WhatIsUnderTheNoiseIsUndecided) {
   EXPECT_TRUE(symmetry_of(motion).undecided(1));
 }
 
-// Two seconds, the second one moving.
+// Two seconds; the face moves in the second one.
 motion::Motion half_at_rest() {
   motion::Motion motion = mirrored();
   const Points rest = motion.positions[0];

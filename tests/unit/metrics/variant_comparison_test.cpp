@@ -42,7 +42,7 @@ io::Landmarks landmarks() {
   return all;
 }
 
-/// Driven at "corner"; "near" lies 5 mm from there and moves most, "far" 20 mm.
+/// A performance driven at "corner". "near" is 5 mm from there and moves most, "far" is 20 mm away.
 simulate::Performance performance(double right_mm, double trail_s) {
   simulate::Performance p;
   p.skin_rest = square_of_skin();
@@ -179,7 +179,8 @@ TEST(CompareVariant, TellsNoLagOfAMotionThatDoesNotComeBack) {
   EXPECT_TRUE(std::isnan(c.comparison({"corner", ""}).lag.lag_s));
 }
 
-// A corner that goes aside is as far from rest as before, and farther along base's way by nothing.
+// The corner moves sideways: its distance from rest is as before, and along its direction in base
+// it has not moved farther.
 TEST(VariantComparison, MeasuresAPointAlongTheWayThatItGoesInBase) {
   const auto track = [](std::vector<Vec3> way_mm) {
     motion::Motion m;

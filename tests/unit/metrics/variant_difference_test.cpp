@@ -10,7 +10,8 @@
 namespace hyperex::metrics {
 namespace {
 
-/// Two vertices, three frames; the second vertex of b moves 3 mm across in frame 1, 4 mm in 2.
+/// Two vertices, three frames. The second vertex of b moves sideways by 3 mm in frame 1 and by 4 mm
+/// in frame 2.
 std::vector<PointsF> frames(bool of_b) {
   std::vector<PointsF> all(3, PointsF::Zero(2, 3));
   for (int f = 0; f < 3; ++f) all[f](1, 1) = 0.004F * float(f);
@@ -57,7 +58,8 @@ TEST(ShareWithin, CountsSquaresNearThePlace) {
   EXPECT_THROW(share_within(distance, rest, Points(0, 3), 1), std::invalid_argument);
 }
 
-// A mouth 60 mm wide: what lies 20 mm outside of a corner is near it, and 50 mm from the middle.
+// A mouth 60 mm wide: a point 20 mm outside a corner is near the outline, although it is 50 mm from
+// the middle.
 TEST(ShareWithin, MeasuresFromTheOutline) {
   Points outline(4, 3), rest(3, 3);
   outline << -0.03, 0, 0, 0, 0.01, 0, 0.03, 0, 0, 0, -0.01, 0;

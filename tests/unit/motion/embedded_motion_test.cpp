@@ -7,7 +7,7 @@
 namespace hyperex::motion {
 namespace {
 
-/// A few landmarks of a face: enough for the jaw's axis and for stabilising.
+/// A few landmarks of a face: enough for the jaw's axis and for the head pose.
 io::Landmarks some_landmarks() {
   return {{"ibug68_1", {-0.07, 0.015, 0.04}},   {"ibug68_15", {0.07, 0.015, 0.04}},
           {"ibug68_8", {0, -0.08, 0.1}},        {"ibug68_27", {0, 0.035, 0.11}},

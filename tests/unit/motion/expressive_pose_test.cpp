@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces that grimace while the head moves in a known way, or not at all.
+// Faces with strong expressions while the head moves in a known way, or not at all.
 #include "hyperex/motion/expressive_pose.hpp"
 
 #include <map>
@@ -14,10 +14,10 @@
 namespace hyperex::motion {
 namespace {
 
-/// Displacement of the table's landmarks at full expression.
+/// Displacement of each landmark of the table at full expression.
 using Expression = std::function<Vec3(std::size_t landmark, const Vec3& rest)>;
 
-/// 0 at both ends, 1 in the middle third: an expression that comes, lasts and goes.
+/// 0 at both ends, 1 in the middle third: an expression that appears, lasts and disappears.
 double course(double t) {
   const double ramp = std::clamp(3 * std::min(t, 1 - t), 0.0, 1.0);
   return ramp * ramp * (3 - 2 * ramp);
@@ -31,7 +31,7 @@ Eigen::Isometry3d head_at(double t, bool moves) {
   return head;
 }
 
-/// Two seconds at 30 Hz of a face with the proportions `stretch` of the table's.
+/// Two seconds at 30 Hz of the table's face with its proportions changed by `stretch`.
 Motion grimace(const Expression& expression, bool head_moves, double noise_m = 5e-5,
                const Vec3& stretch = Vec3::Ones()) {
   const LandmarkMotion& table = landmark_motion();
@@ -55,8 +55,9 @@ Motion grimace(const Expression& expression, bool head_moves, double noise_m = 5
   return motion;
 }
 
-/// The mode of raised brows at two and a half standard deviations, wide eyes and a dropped jaw, and
-/// what no mode has: inner eye corners and bridge of the nose rise by 4.5 mm with the brows.
+/// The mode of raised brows at 2.5 standard deviations, wide eyes and a dropped jaw. In addition, a
+/// motion that no mode contains: the inner eye corners and the bridge of the nose rise by 4.5 mm
+/// with the brows.
 Vec3 surprise(std::size_t i, const Vec3&) {
   static const std::map<std::string, double> rise_mm = {
       {"ibug68_21", 4.5}, {"ibug68_22", 4.5}, {"ibug68_27", 4.5}, {"ibug68_28", 4.5},
@@ -84,7 +85,7 @@ struct Errors {
   double beyond = 0;                  ///< greatest of error over stated uncertainty
 };
 
-/// Against heads that move as `head_at`.
+/// Errors compared with the true poses `head_at`.
 Errors errors_of(const StabilisedMotion& stable, const Motion& motion, bool head_moves) {
   Errors errors;
   for (std::size_t k = 1; k < motion.positions.size(); ++k) {
@@ -177,7 +178,8 @@ TEST(ExpressivePose, MissingLandmarksAreDoneWithout) {
   EXPECT_LT(errors.beyond, 1);
 }
 
-/// The greatest turn and root mean square shift that are taken for the head's, which is at rest.
+/// The greatest rotation and root mean square shift that are attributed to the head, which is at
+/// rest.
 std::pair<double, double> taken_for_head(const Motion& motion, const StabilisedMotion& stable) {
   double turn = 0, shift = 0, beyond = 0;
   for (std::size_t k = 1; k < motion.positions.size(); ++k) {

@@ -13,8 +13,8 @@ namespace {
 const std::vector<std::string> kNames = {"a", "b", "c", "d", "e", "f"};
 const std::vector<int> kAll = {0, 1, 2, 3, 4, 5};
 
-/// A smile that comes and goes all the time, so that the face never rests: 10 mm, by a minimum-jerk
-/// course of half a second (peak speed 37 mm/s).
+/// A smile of 10 mm that appears and disappears all the time, so that the face never rests. It
+/// follows a minimum-jerk course of half a second (peak speed 37 mm/s).
 double smile_m(double t, int point) {
   const double u = std::abs(std::remainder(t + 0.05 * point, 1.0)) / 0.5;
   return 0.010 * u * u * u * (10 + u * (-15 + 6 * u));
@@ -26,7 +26,7 @@ Motion smiles(double step_s = 1.0 / 30, int samples = 120) {
   });
 }
 
-/// Depth is noisier than the picture's plane, as of a camera.
+/// As with a depth camera, the depth is noisier than the directions in the picture.
 void add_noise(Motion& motion, double jitter_m, unsigned seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> noise(0, jitter_m);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Made-up motions, and how a refusal is looked at.
+// Synthetic motions, and a check of error messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace hyperex::motion::testing {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegree = M_PI / 180;
 
-/// The points that a head's pose is taken from by default, of those that the motion has.
+/// The default points for the head pose that a motion has.
 inline std::vector<std::string> default_points(const Motion& motion) {
   std::vector<std::string> names;
   for (const auto& name : default_rigid_points())
@@ -29,7 +29,7 @@ inline std::vector<std::string> default_points(const Motion& motion) {
   return names;
 }
 
-/// `work` throws an InputError of one line that holds every one of `parts`.
+/// Checks that `work` throws an InputError of one line that contains every one of `parts`.
 inline void expect_refused(const std::function<void()>& work,
                            const std::vector<std::string>& parts) {
   const std::string text = test::refusal(work);
@@ -38,7 +38,8 @@ inline void expect_refused(const std::function<void()>& work,
   for (const auto& part : parts) EXPECT_THAT(text, ::testing::HasSubstr(part));
 }
 
-/// `samples` samples `step_s` apart of points whose coordinates are `at(t, point, axis)`.
+/// A motion of `samples` samples, `step_s` apart. The coordinates of its points are `at(t, point,
+/// axis)`.
 inline Motion sampled(int samples, double step_s, const std::vector<std::string>& names,
                       const std::function<double(double, int, int)>& at) {
   Motion motion;
@@ -53,7 +54,7 @@ inline Motion sampled(int samples, double step_s, const std::vector<std::string>
   return motion;
 }
 
-/// Where real recordings are, or empty.
+/// The path of a real recording; empty where there is none.
 inline std::filesystem::path recording(const std::string& name) {
   const auto folder = std::filesystem::path(HYPEREX_SHARED_DIR) / "data/rgbd" / name;
   return std::filesystem::exists(folder) ? folder : std::filesystem::path();

@@ -40,7 +40,8 @@ OptionError thrown_by(Call call) {
   return {"", "", "", ""};
 }
 
-// The options are the library's; whoever gives them other names says the sentence with those.
+// The options are named as in the library; a caller with other names writes the sentence with
+// those.
 TEST(OptionError, OfAGapNamesTheOptionAsItIsCalled) {
   Motion m = three_points("");
   for (int k = 2; k < 9; ++k)
@@ -59,8 +60,8 @@ TEST(OptionError, OfAHeadWithoutRigidPointsNamesTheOption) {
   EXPECT_THAT(error.sentence("KEY"), HasSubstr("0 of them. KEY names others; "));
 }
 
-// A recording of seven points of the mouth that has its own still ones: those are the answer, so
-// they come first and none is cut off.
+// A recording of seven points of the mouth with still points of its own. These are the answer, so
+// that they must come first and none may be cut off.
 TEST(OptionError, OfAHeadWithoutRigidPointsNamesThoseOfTheHeadFirst) {
   Motion m;
   m.source = "take.csv";

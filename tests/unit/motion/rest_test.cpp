@@ -15,7 +15,7 @@ const Points kFace = (Points(6, 3) << 0, 0.05, 0.01, 0, 0, 0.03, -0.025, -0.04, 
                       0, -0.08, 0, 0.01, 0.02, 0.02)
                          .finished();
 
-/// Both corners of the mouth go outwards and up by `amplitude_m` times `course(t)`.
+/// Both corners of the mouth move outwards and up by `amplitude_m` times `course(t)`.
 Motion smile(const std::function<double(double)>& course, double amplitude_m = 0.01,
              int samples = 61) {
   return sampled(samples, 1.0 / 30, kFacePoints, [&](double t, int p, int axis) {

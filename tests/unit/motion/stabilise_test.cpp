@@ -29,7 +29,7 @@ Eigen::Isometry3d pose_at(double t) {
   return pose;
 }
 
-/// The face in motion: the chin goes down by 20 mm sin^2, the whole is posed, with noise.
+/// The face in motion: the chin moves down by 20 mm sin^2, and the whole head moves; with noise.
 Motion posed_face(double noise_m, unsigned seed) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> normal(0, 1);
@@ -51,7 +51,7 @@ Motion posed_face(double noise_m, unsigned seed) {
   return motion;
 }
 
-/// The default rigid points that a motion has, to be stated.
+/// The angle between two rotations, rad.
 double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }

@@ -15,7 +15,7 @@ using ::testing::IsEmpty;
 constexpr double kPlace_m[6][3] = {{0, 0.1, 0},     {0.05, 0.1, -0.01}, {-0.05, 0.1, -0.01},
                                    {0, 0.05, 0.02}, {0.02, 0, 0.01},    {-0.02, 0, 0.01}};
 
-/// Four points of the skull, two of the face that move by 10 mm, on a head that turns by 10
+/// Four points of the skull and two of the face that move by 10 mm, on a head that rotates by 10
 /// degrees.
 Motion nodding(double skull_m = 0) {
   return testing::sampled(21, 0.05, {"top", "left", "right", "nose", "smile", "ibug68_57"},

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStep_s = 1.0 / 30;
 
-/// Four points; the last one opens by 20 mm and closes within a second while the head goes along.
+/// Four points. The last one opens by 20 mm and closes within a second, while the head moves.
 Motion opening(double step_s = kStep_s, double head_m_s = 0.1) {
   return testing::sampled(31, step_s, {"a", "b", "c", "lip"}, [&](double t, int p, int axis) {
     const double moved = p == 3 && axis == 1 ? 0.02 * std::pow(std::sin(M_PI * t), 2) : 0;

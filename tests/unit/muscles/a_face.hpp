@@ -5,7 +5,7 @@
 
 namespace hyperex::muscles::test {
 
-/// The embedded face on a layer of 8 mm, meshed coarsely.
+/// The embedded face on a layer of 8 mm, with a coarse mesh.
 struct AFace {
   io::Landmarks landmarks;
   tissue::TissueMesh mesh;

@@ -16,7 +16,7 @@ struct Problem {
   Eigen::VectorXd g, lower;
 };
 
-/// Rows fewer than unknowns are made definite by a small prior, as activations are.
+/// With fewer rows than unknowns, a small prior makes the problem definite, as for activations.
 Problem random_problem(std::mt19937& random, int n) {
   std::normal_distribution<double> normal;
   const auto matrix = [&](int rows, int cols) {
@@ -43,7 +43,7 @@ Eigen::VectorXd solved(const Problem& p, Eigen::VectorXd x) {
   return x;
 }
 
-/// The least value over every set of entries held at their bounds.
+/// The least value over all sets of entries held at their bounds.
 Eigen::VectorXd by_brute_force(const Problem& p) {
   const int n = static_cast<int>(p.g.size());
   Eigen::VectorXd best;

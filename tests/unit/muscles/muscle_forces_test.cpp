@@ -136,7 +136,8 @@ TEST_F(MuscleForces, OfARingSumToNothingAndTurnNothing) {
   }
 }
 
-/// A motion u along the line's own direction that shortens it is helped by the stress.
+/// The forces of the stress do positive work in a motion u along the line's own direction that
+/// shortens it.
 TEST_F(MuscleForces, OfARingShortenItsLine) {
   for (const std::string name : {"oo_up_marg_L", "orb_oculi_lo_R", "oo_lo_per_L"}) {
     const Points f = force(name, plain_);
@@ -207,7 +208,7 @@ TEST_F(MuscleForces, EndAtTheMidline) {
   }
 }
 
-/// On the midline itself half of the force is left.
+/// On the midline itself the force is halved.
 TEST_F(MuscleForces, FadeEvenlyAcrossTheMidline) {
   ForceShape cut = plain_;
   cut.midline_m = 0.005;

@@ -109,7 +109,7 @@ TEST(MuscleLines, LieOnTheSkinAtDepth0AndOnTheBoneAt1) {
               1e-9);
 }
 
-/// A strap under the cheek does not follow the skin that bulges over it.
+/// Like a strap under the cheek, it does not follow the bulging skin above it.
 TEST(MuscleLines, AStraightMuscleRunsStraightBetweenItsPlaces) {
   const std::string path = R"(["45 (9, -30) d1", "54 (1, 1) d0.4"])";
   const auto along = lines_of(with_path(path));
@@ -138,7 +138,7 @@ TEST(MuscleLines, ADepthThatIsNotGivenIsInterpolatedByTheWay) {
   }
 }
 
-/// Greatest distance of the left lines, mirrored, from the right ones (m).
+/// Greatest distance of the mirrored left lines from the right ones (m).
 double mirrored_off(const std::vector<MuscleLine>& lines, const face::FaceFrame& frame) {
   double worst = 0;
   for (std::size_t m = 0; m < lines.size(); m += 2)
@@ -152,8 +152,9 @@ double mirrored_off(const std::vector<MuscleLine>& lines, const face::FaceFrame&
   return worst;
 }
 
-/// The face is symmetric, its mesh is not: lines on the skin tell the places; those in the tissue
-/// also tell where the mesh has its inner surface, which differs at the corners of the mouth.
+/// The face is symmetric, but its mesh is not. Lines on the skin depend only on the places. Lines
+/// in the tissue also depend on the mesh's inner surface, which differs at the corners of the
+/// mouth.
 TEST(MuscleLines, LeftAndRightMirrorEachOther) {
   const test::AFace fine(0.0025);
   const face::FaceFrame frame = face::face_frame(fine.landmarks);

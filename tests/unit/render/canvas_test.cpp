@@ -85,7 +85,7 @@ cairo_status_t next_bytes(void* from, unsigned char* to, unsigned int count) {
   return CAIRO_STATUS_SUCCESS;
 }
 
-// As another program reads it (cairo by libpng, which checks the sums).
+// The file is read by another library (cairo with libpng, which verifies the checksums).
 TEST(Png, HoldsThePicturesColours) {
   Image image(37, 21);
   for (std::size_t i = 0; i < image.rgb.size(); ++i)

@@ -6,7 +6,7 @@
 namespace hyperex::render {
 namespace {
 
-/// A square of 0.2 m at a distance of 1 m, turned about y so that its right side is nearer.
+/// A square of 0.2 m at a distance of 1 m, rotated about y so that its right side is nearer.
 TriMesh turned_square() {
   TriMesh mesh;
   mesh.points.resize(4, 3);

@@ -14,7 +14,7 @@ constexpr int kSize = 150;
 constexpr double kMetresPerSample = 0.4 / kSize;
 const Camera oblique{.target = {0.01, 0.02, 0}, .to_viewer = {0.4, 0.3, 1}, .height_m = 0.4};
 
-/// Loose triangles of all sizes, some far outside of the picture.
+/// Separate triangles of all sizes, some far outside the picture.
 TriMesh loose_triangles(int count) {
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> place(-0.4, 0.4), side(-0.06, 0.06);
@@ -30,7 +30,7 @@ TriMesh loose_triangles(int count) {
   return mesh;
 }
 
-/// A sheet in the plane z = 0, of triangles between points thrown at random along its rows.
+/// A sheet in the plane z = 0, of triangles between random points along its rows.
 TriMesh sheet(int cells) {
   std::mt19937 generator(2);
   std::uniform_real_distribution<double> off(-0.4, 0.4);

@@ -153,7 +153,7 @@ TEST(Render, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(render({surface}, front, square).rgb, many.rgb);
 }
 
-/// A lopsided quadrilateral in the plane z = 0, its colour growing along x and y.
+/// An irregular quadrilateral in the plane z = 0, with colours that increase along x and y.
 TEST(Render, IsWhatSingleRaysThroughTheSamplesMeet) {
   TriMesh mesh{Points(4, 3), Triangles(2, 3)};
   mesh.points << -0.11, -0.09, 0, 0.12, -0.13, 0, 0.08, 0.14, 0, -0.13, 0.1, 0;

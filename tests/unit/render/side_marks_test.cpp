@@ -12,7 +12,7 @@ SideMarks seen_from(const Vec3& way) {
   return side_marks({.to_viewer = way});
 }
 
-// From in front the subject's right lies at the left of the picture, from behind at its right.
+// From the front the subject's right is at the left of the picture, from behind at its right.
 TEST(SideMarks, NameTheSubjectsOwnSides) {
   for (const Vec3& way : {front_view(), three_quarter_view()}) {
     EXPECT_EQ(seen_from(way).at_left, "R");
@@ -38,7 +38,7 @@ TEST(SideMarks, FollowAScanInAnyPose) {
   EXPECT_EQ(marks.at_left + marks.at_right, "LR");
 }
 
-// Ink stands where a sheet has none without the marks.
+// The letters add ink where a sheet without marks has none.
 TEST(ContactSheet, DrawsTheMarksOverEachPicture) {
   const auto sheet = [](const SideMarks& marks) {
     return contact_sheet({.pictures = {{Image(120, 90), "", marks}}, .columns = 1});

@@ -33,7 +33,7 @@ Json summary_of(const Corner& right, const Corner& left, const Json& weaker) {
 
 const Corner same{6.7, 6.72, 6.72};
 
-// A mouth that opens: the weak corner goes farther, and the healthy one does not go less.
+// As the mouth opens, the weak corner moves farther, and the healthy one does not move less.
 TEST(CornerWords, AWeakCornerThatGoesFartherIsDragged) {
   const std::string lines = variant_lines(summary_of({6.7, 8.9, 8.85}, same, {"R"}));
   EXPECT_THAT(lines, HasSubstr("right 6.7 to 8.9 mm, is dragged 2.2 mm farther (+- 0.3)"));
@@ -50,7 +50,7 @@ TEST(CornerWords, AWeakCornerMovesLessAndOneInStiffTissueFollowsLess) {
               HasSubstr("moves 0.8 mm farther"));
 }
 
-// As far from rest as in base, but elsewhere.
+// The corner is as far from rest as in base, but in another place.
 TEST(CornerWords, ComparesAlongTheWayThatTheCornerGoesInBase) {
   EXPECT_THAT(variant_lines(summary_of({6.0, 6.4, 3.9}, same, {"R"})),
               HasSubstr("right 6.0 to 6.4 mm, moves 2.1 mm less along its way in base (+- 0.3)"));
@@ -58,7 +58,7 @@ TEST(CornerWords, ComparesAlongTheWayThatTheCornerGoesInBase) {
               HasSubstr("goes 5.2 mm the other way"));
 }
 
-// 9.64 and 9.66 are 9.6 and 9.7 where each is rounded by itself.
+// 9.64 and 9.66 would be 9.6 and 9.7 if each were rounded separately.
 TEST(CornerWords, RoundsOnceSoThatAdjacentFiguresAgree) {
   const Json summary = summary_of({9.64, 9.66, 9.66}, {8.26, 6.24, 6.24}, Json::array());
   EXPECT_THAT(corners_line(summary), HasSubstr("right 9.6 mm, left 8.3 mm, 1.3 mm apart"));

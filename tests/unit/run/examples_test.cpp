@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The scenes of the source's experiments say what the source says, and those whose data are not
-// part of the project can be run where the data are. All of examples/ are run by tests/examples.
+// The scenes of the source's experiments agree with the source, and those whose data are not part
+// of the project can be run where the data are available. tests/examples runs all of examples/.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::vector<fs::path> all_scenes() {
   return files;
 }
 
-/// Its data is not part of the project.
+/// Whether the file needs data that are not part of the project and are missing.
 bool data_is_missing(const fs::path& file) {
   return read_file(file).find("../shared/") != std::string::npos &&
          !fs::exists(kExamples / "../../shared/data");

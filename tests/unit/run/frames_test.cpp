@@ -45,7 +45,7 @@ std::vector<io::VtuArray> cells_of(const simulate::Performance& p, bool with_str
   return FrameCells(p, with_strain).at(p.node_displacement_m[0].cast<double>());
 }
 
-/// One more element, apart from the others, whose tip goes through its base.
+/// Adds an element, apart from the others, whose tip is on the wrong side of its base.
 void add_inverted(simulate::Performance& p) {
   const int first = static_cast<int>(p.nodes.rows());
   p.nodes.conservativeResize(first + 4, 3);

@@ -13,7 +13,7 @@
 namespace hyperex::run {
 namespace {
 
-/// Two samples; the second is the one of most activation.
+/// Two samples; activation is greatest in the second.
 simulate::MuscleCourse course(double left, double right, double sigma = 0.02) {
   simulate::MuscleCourse course;
   course.names = {"zyg_major_L", "zyg_major_R"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rendered recording shows what its truth says, and is tracked as well as it was. Bounds are
-// about one and a half times what was measured.
+// The rendered recording agrees with its truth, and is tracked as accurately as when it was
+// introduced. Bounds are about 1.5 times the measured values.
 #include <gtest/gtest.h>
 
 #include <cmath>

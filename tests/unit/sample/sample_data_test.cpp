@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `hyperex sample` writes is read back by what reads a user's files, is the same every time
-// and replaces nothing of the user's.
+// The output of `hyperex sample` can be read by the readers of user files, is always the same, and
+// replaces no file of the user.
 #include "hyperex/sample/sample_data.hpp"
 
 #include <gtest/gtest.h>

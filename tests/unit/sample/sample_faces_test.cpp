@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The second face is a sound face and another one; the flawed scan has the faults that it says and
-// no others.
+// The second face is a valid face that differs from the first; the flawed scan has exactly the
+// stated faults.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walks through the table of keys: what it says of a key must hold in the file and for --set.
+// Tests over all keys of the table: what the table says of a key must hold in the file and for
+// --set.
 #include "hyperex/scene/keys.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +17,8 @@ namespace hyperex::scene {
 namespace {
 using nlohmann::json;
 
-/// A value as it is kept: paths, also those in the columns of rows, from the scene's folder on.
+/// The value as it is stored: paths, also those in columns of rows, are relative to the scene's
+/// folder.
 json expected_echo(const Key& key, json value, const std::filesystem::path& folder) {
   const auto place = [&](json& path) {
     path = (folder / path.get<std::string>()).generic_string();
@@ -51,7 +53,7 @@ std::string without_unit(std::string name) {
   return name;
 }
 
-/// Keys that are not called as their member is. All others must be.
+/// Keys whose names differ from those of their members. All others must agree.
 const std::map<std::string, std::string> kOtherMembers = {
     {"scan.file", "scan.source"},
     {"motion.file", "motion.source"},

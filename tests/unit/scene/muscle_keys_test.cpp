@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The keys of muscles: drive.by, [muscles], and what they do not go with.
+// The keys of muscles: drive.by, [muscles], and the options that exclude each other.
 #include <gmock/gmock.h>
 
 #include "hyperex/muscles/muscle_template.hpp"
@@ -131,7 +131,7 @@ TEST(MuscleKeys, ADecimalCommaIsToldAsSuch) {
               Not(HasSubstr("decimals")));
 }
 
-// Of motion.gain, which is one slip away too, the section is another.
+// motion.gain is only one typing error away too, but its section is another.
 TEST(MuscleKeys, AMisspeltSectionIsNotTakenForAnother) {
   const auto meant = HasSubstr("did you mean muscles.gain?");
   EXPECT_THAT(only_muscle_problem(by_muscles, {"muscle.gain={ side_L = 0.3 }"}), meant);
@@ -148,7 +148,7 @@ TEST(MuscleKeys, AMisspeltSectionIsNotTakenForAnother) {
             "scene.toml:7: muscle: expected a known section (did you mean [muscles]?)");
 }
 
-// Of a name in words, as of one in an inline table: what it means, and no list that is cut off.
+// A name in words gets the names that it may mean, and no truncated list, also in an inline table.
 TEST(MuscleKeys, ANameInWordsIsToldWithWhatItMeans) {
   const auto told = [](const std::string& name) {
     return only_muscle_problem(by_muscles + "[muscles]\ngain = { " + name + " = 0.4 }\n");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// For tests that walk through the table of keys: another value for each, and a scene that sets it.
+// For tests over all keys of the table: a value other than the default for each, and a scene with
+// it.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -11,7 +12,8 @@
 
 namespace hyperex::scene {
 
-/// Another value than the default, as JSON, which is TOML too for these (but for tables).
+/// A value other than the default, as JSON. For these values JSON is valid TOML too, except for
+/// tables.
 inline nlohmann::json other_value(const Key& key) {
   const nlohmann::json standard = key.get(Scene{});
   switch (key.kind) {
@@ -21,7 +23,7 @@ inline nlohmann::json other_value(const Key& key) {
       return standard.get<int>() + 1;
     case Kind::number: {
       const double low = key.range.least, high = key.range.most;
-      // In digits as a user writes them: 15 come back from the field.
+      // Written with few digits, as by a user: 15 of them survive conversion.
       const auto within = [&](double share) {
         return std::strtod(fmt::format("{:.12g}", low + (high - low) * share).c_str(), nullptr);
       };
@@ -35,7 +37,7 @@ inline nlohmann::json other_value(const Key& key) {
     case Kind::choice:
       for (const auto& word : key.choices)
         if (word != standard) return word;
-      return standard;  // a choice of one
+      return standard;  // a choice with only one word
     case Kind::path:
       return "face.ply";
     case Kind::names:
@@ -73,15 +75,15 @@ inline std::string toml(const nlohmann::json& value) {
   return "[" + text + "]";
 }
 
-/// A scene file with `key` = `value`, everything else as small as can be.
+/// A scene file with `key` = `value`, and otherwise only what is required.
 inline std::string scene_with(const std::string& key, const std::string& value) {
   std::string text = key + " = " + value + "\n";
   if (key != "scan.file") text += "scan.file = \"embedded\"\n";
   if (key != "motion.file" && key != "motion.recording" && key != "motion.openface" &&
       key != "motion.arkit")
     text += "motion.file = \"embedded\"\n";
-  if (key == "solver.newmark_gamma") text += "solver.newmark_beta = 0.5\n";  // at least half of it
-  if (key.starts_with("muscles.")) text += "drive.by = \"muscles\"\n";       // else refused
+  if (key == "solver.newmark_gamma") text += "solver.newmark_beta = 0.5\n";  // at least gamma / 2
+  if (key.starts_with("muscles.")) text += "drive.by = \"muscles\"\n";       // otherwise refused
   if (key == "scan.file") text += "scan.landmarks = \"points.json\"\n";
   return text;
 }

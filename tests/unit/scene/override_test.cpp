@@ -39,7 +39,7 @@ TEST(Override, AStudyInThePlaceOfASceneIsRecognised) {
               testing::HasSubstr("expected a scene file; this is a study: hyperex sweep "));
 }
 
-/// Another source of motion takes the place of the scene's, as with --set.
+/// Another source of motion replaces that of the scene, as with --set.
 TEST(Override, OfTheMotionReplacesItsSource) {
   const SceneFolder folder;
   const auto file = folder.write("scene.toml", smallest);

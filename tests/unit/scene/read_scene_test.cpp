@@ -230,7 +230,7 @@ TEST(ReadScene, VariantsThatCannotBe) {
               HasSubstr("variant[1].name = \"a\": expected a name that no other variant has"));
 }
 
-/// As in the block that `hyperex new` leaves commented out.
+/// `hyperex new` writes such a block as a comment.
 TEST(ReadScene, AVariantWithoutANameIsCalledAsItsPreset) {
   const SceneFolder folder;
   const std::string palsy = std::string(smallest) + "[[variant]]\npreset = \"palsy_complete_R\"\n";

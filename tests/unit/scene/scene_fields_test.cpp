@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every field of the structs by hand: a table that swapped two fields in setter and getter alike
-// would pass a test that only asks the table.
+// Every field of the structs, written by hand: if a table swapped two fields in both setter and
+// getter, a test that used only the table would pass.
 #include <gmock/gmock.h>
 
 #include "unit/scene/scene_files.hpp"

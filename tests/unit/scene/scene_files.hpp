@@ -10,7 +10,7 @@
 
 namespace hyperex::scene {
 
-/// A folder of its own for a test, with what scenes need in it; removed afterwards.
+/// A new folder for a test, with the files that scenes need; removed at the end.
 class SceneFolder : public TestFolder {
  public:
   SceneFolder() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recorded expressions move a face model whose head is still: none of their motion may be taken for
-// the head's.
+// Recorded expressions move a face model whose head is still: no part of their motion may be
+// attributed to the head.
 #include <gtest/gtest.h>
 
 #include "hyperex/session/inputs.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Notes on sound inputs, and how far these may be spoilt before a warning is given: noted_scenes
-// has a scene for each.
+// Notes on valid inputs, and how much these may be changed before a warning is given. noted_scenes
+// has a scene for each warning.
 #include <gmock/gmock.h>
 
 #include <random>

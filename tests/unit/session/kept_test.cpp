@@ -85,7 +85,7 @@ TEST(Kept, BytesOfSomethingElseAreNothing) {
     EXPECT_FALSE(recorded_from(bytes));
 }
 
-/// A scene with a recording of one file and a folder for what is kept.
+/// A scene with a recording in one file and a folder for kept results.
 class KeptRecording : public testing::Test {
  protected:
   void SetUp() override {

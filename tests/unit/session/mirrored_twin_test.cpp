@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Driven points end where they are driven, a symmetric motion is not called asymmetric, a one-sided
-// one is: whole runs without pictures.
+// Driven points reach their prescribed positions, a symmetric motion is not reported as asymmetric,
+// and a one-sided one is: whole runs without pictures.
 #include "hyperex/session/mirrored_twin.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ nlohmann::ordered_json run_of(const fs::path& file, std::vector<std::string> ove
   return run::run_scene(read_scene(file, overrides), folder / "out");
 }
 
-/// The scene, the points to drive (or as the scene has them) and the elements' size in mm.
+/// The scene, the points to drive (or those of the scene) and the element size in mm.
 struct Case {
   const char *file, *points, *element_mm;
 };

@@ -48,7 +48,7 @@ std::string name_of(const testing::TestParamInfo<NotedScene>& of) {
   std::ranges::replace(name, '.', '_');
   return name;
 }
-/// What a program in C++ is told.
+/// The notes that a C++ program receives.
 class NotedInASession : public testing::TestWithParam<NotedScene> {};
 
 TEST_P(NotedInASession, ByRunningIt) {
@@ -64,7 +64,7 @@ TEST_P(NotedInASession, ByRunningIt) {
   EXPECT_THAT(heard, testing::Contains(test::is_warning(GetParam().id)));
 }
 
-/// The warnings of files that a run writes are not a session's.
+/// Warnings about the files that a run writes do not come from a session.
 std::vector<NotedScene> of_sessions() {
   std::vector<NotedScene> some = test::noted_scenes();
   std::erase_if(some, [](const NotedScene& scene) { return scene.id.starts_with("output."); });

@@ -20,7 +20,7 @@ using test::says;
 using testing::AllOf;
 using testing::Optional;
 
-/// One triangle of the simulated skin, `off_m` above a vertex of the scan that is its middle.
+/// One triangle of the simulated skin, `off_m` above a vertex of the scan at its centre.
 tissue::TissueMesh skin_off_by(double off_m) {
   tissue::TissueMesh mesh;
   mesh.volume.outer.points = (Points(3, 3) << 0, 0, 0, 0.03, 0, 0, 0, 0.03, 0).finished();
@@ -50,7 +50,7 @@ TEST(SkinWarning, LeavesEarsAndNeckAside) {
 
 const std::filesystem::path kData = std::filesystem::path(HYPEREX_SHARED_DIR) / "data";
 
-/// The samples from `first` on, or all of them backwards.
+/// The samples from `first` to the end, or all of them in reverse order.
 motion::Motion cut(motion::Motion m, std::size_t first) {
   m.time_s.erase(m.time_s.begin(), m.time_s.begin() + long(first));
   m.positions.erase(m.positions.begin(), m.positions.begin() + long(first));

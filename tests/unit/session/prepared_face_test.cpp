@@ -58,7 +58,8 @@ TEST_F(PreparedFaces, AreTakenFromAnEarlierRunBitForBit) {
   EXPECT_EQ(bytes_of(prepared()), made) << "made anew";
 }
 
-// What somebody else may have changed is not used: each of these would be read out of bounds.
+// Indices in the file may have been changed by others. Each of these would be read out of bounds
+// and must not be used.
 TEST_F(PreparedFaces, IndicesThatCountNothingAreRefused) {
   const PreparedFace face = prepared();
   const TriMesh scan = read_inputs(scene_).scan.mesh;

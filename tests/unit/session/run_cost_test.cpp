@@ -66,7 +66,7 @@ TEST(RunCost, OfACamerasRecordingIsNotKnownBeforeItIsRead) {
   EXPECT_EQ(expected_cost(scene, inputs, Extent::quick)->frames, 30);
 }
 
-/// Landmarks are not searched for in a quick reading, and nothing is aligned.
+/// A quick estimate does not search for landmarks and does not align anything.
 TEST(RunCost, IsKnownOfAScanWithoutLandmarks) {
   Inputs inputs;
   inputs.scan = read_inputs(embedded()).scan;
@@ -90,7 +90,7 @@ TEST(RunCost, SaysWhatOfTheRecordingIsRun) {
   EXPECT_THAT(sentence(), testing::HasSubstr("from 1 s to 2.5 s of the recording"));
 }
 
-/// What a clinic's scan wrote: five faces of 135 frames, no frames for ParaView, 166 MB.
+/// Measured on a scan from a clinic: five faces of 135 frames, no frames for ParaView, 166 MB.
 TEST(RunCost, OfAFineScanIsThatOfItsVertices) {
   scene::Scene scene = embedded();
   scene.output.vtu = false;

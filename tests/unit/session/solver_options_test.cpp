@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hop from the scene to the options of the simulation, for every key that there is: it changes
-// exactly its own member, there and in the scene, to the value that was given.
+// Conversion of every key of the scene to the options of the simulation: a key changes exactly its
+// own member, there and in the scene, to the given value.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -20,7 +20,7 @@ using namespace scene;
 namespace {
 using nlohmann::json;
 
-/// Every described option of a struct as text, by the name of its member.
+/// Every described option of a struct as text, by member name.
 class Shown {
  public:
   template <class Struct>
@@ -78,7 +78,7 @@ class Shown {
 
 using Names = std::set<std::string>;
 
-/// The members that differ: "mesh.depths" where any of its rows does.
+/// The names of the members that differ: "mesh.depths" where any of its rows does.
 Names changed(const Shown& before, const Shown& after) {
   Names names;
   const auto compare = [&](const Shown& a, const Shown& b) {
@@ -101,7 +101,8 @@ simulate::SimulationOptions simulation_of(const Scene& scene) {
   return simulation_options(scene, inputs_of_variant(scene, recorded));
 }
 
-/// What a key changes in the options of the simulation: its own member, as far as they have it.
+/// The members that a key should change in the options of the simulation: its own member, if they
+/// have it.
 Names wanted_in_simulation(const Key& key) {
   const std::string section = key.member.substr(0, key.member.find('.'));
   for (const char* part :
@@ -110,7 +111,7 @@ Names wanted_in_simulation(const Key& key) {
   return {};
 }
 
-/// The scene with `key` at another value, and the same with that key back at its default.
+/// A scene with `key` at another value, and the same scene with that key back at its default.
 struct Pair {
   Scene before, after;
   json value;
@@ -171,7 +172,7 @@ TEST(SolverOptions, UniformParametersArriveInTheSimulation) {
   }
 }
 
-/// SI units by the ending of the member, independent of what the description says of its unit.
+/// The SI unit follows from the ending of the member's name, independently of its described unit.
 TEST(SolverOptions, NumbersArriveInSiUnits) {
   const SceneFolder folder;
   int count = 0;

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 /// The middles of the lips' inner edges.
 const io::Landmarks kLips = {{face::ibug(62), {0, 0, 0.05}}, {face::ibug(66), {0, -0.001, 0.05}}};
 
-/// A box of 40 x 10 x 40 mm behind them, or with its lid off.
+/// A box of 40 x 10 x 40 mm behind them, or the same without its lid.
 TriMesh box(bool open) {
   TriMesh mesh{Points(8, 3), {}};
   for (int c = 0; c < 8; ++c)

@@ -22,8 +22,8 @@ io::Landmarks canonical_landmarks() {
   return landmarks;
 }
 
-/// The landmarks (and a point that is none) as tracked in axes of its own, and one sample more, in
-/// which each point is displaced by `displacement` in those axes.
+/// The landmarks (and one other point) tracked in separate axes, and one more sample in which each
+/// point is displaced by `displacement` in those axes.
 motion::Motion tracked(const io::Landmarks& landmarks, const Similarity& motion_from_scan,
                        const std::function<Vec3(const Vec3&)>& displacement) {
   motion::Motion m;
@@ -145,7 +145,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryMethod,
                          testing::Values(AlignmentMethod::nonrigid, AlignmentMethod::similarity,
                                          AlignmentMethod::normalised));
 
-/// A face of given parts about the nose apex (0, 0, 0), its axes the frame's.
+/// A face with given widths and heights of its parts about the nose apex (0, 0, 0), in the axes of
+/// the frame.
 io::Landmarks parts(double width, double upper, double lower) {
   return {{ibug(30), {0, 0, 0}},
           {ibug(27), {0, upper, -0.02}},

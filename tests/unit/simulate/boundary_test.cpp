@@ -138,7 +138,7 @@ TEST_F(BoundaryTest, SpringsOfTheJawPullToWhereItTurns) {
       << "no force where the tissue moved with the jaw";
 }
 
-/// What hangs below the jaw's edge goes a share of the way of the edge's nearest point.
+/// Tissue below the jaw's edge follows a share of the displacement of the edge's nearest point.
 TEST_F(BoundaryTest, TheFloorOfTheMouthHangsFromTheEdgeOfTheJaw) {
   SupportOptions with = options_.support, without = options_.support;
   with.throat_pa_per_m = 1e6;

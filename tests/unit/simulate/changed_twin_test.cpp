@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Twin experiments with changed tissue (support/muscle_twin.hpp): is what the program says of other
-// tissue and of a weaker muscle what the true forces make of them?
+// Twin experiments with changed tissue (support/muscle_twin.hpp): the program's predictions for
+// other tissue and for a weaker muscle are compared with the effect of the true forces.
 #include <gtest/gtest.h>
 
 #include "hyperex/face/face_frame.hpp"
@@ -63,8 +63,8 @@ TEST_F(ChangedTwin, TissueOfAnotherStiffnessCostsLittle) {
   for (const std::size_t change : {kCheek, kAll, kWeak}) EXPECT_LT(error(a, change), 0.15);
 }
 
-/// What tissue does hardly depends on which muscle is held for the cause; what a weaker muscle
-/// does is that muscle's share, and wrong where its line is.
+/// The effect of the tissue hardly depends on which muscles the force is attributed to. The effect
+/// of a weaker muscle depends on that muscle's share, which is wrong where its line is wrong.
 TEST_F(ChangedTwin, DisplacedLinesCostTheAnswerOnOneMuscleMost) {
   const TwinTruth truth(face_, displaced_lines(muscles::muscle_template(), 4, 11), 1, changes_);
   const TwinAnswer a = answer(truth, face::all_ibug());

@@ -68,7 +68,7 @@ TEST_F(Drive, MeetsEveryDrivenPoint) {
   }
 }
 
-/// How far the places of the points follow each point's unit displacement: |points| x |points|.
+/// How far the points move for a unit displacement of each point: |points| x |points|.
 Eigen::MatrixXd reached(const DrivenPatches& p) {
   return Eigen::MatrixXd(p.carriers)(Eigen::all, p.nodes) * p.weights;
 }

@@ -10,7 +10,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// A block that stands on a held base.
+/// A block on a held base.
 class CorrectedBlock : public testing::Test {
  protected:
   FiniteCorrection correction(fem::SparseMatrix springs = {}) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What no face does: finite strain ends with finite numbers, or in one line that says where.
+// Motions that are impossible for a face: finite strain gives finite numbers, or an error of one
+// line that says where.
 #include <gtest/gtest.h>
 
 #include <algorithm>

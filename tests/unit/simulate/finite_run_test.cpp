@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces at finite strain: the linear answer where motions are small, recordings met by forces, and
-// forces that turn with the tissue.
+// Faces at finite strain: the linear solution for small motions, recordings reproduced by forces,
+// and forces that rotate with the tissue.
 #include <gmock/gmock.h>
 
 #include "hyperex/core/error.hpp"
@@ -63,7 +63,7 @@ TEST_F(FiniteRun, ASmallMotionIsTheLinearAnswer) {
   }
 }
 
-/// Farther than this the driven nodes themselves turn an element inside out.
+/// For larger motions the driven nodes themselves would invert an element.
 TEST_F(FiniteRun, AViolentMotionTurnsNoElementInsideOut) {
   options_.model.strain = Strain::linear;
   EXPECT_GT(made(options_, smile(2.2)).run().report.inverted_tets, 0);

@@ -192,8 +192,8 @@ TEST_F(LoadOfMuscles, WithoutMuscleNamesIsAsItStands) {
   expect_at_samples(load_.force * load_.course);
 }
 
-/// Between samples: the C2 cubic spline that rests at both ends, of which a cubic that does so is
-/// its own.
+/// Between samples the course is the C2 cubic spline at rest at both ends. A cubic that is at rest
+/// at both ends is its own spline.
 TEST_F(LoadOfMuscles, BetweenSamplesIsTheSpline) {
   const double end = load_.time_s.back();
   const auto smooth = [&](double t) {
@@ -206,7 +206,7 @@ TEST_F(LoadOfMuscles, BetweenSamplesIsTheSpline) {
     EXPECT_LT((drive.force_at(k) - smooth(k * kDt) * whole).norm(), 1e-6 * whole.norm()) << k;
 }
 
-/// Stiffness of a chain with some cross-links, symmetric positive definite.
+/// The stiffness of a chain with some cross-links; symmetric positive definite.
 fem::SparseMatrix stiffness(int n) {
   Eigen::MatrixXd k = 0.3 * Eigen::MatrixXd::Identity(n, n);
   for (int i = 0; i < n; ++i)

@@ -55,8 +55,8 @@ class InputShapesOf : public testing::Test {
   SimulationOptions options_;
 };
 
-// The numbers of the input are met to the tolerance; values and forces mix them with weights whose
-// sums stay near one, and turns with levers near 0.1 m.
+// The input's numbers are met to the tolerance. Values and forces combine them with weights whose
+// sums are near one, and rotations act with levers near 0.1 m.
 constexpr double kMixing = 5;
 
 TEST_F(InputShapesOf, GiveWhatTheBoundaryPrescribesAtAllSteps) {
@@ -109,8 +109,8 @@ TEST_F(InputShapesOf, AreFewForARigidMotionAndNoneForNone) {
   EXPECT_EQ(none.drive.force_at(5).norm(), 0);
 }
 
-/// The derivatives are those of one function: the integrals of the cubic between steps give back
-/// the differences of what they derive, exactly.
+/// The derivatives belong to one function: the integrals of the cubic between steps are exactly the
+/// differences of its values.
 TEST_F(InputShapesOf, DerivativesAreThoseOfASplineThroughTheValues) {
   Boundary b = boundary(motion_);
   const fem::Drive drive = input_shapes(b, way(motion_), kDt, kSteps, 1e-6).drive;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the jaw is in each frame of a run.
+// The position of the jaw in each frame of a run.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// Two flat lips facing +z, 30 mm wide and 8 mm high, edge to edge along y = 0.
+/// Two flat lips that face +z, 30 mm wide and 8 mm high, with a common edge along y = 0.
 struct FlatLips {
   tissue::TissueMesh mesh;
   io::Landmarks landmarks;

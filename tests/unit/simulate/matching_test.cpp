@@ -15,7 +15,8 @@ double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * (b - a)).norm();
 }
 
-/// The plane where the foot lies inside (on the inner side of each edge), else the nearest edge.
+/// Distance to the plane where the foot of the perpendicular is inside the triangle, else to the
+/// nearest edge.
 double to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a);
   if (n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 &&
@@ -90,7 +91,7 @@ TEST(Match, DisplacementIsTheWeightedMean) {
   EXPECT_LT((m.displacement(d) - Vec3(0.5, 0.2, 0.3)).norm(), 1e-15);
 }
 
-/// Two strips of triangles along the x axis, `gap` apart: the lower one's points first.
+/// Two strips of triangles along the x axis, `gap` apart; the points of the lower one come first.
 TriMesh lips(double gap) {
   TriMesh mesh{Points(20, 3), Triangles(16, 3)};
   for (int side = 0; side < 2; ++side)

@@ -14,7 +14,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// A face whose lower lip is driven up into the upper one and back.
+/// A face whose lower lip is moved up into the upper one and back.
 class MouthContactOfAFace : public testing::Test {
  protected:
   MouthContactOfAFace() {
@@ -101,7 +101,7 @@ TEST_F(MouthContactOfAFace, VariantsTouchToo) {
   EXPECT_LT(answered.report.contact.left_mm, 0.1);
 }
 
-/// `make tsan` runs this one: a face and its mirrored twin touch side by side.
+/// `make tsan` runs this test: a face and its mirrored twin have contact in parallel threads.
 TEST_F(MouthContactOfAFace, CopiesTouchOnTheirOwnInOtherThreads) {
   options_.contact.lips = true;
   const std::shared_ptr<const tissue::TissueMesh> mesh(std::shared_ptr<void>(), &face_.mesh);

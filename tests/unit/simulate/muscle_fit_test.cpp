@@ -12,7 +12,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// The turn by `angle` about a unit axis, by Rodrigues' formula.
+/// The rotation by `angle` about a unit axis, by Rodrigues' formula.
 Eigen::Matrix3d turn_about(const Vec3& axis, double angle) {
   Eigen::Matrix3d cross;
   cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
@@ -137,7 +137,8 @@ TEST_F(FitOfPoints, FindsItWithWideBandsToo) {
   EXPECT_LT((found.jaw - pose).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-/// One muscle, no jaw: the mean of the point's way and of the prior's, weighed by their sigmas.
+/// One muscle, no jaw: the mean of the point's displacement and of the prior's, weighted by their
+/// sigmas.
 TEST_F(FitOfPoints, APriorWeighsByItsSigma) {
   const Eigen::Vector3d way(0.004, -0.003, 0.012);
   FitPriors priors;
@@ -162,7 +163,7 @@ TEST_F(FitOfPoints, APriorWeighsByItsSigma) {
               1 / std::sqrt(way.squaredNorm() / (sigma_m * sigma_m) + 1 / (0.3 * 0.3)), 1e-12);
 }
 
-/// Two muscles that points cannot tell apart share in the ratio of their priors' variances.
+/// Two muscles with the same effect on the points share it in the ratio of their priors' variances.
 TEST_F(FitOfPoints, AReadierMuscleActsMore) {
   const Eigen::Vector3d way(0.004, -0.003, 0.012);
   Eigen::MatrixXd both(3, 2);
@@ -175,8 +176,9 @@ TEST_F(FitOfPoints, AReadierMuscleActsMore) {
   EXPECT_NEAR(a[1], 4 * a[0], 1e-12);
 }
 
-/// Where points tell of one side alone, the other is expected to act by the correlation's share, as
-/// a Gaussian prior has it; where they tell of both, both are as they tell.
+/// Where the points determine one side alone, the expected activation of the other side follows
+/// from the correlation, as for a Gaussian prior. Where they determine both sides, both follow the
+/// points.
 TEST_F(FitOfPoints, BothSidesAreExpectedToActAlikeUnlessPointsTellThemApart) {
   const Eigen::Vector3d way(0.004, -0.003, 0.012), other(0.002, 0.011, 0.001);
   FitPriors priors;
@@ -204,8 +206,9 @@ TEST_F(FitOfPoints, BothSidesAreExpectedToActAlikeUnlessPointsTellThemApart) {
   EXPECT_NEAR(apart.activation[1], 0, 1e-6) << "a one-sided motion stays one";
 }
 
-/// Muscles that act together: the mean and the covariance are those of a Gaussian with that prior
-/// given the points, in the form that inverts the points' covariance instead of the prior's.
+/// Correlated muscles: mean and covariance are those of a Gaussian with that prior, conditioned on
+/// the points. They are computed in the form that inverts the points' covariance instead of the
+/// prior's.
 TEST_F(FitOfPoints, CorrelatedMusclesAreAsAGaussianGivenThePoints) {
   constexpr int kMuscles = 4, kPoints = 2;
   const PointResponse r{
@@ -235,7 +238,7 @@ TEST_F(FitOfPoints, CorrelatedMusclesAreAsAGaussianGivenThePoints) {
 }
 
 /// One point moves with the muscle alone and one with the jaw alone: the wider the jaw is open, the
-/// less the muscle is expected to act.
+/// smaller the expected activation.
 TEST_F(FitOfPoints, AMuscleYieldsToTheOpeningJaw) {
   const Eigen::Vector3d way(0.004, -0.003, 0.012);
   PointResponse r{Eigen::MatrixXd::Zero(6, 1), Eigen::MatrixXd::Zero(6, 12), {}};
@@ -257,7 +260,8 @@ TEST_F(FitOfPoints, AMuscleYieldsToTheOpeningJaw) {
   }
 }
 
-/// Of activations drawn from the prior and points with noise, sigma is what the fit is wrong by.
+/// For activations drawn from the prior and points with noise, sigma agrees with the error of the
+/// fit.
 TEST_F(FitOfPoints, SigmaIsWhatTheFitIsWrongBy) {
   constexpr int kMuscles = 5, kDraws = 3000;
   const PointResponse r = response(3, kMuscles);

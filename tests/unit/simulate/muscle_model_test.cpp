@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a muscle that ends in the fold from nose to mouth pulls, beside the same muscle without it.
+// The pull of a muscle that ends in the fold from nose to mouth, compared with the same muscle
+// without that ending.
 #include "hyperex/simulate/load/muscle_model.hpp"
 
 #include <gtest/gtest.h>
@@ -87,7 +88,8 @@ TEST_F(PullAtTheFold, DrawsTheSkinOfTheFoldIn) {
   }
 }
 
-/// Beside the fold it pulls along the skin alone; without one, a share of its force is inwards.
+/// A muscle that ends in the fold pulls only along the skin elsewhere; without such an ending, a
+/// share of its force is directed inwards.
 TEST_F(PullAtTheFold, NothingIsInwardsElsewhere) {
   muscles::TemplateMuscle elsewhere = muscle_;
   elsewhere.fold_from = elsewhere.fold_to = 0;

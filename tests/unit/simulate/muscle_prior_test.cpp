@@ -11,7 +11,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// Three muscles a side, of which `lifter` names what it acts together with.
+/// Three muscles on each side; `lifter` is correlated with the other two.
 MuscleOptions options_with(double lifter_raiser, double lifter_puller = 0) {
   MuscleOptions options;
   for (const char* name : {"lifter", "raiser", "puller"}) {

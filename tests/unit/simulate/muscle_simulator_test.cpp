@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A simulator driven by forces: what they meet in the tissue that they were found in, and what
-// other tissue and weaker muscles make of them.
+// A simulator driven by forces: their result in the tissue in which they were found, and in other
+// tissue or with weaker muscles.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -14,7 +14,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// A smile whose right half is `right` as large as its left one, held at the end.
+/// A smile, held at the end; its right half is `right` times its left one.
 AlignedMotion smile(const io::Landmarks& landmarks, double right) {
   const face::FaceFrame frame = face::face_frame(landmarks);
   return test::motion_of(
@@ -88,9 +88,9 @@ TEST_F(DrivenByForces, MusclesMeetTheDrivenPoints) {
   EXPECT_EQ(muscles.activation.col(0).cwiseAbs().maxCoeff(), 0) << "at rest";
 }
 
-/// In the patches the answer lies between what the tissue makes of the muscles and the field
-/// between the points, to which shares of 0 leave the skin: prescribed displacements'
-/// patches.
+/// In the patches the solution lies between the shape of the muscles in the tissue and the field
+/// between the points. With shares of 0 it is that field, as in the patches of prescribed
+/// displacements.
 TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
   options_.muscles.own = muscles::muscle_template();
   for (muscles::TemplateMuscle& muscle : options_.muscles.own) muscle.few_share = -1;
@@ -195,7 +195,7 @@ TEST_F(DrivenByForces, HeldForcesMoveStifferTissueLess) {
   }
 }
 
-/// Else a sweep over stiffness gives equal answers, and nothing says why.
+/// Without the note, a sweep over stiffness would give equal results without an explanation.
 TEST_F(DrivenByForces, ForcesFoundAnewInOtherTissueAreNoted) {
   const auto noted = [](const SimulationResult& result) {
     const auto& notes = result.report.notes;
@@ -236,8 +236,8 @@ TEST_F(DrivenByForces, ForcesFoundAnewInOtherTissueAreNoted) {
   EXPECT_FALSE(noted(simulator.run())) << "no forces";
 }
 
-/// What muscles make of the face is found once for several motions, and anew for other tissue,
-/// support or muscles: never seen in a number.
+/// The muscles' effect on the face is computed once for several motions, and again for other
+/// tissue, support or muscles. This must not change any number.
 TEST_F(DrivenByForces, AnotherMotionAnswersAsASimulatorMadeWithIt) {
   Simulator simulator = made(options_, 1);
   simulator.run();

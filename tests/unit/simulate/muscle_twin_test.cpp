@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A twin experiment: activations that are known move a face, its landmarks are measured with noise,
-// and the activations are found again.
+// A twin experiment: known activations move a face, its landmarks are measured with noise, and the
+// activations are estimated from them.
 #include <gtest/gtest.h>
 
 #include <map>

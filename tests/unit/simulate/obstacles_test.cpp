@@ -22,8 +22,8 @@ namespace {
 
 constexpr double kYoung = 20e3, kPoisson = 0.3;
 
-/// A quarter of an elastic block on a rigid base, its other side being the mouth's, and a rigid
-/// ball that touches it at its corner and is lowered as a jaw would be.
+/// A quarter of an elastic block on a rigid base; its other side is that of the mouth. A rigid ball
+/// touches it at its corner and is lowered like a jaw.
 class PressedBlock {
  public:
   static constexpr double kSide = 0.008, kHeight = 0.006, kRadius = 0.010;
@@ -106,8 +106,8 @@ class PressedBlock {
   std::optional<fem::PartitionedFactor> factor_;
 };
 
-/// Hertz' law for a rigid ball, times what a layer that sticks to its base adds (Dimitriadis et
-/// al., Biophys. J. 82, 2002, 2798).
+/// Hertz' law for a rigid ball, multiplied by the correction for a layer bonded to its base
+/// (Dimitriadis et al., Biophys. J. 82, 2002, 2798).
 double force_of_ball(double radius, double depth, double height, double young, double nu) {
   const double alpha = -(1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1 - nu);
   const double beta = (0.6387 - 1.0277 * nu + 1.5164 * nu * nu) / (1 - nu);
@@ -339,7 +339,7 @@ TEST_F(ObstacleOfAFace, LidsTouchTheEyeballsBehindThem) {
   }
 }
 
-/// The gap between two teeth: outside of both.
+/// A gap between two teeth; its points are outside both.
 class Notch final : public SignedDistance {
  public:
   double at(const Vec3& place, Vec3& outward) const override {

@@ -37,8 +37,8 @@ TEST(SimulationOptions, NamesEachValueOutOfRange) {
                     HasSubstr("tissue.poisson = 0.5: expected a number from -0.99 to 0.4999")));
 }
 
-/// Calls `visit(name, at, details)` for each number that is described, also in rows, of which one
-/// is added.
+/// Calls `visit(name, at, details)` for each described number, also in rows; to each list of rows
+/// one row is added.
 template <class Outer, class Visit>
 struct Numbers {
   Outer outer;

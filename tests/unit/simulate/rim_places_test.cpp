@@ -45,7 +45,7 @@ class RimThrough : public testing::Test {
   std::vector<Match> places_;
 };
 
-/// What drives a place is what moves it: the field of the rim alone is not.
+/// A driven place must move exactly as its anchors do; with the rim's own field alone it does not.
 TEST_F(RimThrough, DrivenPlacesMoveAsTheirAnchors) {
   const Eigen::MatrixXd driven = carriers(face_.mesh, places_);
   const auto through = rim_through(face_.mesh, places_);

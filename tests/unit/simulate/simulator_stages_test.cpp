@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whatever option changes between two runs: the second run equals that of a fresh simulator, and
-// computes the stages that the declaration says, no others.
+// For each option that changes between two runs, the second run equals that of a new simulator, and
+// computes exactly the stages that the declaration names.
 #include "hyperex/simulate/run/simulator_stages.hpp"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ namespace {
 
 using Options = SimulationOptions;
 
-/// An option, another value of it, and the parts of the options (OptionSource) that it is in.
+/// An option, another value of it, and the parts of the options (OptionSource) that contain it.
 struct OptionCase {
   std::string name;
   std::vector<std::string> sources;
@@ -26,8 +26,9 @@ struct OptionCase {
   bool has_effect = true;  ///< on where the face goes
 };
 
-/// Stages (by name) that name one of `changed` or a stage that does. Stages without a value pass
-/// nothing on, and checked ones only where they are among `changed` themselves.
+/// The stages (by name) with an input among `changed` or among the stages found so far. Stages
+/// without a value pass nothing on. Checked stages count only where they are in `changed`
+/// themselves.
 std::set<std::string> resting_on(const StageGraph& graph, std::set<std::string> changed) {
   for (const Stage* stage : graph.stages()) {
     const std::string& name = stage->name();
@@ -484,7 +485,8 @@ TEST_F(SimulatorStagesOfAFace, ACopyComputesOnlyWhatChangesAsItIsUsed) {
   EXPECT_THAT(computed, testing::ElementsAre("factor", "reduced motion"));
 }
 
-/// Each option is in some part of the options that a stage names: none can change unseen.
+/// Each option is in a part of the options that some stage has as an input, so that no change goes
+/// unnoticed.
 TEST(SimulatorStages, EveryOptionIsAnInputOfSomeStage) {
   const SimulatorStages stages;
   for (const auto* cases :
@@ -510,7 +512,7 @@ struct AnyValue {
   template <class T>
   operator T() const;
 };
-/// Members of a struct without base.
+/// The number of members of a struct without a base class.
 template <class T, class... Values>
 constexpr std::size_t member_count() {
   if constexpr (requires { T{Values{}..., AnyValue{}}; })

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a simulator keeps between runs, and that keeping it changes no number.
+// Results that a simulator keeps between runs: keeping them changes no number.
 #include "hyperex/simulate/run/simulator.hpp"
 
 #include <gmock/gmock.h>
@@ -294,7 +294,8 @@ TEST_F(SimulatorOfAFace, AStreamComesToRestWhereItsTissueNowRests) {
   EXPECT_LT((at_once - soft).rowwise().norm().maxCoeff(), 0.5F * most) << "it does not begin anew";
 }
 
-/// What changes the matrices' pattern, or which unknowns are prescribed, begins the stream anew.
+/// A change of the matrices' pattern, or of the set of prescribed unknowns, starts the stream
+/// again.
 TEST_F(SimulatorOfAFace, AStreamGoesOnWithAnotherElementAndOtherDrivenNodes) {
   const Points open = PointCurve(motion_, 1).at(0.3);
   SimulationOptions element = options_, patches = options_;
@@ -347,7 +348,7 @@ TEST_F(SimulatorOfAFace, TellsItsProgressAndCanBeCancelled) {
   expect_equal(simulator.run(), whole);
 }
 
-/// By the reduced model too, whose frames take longer than its steps in a long recording.
+/// This holds for the reduced model too: in a long recording its frames take longer than its steps.
 TEST_F(SimulatorOfAFace, TellsOfItsFramesAndCanBeCancelledAmongThem) {
   Simulator simulator = made(options_);
   std::vector<double> shares;

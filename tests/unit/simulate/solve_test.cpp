@@ -12,7 +12,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// As a simulator does it, on matrices and a drive of the test's own.
+/// Solves as a simulator does, for matrices and a drive of the test.
 Solution solve(const fem::System& system, const std::vector<int>& prescribed,
                const fem::Drive& drive, const std::vector<double>& times,
                const SolverOptions& options, double dt_s) {
@@ -123,7 +123,7 @@ TEST_F(SolveFace, BetaAndGammaReachBothMethods) {
   }
 }
 
-/// A tissue without viscosity, struck and left alone: gamma = 0.6 damps what rings on, 0.5 does
+/// A tissue without viscosity after an impact: gamma = 0.6 damps the remaining vibration, 0.5 does
 /// not.
 TEST_F(SolveFace, GammaAboveAHalfDamps) {
   system_.damping *= 0;

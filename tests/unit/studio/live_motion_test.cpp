@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kRest = 8;
 
-/// The embedded mouth opening at 30 Hz after some frames at rest, seen with jitter by a camera
-/// before which the head turns.
+/// The embedded mouth opening at 30 Hz after some frames at rest, recorded with jitter while the
+/// head rotates.
 motion::Motion seen_opening(const io::Landmarks& landmarks) {
   const motion::Motion opening = motion::embedded_mouth_opening(landmarks);
   std::mt19937 random(3);

@@ -28,7 +28,8 @@ struct Shape {
   }
 };
 
-/// What a page would get of a live face; it draws each shape at once where `draws`.
+/// The messages that a page would get of a live face. If `draws`, the page draws each shape at
+/// once.
 class LiveFace : public testing::Test {
  protected:
   LiveFace()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The studio's page is sent every warning that the program prints.
+// The studio's page receives every warning that the program prints.
 #include "support/noted_scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ TEST_P(NotedInTheStudio, IsAmongTheRemarksOfThePage) {
   })) << remarks.dump(1);
 }
 
-/// The studio writes its files when they are saved.
+/// Without the warnings about files, since the studio writes files only when they are saved.
 std::vector<NotedScene> of_the_studio() {
   std::vector<NotedScene> some = hyperex::test::noted_scenes();
   std::erase_if(some, [](const NotedScene& scene) { return scene.id.starts_with("output."); });

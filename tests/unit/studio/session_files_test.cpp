@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opening, saving, and what a crashed session leaves.
+// Opening, saving, and the files that a crashed session leaves.
 #include <fstream>
 
 #include "hyperex/core/files.hpp"
@@ -90,7 +90,7 @@ TEST_F(StudioSession, ARunThatIsSavedIsGivenUpWhereTheStudioEnds) {
   EXPECT_TRUE(fs::is_empty(folder_.path() / "mine"));
 }
 
-/// A session beside a folder that an earlier one has left.
+/// A session next to a folder that an earlier session has left.
 class StudioSessionLeftovers : public testing::Test {
  protected:
   SessionOptions with_leftovers() const {
@@ -140,7 +140,7 @@ TEST_F(StudioSessionLeftovers, AreNamedByTheirScanAndNotOfferedWhileTheyAreOpen)
   EXPECT_FALSE(offered().is_null()) << "it is still there, and no file holds it";
 }
 
-// The open scan, its landmarks and what was asked of it stay; undo brings the other motion back.
+// The open scan, its landmarks and options stay; undo restores the other motion.
 TEST_F(StudioSession, ASecondRecordingMovesTheFaceThatIsOpen) {
   open();
   ask("add_variant", {{"name", "weak"}, {"like", 0}});

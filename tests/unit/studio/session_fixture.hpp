@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A session without a network: requests in, the messages that a page would get out.
+// A session without a network: tests send requests and get the messages that a page would get.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Message {
 
 class StudioSession : public testing::Test {
  protected:
-  /// Without error bands, which take time: one test has them.
+  /// By default without error bands, which take time; one test has them.
   explicit StudioSession(bool bands = false) {
     SessionOptions options;
     options.save_into = folder_.path() / "mine";
@@ -50,7 +50,7 @@ class StudioSession : public testing::Test {
       }
     return nullptr;
   }
-  /// An answer holds the fields that protocol.json has, and no others.
+  /// Checks that an answer has the fields of protocol.json, and no others.
   static void check_answer(const std::string& name, const json& answer) {
     if (answer.contains("error")) return;
     std::vector<std::string> expected{"answer"}, present;
@@ -77,7 +77,7 @@ class StudioSession : public testing::Test {
     const json& motion = event("face")->head["replay"]["motion"];
     peak_s_ = motion["time_s"][motion["peak_frame"].get<std::size_t>()];
   }
-  /// Excursion of the right corner of the mouth in a face, in the last motion, mm.
+  /// Excursion of the right corner of the mouth of a face in the last motion, mm.
   double right_mm(std::size_t face) const {
     return event("motion")->head["table"][face]["commissure_R_mm"];
   }

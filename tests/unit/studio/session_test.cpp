@@ -288,7 +288,7 @@ std::vector<std::string> remark_ids(const Message* event) {
   return ids;
 }
 
-// A page that is loaded again knows no more than what hello brings.
+// A reloaded page has only the data that hello brings.
 TEST_F(StudioSessionWithBands, ADoubtfulLandmarkIsToldAgainToAPageThatIsLoadedAgain) {
   open();
   const json& marks = event("face")->head["landmarks"];

@@ -16,7 +16,7 @@ namespace hyperex::tissue {
 using namespace anatomy;
 namespace {
 
-/// The face goes on behind its lips: each continues backwards, and out of sight.
+/// The face with linings behind its lips: each lip continues backwards, out of sight.
 TriMesh with_linings(const EmbeddedFace& face) {
   const std::vector<int> border = mouth_border(face.mesh, face.landmarks);
   const face::FaceFrame frame = face::face_frame(face.landmarks);

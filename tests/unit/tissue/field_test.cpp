@@ -36,7 +36,7 @@ Eigen::VectorXd harmonic(const TriMesh& mesh, const std::vector<Vec3>& at,
       .solve(values);
 }
 
-/// Each triangle in four.
+/// The mesh with each triangle cut into four.
 TriMesh refined(const TriMesh& mesh) {
   std::map<std::pair<int, int>, int> middle;
   TriMesh out{mesh.points, Triangles(4 * mesh.triangles.rows(), 3)};

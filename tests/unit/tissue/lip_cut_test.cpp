@@ -53,7 +53,7 @@ TissueMesh cut_mesh(const Face& face) {
   return build_tissue_mesh(face.scan, face.landmarks, options, "scan");
 }
 
-/// What must hold of the skin of any scan with joined lips.
+/// Conditions for the skin of every scan with joined lips.
 void expect_cut(const Face& face, const TissueMesh& mesh) {
   ASSERT_GT(mesh.lip_cut.rows(), 5);
   EXPECT_EQ(mesh.scan_vertices, face.scan.points.rows());
@@ -73,8 +73,8 @@ void expect_cut(const Face& face, const TissueMesh& mesh) {
   EXPECT_LT((pieces - triangle_areas(face.scan)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-/// Each rim's skin vertices are carried by elements of their own lip. Appended are first the points
-/// on edges, of the upper rim, then the copies for the lower one.
+/// The skin vertices of each rim are carried by elements of their own lip. The points on edges, of
+/// the upper rim, are appended first, then the copies for the lower rim.
 void expect_rims_on_their_own_lips(const TissueMesh& mesh) {
   std::set<int> upper_rim, lower_rim;
   for (const auto& loop : boundary_loops(mesh.skin.triangles)) {

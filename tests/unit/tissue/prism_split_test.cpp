@@ -48,7 +48,7 @@ Layer flat_layer() {
   return layer;
 }
 
-/// The inner node of one vertex leans sideways, as at the bottom of a fold.
+/// The inner node of one vertex is displaced sideways, as at the bottom of a fold.
 Layer folded_layer() {
   Layer layer = flat_layer();
   constexpr int vertex = 13;  // inside

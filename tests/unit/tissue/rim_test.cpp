@@ -11,7 +11,7 @@
 namespace hyperex::tissue {
 namespace {
 
-/// A square of 60 mm with a slit of `half_m` to either side of the x axis, 42 mm long.
+/// A square of 60 mm with a slit 42 mm long that extends `half_m` to either side of the x axis.
 TriMesh with_slit(double step_m, double half_m) {
   std::vector<double> x, y;
   for (double at = -0.03; at < 0.03 + 1e-9; at += step_m) x.push_back(at);
@@ -36,7 +36,8 @@ TriMesh with_slit(double step_m, double half_m) {
   return mesh;
 }
 
-/// A fine skin whose slit is closed but for 0.2 mm, over a coarse surface whose slit gapes by 4 mm.
+/// A fine skin whose slit is closed except for 0.2 mm, over a coarse surface whose slit is 4 mm
+/// wide.
 class Rim : public testing::Test {
  protected:
   Rim() : skin_(with_slit(0.001, 0.0001)), outer_(with_slit(0.003, 0.002)) {
@@ -76,8 +77,8 @@ TEST_F(Rim, CarriesWhatIsEqualEverywhereAsItIs) {
   }
 }
 
-/// Where the surface ends short, its closest point alone would be off by 2 mm of the field's
-/// growth.
+/// The surface ends 1.9 mm short of the rim; its closest point alone would miss the field's growth
+/// over that distance.
 TEST_F(Rim, FollowsAFieldThatGrowsTowardsTheRim) {
   const auto field = [](const Vec3& x) { return 0.5 * std::abs(x.y()); };
   double off = 0, off_anchor = 0;
@@ -98,7 +99,7 @@ TEST_F(Rim, FollowsAFieldThatGrowsTowardsTheRim) {
   EXPECT_LT(off, 0.7 * off_anchor);
 }
 
-/// A walk from one lip's middle to the other is longer than the fit looks.
+/// A path from the middle of one lip to that of the other is longer than the fit's range.
 TEST_F(Rim, HearsNothingOfTheOtherLip) {
   int looked_at = 0;
   for (const RimVertex& one : rim_) {
@@ -111,7 +112,8 @@ TEST_F(Rim, HearsNothingOfTheOtherLip) {
   EXPECT_GT(looked_at, 30);
 }
 
-/// As the mouth opens, neighbours on the rim part by no more than the field grows between them.
+/// While the mouth opens, the distance between neighbours on the rim increases by no more than the
+/// field between them.
 TEST_F(Rim, NeighboursStayTogetherWhereItIsDrawnOpen) {
   const auto opening = [](const Vec3& x) {
     const double across = std::max(0.0, 1 - std::pow(x.x() / 0.021, 2));

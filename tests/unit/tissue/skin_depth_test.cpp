@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How thick the tissue is, from files with a row a vertex of the scan.
+// The thickness of the tissue from files with one row per vertex of the scan.
 #include "hyperex/tissue/mesh/skin_depth.hpp"
 
 #include <gmock/gmock.h>

@@ -12,7 +12,7 @@
 namespace hyperex::tissue {
 namespace {
 
-/// Faces from an apex to the corners of a polygon around it, counter-clockwise from +z.
+/// Triangles from an apex to the corners of a polygon around it, counter-clockwise from +z.
 TriMesh fan(const std::vector<Vec3>& rim, const Vec3& apex) {
   const auto n = static_cast<Eigen::Index>(rim.size());
   TriMesh mesh{Points(n + 1, 3), Triangles(n, 3)};

@@ -25,7 +25,8 @@ TriMesh face() {
   return embedded_face().mesh;
 }
 
-/// Where each vertex goes: 0, 7, 14, ... round about (7 does not divide the number).
+/// The new index of each vertex: 0, 7, 14, ... in a cycle (7 does not divide the number of
+/// vertices).
 std::vector<int> shuffled(Eigen::Index count) {
   std::vector<int> place(count);
   for (Eigen::Index v = 0; v < count; ++v) place[v] = int(7 * v % count);
@@ -41,7 +42,7 @@ TriMesh reordered(const TriMesh& mesh, const std::vector<int>& place) {
   return out;
 }
 
-/// Some value that differs from vertex to vertex.
+/// A value that differs from vertex to vertex.
 Eigen::VectorXd numbered(Eigen::Index count) {
   return Eigen::VectorXd::LinSpaced(count, 0, 1);
 }

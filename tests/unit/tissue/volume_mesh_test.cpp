@@ -42,7 +42,7 @@ double least_volume(const VolumeMesh& mesh) {
   return least;
 }
 
-/// Every face belongs to one tetrahedron, on the outside, or to two that see it from both sides.
+/// Checks that every face belongs to one tetrahedron, on the outside, or to two on opposite sides.
 void expect_conforming(const VolumeMesh& mesh) {
   constexpr int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // outwards
   std::map<std::array<int, 3>, std::vector<bool>> seen;                     // even permutation?

@@ -8,7 +8,7 @@
 namespace hyperex::test {
 namespace {
 
-/// Twelve frames of one grey at one distance.
+/// Twelve frames of uniform grey at a constant distance.
 class Plain : public capture::FrameSource {
  public:
   const capture::Intrinsics& intrinsics() const override { return camera_; }

@@ -168,7 +168,7 @@ TEST(SurfacePatch, MeetsATiltedPlaneAndLeavesOutWhatIsFar) {
   EXPECT_FALSE(surface_patch(depth, kCamera, {1, 1}, 0.6));
 }
 
-/// A truth of five frames, and the same motion told in another head frame.
+/// A truth of five frames, and the same motion in another head frame.
 struct Told {
   Truth truth;
   std::vector<TrackedFrame> tracked;

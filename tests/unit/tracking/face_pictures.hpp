@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Pictures of the face that the program carries, with the truth of where its landmarks are.
+// Pictures of the embedded face, with the true positions of its landmarks.
 #include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -23,7 +23,7 @@ inline const anatomy::EmbeddedFace& face_to_draw() {
   return face;
 }
 
-/// The face turned by `yaw_rad` and tilted by `roll_rad` in a square of `size_px` that is
+/// The face rotated by `yaw_rad` and tilted by `roll_rad`, in a square of `size_px` that is
 /// `height_m` high.
 inline FacePicture face_picture(int size_px, double height_m, double yaw_rad = 0,
                                 double roll_rad = 0) {
@@ -45,7 +45,7 @@ inline FacePicture face_picture(int size_px, double height_m, double yaw_rad = 0
   return picture;
 }
 
-/// Distances of the 51 inner iBUG points from the truth, pixels, sorted.
+/// Errors of the 51 inner iBUG points, pixels, sorted.
 inline std::vector<double> errors_px(const FacePoints& points, const FacePicture& picture) {
   std::vector<double> errors;
   for (int k = 17; k < 68; ++k) {

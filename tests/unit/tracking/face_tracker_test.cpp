@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tracker on pictures and depth of the embedded face, as a camera with a very long lens sees
-// them.
+// The tracker on pictures and depth of the embedded face, as from a camera with a very long focal
+// length.
 #include "hyperex/tracking/fit/face_tracker.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What FrameFit measures, against finite differences; the person's shape from observations made up.
+// The measurements of FrameFit compared with finite differences; the person's shape from synthetic
+// observations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ Eigen::Isometry3d head_pose(double turn_deg, const Vec3& at) {
   return made;
 }
 
-/// `state` with parameter k (turn, shift, weights) moved by `step`.
+/// `state` with parameter k (rotation, translation, weights) changed by `step`.
 FaceState moved(FaceState state, int k, double step) {
   Eigen::Isometry3d head = Eigen::Isometry3d::Identity();
   if (k < 3)
@@ -168,7 +169,7 @@ TEST(Measure, WithDepthAFaceIsPutWhereItIs) {
   EXPECT_GT(report.depth_share, 0.8);
 }
 
-/// A person as the canonical face, larger by a fifth, broader and with a longer nose.
+/// A person: the canonical face enlarged by a fifth, broader and with a longer nose.
 Points person(const expression::FaceModel& model) {
   Points points = 1.2 * model.mesh.points;
   points.col(0) *= 1.05;

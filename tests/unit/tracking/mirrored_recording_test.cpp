@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A recording seen in a mirror: left and right swap where nobody says so, and stay where they are
-// where it is said.
+// A mirrored recording: left and right are swapped where the mirroring is not stated, and correct
+// where it is.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFrames = 50;
 
-/// The first frames of a recording, in a mirror or not.
+/// The first frames of a recording, mirrored or not.
 class Recorded : public capture::FrameSource {
  public:
   Recorded(const std::string& folder, bool in_a_mirror)
@@ -55,7 +55,8 @@ class Recorded : public capture::FrameSource {
   std::size_t given_ = 0;
 };
 
-/// Yaw (to the subject's left) and a unit's difference, left less right, frame by frame.
+/// Yaw (to the subject's left) and the difference of an action unit, left minus right, in each
+/// frame.
 struct Sides {
   Eigen::VectorXd yaw, difference;
 };

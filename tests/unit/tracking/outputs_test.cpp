@@ -14,7 +14,7 @@
 namespace hyperex::tracking {
 namespace {
 
-/// Frame 1 of three is not valid; the last has no depth.
+/// The second of three frames is not valid; the last has no depth.
 Tracking three_frames() {
   const expression::FaceModel& model = expression::canonical_model();
   Tracking tracking;
@@ -98,7 +98,7 @@ TEST(TrackingOutputs, UnitsHaveTheirFacsNamesAndValidity) {
   EXPECT_EQ(table.values(1, table.column("valid")), 0);
 }
 
-/// Frames over `seconds` at 30 Hz, the weights of frame 5 not known.
+/// Frames over `seconds` at 30 Hz; the weights of frame 5 are unknown.
 Tracking talking(double seconds) {
   const expression::FaceModel& model = expression::canonical_model();
   Tracking tracking = three_frames();

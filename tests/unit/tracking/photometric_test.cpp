@@ -15,8 +15,8 @@ constexpr double kDistance_m = 0.6;
 const capture::Intrinsics kSmallCamera{500, 500, 160, 120, 320, 240};
 const cv::Rect kAll(0, 0, 320, 240);
 
-/// A square of 12 cm that looks at the camera, which sees it from its front: head frame = camera
-/// frame turned about x by half a turn, as a face's is.
+/// A square of 12 cm that faces the camera. As for a face, the head frame is the camera frame
+/// rotated about x by half a turn.
 TriMesh sheet() {
   TriMesh mesh;
   mesh.points.resize(4, 3);
@@ -33,8 +33,8 @@ Eigen::Isometry3d in_front() {
   return pose;
 }
 
-/// Waves that are `shift` pixels to the right and downwards of where they are in the first picture;
-/// `contrast` 1: 50 levels. Red and green go against each other.
+/// Waves shifted by `shift` pixels to the right and down from their place in the first picture;
+/// with `contrast` 1, of 50 levels. Red and green have opposite signs.
 cv::Mat waves(const Eigen::Vector2d& shift, double contrast, double level = 128,
               double length_px = 20) {
   cv::Mat picture(kAll.size(), CV_8UC3);
@@ -57,8 +57,8 @@ PhotometricOptions all_of(Channel channel) {
   return options;
 }
 
-/// Where the sheet went between two pictures, in pixels: Gauss and Newton's method for a shift in
-/// its own plane.
+/// The shift of the sheet between two pictures, in pixels, by the Gauss-Newton method for a shift
+/// in its own plane.
 Eigen::Vector2d found_shift(const cv::Mat& before, const cv::Mat& now, Channel channel) {
   const TriMesh mesh = sheet();
   const Eigen::Isometry3d start = in_front();
@@ -142,8 +142,8 @@ double bilinear(const cv::Mat& picture, const Eigen::Vector2d& at) {
          b * ((1 - a) * value(0, 1) + a * value(1, 1));
 }
 
-/// The cost, written down anew: over all pixels of the sheet, whose waves fade towards its edges so
-/// that it does not matter which of the outermost pixels count.
+/// The cost, written independently: over all pixels of the sheet. The waves fade towards the
+/// sheet's edges, so that it does not matter which of the outermost pixels count.
 TEST(Photometric, GradientAgreesWithFiniteDifferencesOfTheCost) {
   const auto fading = [](const Eigen::Vector2d& shift) {
     cv::Mat picture = waves(shift, 2, 128, 40);

@@ -16,7 +16,7 @@ namespace {
 constexpr capture::Intrinsics kCamera{250, 250, 159.5, 119.5, 320, 240};
 constexpr int kScale = 3;  // 960 / 320
 
-/// The canonical face at 0.5 m, looking at the camera.
+/// The canonical face at 0.5 m, facing the camera.
 TrackedFrame face_frame(double time_s = 0) {
   const expression::FaceModel& model = expression::canonical_model();
   TrackedFrame frame;
@@ -40,7 +40,7 @@ cv::Mat grey(int level = 120) {
   return cv::Mat(kCamera.height_px, kCamera.width_px, CV_8UC3, cv::Scalar::all(level));
 }
 
-/// Pixels of a part of a drawn picture that are not the recording's grey.
+/// The number of pixels in a part of a drawn picture that differ from the recording's grey.
 int drawn_on(const cv::Mat& picture, cv::Rect part, int level = 120) {
   int count = 0;
   for (int y = part.y; y < part.br().y; ++y)

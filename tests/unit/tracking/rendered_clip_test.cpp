@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tracking against a clip that this code draws: the whole way from pictures to pose and motion,
-// with no data from elsewhere. Bounds are about one and a half times what was measured.
+// Tracking of a clip rendered by this code: the whole way from pictures to pose and motion, without
+// external data. Bounds are about 1.5 times the measured values.
 #include "support/rendered_clip.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ const Tracking& tracked() {
   return tracking;
 }
 
-/// Between the outer edges of the lips' middle (mm), tracked and true.
+/// The distance between the outer edges of the lips' middle (mm), tracked and true.
 std::pair<double, double> lip_opening_mm(const TrackedFrame& frame, const Truth& truth) {
   const expression::FaceModel& model = expression::canonical_model();
   const auto at = [&](const char* name) {

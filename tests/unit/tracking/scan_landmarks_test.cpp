@@ -101,7 +101,8 @@ void PrintTo(const Known& known, std::ostream* out) {
        << (known.turn == kUpright ? "" : std::to_string(known.turn));
 }
 
-/// The bounds are what the project demands. The other turns take minutes: target tracking_scores.
+/// The bounds are the project's requirements. The other rotations take minutes: target
+/// tracking_scores.
 class KnownScan : public testing::TestWithParam<Known> {};
 
 TEST_P(KnownScan, HasItsLandmarksFound) {

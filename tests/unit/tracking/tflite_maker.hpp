@@ -14,7 +14,8 @@ class TfliteMaker {
  public:
   using Shape = std::vector<int>;
 
-  TfliteMaker() { buffers_.push_back(tflite::CreateBuffer(fb_)); }  // buffer 0 is empty by custom
+  // By convention buffer 0 is empty.
+  TfliteMaker() { buffers_.push_back(tflite::CreateBuffer(fb_)); }
 
   int tensor(const Shape& shape) { return add(shape, tflite::TensorType_FLOAT32, 0); }
   int constant(const Shape& shape, const std::vector<float>& values) {
@@ -23,7 +24,7 @@ class TfliteMaker {
   int integers(const Shape& shape, const std::vector<std::int32_t>& values) {
     return add(shape, tflite::TensorType_INT32, buffer(values));
   }
-  /// In half precision behind a DEQUANTIZE.
+  /// A constant in half precision, followed by a DEQUANTIZE.
   int half(const Shape& shape, const std::vector<float>& values) {
     cv::Mat numbers;
     cv::Mat(values).convertTo(numbers, CV_16F);

@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A picture with channels last, as the file has it.
+/// A picture with channels last, as in the file.
 struct Picture {
   int height, width, channels;
   std::vector<float> values;
@@ -62,7 +62,7 @@ Same same(int length, int size, int stride) {
   return {places, std::max(0, (places - 1) * stride + size - length) / 2};
 }
 
-/// By the definition, channels first. `depthwise`: output c sees input c alone.
+/// Convolution by its definition, channels first. `depthwise`: output c depends on input c alone.
 std::vector<float> convolved(const Picture& in, const std::vector<float>& filter,
                              const std::vector<float>& bias, int outputs, int size, int stride,
                              bool depthwise) {

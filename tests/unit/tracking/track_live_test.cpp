@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// A camera at 50 Hz before which a face is held still.
+/// A camera at 50 Hz in front of a still face.
 class Camera : public capture::FrameSource {
  public:
   Camera(cv::Mat picture, std::size_t frames) : picture_(std::move(picture)), frames_(frames) {}
@@ -52,7 +52,8 @@ TrackerOptions quick() {
   return options;
 }
 
-/// Numbers rise and their gaps are what was dropped, up to the last.
+/// Checks that frame numbers rise, and that the gaps between them up to the last are the dropped
+/// frames.
 void expect_order(const Tracking& tracking, std::size_t dropped) {
   std::size_t gaps = 0, expected = 0;
   for (const TrackedFrame& frame : tracking.frames) {

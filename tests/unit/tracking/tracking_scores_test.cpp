@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How near tracking must come on recordings with truth. Bounds on the head's motion, the jaw,
-// jitter and lost frames are what the project demands; those on deformation are what it reaches,
-// with some room. docs/tracking_scores.md has the figures.
+// The required accuracy of tracking on recordings with truth. Bounds on head motion, jaw, jitter
+// and lost frames are the project's requirements. Bounds on deformation are the present results
+// with some margin. docs/tracking_scores.md has the figures.
 #include <gtest/gtest.h>
 
 #include <filesystem>

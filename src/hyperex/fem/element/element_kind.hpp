@@ -6,9 +6,10 @@
 
 namespace hyperex::fem {
 
-/// How the change of volume is measured on a mesh of linear tetrahedra; docs/elements.md compares.
-///  tet4:      in each tetrahedron on its own; locks as nu nears 0.5
-///  tet4_star: in patches grown from stars of nodes that do not overlap; nu up to 0.4999
+/// How the change of volume is averaged on a mesh of linear tetrahedra. Compared in
+/// docs/elements.md.
+///  tet4:      in each tetrahedron separately; locks as nu approaches 0.5
+///  tet4_star: over patches that are grown from non-overlapping stars of nodes; nu up to 0.4999
 enum class ElementKind { tet4, tet4_star };
 
 inline constexpr ElementKind kElementKinds[] = {ElementKind::tet4, ElementKind::tet4_star};

@@ -13,7 +13,7 @@ struct Tet4 {
   double volume = 0;                     ///< m^3, signed: det[b-a, c-a, d-a] / 6
 };
 
-/// `corner`: 4 x 3, m. Where the volume is not positive the gradients mean nothing.
+/// `corner`: 4 x 3, m. If the volume is not positive, the gradients are meaningless.
 inline Tet4 make_tet4(const Eigen::Matrix<double, 4, 3>& corner) {
   // Rows of the inverse of the edge matrix are the gradients of N_1..N_3; the four sum to zero.
   Eigen::Matrix3d edge;
@@ -45,7 +45,8 @@ inline Eigen::Matrix<double, 6, 3> strain_displacement(const Eigen::RowVector3d&
   return b;
 }
 
-/// Strain at displacements of the four corners (4 x 3): sum_a B_a d_a without B's zeros.
+/// Strain of the displacements `d` of the four corners (4 x 3): sum_a B_a d_a without the zeros of
+/// B.
 inline Eigen::Matrix<double, 6, 1> strain_of(const Eigen::Matrix<double, 4, 3>& gradient,
                                              const Eigen::Matrix<double, 4, 3>& d) {
   Eigen::Matrix<double, 6, 1> strain = Eigen::Matrix<double, 6, 1>::Zero();

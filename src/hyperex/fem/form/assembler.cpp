@@ -104,7 +104,7 @@ void Assembler::find_slots() {
   for_each_index(node_count(), [&](Eigen::Index at) {
     const int n = static_cast<int>(at);
     for (int k = member_start_[n]; k < member_start_[n + 1]; ++k) {
-      // Both lists rise: one walk finds all.
+      // Both lists are increasing, so that one pass finds all slots.
       std::uint16_t slot = 0;
       std::uint16_t* out = group_slots_.data() + memberships_[k].slots_from;
       for (const int node : group_nodes_[memberships_[k].group]) {
@@ -121,7 +121,7 @@ SparseMatrix Assembler::stiffness_pattern() const {
   return m;
 }
 
-/// Values are left as they are.
+/// The values are not initialised.
 SparseMatrix Assembler::pattern(const Lists& neighbours) const {
   const int nodes = neighbours.size();
   const std::size_t count = 9 * neighbours.item.size();
@@ -165,9 +165,9 @@ std::vector<double> Assembler::group_stiffness(const std::vector<Moduli>& moduli
   return stiffness;
 }
 
-/// The plain element's share of the three columns of node n, from the tetrahedra around it.
-/// With G = V g_a g_b^T the block (a, b) of V B^T T B is first G + shear (G^T + tr(G) I), for
-/// isotropic T; the printed viscous form takes eta G_ii off its diagonal.
+/// Adds the contributions of the plain element to the three columns of node n, from the tetrahedra
+/// around it. With G = V g_a g_b^T, the block (a, b) of V B^T T B is first G + shear (G^T + tr(G)
+/// I) for isotropic T; the printed viscous form subtracts eta G_ii from its diagonal.
 void Assembler::fill_elements(int n, const Material& material, const std::vector<Moduli>& moduli,
                               System& system) const {
   const bool printed = material.viscous_form == ViscousForm::printed;

@@ -10,13 +10,13 @@
 
 namespace hyperex::fem {
 
-/// The matrices of one mesh for any number of materials: shapes, patterns, and the place of every
-/// contribution are computed once. Consistent mass; the viscous tensors have no volumetric part,
-/// and so damping is the plain element's whatever the kind. Const members may be called from
-/// several threads.
+/// Assembles the system matrices of one mesh for any number of materials. The shape functions, the
+/// sparsity patterns and the position of every contribution are computed once. The mass is
+/// consistent. The viscous tensors have no volumetric part, so the damping matrix is that of the
+/// plain element for every element kind. Const members may be called from several threads.
 class Assembler {
  public:
-  /// Throws InputError where there is no tetrahedron or one has a corner that is no node,
+  /// Throws InputError if there is no tetrahedron or if a corner is not a node. Throws
   /// NumericalError naming the first tetrahedron whose volume is not positive.
   Assembler(const Points& nodes, const Tetrahedra& tets, ElementKind kind);
   Assembler(const Points& nodes, const Tetrahedra& tets, const DilatationGroups& groups);
@@ -25,42 +25,48 @@ class Assembler {
   Eigen::Index element_count() const { return static_cast<Eigen::Index>(shapes_.size()); }
   const std::vector<Tet4>& shapes() const { return shapes_; }
 
-  // What another form on this mesh gathers with: form/finite_strain.hpp.
+  // Data that other formulations on this mesh use (form/finite_strain.hpp).
   const Points& nodes() const { return nodes_; }
   const std::vector<std::array<int, 4>>& corners() const { return corners_; }
-  const Lists& tets_around() const { return tets_around_; }  ///< node -> tetrahedra, rising
-  /// Node -> nodes of a common tetrahedron, and those that the stiffness couples it to.
+  const Lists& tets_around() const { return tets_around_; }  ///< node -> tetrahedra, increasing
+  /// For each node, the nodes that share a tetrahedron with it, and those to which the stiffness
+  /// couples it.
   const Lists& mass_neighbours() const { return narrow_; }
   const Lists& stiffness_neighbours() const { return groups_.size() ? wide_ : narrow_; }
-  /// For each entry of tets_around(): where its four corners stand among the node's neighbours.
+  /// For each entry of tets_around(): the positions of its four corners in the node's list of
+  /// neighbours.
   const std::vector<std::array<int, 4>>& mass_slots() const { return narrow_slots_; }
   const std::vector<std::array<int, 4>>& stiffness_slots() const {
     return groups_.size() ? wide_slots_ : narrow_slots_;
   }
-  const Lists& groups() const { return groups_; }  ///< of dilatation -> tetrahedra; may be none
-  const Lists& groups_of() const { return groups_of_; }  ///< and back
+  /// Dilatation group -> its tetrahedra; may be empty.
+  const Lists& groups() const { return groups_; }
+  const Lists& groups_of() const { return groups_of_; }  ///< tetrahedron -> its groups
   const Lists& group_nodes() const { return group_nodes_; }
   const std::vector<double>& group_volume() const { return group_volume_; }  ///< m^3
-  /// Zeros on the pattern of System::stiffness.
+  /// A matrix of zeros with the pattern of System::stiffness.
   SparseMatrix stiffness_pattern() const;
 
-  /// Throws InputError naming the first tetrahedron with a value that no material has (E <= 0
-  /// ...). A `system` that this assembler filled before keeps its patterns: values are overwritten,
-  /// no matrix is allocated. Parallel; the sums' order does not depend on the number of threads.
+  /// Throws InputError naming the first tetrahedron with an inadmissible material value (E <= 0
+  /// ...). If this assembler filled `system` before, its patterns are kept: values are overwritten
+  /// and no matrix is allocated. Runs in parallel; the order of summation does not depend on the
+  /// number of threads.
   void assemble(const Material& material, System& system) const;
 
-  /// Per element at displacement `d` (|nodes| x 3). The stress is the one that does the work: the
-  /// sum of V_e stress_e : strain_e(v) is v^T K d. Its pressure is that of the element's groups.
+  /// One value per element at displacement `d` (|nodes| x 3). The stress is work-conjugate to the
+  /// strain: the sum of V_e stress_e : strain_e(v) equals v^T K d. Its pressure is that of the
+  /// element's groups.
   VoigtRows strain(const Points& d) const;
   VoigtRows stress_pa(const Material& material, const Points& d) const;
   Eigen::VectorXd von_mises_pa(const Material& material, const Points& d) const;
-  /// -tr(stress) / 3: positive where compressed.
+  /// -tr(stress) / 3, positive in compression.
   Eigen::VectorXd pressure_pa(const Material& material, const Points& d) const;
-  /// theta, the mean of the groups of the element: the strain's trace for tet4 alone.
+  /// theta, the mean dilatation of the element's groups; for tet4, the trace of the strain.
   Eigen::VectorXd dilatation(const Points& d) const;
 
-  /// Of one element: the stress of strain e is first tr(e) I + 2 shear e, its kept volumetric part
-  /// included; `averaged` is what the bulk modulus leaves to the groups. Pa.
+  /// Elastic moduli of one element, Pa. The stress of a strain e is first tr(e) I + 2 shear e. This
+  /// includes the part of the bulk modulus that the element keeps; the groups get the rest,
+  /// `averaged`.
   struct Moduli {
     double first, shear, averaged;
     double kept() const { return first + 2 * shear / 3; }
@@ -68,7 +74,7 @@ class Assembler {
   std::vector<Moduli> moduli(const Material& material) const;
   /// kappa_g V_g of each group, N m.
   std::vector<double> group_stiffness(const std::vector<Moduli>& moduli) const;
-  /// Adds stiffness_g b_g b_g^T of the groups that node n belongs to, to its three columns;
+  /// Adds stiffness_g b_g b_g^T of all groups g of node n to the three columns of this node.
   /// `gradient`: b_g for each entry of group_nodes().
   void add_groups(int n, const std::vector<double>& stiffness, const std::vector<Vec3>& gradient,
                   SparseMatrix& matrix) const;
@@ -89,7 +95,8 @@ class Assembler {
   std::vector<std::array<int, 4>> corners_;
   Lists tets_around_;    // node -> tetrahedra
   Lists narrow_, wide_;  // node -> nodes of a common tetrahedron, of a common group
-  // For each entry of tets_around_: where its four corners stand among the node's neighbours.
+  // For each entry of tets_around_: the positions of its four corners in the node's list of
+  // neighbours.
   std::vector<std::array<int, 4>> narrow_slots_, wide_slots_;
 
   double kept_ = 0;
@@ -98,8 +105,8 @@ class Assembler {
   Lists group_nodes_;
   std::vector<Vec3> group_gradient_;  // for each entry of group_nodes_: d theta_g / d (its node)
   struct Membership {
-    int group, place;        // the node is group_nodes_.item[place]
-    std::size_t slots_from;  // of all the group's nodes, in group_slots_
+    int group, place;        // this node is group_nodes_.item[place]
+    std::size_t slots_from;  // where the slots of all the group's nodes begin in group_slots_
   };
   std::vector<int> member_start_;  // node -> memberships_
   std::vector<Membership> memberships_;

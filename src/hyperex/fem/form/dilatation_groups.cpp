@@ -10,16 +10,18 @@
 namespace hyperex::fem {
 namespace {
 
-/// Smaller stars, at corners and edges of the mesh, make no patch: where their nodes are held,
-/// nothing in them can move as a pressure wants.
+/// Smaller stars, at corners and edges of the mesh, do not form patches. If their nodes are fixed,
+/// nothing in them can move in response to a pressure.
 constexpr std::size_t kLeastStar = 8;
 
-/// Star (or -1) of each tetrahedron. Next is always the node with most neighbours in stars already,
-/// the first of several: stars then lie side by side, with little between them.
+/// The number of the star of each tetrahedron, or -1. The next centre is always the node with most
+/// neighbours in existing stars; among several, that with the lowest index. Stars then lie close
+/// together, with few tetrahedra between them.
 std::vector<int> pack_stars(const Lists& around, const Lists& neighbours, std::size_t tet_count) {
   std::vector<int> star(tet_count, -1), covered(around.size(), 0);
-  std::vector<char> taken(around.size(), 0);       // in a star, as its centre or around it
-  std::priority_queue<std::pair<int, int>> queue;  // (covered neighbours, -node), some outdated
+  std::vector<char> taken(around.size(), 0);  // in a star, as its centre or around it
+  // (covered neighbours, -node); some entries are outdated.
+  std::priority_queue<std::pair<int, int>> queue;
   const auto offer = [&](int n) {
     if (around[n].size() >= kLeastStar) queue.emplace(covered[n], -n);
   };
@@ -28,7 +30,7 @@ std::vector<int> pack_stars(const Lists& around, const Lists& neighbours, std::s
     const auto [count, negative] = queue.top();
     queue.pop();
     const int centre = -negative;
-    // A tetrahedron around this node lies in a star exactly if the node does.
+    // A tetrahedron around this node is in a star exactly if this node is in one.
     if (taken[centre] || count != covered[centre]) continue;
     for (const int t : around[centre]) star[t] = stars;
     ++stars;
@@ -46,7 +48,8 @@ std::vector<int> pack_stars(const Lists& around, const Lists& neighbours, std::s
   return star;
 }
 
-/// The patch that shares most corners with tetrahedron t, the first of several; -1 where none does.
+/// The patch that shares most corners with tetrahedron t (the first among several); -1 if none
+/// does.
 int nearest_patch(Eigen::Index t, const Tetrahedra& tets, const Lists& around,
                   const std::vector<int>& patch) {
   int most = 0, nearest = -1;
@@ -63,7 +66,7 @@ int nearest_patch(Eigen::Index t, const Tetrahedra& tets, const Lists& around,
   return nearest;
 }
 
-/// Gives every tetrahedron to a patch, layer by layer from the stars.
+/// Assigns every remaining tetrahedron to a patch, in layers that grow from the stars.
 void fill_between(const Tetrahedra& tets, const Lists& around, std::vector<int>& patch) {
   int patches = patch.empty() ? 0 : *std::max_element(patch.begin(), patch.end()) + 1;
   std::vector<int> open;
@@ -74,7 +77,7 @@ void fill_between(const Tetrahedra& tets, const Lists& around, std::vector<int>&
     for (const int t : open) patch[t] = nearest_patch(t, tets, around, before);
     const std::size_t count = open.size();
     std::erase_if(open, [&](int t) { return patch[t] >= 0; });
-    if (open.size() == count) {  // a part of the mesh too small for any star
+    if (open.size() == count) {  // a component of the mesh too small for a star
       for (const int t : around[tets(open.front(), 0)]) patch[t] = patches;
       ++patches;
       std::erase_if(open, [&](int t) { return patch[t] >= 0; });

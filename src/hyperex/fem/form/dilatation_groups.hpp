@@ -6,32 +6,34 @@
 
 namespace hyperex::fem {
 
-/// Groups of tetrahedra that resist the change of their common volume, instead of each of them that
-/// of its own. An element that is in m groups gives each of them V_e / m, so that the groups'
-/// volumes V_g sum to the body's; theta_g is the mean of the elements' dilatations with these
-/// weights, kappa_g that of their bulk moduli. The strain energy is
-///   sum_e V_e (mu |dev e|^2 + kappa'_e / 2 tr(e)^2)  +  sum_g V_g / 2 (kappa - kappa')_g
-///   theta_g^2,
-/// kappa'_e = min(kappa_e, kept mu_e) being the part of the bulk modulus that stays with the
-/// element. Constant strain is reproduced exactly whatever the groups, and the energy is never
-/// negative. No groups: the plain element.
+/// Groups of tetrahedra whose common change of volume is resisted, instead of that of each
+/// tetrahedron. An element in m groups contributes the volume V_e / m to each of them, so that the
+/// sum of the group volumes V_g is the volume of the body. theta_g is the mean dilatation of the
+/// elements of group g with these weights; kappa_g is the mean of their bulk moduli with the same
+/// weights. The strain energy is
+///   sum_e V_e (mu |dev e|^2 + kappa'_e / 2 tr(e)^2)
+///     + sum_g V_g / 2 (kappa - kappa')_g theta_g^2,
+/// where kappa'_e = min(kappa_e, kept mu_e) is the part of the bulk modulus that remains with the
+/// element. Constant strain is represented exactly for any groups, and the energy is never
+/// negative. Without groups, this is the plain element.
 struct DilatationGroups {
-  Lists tets;       ///< of each group, rising; every tetrahedron in at least one
-  double kept = 0;  ///< multiple of the shear modulus
+  Lists tets;  ///< tetrahedra of each group, increasing; every tetrahedron is in at least one group
+  double kept = 0;  ///< upper bound of kappa'_e / mu_e
 };
 
 /// The groups of an element kind on a mesh.
 DilatationGroups dilatation_groups(ElementKind kind, Eigen::Index node_count,
                                    const Tetrahedra& tets);
 
-/// Disjoint patches: the whole stars of nodes (all tetrahedra around one, at least eight) that
-/// share no tetrahedron, as many as fit, packed tightly; each tetrahedron between them joins the
-/// patch with which it shares most corners. A star has a node that can move as its constant
-/// pressure wants, and so the patches are stable where patches of the same size by any other rule
-/// are not. The same mesh gives the same patches.
+/// Partitions the mesh into disjoint patches. First, as many disjoint stars of nodes as possible
+/// are packed densely; the star of a node is the set of all tetrahedra around it, at least eight.
+/// Then each remaining tetrahedron joins the patch with which it shares most corners. In a star,
+/// the central node can move in response to the constant pressure of the patch. The patches are
+/// therefore stable, while patches of the same size that are formed by other rules are not. The
+/// same mesh always gives the same patches.
 DilatationGroups disjoint_stars(Eigen::Index node_count, const Tetrahedra& tets);
 
-/// The lists of corners of each tetrahedron.
+/// For each tetrahedron, the list of its corners.
 Lists corner_lists(const Tetrahedra& tets);
 
 }  // namespace hyperex::fem

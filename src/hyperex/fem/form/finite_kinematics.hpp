@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the parts of FiniteStrain share: kinematics of one element, inlined into their loops.
+// Kinematics of one element, shared by the parts of FiniteStrain and inlined into their loops.
 #pragma once
 #include "hyperex/fem/form/finite_strain.hpp"
 

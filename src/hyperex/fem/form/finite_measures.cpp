@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be measured of a body at finite strain: strains, stresses, stretches.
+// Quantities derived from a state at finite strain: strains, stresses, stretches.
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>

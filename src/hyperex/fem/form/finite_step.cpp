@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Viscosity and Maxwell branches of FiniteStrain: what a step of time adds to the energy.
+// Viscosity and Maxwell branches of FiniteStrain: the potentials that a time step adds.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,8 @@ using Eigen::Matrix3d;
 
 namespace {
 
-/// Where the strain changed by more in the last step, its rate is taken from this step alone: to
-/// extrapolate such a change makes BDF2 unstable.
+/// In an element whose strain changed by more than this in the previous step, the rate is taken
+/// from the current step alone. Extrapolating such a change makes BDF2 unstable.
 constexpr double kMostExtrapolated = 0.1;
 
 }  // namespace
@@ -29,14 +29,14 @@ Matrix3d FiniteStrain::law_stress(const Matrix3d& f, double shear_pa) const {
   const Matrix3d cof = cofactor(f), c = f.transpose() * f;
   const double i1 = f.squaredNorm(), j = determinant(f);
   const LawResponse r = respond(law_, shear_pa, i1, cof.squaredNorm(), j);
-  // F^-1 cof F = (cof C) / J, which for a flat element has no value.
+  // F^-1 cof F = (cof C) / J, which is singular for a flat element.
   const double divisor = std::abs(j) > kLeastRatio ? j : std::copysign(kLeastRatio, j);
   Matrix3d s = -2 * r.d2 * c + r.dj / divisor * cofactor(c);
   s.diagonal().array() += 2 * (r.d1 + r.d2 * i1);
   return s;
 }
 
-/// E^, C*^-1 and 2 eta J* now of element t, F being that at the last displacement.
+/// Computes E^, C*^-1 and 2 eta J* now of element t. F: the gradient at the last displacement.
 void FiniteStrain::set_viscous_step(Eigen::Index t, const RateRule& rule, double w,
                                     const Matrix3d& f, const Eigen::VectorXd& before) {
   StepData& step = step_[t];
@@ -59,7 +59,7 @@ void FiniteStrain::set_viscous_step(Eigen::Index t, const RateRule& rule, double
     }
   }
   step.metric = inverse;
-  // An element that is all but flat keeps a little of its viscosity.
+  // A nearly flat element keeps a small viscosity.
   step.viscosity =
       2 * viscosity_[t] * std::sqrt(std::max(determinant(c), kLeastRatio * kLeastRatio)) * now;
 }
@@ -79,7 +79,7 @@ void FiniteStrain::begin_step(const RateRule& rule, const Eigen::VectorXd& last,
     branch_share_ += share_[i];
   }
   if (!has_rates()) return;
-  // Extrapolated by w, the ratio of the steps, which follows from the rule; by one at most.
+  // w is the extrapolation factor: the ratio of the steps, which follows from the rule, at most 1.
   const double size = rule.now > 0 ? rule.before / rule.now : 0;  // w^2 / (1 + 2 w)
   const double w = std::min(1.0, size + std::sqrt(size * size + size));
   for_each_index(mesh_.element_count(), [&](Eigen::Index t) {

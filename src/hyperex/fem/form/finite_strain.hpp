@@ -9,84 +9,90 @@
 
 namespace hyperex::fem {
 
-/// How the rate at the end of a step follows from displacements: d' = now d(t+1) + last d(t) +
-/// before d(t-1); the three sum to zero. 1/s. All zero: no rates, as in statics.
+/// Backward difference for the rate at the end of a step: d' = now d(t+1) + last d(t) + before
+/// d(t-1). The three coefficients (1/s) sum to zero. All zero means no rates, as in statics.
 struct RateRule {
   double now = 0, last = 0, before = 0;
   double step_s = 0;
 };
 
-/// Energy, forces and stiffness of a mesh at large displacements:
+/// Energy, nodal forces and stiffness of a mesh at large displacements. The energy is
 ///   sum_e V_e (W(F_e) + barrier(J_e) + kappa'_e / 2 (J_e - 1)^2)
 ///     + sum_g V_g kappa_g / 2 (J_g - 1)^2,
-/// F = I + grad u, J = det F, J_g the mean ratio of volumes of a dilatation group, kappa' and
-/// kappa_g as there (form/dilatation_groups.hpp). At d = 0 its second derivatives are the linear
-/// form's stiffness. Within a step of time the potentials of viscosity and of Maxwell branches are
-/// added: begin_step(). Sums do not depend on the number of threads. Memory is taken when it is
-/// made; one caller at a time.
+/// with F = I + grad u and J = det F. J_g is the mean volume ratio of a dilatation group; kappa'
+/// and kappa_g are as in form/dilatation_groups.hpp. At d = 0, the second derivatives are the
+/// stiffness of the linear formulation. Within a time step, the potentials of viscosity and of
+/// Maxwell branches are added (begin_step()). The results do not depend on the number of threads.
+/// All memory is allocated at construction. Must not be used by several threads at once.
 class FiniteStrain {
  public:
-  /// `mesh` must outlive this. Throws InputError where the material's viscous form is not
-  /// isotropic, the law is not admissible or a tetrahedron has values that no material has.
+  /// `mesh` must outlive this object. Throws InputError if the viscous form of the material is not
+  /// isotropic, if the law is not admissible, or if a tetrahedron has inadmissible material values.
   FiniteStrain(const Assembler& mesh, const Material& material, const Hyperelastic& law);
 
   const Assembler& mesh() const { return mesh_; }
   const Hyperelastic& law() const { return law_; }
-  /// Other values, the same law; history is forgotten.
+  /// Sets other material values with the same law. The history of the branches is discarded.
   void set_material(const Material& material);
 
-  /// From now on energy(), its gradient and tangent() hold what belongs to the step that leads from
-  /// `last` (displacement at t; `before` at t-1) to their argument. The viscosity's potential is
-  ///   sum_e V_e eta J* now |E - E^|^2,  |X|^2 = tr(A X A X) - tr(A X)^2 / 3,  A = (C*)^-1,
-  /// E being Green-Lagrange's strain, E^ = -(last E(t) + before E(t-1)) / now, so that now (E - E^)
-  /// is its rate; C* and J* = sqrt(det C*) are C = F^T F extrapolated to the end of the step. Where
-  /// rule.before is 0, and in elements whose strain changed by more than 0.1 in the step before,
-  /// the rate is (E - E(t)) / h and C* = C(t) instead (backward Euler). Its stress is Stokes' law,
-  /// 2 eta dev(D); at small strain it is that of the linear form, and rotations cost nothing. The
-  /// potential of a branch of ratio g and time tau is, h being the step,
-  ///   delta W + (exp(-h / tau) Q(t) - delta S(t)) : E,   delta = g (1 - exp(-h / tau)) tau / h,
-  /// with S the law's second Piola-Kirchhoff stress (its part W alone, without barrier and
-  /// volumetric parts) and Q the branch's: exact where S is linear in time within the step.
+  /// Begins the step from `last` (the displacement at t; `before` is that at t-1). From now on,
+  /// energy(), its gradient and tangent() include the potentials of the step from `last` to their
+  /// argument. The potential of viscosity is
+  ///   sum_e V_e eta J* now |E - E^|^2,  |X|^2 = tr(A X A X) - tr(A X)^2 / 3,  A = (C*)^-1.
+  /// E is the Green-Lagrange strain. With E^ = -(last E(t) + before E(t-1)) / now, the strain rate
+  /// is now (E - E^). C* is C = F^T F extrapolated to the end of the step, and J* = sqrt(det C*).
+  /// Backward Euler is used instead, with the rate (E - E(t)) / h and C* = C(t), if rule.before is
+  /// 0 and in elements whose strain changed by more than 0.1 in the previous step. The stress of
+  /// this potential is Stokes' law, 2 eta dev(D). At small strain it equals that of the linear
+  /// formulation, and a rigid rotation produces none. The potential of a Maxwell branch with ratio
+  /// g and time constant tau is, with h the step,
+  ///   delta W + (exp(-h / tau) Q(t) - delta S(t)) : E,   delta = g (1 - exp(-h / tau)) tau / h.
+  /// S is the second Piola-Kirchhoff stress of the law (of W alone, without the barrier and the
+  /// volumetric parts); Q is that of the branch. This is exact if S is linear in time within the
+  /// step.
   void begin_step(const RateRule& rule, const Eigen::VectorXd& last, const Eigen::VectorXd& before);
-  /// Ends it at `d`: branches take over their stress. Their potentials and that of the viscosity
-  /// stay until the next begin_step().
+  /// Ends the step at displacement `d` and updates the stresses of the branches. The potentials of
+  /// the step remain until the next begin_step().
   void accept(const Eigen::VectorXd& d);
-  /// No rates, no history: the body has been at `d` forever.
+  /// Removes rates and history, as if the body had always been at `d`.
   void rest_at(const Eigen::VectorXd& d);
 
-  /// The energy (J) at d (3 |nodes|) of all potentials above; `gradient` := its derivatives (N).
+  /// The energy (J) of all potentials above at d (3 |nodes|). `gradient` := its derivatives (N).
   double energy_and_gradient(const Eigen::VectorXd& d, Eigen::VectorXd& gradient);
   double energy(const Eigen::VectorXd& d);
-  /// What rounding makes of energies near rest (J), where the terms of the laws, of the size of
-  /// shear modulus times volume, cancel: differences below it say nothing.
+  /// Rounding error of energies near rest (J). The terms of the laws, which are of the order of
+  /// shear modulus times volume, cancel there. Differences of energies below this value are
+  /// meaningless.
   double energy_rounding() const { return energy_rounding_; }
-  /// What the law, the barrier and the volumes store, without viscosity and branches (J).
+  /// Energy (J) stored by the law, the barrier and the volumetric terms, without viscosity and
+  /// branches.
   double elastic_energy(const Eigen::VectorXd& d);
 
-  /// `matrix` := second derivatives + mass_share M at d; its pattern is made where it is not that
-  /// of System::stiffness already. `projected`: each element's part is made positive semidefinite
-  /// (Teran et al., Robust Quasistatic Finite Elements and Flesh Simulation, 2005), four times as
-  /// slow: for where the exact matrix is not positive definite.
+  /// `matrix` := second derivatives of the energy at d + mass_share M. Its pattern is created if it
+  /// is not that of System::stiffness yet. `projected`: the contribution of each element is made
+  /// positive semidefinite (Teran et al., Robust Quasistatic Finite Elements and Flesh Simulation,
+  /// 2005). This takes four times as long; use it if the exact matrix is not positive definite.
   void tangent(const Eigen::VectorXd& d, double mass_share, bool projected, SparseMatrix& matrix);
 
-  /// out := M u; M is the consistent mass.
+  /// out := M u, with the consistent mass matrix M.
   void mass_product(const Eigen::VectorXd& u, Eigen::VectorXd& out) const;
 
   // At displacement d, one entry per element:
   std::vector<Eigen::Matrix3d> deformation_gradient(const Eigen::VectorXd& d) const;
   Eigen::VectorXd volume_ratio(const Eigen::VectorXd& d) const;  ///< J
   VoigtRows green_lagrange(const Eigen::VectorXd& d) const;      ///< engineering shear
-  /// Of law, barrier and volumes (Pa), with the pressure of the element's groups; without viscosity
-  /// and branches, as stress_pa() of the linear form. NaN where J <= 0.
+  /// Cauchy stress (Pa) of law, barrier and volumetric terms, with the pressure of the element's
+  /// groups. As in stress_pa() of the linear formulation, viscosity and branches are excluded. NaN
+  /// where J <= 0.
   VoigtRows cauchy_stress_pa(const Eigen::VectorXd& d);
-  Points principal_stretches(const Eigen::VectorXd& d) const;  ///< rising
+  Points principal_stretches(const Eigen::VectorXd& d) const;  ///< increasing
 
  private:
   struct Element;
   struct StepData {
     Eigen::Matrix3d metric;  // C*^-1
     Eigen::Matrix3d strain;  // E^
-    Eigen::Matrix3d stress;  // of the branches, constant in the step
+    Eigen::Matrix3d stress;  // sum of the branches, constant within the step
     double viscosity;        // 2 eta J* now
   };
   bool linear() const { return law_.law == HyperelasticLaw::linear; }
@@ -111,26 +117,27 @@ class FiniteStrain {
   std::vector<double> viscosity_;
   bool viscous_ = false;
   double energy_rounding_ = 0;
-  std::vector<double> mass_;                      // of pairs of nodes, on mesh.mass_neighbours()
-  std::vector<double> element_mass_;              // rho V / 20
-  std::vector<std::array<int, 4>> group_places_;  // of corners, for each entry of mesh.groups()
+  std::vector<double> mass_;  // one per pair of nodes, in the pattern of mesh.mass_neighbours()
+  std::vector<double> element_mass_;  // rho V / 20
+  // Positions of the corners, for each entry of mesh.groups().
+  std::vector<std::array<int, 4>> group_places_;
 
-  // Of a step.
+  // Data of the current step.
   double branch_share_ = 0;  // sum of delta
   std::vector<StepData> step_;
-  std::vector<double> fade_, share_;                  // of each branch: exp(-h / tau), delta
+  std::vector<double> fade_, share_;                  // per branch: exp(-h / tau), delta
   std::vector<Eigen::Matrix3d> law_stress_;           // S at the last accepted displacement
-  std::vector<std::vector<Eigen::Matrix3d>> branch_;  // Q there
+  std::vector<std::vector<Eigen::Matrix3d>> branch_;  // Q at the last accepted displacement
 
   // At the displacement of the last evaluation.
   std::vector<Eigen::Matrix3d> f_, piola_;
   std::vector<double> ratio_, element_energy_, pressure_;
   std::vector<double> group_ratio_;
   std::vector<Vec3> group_gradient_;
-  std::vector<double> blocks_;  // six 3 x 3 off the diagonal of each element
+  std::vector<double> blocks_;  // per element, the six 3 x 3 blocks off the diagonal
 };
 
-/// Per element: von Mises stress of a stress, in its unit. NaN where the stress is.
+/// Von Mises stress of each element, in the unit of `stress`; NaN where the stress is NaN.
 Eigen::VectorXd von_mises_of(const VoigtRows& stress);
 
 }  // namespace hyperex::fem

@@ -20,20 +20,20 @@ Matrix3d cross_matrix(const Vec3& w) {
 }
 
 constexpr int kFirst[6] = {0, 0, 0, 1, 1, 2}, kSecond[6] = {1, 2, 3, 2, 3, 3};
-/// Which of the six pairs two different corners are.
+/// The index of the pair that two different corners form.
 constexpr int kPair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 
 }  // namespace
 
-/// What second derivatives of one element's energy density need: the block of (a, b) is
-/// d2 psi / d x_a d x_b for F = sum_a x_a g_a^T. Every line of it is the second variation of one
-/// term for dF = u g_a^T and v g_b^T, as u . K v.
+/// Data for the second derivatives of the energy density of one element. The block (a, b) is d2 psi
+/// / d x_a d x_b for F = sum_a x_a g_a^T. Each of its lines is the second variation of one term for
+/// dF = u g_a^T and v g_b^T, written as u . K v.
 struct FiniteStrain::Element {
   bool linear = false;
   double shear = 0, kept = 0;  // of `linear`
   Matrix3d f, b, cof;          // b = F F^T
   double i1 = 0;
-  LawResponse law;  // volumetric parts and pressure of the groups included in dj and djj
+  LawResponse law;  // dj and djj include the volumetric parts and the pressure of the groups
   bool viscous = false, stressed = false;
   double viscosity = 0;
   Matrix3d metric, spatial_metric, stress;  // A, F A F^T, S of viscosity and branches
@@ -79,7 +79,7 @@ struct FiniteStrain::Element {
     return k;
   }
 
-  /// Second derivatives by F.
+  /// Second derivatives with respect to F.
   Eigen::Matrix<double, 9, 9> by_gradient() const {
     Eigen::Matrix<double, 9, 9> h;
     const std::array<Corner, 3> c{corner(Vec3::UnitX()), corner(Vec3::UnitY()),
@@ -92,7 +92,8 @@ struct FiniteStrain::Element {
 
 namespace {
 
-/// An eigenvalue above minus this share of the largest diagonal entry counts as none below zero.
+/// An eigenvalue counts as non-negative if it is above minus this share of the largest diagonal
+/// entry.
 constexpr double kSemidefinite = 1e-9;
 
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
@@ -109,7 +110,7 @@ Matrix9d made_semidefinite(const Matrix9d& h) {
          eigen.eigenvectors().transpose();
 }
 
-/// The six blocks off the diagonal of an element with second derivatives `h` by F.
+/// The six off-diagonal blocks of an element, from the second derivatives `h` with respect to F.
 void blocks_of(const Tet4& shape, const Matrix9d& h, double* out) {
   for (int pair = 0; pair < 6; ++pair, out += 9) {
     Eigen::Map<Matrix3d> block(out);
@@ -228,7 +229,7 @@ void FiniteStrain::tangent(const Eigen::VectorXd& d, double mass_share, bool pro
       const auto& slot = mesh_.stiffness_slots()[k];
       int own = 0;
       while (mesh_.corners()[t][own] != n) ++own;
-      // A translation costs nothing: the block on the diagonal is less the sum of the others.
+      // A translation takes no energy, so the diagonal block is minus the sum of the other blocks.
       Matrix3d diagonal = Matrix3d::Zero();
       for (int a = 0; a < 4; ++a) {
         if (a == own) continue;

@@ -7,7 +7,7 @@
 
 namespace hyperex::fem {
 
-/// f(0) ... f(count - 1), many at the same time, in chunks that are worth a thread's while.
+/// Calls f(0) ... f(count - 1) in parallel, in chunks large enough to be worth a task.
 template <typename F>
 void for_each_index(Eigen::Index count, F f) {
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, 64), [&](const auto& range) {

@@ -14,7 +14,7 @@ std::vector<std::uint8_t> inverted_tets(const Points& nodes, const Tetrahedra& t
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
     Vec3 x[4];
     for (int k = 0; k < 4; ++k) x[k] = nodes.row(tets(t, k)) + d.row(tets(t, k));
-    // Negated, so that what is no number counts too.
+    // Written as a negation so that NaN counts as inverted.
     inverted[static_cast<std::size_t>(t)] =
         !((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) > 0);
   }

@@ -7,8 +7,8 @@
 
 namespace hyperex::fem {
 
-/// Of each tetrahedron: 1 where the displacement `d` (|nodes| x 3) turns it inside out or flat,
-/// det(I + grad u) <= 0, else 0. Requires tetrahedra of positive volume at rest.
+/// For each tetrahedron: 1 if the displacement `d` (|nodes| x 3) inverts or flattens it, det(I +
+/// grad u) <= 0, otherwise 0. All tetrahedra must have positive volume at rest.
 std::vector<std::uint8_t> inverted_tets(const Points& nodes, const Tetrahedra& tets,
                                         const Points& d);
 

@@ -6,7 +6,7 @@
 
 namespace hyperex::fem {
 
-/// Lists of numbers end to end: list i is item[start[i]] ... item[start[i + 1] - 1].
+/// Lists of integers stored consecutively: list i is item[start[i]] ... item[start[i + 1] - 1].
 struct Lists {
   std::vector<int> start{0}, item;
 
@@ -20,7 +20,7 @@ struct Lists {
   }
 };
 
-/// Into which of `lists` each of 0 ... count-1 goes, rising.
+/// For each of 0 ... count-1, the numbers of the lists that contain it, increasing.
 inline Lists transposed(const Lists& lists, int count) {
   Lists out;
   out.start.assign(count + 1, 0);
@@ -33,8 +33,8 @@ inline Lists transposed(const Lists& lists, int count) {
   return out;
 }
 
-/// List i of the result: the numbers in all lists of `second` that list i of `first` names, once
-/// each, rising.
+/// List i of the result is the union of the lists of `second` whose numbers are in list i of
+/// `first`, increasing and without duplicates.
 inline Lists joined(const Lists& first, const Lists& second) {
   Lists out;
   out.start.reserve(first.start.size());

@@ -7,9 +7,10 @@ namespace hyperex::fem {
 
 /// Throws InputError naming the first tetrahedron with a corner that is no node.
 void check_corners(Eigen::Index node_count, const Tetrahedra& tets);
-/// The same, and where there is no tetrahedron at all.
+/// The same; also throws InputError if there is no tetrahedron.
 void check_mesh(const Points& nodes, const Tetrahedra& tets);
-/// Throws InputError where a group names a tetrahedron that is none, or one is in no group.
+/// Throws InputError if a group contains the number of no existing tetrahedron, or if a tetrahedron
+/// is in no group.
 void check_groups(const DilatationGroups& groups, Eigen::Index tet_count);
 
 }  // namespace hyperex::fem

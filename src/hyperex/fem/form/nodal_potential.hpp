@@ -7,17 +7,18 @@
 
 namespace hyperex::fem {
 
-/// Blocks of three by three in a matrix that couples nodes: what a potential adds to.
+/// Access to the 3 x 3 blocks of a matrix that couples nodes. Potentials add to it.
 class TangentBlocks {
  public:
-  /// `neighbours`: of each node, rising: the pattern of `matrix`, whose blocks have all nine
-  /// entries.
+  /// `neighbours`: for each node, the nodes that `matrix` couples it to, increasing. The blocks of
+  /// the matrix have all nine entries.
   TangentBlocks(const Lists& neighbours, SparseMatrix& matrix)
       : neighbours_(neighbours), matrix_(matrix) {}
 
   void add(int node, const Eigen::Matrix3d& block) { add(node, node, block); }
-  /// Rows of `row`, columns of `column`; the caller adds the transposed block at (column, row),
-  /// too. False where the matrix does not couple the two nodes: nothing is added.
+  /// Adds `block` to the rows of node `row` and the columns of node `column`. The caller must also
+  /// add the transposed block at (column, row). Returns false, and adds nothing, if the matrix does
+  /// not couple the two nodes.
   bool add(int row, int column, const Eigen::Matrix3d& block) {
     const auto list = neighbours_[column];
     const auto at = std::lower_bound(list.begin(), list.end(), row);
@@ -34,9 +35,9 @@ class TangentBlocks {
   SparseMatrix& matrix_;
 };
 
-/// An energy of the nodes' displacements besides that of the tissue: contact with a rigid body,
-/// sliding round a bone. Unknown 3 n + axis, as everywhere; d has 3 |nodes| rows. Evaluated once in
-/// each iteration; must not allocate there.
+/// An energy that depends on the displacements of the nodes, in addition to that of the tissue:
+/// contact with a rigid body, or sliding around a bone. d has 3 |nodes| rows, with unknown 3 n +
+/// axis. Evaluated once in each iteration; must not allocate memory then.
 class NodalPotential {
  public:
   virtual ~NodalPotential() = default;

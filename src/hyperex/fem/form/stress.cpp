@@ -34,7 +34,7 @@ Eigen::VectorXd Assembler::group_dilatation(const Points& d) const {
   return theta;
 }
 
-/// Mean over the groups of each element.
+/// For each element, the mean over its groups.
 Eigen::VectorXd Assembler::spread(const Eigen::VectorXd& of_group) const {
   Eigen::VectorXd of_element(element_count());
   tbb::parallel_for(0, static_cast<int>(element_count()), [&](int t) {
@@ -89,7 +89,8 @@ VoigtRows Assembler::stress_pa(const Material& material, const Points& d) const 
 
 namespace {
 
-/// From the strain: the pressure, which may be thousands of times larger, does not enter.
+/// Computed from the strain, so that the pressure, which may be thousands of times larger, does not
+/// enter.
 double von_mises_of(const Eigen::Matrix<double, 1, 6>& strain, double shear) {
   const double xy = strain[0] - strain[1], yz = strain[1] - strain[2], zx = strain[2] - strain[0];
   return shear * std::sqrt(2 * (xy * xy + yz * yz + zx * zx) + 3 * strain.tail<3>().squaredNorm());

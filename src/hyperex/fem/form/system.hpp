@@ -11,18 +11,17 @@ namespace hyperex::fem {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  // column-major, both triangles stored
 
-/// Moves a sparse matrix, which Eigen 3.4 would copy. `from` is left empty; its memory goes to the
-/// result.
+/// Moves a sparse matrix, because Eigen 3.4 would copy it. `from` is left empty.
 inline SparseMatrix taken(SparseMatrix& from) {
   SparseMatrix out;
   out.swap(from);
   return out;
 }
 
-/// K d + C d' + M d'' = f over 3 |nodes| unknowns, unknown 3 n + axis.
-/// Damping and mass share one pattern: nodes of a common tetrahedron. The stiffness has the same or
-/// a wider one that contains it. Rows rise in each column; blocks of two nodes have all nine
-/// entries, zeros included.
+/// K d + C d' + M d'' = f with 3 |nodes| unknowns, unknown 3 n + axis. Damping and mass have the
+/// same pattern: the pairs of nodes with a common tetrahedron. The pattern of the stiffness is the
+/// same or contains it. The row indices increase in each column. The blocks of two nodes have all
+/// nine entries, including zeros.
 struct System {
   SparseMatrix stiffness, damping, mass;
 
@@ -41,14 +40,14 @@ struct System {
   }
 };
 
-/// An Assembler used once (form/assembler.hpp, where its errors stand).
+/// Uses an Assembler once. Throws as described in form/assembler.hpp.
 System assemble(const Points& nodes, const Tetrahedra& tets, const Material& material,
                 ElementKind kind = ElementKind::tet4_star);
 
-/// |T| x 6 in the order of Voigt: strains (engineering shear) or stresses (Pa).
+/// |T| x 6 in Voigt order: strains (engineering shear) or stresses (Pa).
 using VoigtRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// Strains of the elements of one mesh at many displacements: gradients are computed once.
+/// Element strains on one mesh at many displacements. The gradients are computed once.
 class ElementStrain {
  public:
   ElementStrain(const Points& nodes, const Tetrahedra& tets);
@@ -61,8 +60,8 @@ class ElementStrain {
   std::vector<Eigen::Matrix<double, 4, 3>> gradient_;
 };
 
-/// Per element: von Mises stress (Pa) of a strain, which is the same for all element kinds: they
-/// differ in the pressure alone.
+/// Von Mises stress (Pa) of each element for a given strain. It does not depend on the element
+/// kind, because the kinds differ in pressure only.
 Eigen::VectorXd von_mises_pa(const VoigtRows& strain, const Material& material);
 
 }  // namespace hyperex::fem

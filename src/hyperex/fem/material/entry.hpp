@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What callers of this room hand in is checked once, where it enters. A mistake is an InputError
-// that names the entry, its value and what was expected; never the end of the caller's program.
+// Checks of the arguments that callers pass to this library, done once at its public functions. A
+// mistake gives an InputError that names the entry, its value and what was expected. It never
+// aborts the program.
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -14,7 +15,7 @@
 
 namespace hyperex::fem {
 
-/// Throws InputError with the sentence where `holds` is false.
+/// Throws InputError with the formatted sentence if `holds` is false.
 template <class... Values>
 void require(bool holds, fmt::format_string<const Values&...> sentence, const Values&... values) {
   if (!holds) [[unlikely]]
@@ -25,20 +26,21 @@ void require(bool holds, fmt::format_string<const Values&...> sentence, const Va
 void check_size(std::string_view what, Eigen::Index size, Eigen::Index expected);
 void check_rows(std::string_view what, Eigen::Index rows, Eigen::Index expected);
 
-/// All unknowns, 3 n + axis: `size` finite numbers. Allocates nothing where they are.
+/// Checks a vector of all unknowns, 3 n + axis: it must have `size` finite entries. Allocates
+/// nothing if it is correct.
 void check_vector(std::string_view what, const Eigen::VectorXd& v, Eigen::Index size,
                   std::string_view unit);
-/// The same, or none at all.
+/// The same, but the vector may be empty.
 void check_optional(std::string_view what, const Eigen::VectorXd& v, Eigen::Index size,
                     std::string_view unit);
-/// One finite number for each of `unknowns`.
+/// Checks that there is one finite number for each of `unknowns`.
 void check_values(std::string_view what, const Eigen::VectorXd& v, const std::vector<int>& unknowns,
                   std::string_view unit);
 void check_positive(std::string_view what, double value, std::string_view unit = "");
 
-/// Lengths and values; the message names the first tetrahedron whose values no material has.
+/// Checks lengths and values. The message names the first tetrahedron with inadmissible values.
 void check_material(const Material& material, Eigen::Index elements);
-/// Bounds, and what is_admissible() says.
+/// Checks the bounds of the law's parameters and is_admissible().
 void check_law(const Hyperelastic& law);
 
 }  // namespace hyperex::fem

@@ -14,7 +14,7 @@ OfRatio taylor(const OfRatio& at, double s) {
   return {at.w + s * (at.d + s * at.dd / 2), at.d + s * at.dd, at.dd};
 }
 
-/// J^exponent, from kLeastRatio on.
+/// J^exponent, continued by a polynomial below kLeastRatio.
 OfRatio power(double j, double exponent) {
   const double from = std::max(j, kLeastRatio);
   const double w = std::pow(from, exponent);

@@ -8,14 +8,15 @@
 
 namespace hyperex::fem {
 
-/// How the resistance to a change of shape grows with it. mu = E / (2 (1 + nu)) of the Material is
-/// each law's shear modulus at rest, and so all of them have the stiffness of the linear form
-/// there. I1 = |F|^2, I2 = |cof F|^2, J = det F; I1bar = J^(-2/3) I1 and I2bar = J^(-4/3) I2 do not
-/// see a change of volume, which dilatation groups resist (form/finite_strain.hpp).
-///  linear:        W = mu |dev e|^2, e the small strain: the linear form itself
-///  neo_hookean:   W = mu/2 (I1 - 3) - mu (J - 1) + mu/6 (J - 1)^2, finite for any F: what Smith,
-///                 de Goes and Kim (Stable Neo-Hookean Flesh Simulation, ACM Trans. Graph. 37,
-///                 2018) build on, its own volumetric part at rest taken away
+/// The isochoric part of the material law: how the stress grows with a change of shape. mu = E / (2
+/// (1 + nu)) of the Material is the shear modulus of each law at rest, so that all laws have the
+/// same stiffness there as the linear formulation. I1 = |F|^2, I2 = |cof F|^2, J = det F. I1bar =
+/// J^(-2/3) I1 and I2bar = J^(-4/3) I2 do not depend on the change of volume, which the dilatation
+/// groups resist (form/finite_strain.hpp).
+///  linear:        W = mu |dev e|^2 with the small strain e; the linear formulation
+///  neo_hookean:   W = mu/2 (I1 - 3) - mu (J - 1) + mu/6 (J - 1)^2, finite for any F; the base of
+///                 Smith, de Goes and Kim (Stable Neo-Hookean Flesh Simulation, ACM Trans. Graph.
+///                 37, 2018), minus its own volumetric part at rest
 ///  isochoric_neo_hookean: W = mu/2 (I1bar - 3)
 ///  yeoh:          W = C10 (x + c20 x^2 + c30 x^3), x = I1bar - 3, C10 = mu/2
 ///                 (Yeoh, Rubber Chem. Technol. 66, 1993)
@@ -27,7 +28,7 @@ inline constexpr HyperelasticLaw kHyperelasticLaws[] = {
     HyperelasticLaw::linear, HyperelasticLaw::neo_hookean, HyperelasticLaw::isochoric_neo_hookean,
     HyperelasticLaw::yeoh, HyperelasticLaw::mooney_rivlin};
 
-/// Those that can be chosen. `linear` serves comparisons and has no word.
+/// The laws that the user can choose. `linear` is for comparisons only and has no name.
 constexpr auto words_of(HyperelasticLaw) {
   return std::array{Word{"neo-hookean", HyperelasticLaw::neo_hookean},
                     Word{"isochoric-neo-hookean", HyperelasticLaw::isochoric_neo_hookean},
@@ -38,8 +39,9 @@ constexpr std::string_view to_string(HyperelasticLaw law) {
   return law == HyperelasticLaw::linear ? "linear" : word_of(law);
 }
 
-/// A spring and a dashpot beside the law: at a held stretch its stress, `ratio` times the law's at
-/// once, fades as exp(-t / relaxation_s). E is the modulus that remains in the end.
+/// A spring and a dashpot in series, parallel to the law. After a step of stretch, its stress is
+/// `ratio` times that of the law and then decays as exp(-t / relaxation_s). E is the modulus after
+/// full relaxation.
 struct MaxwellBranch {
   double ratio = 0;
   double relaxation_s = 1;
@@ -56,22 +58,22 @@ struct MaxwellBranch {
   }
 };
 
-/// A law with its ratios, all without dimension, so that E alone varies from place to place.
+/// A law with its parameters. They are dimensionless ratios, so that only E varies in space.
 struct Hyperelastic {
   HyperelasticLaw law = HyperelasticLaw::neo_hookean;
   /// C20/C10 and C30/C10 of yeoh. Default: 1.175 / 2.5 kPa of facial tissue (Nazari, Perrier,
   /// Chabanas and Payan, Comput. Methods Biomech. Biomed. Engin. 13, 2010).
   double c20 = 0.47, c30 = 0;
   double c01 = 0;  ///< C01/C10 of mooney_rivlin; 0 is isochoric_neo_hookean
-  /// Keeps every element from turning inside out: mu (-ln J + x - x^2/2), x = J - 1, where J < 1.
-  /// Its first two derivatives vanish at J = 1; below kLeastRatio its Taylor polynomial of second
-  /// order goes on, so that it is finite for any F. `linear` has none.
+  /// Prevents the inversion of elements: adds mu (-ln J + x - x^2/2), x = J - 1, where J < 1. The
+  /// first two derivatives vanish at J = 1. Below kLeastRatio it is continued by its second-order
+  /// Taylor polynomial, so that it is finite for any F. `linear` has no barrier.
   bool barrier = true;
-  std::vector<MaxwellBranch> branches = {};  ///< besides the Material's viscosity
+  std::vector<MaxwellBranch> branches = {};  ///< in addition to the Material's viscosity
   bool operator==(const Hyperelastic&) const = default;
 
   static constexpr const char* about = "The hyperelastic law at finite strain.";
-  /// The condition without which no law acts.
+  /// The setting that a scene needs for the law to have an effect.
   static constexpr const char* only_where = "tissue.strain = \"finite\"";
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -98,24 +100,26 @@ struct Hyperelastic {
   }
 };
 
-/// Ratio of volumes below which what has no value at J = 0 goes on as a polynomial of second order:
-/// the barrier, and J^(-2/3), J^(-4/3) of the isochoric laws.
+/// Below this volume ratio, functions that are singular at J = 0 are continued by a second-order
+/// polynomial: the barrier, and J^(-2/3), J^(-4/3) of the isochoric laws.
 inline constexpr double kLeastRatio = 0.05;
 
-/// The least c20 with which the derivative of yeoh's energy by I1bar stays positive: -sqrt(3 c30).
+/// The least c20 for which the derivative of yeoh's energy with respect to I1bar is positive:
+/// -sqrt(3 c30).
 double least_c20(const Hyperelastic& law);
 
-/// Whether the ratios are within their bounds, and c20 is at least least_c20().
+/// Whether the parameters are within their bounds and c20 >= least_c20().
 bool is_admissible(const Hyperelastic& law);
 
-/// W (J/m^3 = Pa) and its derivatives by I1, I2 and J.
+/// W (J/m^3 = Pa) and its derivatives with respect to I1, I2 and J.
 struct LawResponse {
   double w = 0;
   double d1 = 0, d2 = 0, dj = 0;
-  double d11 = 0, d1j = 0, d2j = 0, djj = 0;  ///< those by I1 and I2, I2 and I2: always zero
+  /// Those by I1 and I2 and by I2 twice are always zero.
+  double d11 = 0, d1j = 0, d2j = 0, djj = 0;
 };
 
-/// The law's energy without the barrier; not for `linear`. `i2` matters to mooney_rivlin alone.
+/// The energy of the law without the barrier; not for `linear`. Only mooney_rivlin uses `i2`.
 LawResponse respond(const Hyperelastic& law, double shear_pa, double i1, double i2, double j);
 
 /// A function of J with its first two derivatives.
@@ -123,11 +127,11 @@ struct OfRatio {
   double w = 0, d = 0, dd = 0;
 };
 
-/// The barrier, per shear modulus.
+/// The barrier divided by the shear modulus.
 OfRatio volume_barrier(double j);
 
 /// First Piola-Kirchhoff stress dW/dF (Pa) of law and barrier at the deformation gradient F, and
-/// their energy density: for single points; `linear` included.
+/// their energy density. For evaluation at single points; `linear` is allowed.
 Eigen::Matrix3d first_piola_pa(const Hyperelastic& law, double shear_pa, const Eigen::Matrix3d& f,
                                double* energy_pa = nullptr);
 

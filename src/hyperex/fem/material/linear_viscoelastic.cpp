@@ -19,8 +19,9 @@ Voigt elastic_tensor(double young_pa, double poisson) {
 Voigt viscous_tensor(double viscosity_pa_s, ViscousForm form) {
   require(viscosity_pa_s >= 0, "viscosity_pa_s = {}: expected 0 or a number above it",
           viscosity_pa_s);
-  // Engineering shear rates are twice the tensor's, so s' = 2 eta dev(e') has eta on the shear
-  // diagonal and 2 eta (1 - 1/3) on the normal one; the printed form halves the normal block only.
+  // Engineering shear rates are twice the tensor components. So s' = 2 eta dev(e') has eta on the
+  // shear diagonal and 2 eta (1 - 1/3) on the normal diagonal. The printed form halves only the
+  // normal block.
   const double off = (form == ViscousForm::isotropic ? -2.0 : -1.0) * viscosity_pa_s / 3;
   Voigt c = Voigt::Zero();
   c.topLeftCorner<3, 3>().setConstant(off);

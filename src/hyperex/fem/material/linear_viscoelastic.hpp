@@ -7,9 +7,9 @@
 
 namespace hyperex::fem {
 
-/// Which viscous tensor C' relates viscous stress to the rate of engineering strain.
+/// The viscous tensor C', which maps the rate of engineering strain to the viscous stress.
 ///  isotropic: Stokes' law s' = 2 eta dev(e'): eta/3 ([4 -2 -2; ...] (+) 3 I)
-///  printed:   the source's [4.26], not isotropic: eta/3 ([2 -1 -1; ...] (+) 3 I)
+///  printed:   as printed in the thesis [4.26], not isotropic: eta/3 ([2 -1 -1; ...] (+) 3 I)
 enum class ViscousForm { isotropic, printed };
 constexpr auto words_of(ViscousForm) {
   return std::array{Word{"isotropic", ViscousForm::isotropic},
@@ -25,7 +25,7 @@ struct Material {
   ViscousForm viscous_form = ViscousForm::isotropic;
 };
 
-/// Throws the InputError of a modulus or ratio that no material has.
+/// Throws the InputError for an inadmissible modulus or Poisson's ratio.
 [[noreturn, gnu::cold]] void refuse_modulus(double young_pa, double poisson);
 
 /// E / (2 (1 + nu))

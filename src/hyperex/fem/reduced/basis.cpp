@@ -23,8 +23,8 @@ Basis::Grown Basis::grow(Eigen::MatrixXd w, double least) {
 
 Basis::Grown Basis::grow(Eigen::MatrixXd w, const Eigen::MatrixXd& mix, double least) {
   HX_ASSERT(mix.rows() == w.cols());
-  if (w.cols() == 0) return {};  // of which there are no eigenvalues
-  // Twice is enough: Gram-Schmidt loses digits where a column nearly lies in the basis.
+  if (w.cols() == 0) return {};  // no eigenvalues exist
+  // Gram-Schmidt loses digits if a column lies nearly in the basis; a second pass is sufficient.
   for (int pass = 0; pass < 2 && size_ > 0; ++pass)
     add_product(vectors(), inner_products(k_vectors(), w), -1, w);
   const Eigen::MatrixXd kw = symmetric_product(system_.stiffness, w);
@@ -41,7 +41,7 @@ Basis::Grown Basis::grow(Eigen::MatrixXd w, const Eigen::MatrixXd& mix, double l
   Grown grown;
   for (Eigen::Index i = n - 1; i >= 0; --i) {
     const double lambda = modes.eigenvalues()[i];
-    // Below, the squared entries are rounding, and so is the direction.
+    // Smaller squared values are rounding errors, and so are the directions.
     if (!(lambda > 1e-13 * strongest) || !(lambda > 0)) break;
     const double moves =
         directions.col(i).cwiseAbs().maxCoeff() * shares.row(i).cwiseAbs().maxCoeff();

@@ -4,19 +4,20 @@
 
 namespace hyperex::fem {
 
-/// Vectors orthonormal in the product of K (to rounding of the weakest), zero on the prescribed
-/// unknowns, with K, C and M applied to them and projected onto them.
+/// A set of vectors that are zero on the prescribed unknowns and orthonormal in the K inner product
+/// (up to rounding of the weakest). Also holds K, C and M applied to them and projected onto them.
 class Basis {
  public:
   explicit Basis(const System& system) : system_(system) {}
 
-  /// Takes in the directions of shapes (all unknowns) that the basis lacks, the strongest first,
-  /// but none whose part in any shape moves any unknown by less than `least` (m). The shapes are
-  /// the columns of `w` or, where there are more of them than directions, those of w `mix`, the
-  /// rows of `mix` orthonormal.
+  /// Extends the basis by directions of the given shapes (all unknowns) that it does not yet
+  /// contain, in decreasing order of energy. A direction is skipped if its contribution to every
+  /// shape moves each unknown by less than `least` (m). The shapes are the columns of `w`, or those
+  /// of w `mix` if there are more shapes than directions; the rows of `mix` are orthonormal.
   struct Grown {
-    int taken = 0;       ///< how many directions
-    double skipped = 0;  ///< by how much those left out move any unknown together, at most (m)
+    int taken = 0;  ///< number of directions added
+    /// Bound of the motion of any unknown by all skipped directions together (m).
+    double skipped = 0;
   };
   Grown grow(Eigen::MatrixXd w, double least);
   Grown grow(Eigen::MatrixXd w, const Eigen::MatrixXd& mix, double least);

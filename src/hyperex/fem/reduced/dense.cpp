@@ -15,7 +15,8 @@ namespace {
 constexpr int kParts = 4;
 constexpr int kWidth = 8;
 
-/// Rows `from` to `to` of out = S in; `in` and `out` by rows, `width` a multiple of kWidth.
+/// Rows `from` to `to` of out = S in. `in` and `out` are row-major; `width` is a multiple of
+/// kWidth.
 HX_CLONES void multiply_rows(const int* start, const int* index, const double* value,
                              Eigen::Index from, Eigen::Index to, Eigen::Index width,
                              const double* __restrict in, double* __restrict out) {
@@ -65,8 +66,8 @@ void add_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Matrix
 Eigen::MatrixXd symmetric_product(const SparseMatrix& s,
                                   const Eigen::Ref<const Eigen::MatrixXd>& b) {
   HX_ASSERT(s.cols() == b.rows());
-  // By rows of a few columns at a time, so that one entry of S meets neighbouring numbers and the
-  // sums stay in registers.
+  // B is stored by rows, so that one entry of S multiplies adjacent numbers and the sums stay in
+  // registers.
   const Eigen::Index width = (b.cols() + kWidth - 1) / kWidth * kWidth;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Rows in = Rows::Zero(b.rows(), width), out(b.rows(), width);

@@ -6,9 +6,8 @@
 
 namespace hyperex::fem {
 
-/// Products of tall dense matrices by the machine's BLAS, shared among threads in a fixed number of
-/// parts, so that sums never change. Columns are the first of their matrices where a count is
-/// given.
+/// Products of tall dense matrices by BLAS. The work is divided among the threads in a fixed number
+/// of parts, so that the results do not depend on the number of threads.
 
 /// A^T B.
 Eigen::MatrixXd inner_products(const Eigen::Ref<const Eigen::MatrixXd>& a,

@@ -12,8 +12,8 @@
 namespace hyperex::fem {
 namespace {
 
-/// Instants at which the motion is looked at: closer at the start, where a jump of the acceleration
-/// would ring.
+/// Number of instants at which the motion is evaluated. They are denser at the start, where a jump
+/// of the acceleration would cause oscillations.
 constexpr int kInstants = 32;
 /// Directions of a residual weaker than this share of the strongest are not solved for.
 constexpr double kLeastDirection = 1e-5;
@@ -56,7 +56,7 @@ double greatest_node_motion(const Eigen::MatrixXd& d) {
   return std::sqrt(most);
 }
 
-/// The forces that a drive lays on the free unknowns: static s + viscous s' + inertial s''.
+/// The forces of a drive on the free unknowns: static s + viscous s' + inertial s''.
 struct DriveForces {
   Eigen::MatrixXd shapes;                      // D, all unknowns
   Eigen::MatrixXd static_, viscous, inertial;  // F - K D, -C D, -M D
@@ -70,7 +70,7 @@ struct DriveForces {
   }
 };
 
-/// One growth of the basis and the motion that it gives.
+/// Grows the basis step by step and integrates the reduced motion after each growth.
 class Growth {
  public:
   Growth(const System& system, PartitionedFactor& factor, const Drive& drive,
@@ -92,7 +92,7 @@ class Growth {
     integrate();
   }
 
-  /// Estimate of the error after one more growth (m).
+  /// Grows the basis once. Returns the estimate of the remaining error (m).
   double grow() {
     const ReducedMotion before = motion_;
     const int size = basis_.size();
@@ -145,8 +145,8 @@ class Growth {
     greatest_ = greatest_node_motion(d);
   }
 
-  /// The instants, and those where the change stores the most energy: in a basis orthonormal in K
-  /// that is a sum of squares, known at all steps.
+  /// The instants, and those steps at which the change stores most energy. In a K-orthonormal
+  /// basis, this energy is a sum of squares, which is known at all steps.
   std::vector<int> with_peaks(const Eigen::MatrixXd& change) const {
     const Eigen::VectorXd energy = change.colwise().squaredNorm();
     std::vector<int> at = at_, peaks;
@@ -161,13 +161,13 @@ class Growth {
     return at;
   }
 
-  /// All changes yet to come (m), were each smaller than the one before by the same factor q as
-  /// in the mean of the last three: c (q + q^2 + ...), at least c itself; c: the last change, or
-  /// where that fell below the trend, the trend.
+  /// Estimated sum of all further changes (m), if each is q times the one before, with q the mean
+  /// ratio over the last three growths: c (q + q^2 + ...), but at least c. c is the last change, or
+  /// the value that q predicts for it if that is greater.
   double yet_to_come() const {
     const std::size_t n = changes_.size(), from = n > 4 ? n - 4 : 0;
     if (changes_.back() <= 0) return 0;
-    if (n < 2) return 10 * changes_.back();  // one growth shows no trend
+    if (n < 2) return 10 * changes_.back();  // a single growth shows no trend
     const double mean =
         std::pow(changes_.back() / changes_[from], 1.0 / static_cast<double>(n - 1 - from));
     const double last = std::max(changes_.back(), mean * changes_[n - 2]);
@@ -175,13 +175,13 @@ class Growth {
     return last * std::max(1.0, q / (1 - q));
   }
 
-  /// Columns of few directions: each is `columns` times a column of `mix`.
+  /// A matrix with few independent columns, in the form `columns` * `mix`.
   struct Compressed {
     Eigen::MatrixXd columns, mix;
   };
-  /// Instants of one motion leave much the same behind. Directions are distinguished by their
-  /// energy were each unknown a spring of its own stiffness; what is left out is a part of the
-  /// residual in the next growth.
+  /// The residuals at different instants of one motion are similar. Their directions are ranked by
+  /// the energy they would have if each unknown were a spring with its own diagonal stiffness. What
+  /// is omitted here remains in the residual of the next growth.
   Compressed compressed(const Eigen::MatrixXd& r) const {
     const Eigen::MatrixXd scaled = flexibility_.asDiagonal() * r;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inner_products(r, scaled));
@@ -194,7 +194,7 @@ class Growth {
     return out;
   }
 
-  /// What the motion leaves in the equation of motion at the instants.
+  /// The residual of the equation of motion at the instants.
   Eigen::MatrixXd residual() const {
     Eigen::MatrixXd r =
         Eigen::MatrixXd::Zero(forces_.shapes.rows(), static_cast<Eigen::Index>(at_.size()));
@@ -211,15 +211,15 @@ class Growth {
   const Drive& drive_;
   const ReducedOptions& options_;
   DriveForces forces_;
-  Eigen::VectorXd flexibility_;  // of each unknown by itself; 0: prescribed
+  Eigen::VectorXd flexibility_;  // inverse diagonal stiffness of each unknown; 0: prescribed
   Basis basis_;
   std::vector<int> at_;
   ReducedMotion motion_;
-  std::vector<double> changes_;  // of the greatest motion of a node, by each growth (m)
+  std::vector<double> changes_;  // greatest change of a node's motion in each growth (m)
   double greatest_ = 0;
 };
 
-/// `a` has the size, and finite numbers alone.
+/// Checks that `a` has the given size and finite numbers only.
 void check_course(std::string_view what, const Eigen::MatrixXd& a, Eigen::Index rows,
                   Eigen::Index columns) {
   require(a.rows() == rows && a.cols() == columns, "Drive::{} is {} x {}: expected {} x {}", what,
@@ -231,7 +231,7 @@ void check_course(std::string_view what, const Eigen::MatrixXd& a, Eigen::Index 
               a(r, c), r, c);
 }
 
-/// `moving`: its rates are read, too.
+/// `moving`: the rates of the drive are used and therefore checked, too.
 void check_drive(const Drive& drive, const Partition& partition, bool moving) {
   const Eigen::Index shapes = drive.shapes();
   check_course("prescribed", drive.prescribed, Eigen::Index(partition.prescribed.size()), shapes);
@@ -245,7 +245,7 @@ void check_drive(const Drive& drive, const Partition& partition, bool moving) {
   check_course("second", drive.second, shapes, times);
 }
 
-/// Columns at times in steps, linear between them.
+/// The columns at the given times in steps, interpolated linearly.
 Eigen::MatrixXd columns_at(const Eigen::MatrixXd& course,
                            const std::vector<double>& times_in_steps) {
   Eigen::MatrixXd at(course.rows(), static_cast<Eigen::Index>(times_in_steps.size()));

@@ -13,10 +13,10 @@ ReducedMotion integrate_reduced(const Eigen::MatrixXd& stiffness, const Eigen::M
   out.d = out.v = out.a = Eigen::MatrixXd::Zero(m, steps + 1);
   if (m == 0) return out;
   const double h = options.dt_s, beta = options.beta, gamma = options.gamma;
-  // In the acceleration form only one dense matrix is applied at each step besides the inverse:
+  // In acceleration form, each step takes only one dense product besides the inverse:
   //   (M + gamma h C + beta h^2 K) a1 = f1 - C v* - K d*,
   //   d* = d + h v + h^2 (1/2 - beta) a,  v* = v + h (1 - gamma) a.
-  // In the coordinates in which K and M are diagonal, K d* costs nothing.
+  // In the coordinates in which K and M are diagonal, the cost of K d* is negligible.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(mass, stiffness);
   const Eigen::MatrixXd& q = modes.eigenvectors();  // q^T K q = 1, q^T M q = lambda
   const Eigen::VectorXd lambda = modes.eigenvalues().cwiseMax(0);
@@ -28,7 +28,8 @@ ReducedMotion integrate_reduced(const Eigen::MatrixXd& stiffness, const Eigen::M
   const Eigen::MatrixXd inverse = effective.llt().solve(Eigen::MatrixXd::Identity(m, m));
 
   Eigen::MatrixXd d = Eigen::MatrixXd::Zero(m, steps + 1), v = d, a = d;
-  // Modes whose mass is rounding follow their forces at once: their acceleration is not determined.
+  // Modes whose mass is only rounding follow their forces without delay. Their acceleration is
+  // undetermined and set to 0.
   const double massless = 1e-13 * lambda.maxCoeff();
   for (Eigen::Index i = 0; i < m; ++i)
     if (lambda[i] > massless) a(i, 0) = f(i, 0) / lambda[i];

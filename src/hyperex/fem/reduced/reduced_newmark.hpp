@@ -6,13 +6,15 @@
 
 namespace hyperex::fem {
 
-/// Courses of the coefficients of a basis, m x (steps + 1).
+/// Coefficients of the basis at every step, m x (steps + 1): displacement, velocity and
+/// acceleration.
 struct ReducedMotion {
   Eigen::MatrixXd d, v, a;
 };
 
-/// Newmark for a small dense system K d + C d' + M d'' = force.col(step), from rest, the first
-/// acceleration in equilibrium. Matrices m x m, symmetric positive definite (C: semi-definite).
+/// Newmark's method for a small dense system K d + C d' + M d'' = force.col(step), starting from
+/// rest with the first acceleration in equilibrium. All matrices are m x m and symmetric; K and M
+/// are positive definite, C is positive semidefinite.
 ReducedMotion integrate_reduced(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping,
                                 const Eigen::MatrixXd& mass, const Eigen::MatrixXd& force,
                                 const NewmarkOptions& options);

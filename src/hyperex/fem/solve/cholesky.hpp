@@ -8,40 +8,41 @@
 
 namespace hyperex::fem {
 
-/// L L^T of a sparse symmetric positive definite matrix: ordered by METIS and analysed in
-/// supernodes by CHOLMOD. The numbers are found by a multifrontal kernel (multifrontal.hpp), which
-/// takes a third of the time of CHOLMOD's on two cores; one right-hand side is solved by a kernel
-/// that reads the factor twice with both cores (triangular.hpp), several by CHOLMOD, half of them
-/// on each core. One caller at a time.
+/// Cholesky factorisation L L^T of a sparse symmetric positive definite matrix, ordered by METIS
+/// and analysed in supernodes by CHOLMOD. The numerical factorisation is multifrontal
+/// (multifrontal.hpp) and takes a third of CHOLMOD's time on two cores. A single right-hand side is
+/// solved by a kernel that reads the factor twice, using both cores (triangular.hpp). Several
+/// right-hand sides are solved by CHOLMOD, half of them on each core. Must not be used by several
+/// threads at once.
 class Cholesky {
  public:
   /// Orders and analyses the pattern of `lower` (lower triangle, columns sorted, diagonal stored).
-  /// `purpose` begins the messages of its errors: "static solution: ...". `order`: the k-th column
-  /// to eliminate (node_order.hpp); empty: found here, on the graph of unknowns, by METIS.
+  /// Error messages begin with `purpose`: "static solution: ...". `order`: the k-th column to
+  /// eliminate (node_order.hpp). If it is empty, METIS finds an order on the graph of unknowns.
   Cholesky(const SparseMatrix& lower, std::string purpose, std::vector<int> order = {});
   ~Cholesky();
   Cholesky(Cholesky&&) noexcept;
   Cholesky& operator=(Cholesky&&) noexcept;
 
-  /// Factors values on the analysed pattern; may be called again. Returns -1, or the column in
-  /// which the matrix is not positive definite to rounding: the factor is then of no use. Throws
-  /// NumericalError where memory runs out.
+  /// Factors a matrix with the analysed pattern; may be called repeatedly. Returns -1 on success,
+  /// otherwise the column at which the matrix is not positive definite to rounding; the factor must
+  /// then not be used. Throws NumericalError if memory runs out.
   int factorize(const SparseMatrix& lower);
 
   /// x := A^-1 x. Allocates nothing.
   void solve(Eigen::VectorXd& x);
-  /// X := A^-1 X, the columns together: several times quicker than one after the other.
+  /// X := A^-1 X. Solving all columns together is several times faster than one after the other.
   void solve(Eigen::MatrixXd& x);
 
-  /// Of the columns eliminated last, `columns` of them in rising order: the rows and columns of
-  /// A^-1 that belong to them. What is left of the factor for them alone is inverted: no solution
-  /// is needed. No rows where others are among the last (the order given is changed within
-  /// branches of the elimination tree alone).
+  /// The rows and columns of A^-1 that belong to `columns` (increasing), which must be the columns
+  /// eliminated last. Only the trailing block of the factor is inverted, so that no solve is
+  /// needed. Returns a matrix without rows if other columns are among the last ones. (The order
+  /// given to the constructor is changed only within branches of the elimination tree.)
   Eigen::MatrixXd inverse_of_last(const std::vector<int>& columns) const;
 
   int size() const;
-  double entries() const;         ///< of L, the zeros that supernodes store included
-  double entries_needed() const;  ///< of L as analysed, without them
+  double entries() const;         ///< of L, including the zeros stored in supernodes
+  double entries_needed() const;  ///< of L as analysed, without those zeros
   double flops() const;           ///< of one factorisation
 
  private:

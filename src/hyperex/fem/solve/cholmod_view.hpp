@@ -7,8 +7,9 @@
 
 namespace hyperex::fem {
 
-/// A lower triangle as CHOLMOD sees it: the arrays stay the caller's, who keeps them alive.
-/// `columns` + 1 numbers at `start`, rising rows without gaps at `row`; `value` null: a pattern.
+/// A lower triangle in CHOLMOD's format. It refers to the caller's arrays, which must outlive it.
+/// `start` has `columns` + 1 entries; `row` holds increasing rows without gaps; a null `value`
+/// denotes a pattern only.
 inline cholmod_sparse cholmod_view(Eigen::Index columns, const int* start, const int* row,
                                    const double* value) {
   cholmod_sparse view{};
@@ -28,7 +29,7 @@ inline cholmod_sparse cholmod_view(const SparseMatrix& lower) {
   return cholmod_view(lower.cols(), lower.outerIndexPtr(), lower.innerIndexPtr(), lower.valuePtr());
 }
 
-/// The supernodes of a numeric factor, which stays CHOLMOD's.
+/// The supernodes of a numerical factor. They refer to CHOLMOD's memory.
 inline Supernodes supernodes_of(const cholmod_factor& factor) {
   Supernodes s;
   s.count = static_cast<int>(factor.nsuper);

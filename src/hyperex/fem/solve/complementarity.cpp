@@ -44,8 +44,8 @@ Complementarity solve_complementarity(const Eigen::MatrixXd& a, const Eigen::Vec
   const auto residual = [&] {
     return n == 0 ? 0 : w.cwiseMin(a.diagonal().cwiseProduct(z)).cwiseAbs().maxCoeff();
   };
-  // Newton's method for min(w, a_ii z) = 0: solves exactly as if the pairs with a_ii z > w pressed,
-  // until those are the same twice. Kept where it comes nearer.
+  // Newton's method for min(w, a_ii z) = 0. Solves exactly with the active set a_ii z > w, until
+  // this set is the same twice in a row. The result is kept if the residual is smaller.
   Eigen::VectorXd before_z(n), before_w(n);
   std::vector<Eigen::Index> active, were;
   const auto polish = [&] {

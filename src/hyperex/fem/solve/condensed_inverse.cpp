@@ -19,7 +19,7 @@ void check_nodes(const std::vector<int>& nodes, int unknowns) {
 Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<int>& nodes) {
   check_nodes(nodes, factor.partition().unknowns());
   const std::vector<int>& free = factor.free();
-  std::vector<Eigen::Index> row, place;  // among the free unknowns; in the result
+  std::vector<Eigen::Index> row, place;  // positions among the free unknowns; in the result
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const int unknown = 3 * nodes[i] + axis;
@@ -35,7 +35,7 @@ Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<i
   std::sort(last.begin(), last.end());
   if (const Eigen::MatrixXd inverse = factor.cholesky().inverse_of_last(last);
       inverse.rows() == count) {
-    std::vector<Eigen::Index> among;  // of each in `row`, its place in `last`
+    std::vector<Eigen::Index> among;  // for each entry of `row`, its position in `last`
     for (const Eigen::Index r : row)
       among.push_back(std::lower_bound(last.begin(), last.end(), r) - last.begin());
     for (Eigen::Index c = 0; c < count; ++c)

@@ -6,16 +6,17 @@
 
 namespace hyperex::fem {
 
-/// The displacements of some nodes under unit forces on the same nodes: the rows and columns of
-/// A_oo^-1 that belong to them. 3 n x 3 n (m/N for a stiffness), unknown 3 i + axis of `nodes[i]`;
-/// symmetric; rows and columns of prescribed unknowns are 0. Where a Cholesky factor eliminates
-/// these nodes last (order_with_last) it is read off it. Else it takes one solution a column, some
-/// dozens at a time, so that no more than those are held.
+/// The flexibility matrix of some nodes: their displacements under unit forces on the same nodes,
+/// that is, the rows and columns of A_oo^-1 that belong to them. 3 n x 3 n (m/N if A is a
+/// stiffness), with unknown 3 i + axis of `nodes[i]`; symmetric. Rows and columns of prescribed
+/// unknowns are 0. If the Cholesky factor eliminates these nodes last (order_with_last), the matrix
+/// follows directly from the factor. Otherwise each column takes one solution. The columns are
+/// solved in groups of some dozens to limit the memory.
 Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<int>& nodes);
 
-/// The order `known`, found where `known_prescribed` were prescribed, for other prescribed unknowns
-/// (sorted) and so that `nodes` are eliminated last. Unknowns that were not free before come just
-/// before those. What the factor takes is not counted anew.
+/// Adapts the elimination order `known`, which belongs to `known_prescribed`, to other prescribed
+/// unknowns (sorted), with `nodes` eliminated last. Unknowns that were not free before are
+/// eliminated just before those. `entries` and `flops` are not recomputed.
 NodeOrder order_with_last(const NodeOrder& known, const std::vector<int>& known_prescribed,
                           const std::vector<int>& prescribed, int unknowns,
                           const std::vector<int>& nodes);

@@ -21,7 +21,7 @@ std::optional<double> number_in(const char* file) {
   std::ifstream in(file);
   double value = 0;
   if (in >> value) return value;
-  return std::nullopt;  // "max" among others
+  return std::nullopt;  // the file may contain "max", for example
 }
 
 /// The value of the line that begins with `key`, as in /proc/meminfo.
@@ -32,8 +32,8 @@ std::optional<double> value_of(const char* file, std::string_view key) {
   return std::nullopt;
 }
 
-/// What the control group still grants. Cached files count as used there, but the kernel drops them
-/// when memory is wanted.
+/// The memory that the control group still grants. It counts cached files as used, but the kernel
+/// releases them when memory is needed.
 std::optional<double> group_memory_bytes() {
   const auto limit = number_in("/sys/fs/cgroup/memory.max");
   const auto used = number_in("/sys/fs/cgroup/memory.current");
@@ -44,7 +44,7 @@ std::optional<double> group_memory_bytes() {
   return std::max(0.0, *limit - std::max(0.0, *used - cached));
 }
 
-/// What `ulimit -v` still grants.
+/// The address space that `ulimit -v` still grants.
 std::optional<double> address_space_bytes() {
   rlimit space{};
   const auto used_pages = number_in("/proc/self/statm");

@@ -4,9 +4,9 @@
 
 namespace hyperex::fem {
 
-/// To be held while METIS orders a graph. It seeds and draws from C's one rand(): two orderings at
-/// the same time would share its numbers, and with them the last bits of all results would change
-/// from run to run.
+/// Lock to be held while METIS orders a graph. METIS seeds and uses rand() of the C library, which
+/// is global. If two orderings ran at the same time, they would share its numbers, and the last
+/// bits of all results would change from run to run.
 inline std::unique_lock<std::mutex> metis_turn() {
   static std::mutex turn;
   return std::unique_lock(turn);

@@ -17,7 +17,7 @@ extern "C" void dpotrf_(const char* part, const int* n, double* a, const int* st
 namespace hyperex::fem {
 namespace {
 
-/// Rows below this many are not worth a second thread.
+/// With fewer rows than this, a second thread does not pay.
 constexpr int kPartedFrom = 128;
 
 /// b := b L^-T; b: `rows` x `columns`.
@@ -37,7 +37,7 @@ void negative_square(const double* a, int rows, int columns, int stride, double*
 Multifrontal::Multifrontal(const Supernodes& f, const int* order, const SparseMatrix& lower)
     : parent_(parents(f)),
       half_(halves(f, parent_,
-                   [](const Panel& p) {  // multiplications
+                   [](const Panel& p) {  // number of multiplications
                      const double n = p.columns, m = p.below;
                      return n * (n * n / 3 + n * m + m * m) + 100 * n;
                    })),
@@ -102,7 +102,7 @@ void Multifrontal::lay_out_stacks(const Supernodes& f) {
   stack_of_.resize(f.count);
   offset_.resize(f.count);
   std::array<std::ptrdiff_t, 6> height{}, most{};
-  // Rising numbers are a postorder: children come right before their parent.
+  // The numbering is a postorder: the children come directly before their parent.
   for (int s = 0; s < f.count; ++s) {
     const int group = half_[s] < 0 ? 2 : half_[s];
     for (const int child : children_[s])
@@ -117,15 +117,15 @@ void Multifrontal::lay_out_stacks(const Supernodes& f) {
   for (int i = 0; i < 6; ++i) stack_[i].resize(static_cast<std::size_t>(most[i]));
 }
 
-/// One supernode's share of a factorisation.
+/// Performs one factorisation.
 struct Multifrontal::Run {
   Multifrontal& m;
   const Supernodes& f;
   const double* entries;
   double* value;
 
-  /// Adds the columns of a child's leftover that fall to the parent's own columns (`own`), or the
-  /// others.
+  /// Adds those columns of a child's contribution that belong to the parent's own columns (`own`),
+  /// or the remaining columns.
   void add_child(int child, bool own, const Panel& p, double* l, double* left) const {
     const int rows = panel(f, child).below;
     const int* const at = m.relative_.data() + m.relative_start_[child];
@@ -139,7 +139,7 @@ struct Multifrontal::Run {
     }
   }
 
-  /// -1, or the column of the panel without a positive pivot.
+  /// Returns -1, or the column of the panel at which the pivot is not positive.
   int eliminate(int s, bool parted) const {
     const Panel p = panel(f, s);
     const int height = p.height();
@@ -167,7 +167,8 @@ struct Multifrontal::Run {
     negative_square(under, p.below, p.columns, p.height(), left, p.below);
   }
 
-  /// The same with rows parted in two, so that both parts of the lower triangle are as large.
+  /// The same with the rows divided in two, such that both parts of the lower triangle have equal
+  /// size.
   static void reduce_parted(const Panel& p, double* l, double* left) {
     const int height = p.height(), half = p.below / 2;
     double* const under = l + p.columns;
@@ -185,7 +186,7 @@ struct Multifrontal::Run {
                          });
   }
 
-  /// -1, or the column in elimination order.
+  /// Returns -1, or the column in elimination order at which the pivot is not positive.
   int eliminate_all(const std::vector<int>& supernodes, bool parted) const {
     for (const int s : supernodes)
       if (const int lost = eliminate(s, parted); lost >= 0) return f.first[s] + lost;

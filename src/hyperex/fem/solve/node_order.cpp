@@ -16,7 +16,7 @@ struct Common : cholmod_common {
   Common() {
     cholmod_start(this);
     print = 0;
-    supernodal = CHOLMOD_SIMPLICIAL;  // counts alone
+    supernodal = CHOLMOD_SIMPLICIAL;  // the counts suffice
     nmethods = 1;
     method[0].ordering = CHOLMOD_METIS;
     postorder = 1;

@@ -6,22 +6,22 @@
 
 namespace hyperex::fem {
 
-/// An order of elimination for a matrix whose unknowns come in nodes, and what a factor in it
-/// takes. Found on the graph of nodes, which has a ninth of the entries: the same quality in a
-/// fraction of the time.
+/// An elimination order for a matrix whose unknowns are grouped by nodes, and the cost of a factor
+/// with this order. It is found on the graph of nodes, which has a ninth of the entries. The
+/// quality is the same as on the graph of unknowns, in a fraction of the time.
 struct NodeOrder {
   std::vector<int> unknowns;  ///< the k-th to eliminate
-  double entries = 0;         ///< of L, without the zeros that supernodes add (about a fifth)
+  double entries = 0;         ///< in L, without the zeros stored in supernodes (about a fifth)
   double flops = 0;           ///< of one factorisation
 };
 
-/// `lower`: lower triangle with columns sorted and diagonal stored; `node_of[column]` never falls.
-/// Nested dissection by METIS. Throws NumericalError where memory runs out.
+/// `lower`: lower triangle with sorted columns and stored diagonal. `node_of[column]` must not
+/// decrease. Uses nested dissection by METIS. Throws NumericalError if memory runs out.
 NodeOrder order_by_nodes(const SparseMatrix& lower, const std::vector<int>& node_of);
 
-/// `order` is of the unknowns that `prescribed` leaves free; the same for those that are free where
-/// `more` are prescribed (both sorted, the second holds the first). No factor takes more for it;
-/// `entries` and `flops` stay as bounds.
+/// Restricts an order of the unknowns that `prescribed` leaves free to those that `more` leaves
+/// free. Both lists are sorted, and `more` must contain `prescribed`. The factor does not become
+/// larger, so `entries` and `flops` are kept as upper bounds.
 NodeOrder restricted(const NodeOrder& order, int unknowns, const std::vector<int>& prescribed,
                      const std::vector<int>& more);
 

@@ -79,7 +79,7 @@ int PartitionedFactor::try_refactor(const SparseMatrix& a) {
   return lost;
 }
 
-/// The unknown at which the matrix is not positive definite, or -1.
+/// Returns -1 on success, otherwise the unknown at which the matrix is not positive definite.
 int PartitionedFactor::try_factor(const SparseMatrix& lower) {
   Stopwatch watch;
   const int lost = cholesky_->factorize(lower);
@@ -98,7 +98,7 @@ void PartitionedFactor::factor(const SparseMatrix& lower) {
 }
 
 void PartitionedFactor::solve(Eigen::MatrixXd& x_o, const std::function<void()>& between) {
-  constexpr Eigen::Index kColumns = 32;  // enough for the products' speed
+  constexpr Eigen::Index kColumns = 32;  // enough for fast matrix products
   for (Eigen::Index from = 0; from < x_o.cols(); from += kColumns) {
     if (between) between();
     auto some = x_o.middleCols(from, std::min(kColumns, x_o.cols() - from));

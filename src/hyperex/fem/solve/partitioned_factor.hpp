@@ -13,26 +13,27 @@
 
 namespace hyperex::fem {
 
-/// A symmetric positive definite matrix A with its unknowns split into prescribed (c) and free (o):
-/// A_oo factored, A_oc left to the caller. Shared by the static solver, the time integrators and
-/// the reduced model. One caller at a time.
+/// A symmetric positive definite matrix A whose unknowns are split into prescribed (c) and free
+/// (o). Factors A_oo; A_oc is the caller's concern. Used by the static solver, the time integrators
+/// and the reduced model. Must not be used by several threads at once.
 class PartitionedFactor {
  public:
-  /// `prescribed`: sorted unique unknowns. `purpose` begins the message of the NumericalError
-  /// thrown where A_oo is not positive definite to rounding, or where its factor does not fit in
-  /// memory (factor_memory.hpp): "static solution: ...".
-  /// `order`: order() of a factor of the same pattern and prescribed unknowns; null: found here.
+  /// `prescribed`: sorted unique unknowns. Throws NumericalError if A_oo is not positive definite
+  /// to rounding, or if its factor does not fit in memory (factor_memory.hpp); the message begins
+  /// with `purpose`: "static solution: ...". `order`: order() of another factor with the same
+  /// pattern and prescribed unknowns, or null to find the order here.
   PartitionedFactor(const SparseMatrix& a, std::vector<int> prescribed, std::string purpose,
                     std::shared_ptr<const NodeOrder> order = nullptr);
-  /// The same for a matrix that nobody else needs: its memory is given back before the numbers of
-  /// the factor are computed.
+  /// The same for a matrix that is not needed afterwards. Its memory is released before the
+  /// numerical factorisation.
   PartitionedFactor(SparseMatrix&& a, std::vector<int> prescribed, std::string purpose,
                     std::shared_ptr<const NodeOrder> order = nullptr);
 
-  /// Other values on the same pattern: ordering and analysis are kept.
+  /// Factors other values on the same pattern; ordering and analysis are reused.
   void refactor(const SparseMatrix& a);
-  /// The same again and again: after the first time nothing is allocated. Returns -1, or the
-  /// unknown at which A_oo is not positive definite: the factor is then of no use.
+  /// The same for repeated use: after the first call, nothing is allocated. Returns -1 on success,
+  /// otherwise the unknown at which A_oo is not positive definite; the factor must then not be
+  /// used.
   int try_refactor(const SparseMatrix& a);
 
   const Partition& partition() const { return partition_; }
@@ -43,14 +44,14 @@ class PartitionedFactor {
 
   const std::shared_ptr<const NodeOrder>& order() const { return order_; }
   const FactorForecast& forecast() const { return forecast_; }
-  double factor_entries() const { return cholesky_->entries(); }  ///< numbers that it stores
+  double factor_entries() const { return cholesky_->entries(); }  ///< stored numbers
   const Cholesky& cholesky() const { return *cholesky_; }
 
   /// x_o := A_oo^-1 x_o. Nothing is allocated.
   void solve(Eigen::VectorXd& x_o) { cholesky_->solve(x_o); }
   void solve(Eigen::MatrixXd& x_o) { cholesky_->solve(x_o); }
-  /// The same for many columns, some at a time: `between` (may be empty) is called before each part
-  /// and may throw, which ends it.
+  /// The same for many columns, which are solved in groups. `between` (may be empty) is called
+  /// before each group; it may throw to cancel.
   void solve(Eigen::MatrixXd& x_o, const std::function<void()>& between);
 
  private:
@@ -66,7 +67,7 @@ class PartitionedFactor {
   FactorForecast forecast_;
   std::shared_ptr<const NodeOrder> order_;
   std::optional<Cholesky> cholesky_;  // always there once constructed
-  SparseMatrix lower_;                // of try_refactor
+  SparseMatrix lower_;                // workspace of try_refactor
 };
 
 }  // namespace hyperex::fem

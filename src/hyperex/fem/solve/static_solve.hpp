@@ -7,7 +7,7 @@
 
 namespace hyperex::fem {
 
-/// K_oo factored once, any number of right-hand sides: K_oo d_o = f_o - K_oc d_c.
+/// Solves K_oo d_o = f_o - K_oc d_c for any number of right-hand sides. K_oo is factored once.
 class StaticSolver {
  public:
   /// `prescribed`: sorted unique unknowns. Throws NumericalError where K_oo is not positive
@@ -15,8 +15,8 @@ class StaticSolver {
   StaticSolver(const SparseMatrix& stiffness, std::vector<int> prescribed);
   ~StaticSolver();
   StaticSolver(StaticSolver&&) noexcept;
-  /// All unknowns; `force` may be empty. Throws InputError naming an entry that is no finite
-  /// number.
+  /// Returns the displacements of all unknowns. `force` may be empty. Throws InputError naming an
+  /// entry that is not a finite number.
   Eigen::VectorXd solve(const Eigen::VectorXd& prescribed_values,
                         const Eigen::VectorXd& force = {}) const;
 

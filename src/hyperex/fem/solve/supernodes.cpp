@@ -18,7 +18,7 @@ std::vector<int> parents(const Supernodes& f) {
 
 std::vector<int> halves(const Supernodes& f, const std::vector<int>& parent,
                         const std::function<double(const Panel&)>& work) {
-  std::vector<double> weight(f.count);  // of the whole subtree
+  std::vector<double> weight(f.count);  // work of the whole subtree
   std::vector<std::vector<int>> children(f.count);
   std::vector<int> subtrees;
   for (int s = 0; s < f.count; ++s) {

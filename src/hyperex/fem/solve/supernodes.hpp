@@ -6,9 +6,9 @@
 
 namespace hyperex::fem {
 
-/// A supernodal factor L as CHOLMOD stores it. Supernode s holds the columns first[s] ..
-/// first[s+1]-1, dense over the rows row[row_start[s] .. row_start[s+1]) (its own columns first),
-/// column-major at value[value_start[s]].
+/// A supernodal factor L in CHOLMOD's format. Supernode s comprises the columns first[s] ..
+/// first[s+1]-1. They are dense over the rows row[row_start[s] .. row_start[s+1]), of which its own
+/// columns come first, and are stored column-major at value[value_start[s]].
 struct Supernodes {
   int count = 0, columns = 0;
   const int* first = nullptr;
@@ -21,7 +21,7 @@ struct Supernodes {
 /// One supernode: its diagonal block and the rows below it.
 struct Panel {
   int columns, below;
-  const int* rows;      // below the diagonal block, rising
+  const int* rows;      // below the diagonal block, increasing
   const double* value;  // (columns + below) x columns
   int height() const { return columns + below; }
 };
@@ -31,14 +31,15 @@ inline Panel panel(const Supernodes& f, int s) {
   return {columns, height - columns, f.row + f.row_start[s] + columns, f.value + f.value_start[s]};
 }
 
-/// Parent of each supernode in the elimination tree, always of a greater number: the supernode that
-/// holds its first row below the diagonal block; -1: a root.
+/// Parent of each supernode in the elimination tree: the supernode that contains its first row
+/// below the diagonal block, or -1 for a root. A parent always has a greater number.
 std::vector<int> parents(const Supernodes& f);
 
-/// The elimination tree cut into a top and two halves of subtrees that share no unknown: for each
-/// supernode 0 or 1, or -1 in the top. Subtrees are opened from the heaviest down until two even
-/// heaps can be made of them. `work`: what a supernode costs. Source of the idea: tree parallelism
-/// of the multifrontal method (Liu, SIAM Review 34, 1992).
+/// Divides the elimination tree into a top and two halves. The halves consist of subtrees that
+/// share no unknown. Returns 0 or 1 for each supernode of a half, and -1 for the top. Starting at
+/// the heaviest subtree, subtrees are opened until they can be distributed into two halves of
+/// similar work. `work`: the cost of a supernode. Idea: tree parallelism of the multifrontal method
+/// (Liu, SIAM Review 34, 1992).
 std::vector<int> halves(const Supernodes& f, const std::vector<int>& parent,
                         const std::function<double(const Panel&)>& work);
 

@@ -6,11 +6,11 @@
 
 namespace hyperex::fem {
 
-/// All that moves a model over a whole run, as a few shapes with their courses over the steps:
+/// The complete load of a model over a run: r shapes, each multiplied by a function of time,
 ///   d_c(t) = prescribed s(t),  f(t) = force s(t),  and the same with s' and s''.
 struct Drive {
   Eigen::MatrixXd prescribed;       ///< |c| x r, m
-  Eigen::MatrixXd force;            ///< 3 |nodes| x r, N; no rows: none
+  Eigen::MatrixXd force;            ///< 3 |nodes| x r, N; no rows: no force
   Eigen::MatrixXd s, rate, second;  ///< r x (steps + 1): s, s' (1/s), s'' (1/s^2) at step 0, 1, ...
 
   Eigen::Index shapes() const { return s.rows(); }

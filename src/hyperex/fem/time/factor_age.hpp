@@ -5,21 +5,21 @@
 
 namespace hyperex::fem {
 
-/// A new factor costs as much as this many corrections with the old one.
+/// The cost of a new factor, in corrections with an existing one.
 inline constexpr double kFactorInCorrections = 10;
 
-/// When a new factor pays. An old one serves as long as the mean cost of the parts of steps that
-/// were taken with it falls.
+/// Decides when to compute a new factor. A factor is kept as long as the mean cost per part of a
+/// step decreases. This mean includes the cost of the factor.
 class FactorAge {
  public:
-  bool rough = true;  ///< the factor is of the projected matrix, or of the state at rest
+  bool rough = true;  ///< the factor belongs to the projected matrix or to the rest state
 
-  /// A new factor was made for a RateRule whose `now` is `rate`.
+  /// To be called for a new factor, made for a RateRule whose `now` is `rate`.
   void renew(double rate) {
     rate_ = rate;
     parts_ = corrections_ = 0;
   }
-  /// The next part gets a new factor.
+  /// Makes the next part compute a new factor.
   void retire() { parts_ = 0; }
   void count_correction() { ++corrections_; }
 
@@ -28,7 +28,8 @@ class FactorAge {
            last_cost_ * parts_ > kFactorInCorrections + corrections_;
   }
 
-  /// A part has ended that cost as much as `cost` corrections, besides the factor it began with.
+  /// To be called at the end of a part. `cost`: its cost in corrections, without the factor it
+  /// began with.
   void count_part(bool began_afresh, double cost) {
     ++parts_;
     last_cost_ = cost;
@@ -44,13 +45,13 @@ class FactorAge {
 
  private:
   static constexpr int kMostPartsAfresh = 16;
-  /// Steps whose backward differences differ by less than this share can do with the same factor.
+  /// A factor can be kept if the rates of the backward differences differ by less than this share.
   static constexpr double kSameRate = 0.01;
 
   int parts_ = 0, corrections_ = 0;  // with the present factor
   double last_cost_ = 0;             // of the last part, in corrections
-  // Where an old factor did not pay, this many parts get their own, and the next time twice as
-  // many.
+  // After an old factor has not paid, this many parts each get a factor of their own. The next time
+  // it happens, twice as many do.
   int parts_afresh_ = 0, next_parts_afresh_ = 1;
   double rate_ = -1;
 };

@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// BDF2 on unequal steps keeps its stability while a step is less than 2.41 times the one before
+/// BDF2 with variable steps is stable if each step is less than 2.41 times the previous one
 /// (Grigorieff, Numer. Math. 42, 1983).
 constexpr double kMostGrowth = 2.0 + 1e-9;
-/// The residual that counts as none, as a share of what the last correction answered.
+/// A residual below this share of the last correction's right-hand side counts as zero.
 constexpr double kNoResidual = 1e-9;
-/// Where rounding hides what is left, corrections of this share of the motion are small enough
-/// whatever the tolerance.
+/// If rounding hides the remaining error, corrections of this share of the motion suffice for any
+/// tolerance.
 constexpr double kRounding = 1e-7;
-/// Share of the rounding in the terms of an energy.
+/// Relative rounding error of the terms of an energy.
 constexpr double kEnergyNoise = 1e-11;
 /// If a correction is not smaller than the previous one, the matrix is factored again. Corrections
 /// below kSmall tolerances are exempt: up to kForgiven of them are accepted with the old factor.
@@ -48,7 +48,8 @@ void FiniteNewton::Impl::find_residual() {
   for (std::size_t i = 0; i < factor->free().size(); ++i) q[i] = residual[factor->free()[i]];
 }
 
-/// A part of a step of length h (0: statics) to `target` under `part_force`. True: x is its end.
+/// Iterates one part of a step, of length h (0: statics), to `target` under `part_force`. Returns
+/// true on convergence; x is then the state at the end of the part.
 bool FiniteNewton::Impl::converge(double h, const VectorXd* guess, const FiniteNewtonHooks& hooks,
                                   FiniteStepReport& report) {
   begin(h, guess);
@@ -97,8 +98,8 @@ bool FiniteNewton::Impl::converge(double h, const VectorXd* guess, const FiniteN
   return false;
 }
 
-/// The correction that takes the prescribed unknowns to their targets: they do work, and the energy
-/// may well rise.
+/// The correction that moves the prescribed unknowns to their targets. They do work, so the energy
+/// may increase.
 FiniteNewton::Impl::Move FiniteNewton::Impl::jump(Iterations& now) {
   trial = x + delta;
   const double there = potential(trial, trial_gradient);
@@ -113,7 +114,7 @@ FiniteNewton::Impl::Move FiniteNewton::Impl::jump(Iterations& now) {
   return Move::made;
 }
 
-/// A correction by which the potential falls.
+/// A correction that decreases the potential.
 FiniteNewton::Impl::Move FiniteNewton::Impl::descend(Iterations& now, FiniteStepReport& report) {
   if (now.size == 0) {
     trial = x;
@@ -122,12 +123,12 @@ FiniteNewton::Impl::Move FiniteNewton::Impl::descend(Iterations& now, FiniteStep
   }
   now.share = search(now.energy);
   if (now.share != 0) return Move::made;
-  find_residual();  // the direction was stored in its place
+  find_residual();  // its storage was used for the direction
   if (!now.fresh) {
-    now.refactor = true;  // the old factor's direction leads nowhere
+    now.refactor = true;  // the direction of the old factor is not a descent direction
     return Move::again;
   }
-  // At an iterate as good as found there may be no descent that rounding does not hide.
+  // Very near the solution, rounding may hide any descent.
   report.error = now.size / std::max(greatest_motion(x), options.least_motion_m);
   const bool rounding = residual_is_rounding(now.first_residual) && report.error <= kRounding;
   return rounding || report.error <= options.tolerance ? Move::converged : Move::failed;
@@ -144,17 +145,19 @@ void FiniteNewton::Impl::accept_trial(bool jumped) {
   gradient.swap(trial_gradient);
 }
 
-/// How far x may still be from the solution (m), estimated from the last two corrections; decides
-/// on a new factor. `scale`: what the tolerance is relative to, m. The residual alone says nothing:
-/// the first one may be that of a start far off, of which what is left is a small share.
+/// Estimated distance of x from the solution (m), from the last two corrections. Also decides
+/// whether a new factor is needed. `scale`: the length (m) to which the tolerance refers. The
+/// residual alone is not sufficient: the first one may be very large, so that a small share of it
+/// is still significant.
 double FiniteNewton::Impl::missing_m(Iterations& now, int iteration, double scale) {
   double missing = now.size;
   const double left = q.norm();
   now.at_rounding = now.fresh && !(now.size < now.last_size) && iteration > 0 &&
                     left <= kNoResidual * now.first_residual;
   if (left <= kNoResidual * right_side && now.size <= 2 * scale) {
-    // The matrix answered for all but this share of the force, as where the law is linear. Not so
-    // after a correction from far off, where tissue was stiffer by any factor.
+    // The matrix has accounted for all but this share of the force, as if the law were linear. This
+    // does not hold after a large correction, as the tissue may have been much stiffer at its
+    // start.
     missing = right_side > 0 ? 10 * left / right_side * now.size : 0;
   } else if (iteration > 0 && now.share == 1 && now.size < now.last_size) {
     const double rate = now.size / now.last_size;
@@ -162,7 +165,7 @@ double FiniteNewton::Impl::missing_m(Iterations& now, int iteration, double scal
     const double needed = std::log(options.tolerance * scale / missing) / std::log(rate);
     now.refactor = needed > kFactorInCorrections;
   } else if (iteration == 0) {
-    missing = 10 * now.size;  // nothing is known of the rate yet
+    missing = 10 * now.size;  // the convergence rate is still unknown
   } else {
     now.refactor = true;
   }
@@ -186,7 +189,7 @@ void FiniteNewton::Impl::begin(double h, const VectorXd* guess) {
     x = *guess;
     for (std::size_t i = 0; i < prescribed.size(); ++i) x[prescribed[i]] = target[i];
   } else if (dynamic) {
-    x = state.d + h * state.v;  // the acceleration besides leads farther off more often than not
+    x = state.d + h * state.v;  // adding the acceleration makes this guess worse in most cases
   } else {
     x = state.d;
   }
@@ -194,8 +197,8 @@ void FiniteNewton::Impl::begin(double h, const VectorXd* guess) {
     prescribed_change[i] = target[i] - x[prescribed[i]];
 }
 
-/// delta := -A^-1 residual, with the prescribed unknowns' way to their target in the first
-/// iteration.
+/// delta := -A^-1 residual. In the first iteration it includes the motion of the prescribed
+/// unknowns to their targets.
 void FiniteNewton::Impl::find_direction(bool jump) {
   const auto& free = factor->free();
   const auto& prescribed = factor->prescribed();
@@ -218,9 +221,10 @@ void FiniteNewton::Impl::find_direction(bool jump) {
     for (std::size_t i = 0; i < prescribed.size(); ++i) delta[prescribed[i]] = prescribed_change[i];
 }
 
-/// The share of delta at which the potential has fallen enough (Armijo), or is level within its
-/// rounding while its slope has become smaller (Hager and Zhang, SIAM J. Optim. 16, 2005); 0:
-/// none. trial and trial_gradient are then those there, `energy` the potential there.
+/// Line search: the share of delta at which the potential has decreased sufficiently (Armijo), or
+/// is constant within rounding while its slope has become smaller (Hager and Zhang, SIAM J. Optim.
+/// 16, 2005). Returns 0 if there is none. Otherwise trial and trial_gradient belong to that point,
+/// and `energy` is the potential there.
 double FiniteNewton::Impl::search(double& energy) {
   const double slope = residual.dot(delta);
   if (!(slope < 0)) return 0;
@@ -239,14 +243,14 @@ double FiniteNewton::Impl::search(double& energy) {
       energy = there;
       return share;
     }
-    // The least of the parabola through what is known.
+    // The minimum of the parabola through the known values.
     const double least = -slope * share * share / (2 * (change - slope * share));
     share = std::isfinite(least) ? std::clamp(least, 0.1 * share, 0.5 * share) : 0.1 * share;
   }
   return 0;
 }
 
-/// Whether nothing is left to gain but rounding.
+/// Whether the residual consists of rounding errors only.
 bool FiniteNewton::Impl::residual_is_rounding(double first_residual) const {
   return q.norm() <= 1e-6 * first_residual;
 }

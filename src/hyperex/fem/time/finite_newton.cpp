@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// The step that the first factor is made for; only its pattern matters later.
+/// The step for which the first factor is computed. Only its pattern is used later.
 constexpr double kNominalStep_s = 0.01;
 
 }  // namespace
@@ -107,7 +107,7 @@ FiniteStepReport FiniteNewton::Impl::advance(double dt, const VectorXd& prescrib
       part_force = (1 - until) * force_last;
     if (!converge(h, part == whole ? guess : nullptr, hooks, report)) {
       if (part == 1) fail(h);
-      age.retire();  // the factor may be to blame
+      age.retire();  // the failure may be due to an old factor
       part /= 2;
       continue;
     }

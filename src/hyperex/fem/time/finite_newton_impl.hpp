@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the parts of FiniteNewton share.
+// Private data of FiniteNewton, shared by its source files.
 #pragma once
 #include <optional>
 
@@ -14,7 +14,7 @@ struct FiniteNewton::Impl {
   FiniteStrain& form;
   FiniteNewtonOptions options;
   SparseMatrix springs;
-  std::vector<int> spring_places;  // of their entries among those of `matrix`
+  std::vector<int> spring_places;  // positions of the spring entries in `matrix`
   std::vector<const NodalPotential*> potentials;
   SparseMatrix matrix;
   std::optional<PartitionedFactor> factor;
@@ -26,7 +26,7 @@ struct FiniteNewton::Impl {
 
   FactorAge age;
 
-  // Of a part of a step.
+  // Data of the current part of a step.
   RateRule rule;
   double mass_share = 0;
   Eigen::VectorXd x, x_hat, gradient, external, residual;  // all unknowns
@@ -58,8 +58,8 @@ struct FiniteNewton::Impl {
     double energy = 0, first_residual = 0;
     double size = 0, share = 1, last_size = 0;  // of corrections; m
     bool refactor = false, fresh = false;
-    bool jumped = false;       // what is prescribed has reached its target
-    bool at_rounding = false;  // corrections with a fresh factor shrink no more
+    bool jumped = false;       // the prescribed unknowns have reached their targets
+    bool at_rounding = false;  // corrections with a fresh factor no longer decrease
     int forgiven = 0;
   };
   enum class Move { made, again, converged, failed };

@@ -35,7 +35,7 @@ void FiniteNewton::Impl::fill_matrix(const VectorXd& d, bool projected) {
   for (const NodalPotential* p : potentials) p->add_tangent(d, blocks);
 }
 
-/// False where not even the projected matrix is positive definite.
+/// Returns false if not even the projected matrix is positive definite.
 bool FiniteNewton::Impl::factor_at(const VectorXd& d, FiniteStepReport& report) {
   secants.clear();
   age.renew(rule.now);

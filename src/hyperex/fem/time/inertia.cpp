@@ -27,7 +27,7 @@ void InertiaRows::refill(const System& system) {
           c.nonZeros(), m.nonZeros(), 9 * pair_.size());
   tbb::parallel_for(std::size_t{0}, start_.size() - 1, [&](std::size_t n) {
     for (int axis = 0; axis < 3; ++axis) {
-      // Both are symmetric: column r is row r.
+      // Both matrices are symmetric, so column r is also row r.
       int at = c.outerIndexPtr()[3 * n + axis];
       for (int k = start_[n]; k < start_[n + 1]; ++k, at += 3) {
         pair_[k].node = c.innerIndexPtr()[at] / 3;

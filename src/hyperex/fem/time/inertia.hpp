@@ -6,11 +6,12 @@
 
 namespace hyperex::fem {
 
-/// M and C interleaved by pairs of nodes: M u + C w is bound by memory, and so the pattern is read
-/// once, the mass of a pair is one number, and the nine dampings need no index of their own.
+/// M and C stored together, by pairs of nodes. The product M u + C w is limited by memory
+/// bandwidth. Therefore the pattern is read once, the mass of a pair is a single number, and the
+/// nine damping entries need no index of their own.
 class InertiaRows {
  public:
-  /// Mass blocks must be multiples of the identity, as a consistent mass is: asserted.
+  /// The blocks of the mass must be multiples of the identity, as for a consistent mass (asserted).
   explicit InertiaRows(const System& system);
   void refill(const System& system);
 

@@ -12,12 +12,12 @@
 namespace hyperex::fem {
 namespace {
 
-/// What Newmark's formulas multiply, for a step h.
+/// The coefficients of Newmark's formulas for a step h.
 struct Factors {
   double h;
-  double m_d, m_v, m_a;  // of M in A and q
-  double c_d, c_v, c_a;  // of C in A and q
-  double v_old, v_new;   // a in v1
+  double m_d, m_v, m_a;  // coefficients of M in A and q
+  double c_d, c_v, c_a;  // coefficients of C in A and q
+  double v_old, v_new;   // coefficients of a in v1
 
   explicit Factors(const NewmarkOptions& o)
       : h(o.dt_s),
@@ -38,11 +38,11 @@ struct Newmark::Impl {
   InertiaRows inertia;
   PartitionedFactor factor;
   SparseMatrix stiffness_oc;
-  SparseMatrix stiffness, mass;  // for the start alone
+  SparseMatrix stiffness, mass;  // used by start() only
   Kinematics state;
   Eigen::VectorXd u, w, q;  // q = M u + C w, all unknowns
   Eigen::VectorXd x_o;
-  Kinematics own;  // of the prescribed unknowns, where only their displacement is given
+  Kinematics own;  // state of the prescribed unknowns if only their displacement is given
 
   Impl(System s, std::vector<int> prescribed, const NewmarkOptions& options,
        std::shared_ptr<const NodeOrder> order)
@@ -55,7 +55,7 @@ struct Newmark::Impl {
     clear();
   }
 
-  /// A of the free unknowns and the others; the damping goes, whose values are in `inertia`.
+  /// The matrix A of the step. Releases the damping matrix, whose values are already in `inertia`.
   static SparseMatrix step_matrix(System& s, const Factors& by) {
     SparseMatrix a = combined(s, by.c_d, by.m_d);
     taken(s.damping);
@@ -82,8 +82,8 @@ struct Newmark::Impl {
       state.a = a_all;
       return;
     }
-    // The consistent mass is well conditioned whatever the mesh: scaled by its diagonal, at most 5
-    // for linear tetrahedra (Wathen, IMA J. Numer. Anal. 7, 1987).
+    // The consistent mass of linear tetrahedra is well conditioned on any mesh: after scaling by
+    // its diagonal, the condition number is at most 5 (Wathen, IMA J. Numer. Anal. 7, 1987).
     const SparseMatrix mass_oo = free_lower(mass, factor.partition());
     Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower> cg(mass_oo);
     cg.setTolerance(1e-14);

@@ -6,8 +6,8 @@
 
 namespace hyperex::fem {
 
-/// L-BFGS on top of an old factor (Nocedal, Math. Comp. 35, 1980): keeps the last pairs of a step
-/// and the change of the gradient along it.
+/// L-BFGS updates of an old factor (Nocedal, Math. Comp. 35, 1980). Stores the last pairs of a
+/// correction and the change of the gradient along it.
 class Secants {
  public:
   explicit Secants(Eigen::Index unknowns) {
@@ -23,7 +23,7 @@ class Secants {
     p.rho = 1 / sy;
     ++count_;
   }
-  /// q := H q. `solve` applies H as it is without any pairs: the old factor.
+  /// q := H q. `solve` applies the initial H without any pairs: the old factor.
   template <typename Solve>
   void apply(Eigen::VectorXd& q, Solve solve) {
     const int first = std::max(0, count_ - kPairs);

@@ -15,7 +15,7 @@ inline Eigen::Vector2d project(const capture::Intrinsics& k, const Vec3& p) {
 inline Vec3 ray(const capture::Intrinsics& k, const Eigen::Vector2d& px) {
   return {(px.x() - k.cx_px) / k.fx_px, (px.y() - k.cy_px) / k.fy_px, 1};
 }
-/// d project / d p.
+/// Jacobian of project() with respect to p.
 inline Eigen::Matrix<double, 2, 3> project_jacobian(const capture::Intrinsics& k, const Vec3& p) {
   const double i = 1 / p.z();
   Eigen::Matrix<double, 2, 3> j;
@@ -23,23 +23,23 @@ inline Eigen::Matrix<double, 2, 3> project_jacobian(const capture::Intrinsics& k
   return j;
 }
 
-/// A small piece of surface as the depth camera sees it.
+/// A plane fitted locally to the depth picture.
 struct SurfacePatch {
   Vec3 point;           ///< camera frame, metres
   Vec3 normal;          ///< unit, towards the camera
-  double share = 0;     ///< of the window that had readings on this surface, 0 to 1
-  double spread_m = 0;  ///< root mean square of the readings about the plane
+  double share = 0;     ///< share of the window's pixels with a reading on this surface, 0 to 1
+  double spread_m = 0;  ///< root mean square distance of the readings from the plane
 };
 
 struct PatchOptions {
   int radius_px = 3;
-  double gate_m = 0.012;     ///< readings farther than this from the expected depth are not used
+  double gate_m = 0.012;     ///< readings farther than this from the expected depth are ignored
   double least_share = 0.4;  ///< of the window
 };
 
-/// The plane through the depth readings in a square window around `px` that lie near `expected_m`,
-/// by least squares in z; nothing where there are too few of them or the window leaves the
-/// picture.
+/// The plane that fits the depth readings in a square window around `px` by least squares in z.
+/// Only readings near `expected_m` are used. Returns nothing if there are too few of them or if the
+/// window extends beyond the picture.
 std::optional<SurfacePatch> surface_patch(const cv::Mat& depth_m, const capture::Intrinsics& camera,
                                           const Eigen::Vector2d& px, double expected_m,
                                           const PatchOptions& options = {});

@@ -11,20 +11,23 @@ namespace hyperex::tracking {
 
 namespace {
 
-/// A frame that waits, and what the network saw in it.
+/// A frame that is not finished, and its measurements.
 struct Waiting {
   TrackedFrame frame;
   std::optional<Observation> seen;
   bool found_anew = false;
 };
 
-constexpr double kMostOff = 0.05;       // of model and network's points, of the face's size
-constexpr double kLeastInside = 0.85;   // of the network's points, within the picture
-constexpr double kRegionMargin = 0.15;  // around the points, of their extent
+// Largest distance between model and network points, relative to the face's size.
+constexpr double kMostOff = 0.05;
+// Least share of the network's points that lie within the picture.
+constexpr double kLeastInside = 0.85;
+constexpr double kRegionMargin = 0.15;  // margin around the points, relative to their extent
 
-/// The options are made for the canonical face. A vertex of a coarser mesh stands for more of the
-/// face: its measurements weigh as those of the canonical vertices in its place would together, and
-/// it may lie farther from its neighbours' mean (which grows with the square of their distance).
+/// The options are those for the canonical face. A vertex of a coarser mesh represents a larger
+/// part of the face. Its measurements therefore have the total weight of the canonical vertices in
+/// its place, and its standard deviation from the mean of its neighbours increases with the square
+/// of their distance.
 TrackerOptions for_mesh_of(const expression::FaceModel& model, TrackerOptions options) {
   const double network = std::sqrt(double(model.pairs.size()) / face_point_count);
   const double surface = double(model.vertex_count()) / face_point_count;
@@ -33,8 +36,8 @@ TrackerOptions for_mesh_of(const expression::FaceModel& model, TrackerOptions op
     fit->network_outline_px *= network;
     fit->network_inner_lip_px *= network;
     fit->depth_m *= std::sqrt(surface);
-    // Bounded, a hundred vertices are too few to separate pose from units (CANDIDE-3 on a talking
-    // face: 0.6 instead of 0.5 degrees, 1.75 instead of 1.74 mm).
+    // With this bound, a hundred vertices are too few to separate pose and units (CANDIDE-3 on a
+    // talking face: 0.6 instead of 0.5 degrees, 1.75 instead of 1.74 mm).
     if (surface < 0.5) fit->off_units_share = fit->off_units_lip_m = 0;
   }
   options.neutral.bend_m /= surface;
@@ -45,8 +48,9 @@ double extent_px(const Points& px) {
   return (px.colwise().maxCoeff() - px.colwise().minCoeff()).head<2>().maxCoeff();
 }
 
-/// Keeps the frames in which the face is as in the first: their network points, laid over the
-/// first's by a similarity, agree with them to within the network's own noise.
+/// Keeps the frames in which the face is as in the first: after a similarity transform, their
+/// network points differ from those of the first by at most the noise of the network
+/// (`at_rest_px`).
 void keep_resting(std::vector<Observation>& frames, double at_rest_px) {
   const Points first = frames.front().network_px;
   std::erase_if(frames, [&](const Observation& seen) {

@@ -14,22 +14,23 @@
 namespace hyperex::tracking {
 
 struct TrackerOptions {
-  /// Weights are stated for the canonical face's 468 vertices; those of a model with fewer vertices
-  /// are raised in proportion.
+  /// Weights are for the canonical face with 468 vertices. For a model with fewer vertices they are
+  /// increased in proportion.
   FitOptions fit;
   NeutralOptions neutral;
   LandmarkOptions network{.mirrored_too = true};
-  /// >= 1: the person's shape is estimated from the first n frames with a face, from those of them
-  /// in which it is at rest, as it is in the first.
+  /// >= 1: the person's shape is estimated from the first n frames that show a face. Of these, only
+  /// the frames in which the face is at rest, as in the first of them, are used.
   int neutral_frames = 15;
-  double at_rest_px = 0.5;  ///< root mean square over the network's points
+  /// Largest root mean square motion of the network's points in a frame at rest.
+  double at_rest_px = 0.5;
   bool use_depth = true;
 };
 
-/// Follows one face from frame to frame: the landmark network, then the model's fit. The first
-/// frames with a face are held back until the person's shape is known from them; at other times
-/// each frame is returned at once. A frame without a face, or an invalid one, is returned as not
-/// valid, and the face is detected anew in the next.
+/// Tracks one face from frame to frame: first by the landmark network, then by fitting the model.
+/// The first frames that show a face are buffered until the person's shape is known; after that,
+/// each frame is returned at once. A frame without a face and an invalid frame are returned as not
+/// valid. The face is then detected again in the next frame.
 class FaceTracker {
  public:
   /// `model` must outlive the tracker.
@@ -37,13 +38,14 @@ class FaceTracker {
               const TrackerOptions& options = {});
   ~FaceTracker();
 
-  /// Takes the next frame; gives those that are finished, in order: one before there is
-  /// a face, none while the shape is not known, then all that were held back, then one.
+  /// Processes the next frame and returns the finished ones in order. Before a face is found, this
+  /// is one frame per call; while the shape is being estimated, none; then all buffered frames at
+  /// once; after that, one per call.
   std::vector<TrackedFrame> feed(const capture::Frame& frame);
-  /// The source has ended: gives what is still held back.
+  /// To be called after the last frame; returns the frames that are still buffered.
   std::vector<TrackedFrame> finish();
 
-  /// Nothing before the shape is known.
+  /// Nothing until the shape is known.
   const std::optional<Neutral>& neutral() const;
   const TrackerTimes& times() const;
 

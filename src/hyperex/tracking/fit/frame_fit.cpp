@@ -24,7 +24,7 @@ double square(double x) {
   return x * x;
 }
 
-/// Geman and McClure's weight of a residual.
+/// Weight of a residual for the Geman-McClure loss.
 double robust(double residual, double scale) {
   return 1 / square(1 + square(residual / scale));
 }
@@ -36,7 +36,7 @@ std::vector<bool> outline(const TriMesh& mesh) {
   return on;
 }
 
-/// The network's points of a kind (model/data/network_points.csv).
+/// The network's points of a kind (expression/data/network_points.csv).
 std::set<int> network_points(const std::string& kind) {
   std::set<int> points;
   for (const auto& row : expression::table_rows(expression::network_points_table(), "kind,points"))
@@ -52,7 +52,7 @@ expression::SparseMatrix free_prior(const TriMesh& mesh, const FitOptions& optio
   for (int column = 0; column < bend.cols(); ++column)
     for (expression::SparseMatrix::InnerIterator it(bend, column); it; ++it) {
       if (it.row() > column) continue;
-      // All nine places, for the data couple coordinates.
+      // All nine entries, because the data couple the coordinates.
       for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) {
           const Eigen::Index row = 3 * it.row() + r, col = 3 * Eigen::Index(column) + c;
@@ -97,7 +97,7 @@ FrameFit::FrameFit(const expression::FaceModel& model, const capture::Intrinsics
     on_inner_lip_[std::size_t(vertex)] =
         std::find(inner_lip.begin(), inner_lip.end(), network) != inner_lip.end();
   }
-  // Within the lips shine and shadow move about, and the colour is one.
+  // Inside the lips, highlights and shadows move, and the colour is uniform.
   for (const auto t : model.mesh.triangles.rowwise())
     skin_triangle_.push_back(!in_lip_[std::size_t(t[0])] || !in_lip_[std::size_t(t[1])] ||
                              !in_lip_[std::size_t(t[2])]);
@@ -193,7 +193,8 @@ void FrameFit::add_depth(VertexSystem& system, const Observation& seen, const Fa
   double squares = 0;
   int used = 0, facing = 0;
   for (int v = 0; v < vertices.rows(); ++v) {
-    if (on_inner_lip_[std::size_t(v)]) continue;  // lip and what lies behind it in one patch
+    // Its window would contain both the lip and what lies behind it.
+    if (on_inner_lip_[std::size_t(v)]) continue;
     const Vec3 p = state.camera_from_head * Vec3(vertices.row(v).transpose());
     const Vec3 normal = turn * normals.row(v).transpose();
     if (-normal.dot(p.normalized()) < kLeastCosine) continue;
@@ -238,7 +239,7 @@ VertexSystem::RowMatrix FrameFit::parameter_jacobian(const FaceState& state) con
   const Points points = vertices(state);
   VertexSystem::RowMatrix jacobian(3 * points.rows(), 6 + typical_.size());
   for (Eigen::Index v = 0; v < points.rows(); ++v) {
-    // The head is turned by w and shifted by s in its own frame: y + w x y + s.
+    // Rotation by w and translation by s in the head frame: y + w x y + s.
     const Vec3 y = points.row(v).transpose();
     jacobian.block<3, 3>(3 * v, 0) << 0, y.z(), -y.y(), -y.z(), 0, y.x(), y.y(), -y.x(), 0;
     jacobian.block<3, 3>(3 * v, 3).setIdentity();
@@ -252,10 +253,11 @@ Eigen::VectorXd FrameFit::parameter_step(const VertexSystem& system,
                                          const VertexSystem::RowMatrix& jacobian,
                                          const FaceState& state, const FaceState* before) const {
   const int n = int(jacobian.cols());
-  Eigen::MatrixXd hessian(n, n);  // J^T H J, by BLAS: four times as quick as Eigen without vectors
+  // J^T H J by BLAS: four times as fast as Eigen without vectorisation.
+  Eigen::MatrixXd hessian(n, n);
   cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, n, n, int(jacobian.rows()), 1,
               jacobian.data(), n, moved.data(), n, 0, hessian.data(), n);
-  // As if the free displacements were none: they take only what the units leave.
+  // The gradient is that for zero free displacements, so that these only take what the units leave.
   const Eigen::Map<const Eigen::VectorXd> free(state.free_m.data(), state.free_m.size());
   Eigen::VectorXd gradient = jacobian.transpose() * system.gradient() - moved.transpose() * free;
   for (Eigen::Index k = 0; k < typical_.size(); ++k) {
@@ -267,7 +269,7 @@ Eigen::VectorXd FrameFit::parameter_step(const VertexSystem& system,
     hessian(6 + k, 6 + k) += step;
     gradient[6 + k] += step * (state.weights[k] - before->weights[k]);
   }
-  hessian.diagonal().head<6>().array() += 1e-3;  // a face that nothing was measured of stays
+  hessian.diagonal().head<6>().array() += 1e-3;  // keeps the pose of a face without measurements
   return hessian.ldlt().solve(-gradient);
 }
 
@@ -290,7 +292,7 @@ void FrameFit::iterate(const VertexSystem& system, FaceState& state, const FaceS
   if (!step.allFinite()) return;
   move(state, step);
   if (!free_moves) return;
-  // Free displacements d, from those now to new ones: (H + S) d_new = H (d - J step) - g + prior.
+  // Free displacements d: the new ones solve (H + S) d_new = H (d - J step) - g + prior.
   const Eigen::Map<Eigen::VectorXd> free(state.free_m.data(), state.free_m.size());
   Eigen::VectorXd right = system.times(free - jacobian * step) - system.gradient();
   if (before)
@@ -329,8 +331,9 @@ FaceState FrameFit::fit(const Observation& seen, const FaceState& start, const F
                         const Skin* skin, FitReport* report) {
   FaceState state = start;
   {
-    // First where the network says that the points went since the frame before: its error in both
-    // is much the same. Skin is compared only where it is nearly in place.
+    // The first iteration uses the network's points corrected by their offsets in the previous
+    // frame, because the network's errors in successive frames are nearly equal. Skin is compared
+    // only later, when it is nearly in place.
     Observation moved = seen;
     if (before && before->network_offset_px.rows())
       for (std::size_t i = 0; i < model_.pairs.size(); ++i)

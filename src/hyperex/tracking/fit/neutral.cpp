@@ -19,7 +19,7 @@ double squared(double x) {
   return x * x;
 }
 
-/// Sums over frames of one vertex at rest.
+/// Weighted sums over the frames of the measured vertices at rest.
 struct VertexMean {
   Points sum;
   Eigen::VectorXd weight;
@@ -31,8 +31,8 @@ double outer_eye_distance(const expression::FaceModel& model, const Points& poin
       .norm();
 }
 
-/// The person's size relative to the model, from depth: similarities onto the vertices as depth has
-/// them; nothing where there is too little depth.
+/// The size of the person relative to the model, from similarity transforms of the model to the
+/// vertices measured by depth; nothing if there is too little depth.
 std::optional<double> scale_from_depth(const expression::FaceModel& model,
                                        const capture::Intrinsics& camera,
                                        const std::vector<Observation>& frames) {
@@ -55,7 +55,8 @@ std::optional<double> scale_from_depth(const expression::FaceModel& model,
       a.row(Eigen::Index(i)) = from[i].transpose();
       b.row(Eigen::Index(i)) = to[i].transpose();
     }
-    // The outline often looks past the face: twice without what fits badly.
+    // Network points on the outline often fall beside the face. Points that fit badly therefore
+    // lose weight in five rounds.
     Eigen::VectorXd weights = Eigen::VectorXd::Ones(a.rows());
     Similarity fit = fit_similarity(a, b, weights);
     for (int round = 0; round < 5; ++round) {
@@ -71,7 +72,7 @@ std::optional<double> scale_from_depth(const expression::FaceModel& model,
   return median(scales);
 }
 
-/// Where one frame puts the vertices at rest.
+/// Adds the vertices at rest that one frame gives.
 void add_frame(const expression::FaceModel& model, const capture::Intrinsics& camera,
                const Observation& seen, const FrameFit& fit, const FaceState& state,
                const PatchOptions& patch_options, VertexMean& mean) {
@@ -110,7 +111,7 @@ Eigen::VectorXd fit_shape(const expression::FaceModel& model, double scale,
           scale * unit.displacement_m.row(Eigen::Index(i)).transpose();
     hessian(k, k) += 1 / squared(unit.typical);
   }
-  constexpr double kModel_m = 0.004;  // how well any person's face is one of the model's
+  constexpr double kModel_m = 0.004;  // standard deviation of any person's face from the model
   for (Eigen::Index v = 0; v < model.vertex_count(); ++v) {
     if (mean.weight[v] <= 0) continue;
     const Vec3 target =
@@ -122,13 +123,14 @@ Eigen::VectorXd fit_shape(const expression::FaceModel& model, double scale,
   return hessian.ldlt().solve(right);
 }
 
-/// The means held to the model's shape, its differences smooth over the mesh.
+/// The means, regularised towards the model's shape such that the differences are smooth over the
+/// mesh.
 Points smoothed(const expression::FaceModel& model, const Points& shape, const VertexMean& mean,
                 const NeutralOptions& options) {
   const expression::SparseMatrix laplacian = expression::mesh_laplacian(model.mesh);
   expression::SparseMatrix matrix = laplacian.transpose() * laplacian / squared(options.bend_m);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(model.vertex_count(), 3);
-  constexpr double kWeak = 1e2;  // a centimetre: where nothing else is known
+  constexpr double kWeak = 1e2;  // standard deviation 0.1 m: for vertices without any data
   for (Eigen::Index v = 0; v < model.vertex_count(); ++v) {
     const double weight = std::min(1.0, mean.weight[v]) / squared(options.vertex_m);
     matrix.coeffRef(v, v) += weight + kWeak;
@@ -152,8 +154,8 @@ Neutral estimate_neutral(const expression::FaceModel& model, const capture::Intr
   neutral.shape = Eigen::VectorXd::Zero(Eigen::Index(model.shape_units.size()));
   neutral.points_m = neutral.scale * model.mesh.points;
   FitOptions rigid = options.fit;
-  rigid.units = 1e-4;         // at rest: nothing but the head's pose
-  rigid.free_iterations = 0;  // of no use here
+  rigid.units = 1e-4;         // at rest: only the head pose is fitted
+  rigid.free_iterations = 0;  // not needed here
   for (int round = 0; round < options.rounds; ++round) {
     FrameFit fit(model, camera, neutral.points_m, neutral.scale, rigid);
     VertexMean mean{Points::Zero(model.vertex_count(), 3),

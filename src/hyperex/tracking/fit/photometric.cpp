@@ -35,8 +35,8 @@ Pixels project_all(const capture::Intrinsics& camera, const Eigen::Isometry3d& c
   return pixels;
 }
 
-/// Not 0 where a pixel is too near to an edge that has one triangle only: the face's outline, which
-/// slides over the skin as the head turns, or an opening.
+/// Non-zero for pixels too close to a border edge of the mesh. On the outline of the face, such an
+/// edge slides over the skin as the head rotates; other border edges belong to an opening.
 cv::Mat border_mask(const Pixels& px, const TriMesh& mesh, const FinePicture& picture,
                     const PhotometricOptions& options) {
   const expression::BorderEdges border = expression::border_edges(mesh);
@@ -66,7 +66,7 @@ FinePicture fine_picture(const cv::Mat& bgr, cv::Rect region, Channel channel, d
     cv::cvtColor(bgr(region), grey, cv::COLOR_BGR2GRAY);
     grey.convertTo(grey, CV_32F);
     cv::GaussianBlur(grey, fine.value, {}, sigma_px);
-    // A box twice over is nearly a Gaussian, at a cost that does not grow with its width.
+    // Two box filters approximate a Gaussian at a cost independent of its width.
     const int side = int(std::lround(kLocalMeanSigma_px * 2)) | 1;
     cv::blur(grey, mean, {side, side});
     cv::blur(mean, mean, {side, side});
@@ -113,7 +113,8 @@ Template::Template(const FinePicture& picture, const capture::Intrinsics& camera
                           c = px.row(triangles(t, 2)).transpose() - origin;
     const Eigen::Vector2d e = b - a, f = c - a;
     const double area = e.x() * f.y() - e.y() * f.x();
-    // Counter-clockwise from outside is clockwise in a picture whose y goes down: negative.
+    // A triangle that is counter-clockwise seen from outside has negative area here, as y points
+    // down.
     if (area > -0.5 || facing(t) < options.least_cosine) continue;
     const int x0 = std::max(1, int(std::ceil(std::min({a.x(), b.x(), c.x()})))),
               x1 = std::min(picture.value.cols - 2,
@@ -136,8 +137,8 @@ Template::Template(const FinePicture& picture, const capture::Intrinsics& camera
   }
 }
 
-/// The samples in another picture with the mesh's vertices at these places, and the brightness
-/// there over that of the samples; 0 where none is seen.
+/// The samples in another picture, with the mesh's vertices at the given positions. `gain`: the
+/// brightness there relative to that of the samples; 0 if none is visible.
 std::vector<Template::Seen> Template::seen_in(const FinePicture& picture, const Pixels& vertices,
                                               double& gain) const {
   std::vector<Seen> seen(samples_.size());
@@ -157,7 +158,7 @@ std::vector<Template::Seen> Template::seen_in(const FinePicture& picture, const 
   }
   gain = 0;
   if (square <= 0) return seen;
-  // Contrast follows the brightness of the scene.
+  // The contrast is proportional to the brightness of the scene.
   gain = options_.channel == Channel::grey ? std::clamp(product / square, 0.2, 3.0) : 1;
   return seen;
 }
@@ -183,7 +184,7 @@ double Template::add_to(VertexSystem& system, const FinePicture& picture,
           project_jacobian(camera,
                            camera_from_head * Vec3(head_points.row(triangles_(t, k)).transpose())) *
           turn;
-    // In the plane of the picture: six coordinates, then carried to nine.
+    // In the picture plane: six coordinates, which are then transformed to nine.
     Eigen::Matrix<double, 6, 6> h = Eigen::Matrix<double, 6, 6>::Zero();
     Eigen::Matrix<double, 6, 1> g = Eigen::Matrix<double, 6, 1>::Zero();
     for (; s < samples_.size() && samples_[s].triangle == t; ++s) {

@@ -19,7 +19,8 @@ namespace hyperex::tracking {
 namespace {
 
 constexpr double kSameTime_s = 1e-3;
-constexpr double kAtRest_m = 2e-5;  // no true point is farther from its place in frame 0
+// Greatest distance of a true point from its position in frame 0.
+constexpr double kAtRest_m = 2e-5;
 constexpr std::size_t kLeastRestFrames = 5;
 
 void check_times(const io::CsvTable& table, const std::vector<double>& time_s) {
@@ -34,7 +35,7 @@ void check_times(const io::CsvTable& table, const std::vector<double>& time_s) {
                         fmt::format("the time of that row in truth_pose.csv, {}", time_s[k])});
 }
 
-/// NaN of none.
+/// NaN if there are no values.
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
@@ -95,7 +96,7 @@ std::optional<double> jitter(const std::vector<Points>& camera_points) {
   return count ? std::optional(1e3 * std::sqrt(squares / double(count))) : std::nullopt;
 }
 
-/// Per time of the truth the frame of that time, or null.
+/// For each true time, the tracked frame at that time, or null.
 std::vector<const TrackedFrame*> frames_at(const std::vector<double>& time_s,
                                            const std::vector<TrackedFrame>& tracked) {
   std::vector<const TrackedFrame*> match(time_s.size(), nullptr);

@@ -13,7 +13,7 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-/// What of a frame is needed once it is finished.
+/// The data of a frame that are needed until it is finished.
 struct Fed {
   Clock::time_point arrived;
   cv::Mat bgr;
@@ -34,7 +34,7 @@ class LiveTracker {
     result_.status.seconds = seconds_between(*first_, Clock::now());
     result_.status.dropped = dropped;
     if (!learnt_) result_.status.dropped_while_learning = dropped;
-    learnt_ = !learning;  // what was dropped in this call is reported with the next frame
+    learnt_ = !learning;  // frames dropped during this call are reported with the next frame
   }
 
   LiveTracking finish(std::size_t dropped) {
@@ -73,7 +73,7 @@ class LiveTracker {
     }
   }
 
-  /// By arrival: frames that were held back are finished all at once.
+  /// By arrival time, because buffered frames are finished all at once.
   void count_rate(Clock::time_point arrived) {
     last_second_.push_back(arrived);
     while (seconds_between(last_second_.front(), arrived) > 1) last_second_.pop_front();
@@ -85,7 +85,7 @@ class LiveTracker {
   const LiveOptions& live_;
   const FrameVisitor& visit_;
   LiveTracking result_;
-  std::deque<Fed> fed_;                        // not finished
+  std::deque<Fed> fed_;                        // not finished yet
   std::deque<Clock::time_point> last_second_;  // arrivals of finished frames
   bool learnt_ = false;
   std::optional<Clock::time_point> first_;

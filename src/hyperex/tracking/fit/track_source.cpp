@@ -10,7 +10,8 @@
 namespace hyperex::tracking {
 namespace {
 
-/// The person's shape and skin from the frames at rest; what is tracked in them is dropped.
+/// Estimates the person's shape and skin from the frames at rest. Their tracking results are
+/// discarded.
 void learn_rest(FaceTracker& tracker, const RestFrames& rest) {
   Progress progress("looking at the face at rest", 0);
   std::optional<double> start_s;

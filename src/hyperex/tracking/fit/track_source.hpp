@@ -9,20 +9,20 @@
 
 namespace hyperex::tracking {
 
-/// Told of each frame once it is finished, in order, with its picture (BGR; empty where the source
-/// had none).
+/// Called for each finished frame, in order, with its picture (BGR; empty if the source had none).
 using FrameVisitor = std::function<void(const TrackedFrame&, const cv::Mat& bgr)>;
 
-/// Frames of the same camera that show the face at rest, with times in [from_s, to_s] from the
-/// source's first frame: what is at rest is learnt from them before tracking begins.
+/// Frames of the same camera that show the face at rest: those with times in [from_s, to_s],
+/// relative to the first frame of the source. The shape at rest is estimated from them before
+/// tracking begins.
 struct RestFrames {
-  capture::FrameSource* source = nullptr;  ///< none: the first frames that are tracked
+  capture::FrameSource* source = nullptr;  ///< null: the first tracked frames are used
   double from_s = 0, to_s = 0;
 };
 
-/// Tracks a source to its end, with a progress bar. With `visit` the pictures of frames that are
-/// held back (FaceTracker) are kept in memory until they are finished. Throws InputError where no
-/// frame, or none of those at rest, shows a face.
+/// Tracks a source to its end and shows a progress bar. If `visit` is given, the pictures of
+/// buffered frames (FaceTracker) are kept in memory until these frames are finished. Throws
+/// InputError if no frame shows a face, or no frame at rest does.
 Tracking track(capture::FrameSource& source, const expression::FaceModel& model,
                const TrackerOptions& options = {}, const FrameVisitor& visit = {},
                const RestFrames& rest = {});

@@ -30,8 +30,8 @@ double overlap(const cv::Rect2d& a, const cv::Rect2d& b) {
   return common > 0 ? common / (a.area() + b.area() - common) : 0;
 }
 
-/// Boxes of one face become one, the mean by their scores (BlazeFace, section 3.4: less jitter than
-/// keeping the best one).
+/// Merges the boxes of one face to their mean, weighted by score (BlazeFace, section 3.4: less
+/// jitter than keeping only the best box).
 void join_same_faces(std::vector<FoundFace>& boxes, double least_overlap,
                      std::vector<FoundFace>& faces) {
   std::stable_sort(boxes.begin(), boxes.end(),
@@ -73,7 +73,7 @@ struct FaceFinder::Impl {
   std::vector<cv::Mat> outputs;
   std::vector<FoundFace> boxes, faces;
 
-  /// Adds the boxes that the network sees in one square of the picture.
+  /// Adds the faces that the network finds in one square of the picture.
   void look_at(const cv::Mat& bgr, const FaceRegion& square) {
     cut_out(bgr, square, network.width_px, true, scratch, patch);
     cv::dnn::blobFromImage(patch, input, 1 / 127.5, {}, cv::Scalar::all(127.5), true);
@@ -87,7 +87,7 @@ struct FaceFinder::Impl {
       face.score = 1 / (1 + std::exp(-double(scores[i])));
       if (face.score < options.least_score) continue;
       const float* n = numbers + i * numbers_a_box;
-      const auto place = [&](int k) {  // offsets in pixels of the network's picture
+      const auto place = [&](int k) {  // offsets are in pixels of the network's input
         return square.picture_from_square(centres[i].x + n[k] / network.width_px,
                                           centres[i].y + n[k + 1] / network.height_px);
       };

@@ -9,22 +9,24 @@
 
 namespace hyperex::tracking {
 
-/// A face as the detector sees it, in pixels of the picture, pixel centres at integers.
+/// A face found by the detector, in pixels of the picture, with pixel centres at integers.
 struct FoundFace {
   double score = 0;  ///< 0 to 1
-  cv::Rect2d box;    ///< brow to chin, cheek to cheek
+  cv::Rect2d box;    ///< from brow to chin and from cheek to cheek
   /// The subject's right eye, left eye, nose tip, mouth, right ear, left ear.
   std::array<cv::Point2d, 6> points;
 
-  /// The square for the landmark network: 1.5 x the longer side of the box, upright along the eyes.
+  /// The square region for the landmark network: 1.5 x the longer side of the box, rotated such
+  /// that the eyes are horizontal in it.
   FaceRegion region() const;
 };
 
 struct FaceFinderOptions {
-  double least_score = 0.5;        ///< of a face, 0 to 1
-  double same_face_overlap = 0.3;  ///< boxes that overlap more (intersection over union) are one
-  /// Where the whole picture shows none: also overlapping squares of half the shorter side, for
-  /// faces too small to be seen at the network's 128 pixels.
+  double least_score = 0.5;  ///< of a face, 0 to 1
+  /// Boxes with a larger overlap (intersection over union) are merged.
+  double same_face_overlap = 0.3;
+  /// If the whole picture shows no face, also search overlapping squares of half the shorter side,
+  /// for faces too small for the network's 128 pixels.
   bool look_closer = true;
 };
 
@@ -40,8 +42,8 @@ class FaceFinder {
   /// The faces in a picture (CV_8UC3, BGR, not empty), the largest box first. The result is valid
   /// until the next call.
   const std::vector<FoundFace>& find(const cv::Mat& bgr);
-  /// The faces in one square of a picture, which may be turned: faces that stand upright in it.
-  /// FoundFace::box then has its sides along the square's.
+  /// The faces in one square region of a picture. The region may be rotated; only faces upright in
+  /// it are found. FoundFace::box then has its sides parallel to those of the region.
   const std::vector<FoundFace>& find_in(const cv::Mat& bgr, const FaceRegion& square);
 
  private:

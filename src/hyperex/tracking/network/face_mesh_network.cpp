@@ -18,20 +18,20 @@ namespace {
 
 constexpr const char* file_name = "face_landmark_with_attention.tflite";
 
-/// What is looked at again: lips, one eye, the other.
+/// A region refined by the second stage: the lips, one eye, the other eye.
 struct Region {
-  std::vector<int> points;          // of the 468, in the order of the second look's output
-  int left = 0, right = 0;          // the two that give the rotation of the region
-  double scale_x = 1, scale_y = 1;  // of the box about the points
-  Network network;                  // from its features to its points
+  std::vector<int> points;  // numbers among the 468, in the order of the second stage's output
+  int left = 0, right = 0;  // the two points that define the rotation of the region
+  double scale_x = 1, scale_y = 1;  // scale of the box around the points
+  Network network;                  // from the region's features to its points
   cv::Mat features;                 // 1 x C x h x w, sampled
-  int output = -1, crop = -1;       // tensors
+  int output = -1, crop = -1;       // tensor indices
 };
 
-/// A turned box in cells of the map of features.
+/// A rotated box in cells of the feature map.
 struct Box {
   double x, y, cos, sin, width, height;
-  /// (0, 0) to (1, 1) -> cells.
+  /// Maps (0, 0) to (1, 1) to cells.
   cv::Point2d at(double u, double v) const {
     const double right = (u - 0.5) * width, down = (v - 0.5) * height;
     return {x + cos * right - sin * down, y + sin * right + cos * down};
@@ -57,7 +57,7 @@ Box box_about(const Region& region, const FacePoints& points, double cells_per_p
           size.y() * region.scale_y};
 }
 
-/// Cell centres at half integers; nothing beyond the centres of the outermost cells.
+/// Cell centres are at half integers. Positions beyond the centres of the outermost cells give 0.
 void sample(const cv::Mat& map, const Box& box, cv::Mat& samples) {
   const int channels = map.size[1], rows = map.size[2], columns = map.size[3];
   const int height = samples.size[2], width = samples.size[3];
@@ -100,7 +100,7 @@ Region read_region(const TfliteConstants& file, const tflite::Operator& op) {
 }  // namespace
 
 struct FaceMeshNetwork::Impl {
-  Network whole;  // to the map of features, the 468 points and the score
+  Network whole;  // gives the feature map, the 468 points and the score
   std::vector<Region> regions;
   std::vector<cv::Mat> outputs;
 
@@ -141,7 +141,7 @@ struct FaceMeshNetwork::Impl {
     return count;
   }
 
-  /// The tensor that a TransformLandmarks brings back by (a multiple of) that region's matrix.
+  /// The output tensor of the TransformLandmarks that uses (a multiple of) this region's matrix.
   static int output_of(const TfliteConstants& file, int matrix, const Region& region) {
     for (const auto* op : *file.graph().operators()) {
       if (file.custom_name(*op) != "TransformLandmarks" || op->inputs()->size() != 2) continue;
@@ -187,7 +187,7 @@ double FaceMeshNetwork::look(const cv::Mat& picture, double least_score, FacePoi
                .cast<double>();
   const double score = 1 / (1 + std::exp(-double(my.outputs[2].ptr<float>()[0])));
   if (score >= least_score) {
-    // All regions follow from the first output, whatever the others have changed.
+    // All regions are located by the output of the first stage, not by refined points.
     const FacePoints first = points;
     for (Region& region : my.regions) {
       FacePoints again = first;

@@ -15,7 +15,8 @@ cv::Point2d FaceRegion::picture_from_square(double u, double v) const {
 
 void cut_out(const cv::Mat& picture, const FaceRegion& region, int patch_px, bool black_outside,
              cv::Mat& scratch, cv::Mat& patch) {
-  // A bilinear sample reaches over two pixels; what is finer is sampled densely and averaged.
+  // A bilinear sample covers two pixels. If the picture is finer than that, it is sampled more
+  // densely and averaged.
   constexpr double bilinear_reach_px = 1.5;
   const int finer = std::max(1, int(std::lround(region.side_px / patch_px / bilinear_reach_px)));
   const int size = patch_px * finer;

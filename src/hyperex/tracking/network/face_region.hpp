@@ -4,20 +4,20 @@
 
 namespace hyperex::tracking {
 
-/// A square of a picture, turned: pixels, pixel centres at integers.
+/// A rotated square region of a picture, in pixels, with pixel centres at integers.
 struct FaceRegion {
   double x = 0, y = 0;   ///< centre
   double side_px = 0;    ///< > 0
   double angle_rad = 0;  ///< from the picture's x axis to the square's, clockwise as seen (y down)
 
-  /// Picture coordinates of a place in the square, (0, 0) its upper left corner, (1, 1) the lower
-  /// right one.
+  /// Picture coordinates of the point (u, v) of the square: (0, 0) is its upper left corner, (1, 1)
+  /// its lower right one.
   cv::Point2d picture_from_square(double u, double v) const;
 };
 
-/// Samples the square to `patch_px` x `patch_px` pixels, bilinear, averaged where the picture is
-/// finer than the patch; outside the picture its border goes on, or `outside` is black.
-/// `scratch` and `patch` are used again from call to call.
+/// Resamples the square to `patch_px` x `patch_px` pixels, bilinearly, with averaging if the
+/// picture has the higher resolution. Outside the picture, its border pixels are repeated, or black
+/// is used if `black_outside` is set. `scratch` and `patch` are reused between calls.
 void cut_out(const cv::Mat& picture, const FaceRegion& region, int patch_px, bool black_outside,
              cv::Mat& scratch, cv::Mat& patch);
 

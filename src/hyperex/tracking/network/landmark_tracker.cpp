@@ -15,7 +15,8 @@ namespace {
 
 constexpr int right_eye_outer = 33, left_eye_outer = 263;  // vertices of the canonical face
 
-/// Whether two squares differ so little that the points hardly would (a tenth of a pixel of 192).
+/// Whether two squares differ so little that the points would hardly change (a tenth of a pixel of
+/// 192).
 bool settled(const FaceRegion& a, const FaceRegion& b) {
   constexpr double shift = 0.004, growth = 0.006, turn_rad = 0.006;
   return std::hypot(a.x - b.x, a.y - b.y) < shift * a.side_px &&
@@ -53,10 +54,10 @@ struct LandmarkTracker::Impl {
   FaceMeshNetwork network;
   cv::Mat scratch, patch, mirrored, input;
   bool following = false;
-  FaceRegion next;  // where to look in the next picture, while following
+  FaceRegion next;  // the region for the next picture while tracking
   int faces_in_view = 0, since_look_around = 0;
 
-  /// `points`: of `patch`, in its pixels.
+  /// `points`: the points of `patch`, in its pixels.
   void take_mean_with_mirrored(FacePoints& points, int size_px) {
     cv::flip(patch, mirrored, 1);
     cv::dnn::blobFromImage(mirrored, input, 1 / 255.0, {}, {}, true);

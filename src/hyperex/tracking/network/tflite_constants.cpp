@@ -40,7 +40,7 @@ void TfliteConstants::fail(const std::string& what) const {
 tflite::Operation TfliteConstants::operation(const tflite::Operator& op) const {
   if (op.opcode_index() >= model_->operator_codes()->size()) fail("names an operation it lacks");
   const auto* code = model_->operator_codes()->Get(op.opcode_index());
-  // Numbers up to 127 stood in the older field; files may fill either.
+  // Codes up to 127 were formerly stored in another field; a file may use either.
   return tflite::Operation(std::max(int(code->old_code()), int(code->code())));
 }
 

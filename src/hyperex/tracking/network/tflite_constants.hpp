@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Inside the room: the checked view of a .tflite file, its shapes and its constant tensors.
+// Private to this library: checked access to a .tflite file, its shapes and its constant tensors.
 #include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
@@ -12,21 +12,22 @@
 
 namespace hyperex::tracking {
 
-/// Refers to the bytes, which must outlive it. Every method throws InputError, naming the source,
-/// where the file is at odds with itself.
+/// Refers to the bytes, which must outlive this object. Every method throws InputError, naming the
+/// source, if the file is inconsistent.
 class TfliteConstants {
  public:
   TfliteConstants(std::span<const std::uint8_t> bytes, std::string source);
 
   const tflite::SubGraph& graph() const { return *graph_; }
   tflite::Operation operation(const tflite::Operator& op) const;
-  /// The name of an operator of kind CUSTOM; else empty.
+  /// The name of an operator of kind CUSTOM; empty for other kinds.
   std::string custom_name(const tflite::Operator& op) const;
   /// The operator that computes a tensor.
   const tflite::Operator& maker(int tensor) const;
-  /// Of a tensor: sizes, each at least 1, at most 2^26 numbers in all.
+  /// The shape of a tensor. Each size is at least 1; there are at most 2^26 numbers in all.
   std::vector<int> shape(int tensor) const;
-  /// A constant tensor in single precision, its own or what a DEQUANTIZE makes of another.
+  /// A constant tensor in single precision, stored directly or converted from another by
+  /// DEQUANTIZE.
   cv::Mat values(int tensor) const;
   /// A constant tensor of 32-bit integers.
   cv::Mat integers(int tensor) const;
@@ -34,7 +35,7 @@ class TfliteConstants {
 
  private:
   const tflite::Tensor& tensor(int index) const;
-  /// With this many bytes per number.
+  /// `width`: bytes per number.
   const std::uint8_t* data(int index, std::size_t width) const;
 
   std::string source_;

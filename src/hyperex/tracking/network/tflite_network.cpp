@@ -17,8 +17,8 @@ namespace {
 using cv::dnn::DictValue;
 using cv::dnn::LayerParams;
 
-/// Walks the operators in the file's order, which is an order of computation, and adds a layer (or
-/// a few) for each. TFLite keeps channels last, OpenCV first.
+/// Traverses the operators in the order of the file, which is a valid order of computation, and
+/// adds one or more layers for each. TFLite stores channels last, OpenCV first.
 class Builder {
  public:
   Builder(const tflite::SubGraph& graph, const TfliteConstants& constants)
@@ -80,7 +80,7 @@ class Builder {
   int tensor_at(const flatbuffers::Vector<int>* list, unsigned k) const {
     if (!list || k >= list->size()) fail("has an operator that lacks a tensor");
     const int tensor = list->Get(k);
-    constants_.shape(tensor);  // in range
+    constants_.shape(tensor);  // checks the index
     return tensor;
   }
   int in(const tflite::Operator& op, unsigned k) const { return tensor_at(op.inputs(), k); }
@@ -112,7 +112,8 @@ class Builder {
     bool even() const { return begin[0] == end[0] && begin[1] == end[1]; }
   };
 
-  /// SAME: the output has ceil(input / stride) places; what is odd goes to the end.
+  /// SAME: the output has ceil(input / stride) positions; an odd pixel of padding is added at the
+  /// end.
   Pads pads(int input, tflite::Padding padding, const int (&size)[2],
             const int (&stride)[2]) const {
     Pads p;
@@ -136,7 +137,7 @@ class Builder {
     return add_layer("Padding", params, {place});
   }
 
-  /// One of the two kinds of convolution: `weights` in OpenCV's order, outputs x inputs per group x
+  /// Adds a convolution of either kind. `weights` in OpenCV's order: outputs x inputs per group x
   /// height x width.
   void convolve(const tflite::Operator& op, const cv::Mat& weights, int groups,
                 tflite::Padding padding, const int (&stride)[2], const int (&dilation)[2],
@@ -145,7 +146,7 @@ class Builder {
                          (weights.size[3] - 1) * dilation[1] + 1};
     Place from = place_of(in(op, 0));
     Pads p = pads(in(op, 0), padding, size, stride);
-    if (!p.even()) {  // OpenCV's convolution pads alike on both sides
+    if (!p.even()) {  // OpenCV's convolution requires equal padding on both sides
       from = padded(from, {0, 0, 0, 0, p.begin[0], p.end[0], p.begin[1], p.end[1]});
       p = {};
     }
@@ -231,7 +232,8 @@ class Builder {
   }
 
   void add_pad(const tflite::Operator& op) {
-    const cv::Mat p = constants_.integers(in(op, 1));  // batch, height, width, channel x begin, end
+    // batch, height, width, channel, each with begin and end.
+    const cv::Mat p = constants_.integers(in(op, 1));
     if (p.total() != 8) fail("pads something that is no picture");
     const auto at = [&](int k) { return p.ptr<int>()[k]; };
     place_[out(op)] =
@@ -244,7 +246,7 @@ class Builder {
     return add_layer("Permute", params, {place});
   }
 
-  /// The file's order is that of channels last: an input of rank 4 goes back to it first.
+  /// The file's order is channels last, so an input of rank 4 is first permuted back to it.
   void add_reshape(const tflite::Operator& op) {
     Place place = place_of(in(op, 0));
     if (constants_.shape(in(op, 0)).size() == 4) place = permuted(place, {0, 2, 3, 1});
@@ -297,7 +299,7 @@ class Builder {
       case tflite::Operation_CONCATENATION:
         return add_concatenation(op);
       case tflite::Operation_DEQUANTIZE:
-        return;  // of constants, seen to by TfliteConstants
+        return;  // applied to constants only; done by TfliteConstants
       default:
         fail(fmt::format("has an operation that is not known here (number {})",
                          int(constants_.operation(op))));
@@ -307,7 +309,7 @@ class Builder {
   const tflite::SubGraph& graph_;
   const TfliteConstants& constants_;
   cv::dnn::Net net_;
-  std::map<int, Place> place_;  // of tensors that are computed
+  std::map<int, Place> place_;  // of computed tensors
   int layers_ = 0;
 };
 

@@ -8,14 +8,14 @@
 
 namespace hyperex::tracking {
 
-/// A model's units as weights of ARKit's blend shapes, by the names and scales of its table. A
-/// blend shape that several units share is their mean.
+/// Converts the weights of a model's units to ARKit's blend shapes, by the names and scales in the
+/// model. The weight of a blend shape that several units share is their mean.
 class ArkitWeights {
  public:
   explicit ArkitWeights(const expression::FaceModel& model);
-  /// Names that the model has, rising.
+  /// The blend shapes that the model has, sorted.
   std::vector<std::string> names() const;
-  /// 0 to 1 by name. Requires a valid frame.
+  /// Weights, 0 to 1, by name. The frame must be valid.
   std::map<std::string, double> of(const TrackedFrame& frame) const;
 
  private:

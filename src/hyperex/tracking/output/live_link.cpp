@@ -20,7 +20,7 @@ namespace {
 constexpr int kRate_hz = 60;
 constexpr std::size_t kBeforeWeights = 2;  // Timecode, BlendShapeCount
 
-/// As the app names them, in its order.
+/// The names and order used by the app.
 constexpr const char* kColumns =
     "Timecode BlendShapeCount EyeBlinkLeft EyeLookDownLeft EyeLookInLeft EyeLookOutLeft "
     "EyeLookUpLeft EyeSquintLeft EyeWideLeft EyeBlinkRight EyeLookDownRight EyeLookInRight "
@@ -34,7 +34,7 @@ constexpr const char* kColumns =
     "NoseSneerLeft NoseSneerRight TongueOut HeadYaw HeadPitch HeadRoll LeftEyeYaw "
     "LeftEyePitch LeftEyeRoll RightEyeYaw RightEyePitch RightEyeRoll";
 
-/// HH:MM:SS:FF.fff, rounded to thousandths of a frame.
+/// HH:MM:SS:FF.fff, rounded to a thousandth of a frame.
 std::string timecode(double time_s) {
   const long long thousandths = std::llround(time_s * kRate_hz * 1000);
   const long long second = thousandths / (1000 * kRate_hz);

@@ -12,12 +12,13 @@ namespace hyperex::tracking {
 /// 52 blend shapes with a capital letter, and nine angles of head and eyes.
 const std::vector<std::string>& live_link_columns();
 
-/// Weights of ARKit's blend shapes over time in the format of Live Link Face, for programs that
-/// read its recordings. Timecodes HH:MM:SS:FF.fff count 60ths of a second from the first frame; a
-/// recording of less than half a second does not determine this rate. A blend shape that the model
-/// does not have is 0, and so are the angles, whose signs Epic does not document. The format has no
-/// row for a frame without a face: those, and frames whose time does not rise, are left out. Throws
-/// InputError where the file cannot be written, or where no frame is valid.
+/// Writes the weights of ARKit's blend shapes over time in the format of Live Link Face, for
+/// programs that read its recordings. Timecodes HH:MM:SS:FF.fff count 60ths of a second from the
+/// first frame; in a recording of less than half a second, readers cannot determine this rate. A
+/// blend shape that the model does not have is 0. The angles are also 0, because Epic does not
+/// document their signs. The format has no row for a frame without a face: such frames are omitted,
+/// and so are frames whose time does not increase. Throws InputError if the file cannot be written
+/// or if no frame is valid.
 void write_live_link_csv(const std::filesystem::path& file, const expression::FaceModel& model,
                          const Tracking& tracking);
 

@@ -23,9 +23,9 @@ using render::Colour;
 constexpr int kLongerSide = 960;  // of the drawn picture
 constexpr int kPanelWidth = 230, kStatusHeight = 28, kBannerHeight = 30;
 constexpr int kRowHeight = 27, kBarWidth = 150, kMostRows = 16;
-constexpr double kFade = 0.93;  // of a unit's strength from frame to frame
+constexpr double kFade = 0.93;  // factor of a unit's strength from frame to frame
 constexpr double kAxisLength_m = 0.09;
-constexpr double kBehind_m = 0.002;  // an edge still shows so far below the surface
+constexpr double kBehind_m = 0.002;  // edges up to this distance below the surface are still drawn
 
 constexpr Colour kPanel{0.11, 0.12, 0.14}, kInk{0.92, 0.93, 0.94}, kFaint{0.60, 0.62, 0.65};
 constexpr Colour kTrack{0.22, 0.23, 0.26}, kPositive{0.98, 0.66, 0.16}, kNegative{0.36, 0.65, 0.95};
@@ -34,7 +34,7 @@ constexpr Colour kAlarm{0.80, 0.10, 0.10}, kNoPicture{0.30, 0.31, 0.33};
 constexpr Colour kAxes[3] = {{0.95, 0.25, 0.20}, {0.35, 0.85, 0.25}, {0.30, 0.50, 1.0}};
 constexpr const char* kAxisNames[3] = {"L", "up", "front"};
 
-/// Encoders work in blocks of so many pixels.
+/// Video encoders work in blocks of this size, pixels.
 int whole_blocks(double length_px) {
   return 16 * int(std::ceil(length_px / 16));
 }
@@ -53,7 +53,8 @@ std::vector<std::array<int, 4>> edges_of(const Triangles& triangles) {
   return list;
 }
 
-/// Seen from the camera at the origin, triangles that run counter-clockwise outside.
+/// For each triangle, whether it faces the camera at the origin. Triangles are counter-clockwise
+/// seen from outside.
 std::vector<bool> facing(const TriMesh& seen) {
   std::vector<bool> faces(std::size_t(seen.triangles.rows()));
   for (Eigen::Index t = 0; t < seen.triangles.rows(); ++t) {
@@ -64,7 +65,7 @@ std::vector<bool> facing(const TriMesh& seen) {
   return faces;
 }
 
-/// As much of a text as fits.
+/// The text, shortened to the width.
 std::string fitted(const Canvas& canvas, std::string text, double width_px,
                    const render::TextStyle& style) {
   if (canvas.text_width(text, style) <= width_px) return text;
@@ -116,7 +117,7 @@ cv::Mat PreviewPainter::draw(const TrackedFrame& frame, const cv::Mat& bgr) {
     canvas.rectangle(0, 0, picture_width_, picture_height_, kNoPicture);
   }
   if (frame.valid) draw_face(canvas, frame);
-  // What runs over the picture's border is covered by what stands beside it.
+  // The panels cover whatever extends beyond the border of the picture.
   canvas.rectangle(picture_width_, 0, width_px_ - picture_width_, height_px_, kPanel);
   canvas.rectangle(0, picture_height_, width_px_, height_px_ - picture_height_, kPanel);
   draw_units(canvas, frame);
@@ -137,7 +138,7 @@ void PreviewPainter::draw_face(Canvas& canvas, const TrackedFrame& frame) const 
     return out;
   };
   const TriMesh seen{in_camera(frame.vertices_m), model_.mesh.triangles};
-  if (seen.points.col(2).minCoeff() <= 0) return;  // not before the camera: nothing to draw
+  if (seen.points.col(2).minCoeff() <= 0) return;  // not in front of the camera
   draw_wires(canvas, seen);
   draw_landmarks(canvas, seen, in_camera(expression::landmarks_on(model_, frame.vertices_m)));
   draw_axes(canvas, frame.camera_from_head);
@@ -174,7 +175,7 @@ void PreviewPainter::draw_landmarks(Canvas& canvas, const TriMesh& seen,
 
 void PreviewPainter::draw_axes(Canvas& canvas, const Eigen::Isometry3d& camera_from_head) const {
   const Vec3 origin = camera_from_head.translation();
-  int order[3] = {0, 1, 2};  // the one that points away first, so that nearer ones cover it
+  int order[3] = {0, 1, 2};  // the axis pointing farthest away first, so that nearer ones cover it
   std::sort(order, order + 3, [&](int a, int b) {
     return camera_from_head.linear()(2, a) > camera_from_head.linear()(2, b);
   });

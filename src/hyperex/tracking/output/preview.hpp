@@ -11,20 +11,21 @@
 
 namespace hyperex::tracking {
 
-/// Draws into a recording's pictures what was tracked in them: the mesh as wires where it can be
-/// seen, the landmarks, the head's axes (x to the subject's left), and beside the picture the
-/// strongest units with bars; below it time, frame and residuals. A frame that is not valid gets a
-/// red banner that says why.
+/// Draws the tracking result into the pictures of a recording: the visible part of the mesh as
+/// wires, the landmarks, and the axes of the head (x to the subject's left). Beside the picture,
+/// bars show the units with the greatest weights; below it are time, frame and residuals. A frame
+/// that is not valid gets a red banner with the reason.
 class PreviewPainter {
  public:
   /// `model` must outlive the painter.
   PreviewPainter(const expression::FaceModel& model, const capture::Intrinsics& camera);
 
-  /// Size of every picture that is drawn; multiples of 16.
+  /// Size of every drawn picture, in multiples of 16.
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
 
-  /// BGR. `bgr`: the frame's own picture; grey where it is empty or of another size.
+  /// Returns a BGR picture. `bgr`: the picture of the frame; if it is empty or of another size,
+  /// grey is used.
   cv::Mat draw(const TrackedFrame& frame, const cv::Mat& bgr);
 
  private:
@@ -39,11 +40,12 @@ class PreviewPainter {
 
   const expression::FaceModel& model_;
   capture::Intrinsics camera_;
-  double scale_;                           // of the drawn picture relative to the recorded one
-  int picture_width_, picture_height_;     // as drawn
-  int width_px_, height_px_;               // with all that stands beside it
+  double scale_;                           // size of the drawn picture relative to the recorded one
+  int picture_width_, picture_height_;     // size of the recorded picture as drawn
+  int width_px_, height_px_;               // size including the panels
   std::vector<std::array<int, 4>> edges_;  // vertices, then the triangles on both sides (-1: none)
-  Eigen::VectorXd strength_;               // of the units, fading: a list that does not flicker
+  // Decaying maximum of each unit's weight, which keeps the list from flickering.
+  Eigen::VectorXd strength_;
 };
 
 }  // namespace hyperex::tracking

@@ -10,8 +10,8 @@ namespace hyperex::tracking {
 
 namespace {
 
-constexpr std::size_t kFirst = 12;    // frames that the rate is estimated from
-constexpr double kLongestGap_s = 10;  // a longer one is cut short
+constexpr std::size_t kFirst = 12;    // number of frames from which the rate is estimated
+constexpr double kLongestGap_s = 10;  // longer gaps are shortened to this
 
 }  // namespace
 
@@ -21,7 +21,7 @@ double frame_rate_hz(const std::vector<double>& time_s) {
     if (time_s[k] > time_s[k - 1]) steps.push_back(time_s[k] - time_s[k - 1]);
   if (steps.empty()) return 30;
   const double rate = std::clamp(1 / median(steps), 1.0, 120.0);
-  // Times written with few digits: 30.0003 is meant to be 30.
+  // If times are written with few digits, 30.0003 means 30.
   return std::abs(rate - std::round(rate)) < 0.01 * rate ? std::round(rate) : rate;
 }
 
@@ -50,7 +50,8 @@ void PreviewMovie::begin() {
 }
 
 void PreviewMovie::show(Drawn drawn) {
-  // Of frames that are not valid the time may stand still or go back: they follow the last one.
+  // The time of frames that are not valid may stay constant or decrease; these follow the last
+  // frame.
   const double time_s = drawn.time_s > last_s_ ? drawn.time_s : last_s_ + 1 / rate_hz_;
   if (time_s > last_s_ + kLongestGap_s) start_s_ += time_s - last_s_ - kLongestGap_s;
   last_s_ = time_s;

@@ -11,14 +11,14 @@
 namespace hyperex::tracking {
 namespace {
 
-/// A face as the detector saw it from one side.
+/// A face that the detector found in a view from one direction.
 struct Candidate {
   double score = 0;
   Vec3 to_viewer, up;
 };
 
-/// Corners of an icosahedron and the middles of its edges: no direction is more than 20 degrees
-/// from one of these 42.
+/// The vertices of an icosahedron and the midpoints of its edges. No direction is more than 20
+/// degrees from one of these 42.
 std::vector<Vec3> sides() {
   constexpr double g = std::numbers::phi;
   std::vector<Vec3> corners, sides;
@@ -37,7 +37,7 @@ std::vector<Vec3> sides() {
   return sides;
 }
 
-/// The best face of each side on which the detector sees one, the surest first.
+/// For each direction in which the detector finds a face, the best one; highest score first.
 std::vector<Candidate> look_from_all_sides(const ScanViewer& viewer) {
   constexpr int size_px = 256, turns = 8;
   FaceFinder finder({.least_score = 0.35});
@@ -68,7 +68,7 @@ std::vector<Candidate> look_from_all_sides(const ScanViewer& viewer) {
   return candidates;
 }
 
-/// The canonical face on the points of one view; those far off are left out the second time.
+/// Fits the canonical face to the points of one view. Outliers are excluded in the second round.
 std::optional<FacePose> pose_of(const ScanViewer& viewer, const ScanView& view,
                                 const FaceLandmarks& seen) {
   Eigen::VectorXd weights;
@@ -87,7 +87,7 @@ std::optional<FacePose> pose_of(const ScanViewer& viewer, const ScanView& view,
   return pose;
 }
 
-/// Seen from the face's own front, again and again until that stays.
+/// Views the face from its own front repeatedly, until this direction no longer changes.
 std::optional<FacePose> refine(const ScanViewer& viewer, LandmarkTracker& tracker,
                                const FaceRegion& first, const ScanView& first_view) {
   constexpr int rounds = 4;
@@ -107,8 +107,9 @@ std::optional<FacePose> refine(const ScanViewer& viewer, LandmarkTracker& tracke
   return pose;
 }
 
-/// The canonical face is of a grown-up, and lies within 4 mm (rms) of a face at rest, 6.5 mm of one
-/// with its mouth wide open; on a ball, where the network will see one too, 10.5 mm off.
+/// Whether a pose can be that of a face. The canonical face is that of an adult. Its rms distance
+/// is 4 mm from a face at rest and 6.5 mm from one with a wide open mouth. It is 10.5 mm from a
+/// sphere, in which the network also finds a face.
 bool plausible(const FacePose& pose) {
   constexpr double smallest = 0.5, largest = 1.8, worst_misfit_m = 0.009;
   const double scale = pose.scan_from_canonical.scale;

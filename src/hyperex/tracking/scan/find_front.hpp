@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Inside the room: which way the face of a scan looks.
+// Private to this library: finds the orientation of the face in a scan.
 #include <optional>
 
 #include "hyperex/tracking/scan/scan_viewer.hpp"
 
 namespace hyperex::tracking {
 
-/// The face in a scan that may be turned in any way: seen from 42 sides, each picture in eight
-/// turns, the places where the detector sees a face are looked at by the landmark network; the
-/// canonical face is laid on what it finds, the scan seen again from that face's front until the
-/// front stays, and the place where the canonical face fits best is the answer.
+/// Finds the face in a scan of arbitrary orientation. The scan is rendered from 42 directions, and
+/// the detector searches each picture in eight rotations. The landmark network evaluates the best
+/// candidates. The canonical face is fitted to its points, and the scan is rendered again from the
+/// front of that face until this direction no longer changes. The pose with the best fit is
+/// returned.
 std::optional<FacePose> find_front(const ScanViewer& viewer, LandmarkTracker& tracker);
 
-/// The same where it is known roughly how the face lies: within some 20 degrees.
+/// The same if the pose of the face is known approximately, to within 20 degrees.
 std::optional<FacePose> find_front_near(const ScanViewer& viewer, LandmarkTracker& tracker,
                                         const Similarity& scan_from_canonical);
 

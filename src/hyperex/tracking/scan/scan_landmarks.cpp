@@ -18,14 +18,14 @@
 namespace hyperex::tracking {
 namespace {
 
-/// One picture's rays: a point of each in the plane of the camera's target.
+/// The rays of one picture, each given by a point in the plane of the camera's target.
 struct PictureRays {
   Vec3 to_viewer;
   Points on_rays;  // 468 x 3
   double score = 0;
 };
 
-/// The points of a picture's mirror image, brought back.
+/// Converts the points of a mirrored picture to those of the original.
 FacePoints unmirrored(const FacePoints& points, int width_px, const std::vector<int>& mirror) {
   FacePoints back;
   for (int i = 0; i < face_point_count; ++i) {
@@ -42,7 +42,7 @@ PictureRays observe(const ScanView& view, const FacePoints& points_px, double sc
   return o;
 }
 
-/// The scan as a mirror at x = 0 shows it.
+/// The mirror image of the scan at x = 0.
 TriMesh mirrored(const TriMesh& mesh) {
   TriMesh image = mesh;
   image.points.col(0) *= -1;
@@ -55,8 +55,8 @@ render::Camera mirrored(render::Camera camera) {
   return camera;
 }
 
-/// Two pictures a view, one of the scan and one of its mirror image, lit from the same side: what
-/// the network prefers on one side of a face, and what the lamps make it see, then cancel.
+/// Renders two pictures per view, one of the scan and one of its mirror image, with the same
+/// lighting. Left-right errors of the network and effects of the lighting then cancel.
 std::vector<PictureRays> look_from_views(const TriMesh& scan, const render::VertexColours& colours,
                                          LandmarkTracker& tracker, const FacePose& pose,
                                          const ScanLandmarkOptions& options) {
@@ -92,17 +92,17 @@ Vec3 normal_of(const TriMesh& mesh, int triangle) {
   return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
 }
 
-/// Distance of a point from a view's ray.
+/// Distance of a point from the ray of a view.
 double distance(const PictureRays& o, int i, const Vec3& point) {
   const Vec3 away = point - o.on_rays.row(i).transpose();
   return (away - o.to_viewer * o.to_viewer.dot(away)).norm();
 }
 
-/// Where the rays of one face point come nearest to each other.
+/// The point that is closest to all rays of one face point, in the weighted least-squares sense.
 Vec3 agreed(const std::vector<PictureRays>& seen, int i, Vec3 point, const Vec3& normal,
             double tolerance_m) {
   constexpr int rounds = 10;
-  constexpr double depth_prior = 1e-3;  // holds the depth where one view alone sees the point
+  constexpr double depth_prior = 1e-3;  // determines the depth if only one view shows the point
   for (int round = 0; round < rounds; ++round) {
     Eigen::Matrix3d sum = depth_prior * Eigen::Matrix3d::Identity();
     Vec3 right = depth_prior * point;

@@ -13,43 +13,44 @@
 namespace hyperex::tracking {
 
 struct ScanLandmarkOptions {
-  /// The sides from which the face is seen, about its own front: yaw to the subject's left, pitch
-  /// upwards, degrees. Each is looked at twice, the second time in the mirror.
+  /// The directions from which the face is viewed, relative to its front: yaw to the subject's
+  /// left, pitch upwards, degrees. Each view is evaluated twice, the second time as a mirror image.
   std::vector<std::pair<double, double>> views_deg = {{0, 0},  {-12, 0}, {12, 0}, {-25, 0},
                                                       {25, 0}, {0, 12},  {0, -12}};
-  /// Where it is known roughly how the canonical face lies on the scan (within some 20 degrees):
-  /// most of the work is to look for it from all sides, which is done where none is found there.
+  /// The approximate pose of the canonical face on the scan (to within 20 degrees), if known. It
+  /// saves the search from all directions, which takes most of the time. If no face is found there,
+  /// the search is done all the same.
   std::optional<Similarity> scan_from_canonical;
-  /// A view whose point is so far from where the others see it counts half, m.
+  /// A view whose point is this far (m) from the common point of all views has half the weight.
   double tolerance_m = 4e-3;
 };
 
 struct ScanLandmarks {
-  io::Landmarks landmarks;  ///< all that face::CanonicalFace names, on the scan's surface, m
-  Points face_points;       ///< 468 x 3: the canonical face's vertices on the surface, m
-  /// How the canonical face lies on the scan: columns of its rotation are the face's left, up,
-  /// front.
+  io::Landmarks landmarks;  ///< all landmarks of face::CanonicalFace, on the scan's surface, m
+  Points face_points;       ///< 468 x 3: the vertices of the canonical face on the surface, m
+  /// The pose of the canonical face on the scan. The columns of its rotation are the left, up and
+  /// front directions of the face.
   Similarity scan_from_canonical;
-  int views = 0;        ///< pictures in which the face was seen
-  double score = 0;     ///< the network's, mean of those views, 0 to 1
-  double spread_m = 0;  ///< median distance of a view's point from what all agree on
+  int views = 0;        ///< number of pictures in which the face was found
+  double score = 0;     ///< score of the network, mean over those views, 0 to 1
+  double spread_m = 0;  ///< median distance of a view's ray from the common point
 };
 
-/// Finds the landmarks of a face scan, which may be turned in any way and needs no colour: the face
-/// is found (find_front.hpp), seen from several sides and there given 468 points each by the
-/// landmark network (LandmarkTracker); every point is brought to where its rays come nearest to
-/// each other (least squares, a view's weight falling with its distance and with the slant of the
-/// surface), and from there to the nearest place of the surface. Same scan, same answer. Throws
-/// InputError, naming `source`, where no face is found.
+/// Finds the landmarks of a face scan. The scan may have any orientation and needs no colour. The
+/// face is found (find_front.hpp) and rendered from several directions, and the landmark network
+/// (LandmarkTracker) gives 468 points in each picture. For each point, the position closest to all
+/// its rays is computed by least squares; the weight of a view decreases with the distance of its
+/// ray and with the inclination of the surface. The closest point of the surface is the result. The
+/// same scan always gives the same result. Throws InputError, naming `source`, if no face is found.
 ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const std::string& source,
                                   const ScanLandmarkOptions& options = {});
 
-/// Colours of a scan's vertices for pictures: its own, else those of its texture at the vertices;
-/// empty where it has neither.
+/// Colours of a scan's vertices for rendering: its vertex colours, else those of its texture at the
+/// vertices; empty if it has neither.
 render::VertexColours picture_colours(const io::Scan& scan);
 
-/// The scan from the front and from both sides with the landmarks marked.
+/// Draws the scan from the front and from both sides, with the landmarks marked.
 render::Image draw_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const ScanLandmarks& found, const std::string& title);
 

@@ -12,7 +12,7 @@
 namespace hyperex::tracking {
 namespace {
 
-/// A vertex on a seam of the texture has several places there; the last one serves.
+/// A vertex on a seam of the texture has several texture coordinates; the last one is used.
 render::VertexColours texture_at_vertices(const io::Scan& scan) {
   const cv::Mat bgr = capture::decode_colour(scan.texture->bytes, "texture").picture;
   if (bgr.empty()) return {};

@@ -45,7 +45,8 @@ render::Camera ScanViewer::whole(const Vec3& to_viewer, const Vec3& up) const {
 
 Points ScanViewer::on_surface(const ScanView& view, const FacePoints& points_px,
                               Eigen::VectorXd& weights) const {
-  constexpr double least_facing = 0.25;  // flatter than 75 degrees the ray's error grows fourfold
+  // Beyond 75 degrees of inclination, the error of a ray is amplified fourfold.
+  constexpr double least_facing = 0.25;
   const Eigen::MatrixX2d places = points_px.leftCols<2>().array() + 0.5;
   const auto picked = render::pick({surface_}, view.camera, view.bgr.cols, view.bgr.rows, places);
   Points points = Points::Zero(face_point_count, 3);
@@ -60,7 +61,8 @@ Points ScanViewer::on_surface(const ScanView& view, const FacePoints& points_px,
 }
 
 render::Camera face_camera(const FacePose& pose, double yaw_rad, double pitch_rad) {
-  constexpr double margin = 1.7;  // of the canonical face's height: the network wants room around
+  // Factor on the height of the canonical face; the network needs some space around the face.
+  constexpr double margin = 1.7;
   const Points& canonical = face::canonical_face().mesh.points;
   const Vec3 low = canonical.colwise().minCoeff(), high = canonical.colwise().maxCoeff();
   const Similarity& scan_from_face = pose.scan_from_canonical;
