@@ -22,7 +22,7 @@ std::string short_key(const std::string& key) {
   return key.substr(key.find('.') + 1);
 }
 
-/// What distinguishes step number `index` from the others in a case's name.
+/// The part of a case's name that distinguishes step number `index` from the others.
 std::string label_of(const std::string& key, const json& value, std::size_t index) {
   const scene::Key* known = scene::find_key(key);
   std::string word = value.is_structured() ? "" : cell_of(value);
@@ -48,7 +48,7 @@ Axis axis_of_key(StudyText& text, const std::string& key, const json& values) {
   return axis;
 }
 
-/// A table of a named axis: a name, and keys with their values.
+/// A table of a named axis: its name, and keys with values.
 Step step_of_table(StudyText& text, Axis& axis, const json& table, const std::string& place) {
   const json name = table.value("name", json());
   if (!name.is_string() || !scene::is_variant_name(name.get<std::string>()))
@@ -84,7 +84,7 @@ bool are_tables(const json& value) {
 int StudyText::line_of(const std::string& name) const {
   const auto found = lines.find(name);
   if (found != lines.end()) return found->second;
-  const auto dot = name.rfind('.');  // what is missing has no line of its own: its table has
+  const auto dot = name.rfind('.');  // a missing key has no line: take that of its table
   return dot == std::string::npos ? 0 : line_of(name.substr(0, dot));
 }
 

@@ -10,21 +10,21 @@
 
 namespace hyperex::study {
 
-/// One step on an axis: a part of a case.
+/// One step on an axis: its part of a case.
 struct Step {
-  std::string label;  ///< in a case's name: "young_kpa=30", "subject A"
+  std::string label;  ///< its part of a case's name: "young_kpa=30", "subject A"
   std::vector<scene::Override> overrides;
   Cells cells;
 };
 
 struct Axis {
-  std::string name;               ///< a key, or what the study calls it
-  int line = 0;                   ///< in the study file
+  std::string name;               ///< a key, or the name that the study gives it
+  int line = 0;                   ///< in the study file; 0 for the rows of a CSV
   std::vector<Step> steps;        ///< one or more
-  std::vector<std::string> keys;  ///< that it sets
+  std::vector<std::string> keys;  ///< the keys that its steps set
 };
 
-/// What a study file says, and what is wrong with it.
+/// The content of a study file, and its errors.
 struct StudyText {
   std::filesystem::path file;
   nlohmann::json root;
@@ -33,19 +33,19 @@ struct StudyText {
 
   int line_of(const std::string& name) const;
   void complain(const std::string& name, const nlohmann::json& value, const std::string& expected);
-  /// KEY=VALUE with the place of `name`; a problem where there is no such key.
+  /// KEY=VALUE with the place of `name` in the file; adds a problem where there is no such key.
   scene::Override override_of(const std::string& key, const nlohmann::json& value,
                               const std::string& name);
 };
 
-/// A value as a cell of a table and as a part of a name: a text without its quotes.
+/// A value as written in a cell of a table or in a name: a string without its quotes.
 std::string cell_of(const nlohmann::json& value);
 
 /// The axes of `grid`, in the order of the file.
 std::vector<Axis> read_axes(StudyText& text);
 
-/// Every combination with a step of each axis, the last axis varying fastest. No axis: one step of
-/// nothing. The product must be at most kMostCases.
+/// All combinations of one step of each axis; the last axis varies fastest. Without axes: one empty
+/// step. There must be at most kMostCases combinations.
 std::vector<Step> combined(const std::vector<Axis>& axes);
 
 }  // namespace hyperex::study

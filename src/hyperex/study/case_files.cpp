@@ -21,8 +21,8 @@ bool is_plain(char c) {
          c == '.';
 }
 
-/// A process holds the log, which is locked as long as its run lives. Asked with a shared lock, so
-/// that two queries do not take each other for a run.
+/// Whether a process holds the log, which is locked as long as its run lives. The test takes a
+/// shared lock, so that two simultaneous tests do not mistake each other for a run.
 bool is_locked(const fs::path& log) {
   const int file = ::open(log.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;
@@ -43,7 +43,8 @@ CaseFiles files_of_case(const fs::path& out, const std::string& name, const std:
   std::string plain = name.substr(0, longest);
   for (char& c : plain)
     if (!is_plain(c)) c = '_';
-  if (!plain.empty() && (plain[0] == '.' || plain[0] == '-')) plain[0] = '_';  // hidden; an option
+  // A leading '.' would hide the file; a leading '-' would look like an option.
+  if (!plain.empty() && (plain[0] == '.' || plain[0] == '-')) plain[0] = '_';
   plain += "-" + hash.substr(0, digits);
   return {out / "cases" / plain, out / "logs" / (plain + ".log")};
 }

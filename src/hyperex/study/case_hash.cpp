@@ -40,13 +40,13 @@ std::string hash_of_folder(const fs::path& folder) {
   return sha256_of(text);
 }
 
-/// The files that `scan` names, found by reading it; none of one that cannot be read.
+/// The files that `scan` refers to, found by reading it; those found so far if it cannot be read.
 std::vector<fs::path> companions_of(const fs::path& scan) {
   const NamedFiles named;
   try {
     io::read_scan(scan);
   } catch (const InputError&) {
-    // The check of the case reports what is wrong with it.
+    // Ignored here: the check of the case reports what is wrong with the file.
   }
   std::vector<fs::path> files = named.requested();
   std::sort(files.begin(), files.end());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A case is known by what it computes from: a run is done again when something of that has changed,
-// and only then.
+// A case is identified by its inputs: it is run again if one of them has changed, and only then.
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,13 +10,13 @@
 
 namespace hyperex::study {
 
-/// Hashes of files and folders by their content, each read once.
+/// Hashes of the contents of files and folders. Each is read once.
 class ContentHashes {
  public:
-  /// SHA-256 of a file's bytes, or of the names and bytes of all files in a folder and below; what
-  /// is neither ("embedded") as it is.
+  /// SHA-256 of a file's bytes, or of the names and bytes of all files in a folder and its
+  /// subfolders. A path that is neither ("embedded") is returned as it is.
   std::string of(const std::filesystem::path& path);
-  /// Hash of the files that a scan names in turn: materials, textures, buffers.
+  /// Hash of the files that a scan refers to: materials, textures, buffers.
   std::string of_companions(const std::filesystem::path& scan);
 
  private:

@@ -23,7 +23,8 @@ namespace hyperex::study {
 namespace fs = std::filesystem;
 namespace {
 
-/// Querying the state of a case holds the lock for an instant.
+/// Locks the log. Tries several times, since a query of the case's state holds the lock for a
+/// moment. True also where the file system has no locks (some network folders).
 bool lock(int file) {
   for (int tries = 0; tries < 10; ++tries) {
     if (::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
@@ -45,13 +46,13 @@ void write_all(int file, const std::string& text) {
   while (sent < text.size()) {
     const ssize_t some = ::write(file, text.data() + sent, text.size() - sent);
     if (some < 0 && errno == EINTR) continue;
-    if (some <= 0) return;  // a log that cannot be written is no reason to end
+    if (some <= 0) return;  // the case goes on even if its log cannot be written
     sent += std::size_t(some);
   }
 }
 
-/// In the new process, where nothing but system calls is safe. All signals are blocked there until
-/// their handlers, which are this program's, are gone: one that came before would be lost.
+/// Runs in the new process, where only system calls are safe. All signals stay blocked until this
+/// program's signal handlers have been removed; they would swallow a signal that arrived earlier.
 [[noreturn]] void become(const Command& command, char* const* words, const cpu_set_t* processors,
                          int log, pid_t parent, const sigset_t* unblocked) {
   for (int signal = 1; signal < NSIG; ++signal) {

@@ -10,36 +10,36 @@
 namespace hyperex::study {
 
 struct Command {
-  std::vector<std::string> words;    ///< the program first
-  std::filesystem::path folder;      ///< that it works in
-  std::vector<int> processors = {};  ///< that it may use; empty: all
+  std::vector<std::string> words;    ///< the program, then its arguments
+  std::filesystem::path folder;      ///< the working directory
+  std::vector<int> processors = {};  ///< the processors that it may use; empty: all
 };
 
-/// `word` as a shell reads it back.
+/// `word` quoted such that a shell reads it as one word.
 std::string quoted_for_shell(const std::string& word);
 
-/// As one would type it in a shell: "cd FOLDER && PROGRAM ...".
+/// The command as one would type it in a shell: "cd FOLDER && PROGRAM ...".
 std::string shell_line(const Command& command);
 
 /// The processors that this process may use.
 std::vector<int> own_processors();
 
-/// A program in a process of its own, both its streams written into a log, which is locked as long
-/// as the program lives. It is ended (SIGTERM) when this process ends in whatever way.
+/// A program in a process of its own. Both its output streams go to a log, which is locked as long
+/// as the program runs. The program is ended (SIGTERM) when this process ends for any reason.
 class Child {
  public:
   /// Nothing where another process holds the log. Throws InputError where the log cannot be
-  /// written, is none of these logs, or no process can be made. Call, and keep alive, the thread
-  /// that outlives the child.
+  /// written, the file is not a log of a case, or no process can be created. The thread that calls
+  /// this must live longer than the child, since the system ends the child with that thread.
   static std::optional<Child> start(const Command& command, const std::filesystem::path& log);
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) noexcept;
-  ~Child();  ///< ends it and waits for its end
+  ~Child();  ///< ends the program and waits for its end
 
-  /// Its exit status as in the shell: 128 + signal where a signal ended it. Nothing while it runs.
+  /// Its exit status as in a shell: 128 + signal where a signal ended it. Nothing while it runs.
   std::optional<int> ended();
   void end();  ///< sends SIGTERM
-  /// One more line in the log, the last one.
+  /// Appends a line to the log, the last one.
   void say(const std::string& line) const;
 
  private:

@@ -12,7 +12,7 @@ namespace hyperex::study {
 namespace {
 using nlohmann::json;
 
-/// What is wrong with the cases of a study, each sentence once.
+/// The errors in the cases of a study, each sentence once.
 class Sentences {
  public:
   void add(const std::string& lines) {
@@ -33,8 +33,8 @@ class Sentences {
   std::string text_;
 };
 
-/// What session::check() looks at: not how stiff tissue and support are, how it is solved or what
-/// is written.
+/// What session::check() depends on: not the stiffness of tissue and support, the solver or the
+/// outputs.
 std::string looked_at(const scene::Scene& scene) {
   json options = scene::options_json(scene);
   for (const char* section : {"solver", "time", "output", "title"}) options.erase(section);
@@ -50,7 +50,7 @@ void refuse_equal_folders(const Study& study, const std::vector<PlannedCase>& pl
                           Sentences& wrong) {
   std::set<std::string> folders;
   for (std::size_t i = 0; i < planned.size(); ++i)
-    if (!folders.insert(planned[i].files.folder.string()).second) {
+    if (!planned[i].hash.empty() && !folders.insert(planned[i].files.folder.string()).second) {
       const Case& one = study.cases[i];
       wrong.add(InputProblem{one.origin.file, one.origin.line, "case", '"' + one.name + '"',
                              "a name that tells it from another case with the same inputs"}
@@ -71,6 +71,7 @@ std::vector<PlannedCase> plan_cases(const Study& study, const Done& done) {
       planned.push_back({hash, files_of_case(study.out, one.name, hash)});
     } catch (const InputError& error) {
       wrong.add(error.what());
+      planned.emplace_back();  // so that rows are those of study.cases; wrong is thrown below
     }
     if (done) done(planned.size());
   }

@@ -14,16 +14,15 @@ struct PlannedCase {
   CaseFiles files;
 };
 
-/// Called with how many cases are done.
+/// Called with the number of cases done so far.
 using Done = std::function<void(std::size_t)>;
 
-/// Reads the scene of every case, and of the files that it names enough for the hash. Throws
-/// InputError for all cases together, each sentence once, where a key or a value is wrong, or a
-/// file is missing.
+/// Reads the scene of every case, and hashes the files that it names. Throws one InputError for all
+/// cases together, each sentence once, where a key or a value is wrong, or a file is missing.
 std::vector<PlannedCase> plan_cases(const Study& study, const Done& done = {});
 
-/// Reads what the scenes of these cases name, as `hyperex check` does; cases that differ in
-/// nothing that this looks at are looked at once. Throws InputError as plan_cases() does.
+/// Checks the inputs that the scenes of these cases name, as `hyperex check` does. Cases that do
+/// not differ in what is checked are checked once. Throws InputError as plan_cases() does.
 void check_inputs(const Study& study, const std::vector<std::size_t>& cases, const Done& done = {});
 
 }  // namespace hyperex::study

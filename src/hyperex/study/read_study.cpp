@@ -47,7 +47,7 @@ void refuse_unknown_names(StudyText& text) {
   }
 }
 
-/// A path that the study names; empty where it is not given.
+/// A path in the study file; empty where it is not given.
 fs::path path_at(StudyText& text, const std::string& name, const std::string& expected) {
   const json value = text.root.value(name, json());
   if (value.is_null()) return {};
@@ -91,13 +91,13 @@ Step step_of_row(const io::TextTable& table, std::size_t row, const fs::path& fo
       continue;
     }
     step.cells.emplace_back(key, cell);
-    if (cell.empty()) continue;  // as the scene has it
+    if (cell.empty()) continue;  // the scene's value applies
     step.overrides.push_back({key + "=" + cell, {table.file, table.lines[row]}, folder});
   }
   return step;
 }
 
-/// The rows of the CSV as the steps of one axis; none where there is no CSV.
+/// An axis whose steps are the rows of the CSV; no axis where there is no CSV.
 std::vector<Axis> axis_of_rows(StudyText& text) {
   const fs::path file = path_at(text, "cases", "the path of a CSV file with a case a row");
   if (file.empty()) return {};
@@ -135,7 +135,7 @@ void refuse_equal_names(StudyText& text, const std::vector<Case>& cases) {
                                "a name that no other case has"});
 }
 
-/// False, with a problem, for too many.
+/// Returns false and adds a problem where there are too many cases.
 bool is_countable(StudyText& text, const std::vector<Axis>& axes) {
   double count = 1;
   for (const Axis& axis : axes) count *= double(axis.steps.size());
@@ -154,7 +154,7 @@ std::vector<Case> cases_of(StudyText& text, const std::vector<Axis>& axes,
     if (name.size() > longest) name = fmt::format("case {}", cases.size() + 1);
     scene::Origin origin{text.file, 0};
     if (!step.overrides.empty() && step.overrides.front().origin.file != text.file)
-      origin = step.overrides.front().origin;  // a row of the CSV
+      origin = step.overrides.front().origin;  // the row of the CSV
     step.overrides.insert(step.overrides.begin(), of_all.begin(), of_all.end());
     cases.push_back({name, std::move(step.overrides), std::move(step.cells), origin});
   }

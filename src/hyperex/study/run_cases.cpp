@@ -21,7 +21,7 @@ struct Running {
   Stopwatch since = {};
 };
 
-/// A process's share of the processors: all where there are more jobs than processors.
+/// The processors of one process; empty (all processors) where there are more jobs than processors.
 std::vector<int> share_of(std::size_t slot, int jobs) {
   const std::vector<int> all = own_processors();
   const std::size_t each = all.size() / std::size_t(jobs);
@@ -36,7 +36,7 @@ std::string words_of(int status) {
   return status == 127 ? "the program could not be started" : fmt::format("exit status {}", status);
 }
 
-/// Cases on their way, as many at once as there are slots.
+/// The running cases, at most one per slot.
 class Pool {
  public:
   Pool(const Study& study, const std::vector<PlannedCase>& planned, const RunOptions& options)
@@ -65,7 +65,7 @@ class Pool {
       if (!status) continue;
       const Outcome outcome = outcome_of(*slot, *status);
       const std::size_t index = slot->index;
-      slot.reset();  // the lock of its log
+      slot.reset();  // releases the lock of its log
       report(index, outcome);
     }
   }
@@ -89,7 +89,7 @@ class Pool {
       running.child.say(fmt::format("hyperex sweep: finished in {:.1f} s", seconds));
       return {State::finished, seconds};
     }
-    // Ctrl-C reaches the processes of a terminal by itself.
+    // Ctrl-C ends the child directly, since the terminal sends it to all of its processes.
     if (status != 0 && options_.stop && options_.stop()) {
       running.child.say("hyperex sweep: interrupted");
       return {State::not_run, seconds};
@@ -128,7 +128,7 @@ int default_jobs() {
 
 Command command_of(const Study& study, const Case& one, const CaseFiles& files,
                    const fs::path& program) {
-  // Relative paths of overrides are taken from the folder that the program works in.
+  // Relative paths in overrides are relative to the working directory of the program.
   Command command{{program.string(), "run", fs::absolute(study.scene).lexically_normal().string(),
                    "--out", fs::absolute(files.folder).lexically_normal().string()},
                   fs::absolute(study.file).lexically_normal().parent_path()};

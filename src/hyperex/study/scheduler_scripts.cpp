@@ -12,14 +12,14 @@ namespace hyperex::study {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kTasksInAnArray = 1000;  // Slurm's MaxArraySize is 1001 as it comes
+constexpr std::size_t kTasksInAnArray = 1000;  // Slurm's MaxArraySize is 1001 by default
 
-/// A text of Python.
+/// A string literal of Python.
 std::string python_text(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
-/// A name of a job: no blanks.
+/// The name of a job; it has no blanks.
 std::string job_name(const fs::path& study) {
   std::string name = study.stem().string();
   for (char& c : name)
@@ -27,7 +27,7 @@ std::string job_name(const fs::path& study) {
   return name;
 }
 
-/// A path in an #SBATCH line, where % begins a pattern.
+/// A path in an #SBATCH line; % is escaped, since it begins a pattern.
 std::string sbatch_path(const fs::path& path) {
   std::string text;
   for (const char c : path.string()) {
@@ -99,7 +99,7 @@ std::string snakefile(const Called& called, const std::vector<PlannedCase>& plan
   return text +
          "]\n"
          "\n"
-         // The folders too: without them Snakemake is content with an old table.
+         // The folders are inputs too: otherwise Snakemake would accept an outdated table.
          "rule all:\n"
          "    input:\n"
          "        expand(FOLDER, case=CASES),\n"

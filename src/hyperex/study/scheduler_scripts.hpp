@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What runs a study on a cluster: the schedulers that are there, called by a short script. Each
-// case is `hyperex sweep STUDY --case N`, and the table `hyperex sweep STUDY --collect`.
+// Scripts that run a study on a cluster with an existing scheduler. Each case is run by `hyperex
+// sweep STUDY --case N`, and the table is written by `hyperex sweep STUDY --collect`.
 #include <string>
 #include <vector>
 
@@ -9,16 +9,16 @@
 
 namespace hyperex::study {
 
-/// How the program and the study are called from anywhere: absolute paths.
+/// Absolute paths of the program, the study and its output, for use from any folder.
 struct Called {
   std::filesystem::path program, study, out;
 };
 
-/// A shell script that submits the cases to Slurm as job arrays of at most 1,000 tasks, and a job
-/// behind them that makes the table, also where cases fail.
+/// A shell script that submits the cases to Slurm as job arrays of at most 1,000 tasks, followed by
+/// a job that writes the table even if cases fail.
 std::string slurm_script(const Called& called, std::size_t cases);
 
-/// A Snakefile: a job a case, whose output is the case's folder, and one for the table.
+/// A Snakefile: one job per case, whose output is the case's folder, and one job for the table.
 std::string snakefile(const Called& called, const std::vector<PlannedCase>& planned);
 
 }  // namespace hyperex::study

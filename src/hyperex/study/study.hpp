@@ -10,28 +10,28 @@
 
 namespace hyperex::study {
 
-/// What a case changes, in columns of the study's table: {"tissue.young_kpa", "30"}.
+/// The changes of a case, as columns of the study's table: {"tissue.young_kpa", "30"}.
 using Cells = std::vector<std::pair<std::string, std::string>>;
 
 struct Case {
-  std::string name;                        ///< no other case has it
-  std::vector<scene::Override> overrides;  ///< those of the whole study first
+  std::string name;                        ///< unique in the study
+  std::vector<scene::Override> overrides;  ///< the overrides of the whole study come first
   Cells cells;
-  scene::Origin origin;  ///< of a row of a CSV; else the study file
+  scene::Origin origin;  ///< the row of a CSV, or else the study file
 };
 
 struct Study {
   std::filesystem::path file, scene;
-  std::filesystem::path out;  ///< the folder of all cases
+  std::filesystem::path out;  ///< the folder that contains all cases
   std::vector<Case> cases;    ///< one or more, at most kMostCases
 };
 
 constexpr std::size_t kMostCases = 10000;
 
-/// Reads a study file and lays out its cases: rows of its CSV, combined with each other those of
-/// its axes, the last one varying fastest. Values are not looked at: read_scene_with() does that.
-/// Relative paths are taken from the folder of the study file. Throws InputError with all problems
-/// at once, a line each, naming file, key, value and what was expected.
+/// Reads a study file and makes its cases: all combinations of the rows of its CSV and the steps of
+/// its axes; the last axis varies fastest. Values are not checked here but in read_scene_with().
+/// Relative paths are relative to the folder of the study file. Throws one InputError with all
+/// problems, one line each, which names file, key, value and what was expected.
 Study read_study(const std::filesystem::path& file);
 
 }  // namespace hyperex::study

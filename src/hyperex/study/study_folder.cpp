@@ -11,7 +11,7 @@ namespace hyperex::study {
 namespace fs = std::filesystem;
 namespace {
 
-/// The first name in `out` that a sweep does not write; empty where there is none.
+/// A name in `out` that no sweep writes; empty where there is none.
 std::string foreign_in(const fs::path& out) {
   std::error_code error;
   for (fs::directory_iterator at(out, error), end; !error && at != end; at.increment(error)) {

@@ -8,12 +8,13 @@ namespace hyperex::study {
 
 std::filesystem::path table_of(const std::filesystem::path& out);  ///< OUT/study.csv
 
-/// Throws InputError where the folder of a study is neither new, empty nor of an earlier sweep,
-/// which is recognised by its table, or by cases/ and logs/ alone; or is a file. Changes nothing.
+/// Throws InputError where `out` is a file, or a folder that is neither new, nor empty, nor from an
+/// earlier sweep. A sweep's folder is recognised by its table, or by containing only cases/ and
+/// logs/. Changes nothing.
 void check_study_folder(const std::filesystem::path& out);
 
-/// The same, then makes the folder, cases/ and logs/. Throws InputError where they or the table
-/// cannot be written.
+/// Checks the same, then creates the folder, cases/ and logs/. Throws InputError where they or the
+/// table cannot be written.
 void make_study_folder(const std::filesystem::path& out);
 
 }  // namespace hyperex::study

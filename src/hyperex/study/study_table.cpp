@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Measures = std::vector<std::pair<std::string, std::string>>;
 
-/// In front of all others.
+/// The first columns.
 const std::vector<std::string> kFirst = {"symmetry.commissure.excursion_mm.L",
                                          "symmetry.commissure.excursion_mm.R",
                                          "symmetry.commissure.difference_mm",
@@ -30,11 +30,12 @@ const std::vector<std::string> kFirst = {"symmetry.commissure.excursion_mm.L",
                                          "lip_opening_mm",
                                          "seconds.total"};
 
-/// Of each pair of points; more would make the table unreadable, and excursions.csv has it.
+/// The measures of each pair of points. More would make the table unreadable; excursions.csv has
+/// them all.
 const std::vector<std::string> kOfAPair = {"excursion_mm", "difference_mm", "floor_mm",
                                            "undecided"};
 
-/// No measures, or distributions.
+/// Entries that are not measures, or are distributions.
 bool is_left_out(const std::string& name) {
   return name == "options" || name == "mesh_quality.least_dihedral_share" ||
          name == "symmetry.commissure.point";
@@ -53,7 +54,7 @@ void add_members(const std::string& name, const Json& object, Measures& measures
     add(name.empty() ? key : name + "." + key, item, measures);
 }
 
-/// A list of tables that have names, each under its own.
+/// Adds a list of tables, each under its own name.
 void add_named(const std::string& name, const Json& list, const char* name_key,
                Measures& measures) {
   for (const Json& item : list) {
@@ -78,7 +79,8 @@ void add(const std::string& name, const Json& value, Measures& measures) {
     measures.emplace_back(name, number(value));
 }
 
-/// One process at a time: the one that comes last has seen what all before it have done.
+/// Lets one process at a time write the table. The last one then includes the results of all before
+/// it.
 class TableLock {
  public:
   explicit TableLock(const fs::path& folder)
@@ -121,7 +123,7 @@ Json summary_in(const fs::path& folder) {
   return summary.is_object() ? summary : Json::object();
 }
 
-/// "cases/NAME-HASH", and not where the study's folder lies.
+/// "cases/NAME-HASH": relative to the study's folder.
 std::string folder_in_study(const CaseFiles& files) {
   return (files.folder.parent_path().filename() / files.folder.filename()).generic_string();
 }
@@ -155,7 +157,7 @@ std::vector<State> write_table(const Study& study, const std::vector<PlannedCase
     rows.put("state", to_string(states[i]));
     for (const auto& [name, cell] : study.cases[i].cells) rows.put(name, cell);
   }
-  const Rows first = rows;  // measures stand behind what all cases change
+  const Rows first = rows;  // the measures come after the changed keys of all cases
   rows.cells.clear();
   for (std::size_t i = 0; i < planned.size(); ++i) {
     rows.cells.push_back(first.cells[i]);

@@ -9,18 +9,18 @@
 
 namespace hyperex::study {
 
-/// How every table begins, and no other file by chance.
+/// The beginning of every table, by which it is recognised.
 constexpr const char* kTableBegins = "case,state,";
 
-/// The measures in a run's summary, named by where they stand with '.' between, the unit with it:
-/// {"symmetry.commissure.excursion_mm.L", "3.8"}; true and false as 1 and 0, what is unknown empty.
-/// First the most wanted columns, then the rest in the summary's order. Of pairs of points those of
-/// excursions, of variants their table.
+/// The measures in a run's summary. A name is the path in the summary, joined by '.', and includes
+/// the unit: {"symmetry.commissure.excursion_mm.L", "3.8"}. True and false are 1 and 0; an unknown
+/// value is empty. The most important measures come first, then the others in the summary's order.
+/// Of the pairs of points only the excursions are included, of the variants only their table.
 std::vector<std::pair<std::string, std::string>> measures_in(const nlohmann::ordered_json& summary);
 
-/// Writes OUT/study.csv: one row per case with its name and state, changed keys and measures as far
-/// as it is finished, why it failed, its hash and its folder. Waits for another process that writes
-/// it. Returns the states.
+/// Writes OUT/study.csv. Each case has one row: its name and state, the changed keys, the measures
+/// if it has finished, the reason if it failed, its hash and its folder. Waits while another
+/// process writes the table. Returns the states.
 std::vector<State> write_table(const Study& study, const std::vector<PlannedCase>& planned);
 
 }  // namespace hyperex::study

@@ -58,7 +58,7 @@ TEST_F(CaseHash, FollowsAllFilesOfAFolder) {
   EXPECT_NE(renamed.of(*this / "rec"), second);
 }
 
-/// An OBJ names its materials, which name the texture.
+/// An OBJ file names its materials, which name the texture.
 TEST_F(CaseHash, FollowsWhatAScanNamesInTurn) {
   write("a.obj",
         "mtllib a.mtl\nv 0 0 0\nv 200 0 0\nv 0 200 0\nv 0 0 200\nvt 0 0\nusemtl skin\n"

@@ -74,7 +74,7 @@ TEST_F(ReadStudy, RowsOfACsvAreCasesAndCombineWithTheGrid) {
   EXPECT_EQ(plan_cases(s).size(), 4u);
 }
 
-/// What a case's scene comes to is what `hyperex run --set` would read.
+/// The scene of a case is the one that `hyperex run --set` would read.
 TEST_F(ReadStudy, OverridesAreThoseOfTheCommandLine) {
   const Study s = study(
       "[[grid.cheek]]\nname = \"stiff\"\n"
@@ -103,12 +103,13 @@ struct Fault {
 
 class FaultyStudy : public StudyFiles, public testing::WithParamInterface<Fault> {};
 
-/// The scene's line comes first: what is given begins in line 2.
+/// The line of the scene is put first, so that each faulty text begins in line 2.
 TEST_P(FaultyStudy, IsRefusedInOneSentence) {
   write("unknown.csv", "case,tissue.yung_kpa\na,1\n");
   write("twice.csv", "case,tissue.young_kpa\na,1\na,2\n");
   write("range.csv", "tissue.young_kpa\n10\n-3\n");
   write("empty.csv", "tissue.young_kpa\n");
+  write("same.csv", "case,tissue.young_kpa\nwrong,-3\na;b,5\na:b,5\n");
   EXPECT_EQ(refusal([&] { plan_cases(study(GetParam().text)); }), GetParam().sentence);
 }
 
@@ -166,6 +167,11 @@ INSTANTIATE_TEST_SUITE_P(
               "twice.csv:3: case = \"a\": expected a name that no other case has"},
         Fault{"CsvRange", "cases = \"range.csv\"\n",
               "range.csv:3: tissue.young_kpa = -3: expected a number from 0.001 to 1e+06 (kPa)"},
+        // Folders have plainer names than cases. The faulty case before them counts as a row.
+        Fault{"CsvSameFolder", "cases = \"same.csv\"\n",
+              "same.csv:2: tissue.young_kpa = -3: expected a number from 0.001 to 1e+06 (kPa)\n"
+              "same.csv:4: case = \"a:b\": expected a name that tells it from another case with "
+              "the same inputs"},
         Fault{"CsvEmpty", "cases = \"empty.csv\"\n", "empty.csv: expected one or more rows"}),
     [](const auto& fault) { return std::string(fault.param.name); });
 

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A script stands in for hyperex: `run SCENE --out FOLDER --set title="BEHAVIOUR"`.
+/// A script replaces hyperex: `run SCENE --out FOLDER --set title="BEHAVIOUR"`.
 class RunCases : public StudyFiles {
  protected:
   void SetUp() override {

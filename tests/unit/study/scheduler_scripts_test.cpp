@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The scripts for schedulers, run by stand-ins for these; tests/schedulers has the real ones.
+// The scripts for schedulers, run with replacements of these; tests/schedulers uses the real ones.
 #include "hyperex/study/scheduler_scripts.hpp"
 
 #include <gmock/gmock.h>
@@ -59,7 +59,7 @@ TEST_F(Slurm, ArrayRunsEachCaseAndThenComesTheTable) {
   EXPECT_TRUE(fs::is_directory(*this / "o/logs"));
 }
 
-/// Slurm takes 1001 as the least number that no task may have, as it comes.
+/// By default Slurm allows task numbers below 1001.
 TEST_F(Slurm, ManyCasesAreSeveralArrays) {
   std::vector<std::string> lines = called(2001);
   EXPECT_EQ(lines[lines.size() - 2], "sbatch --dependency=afterany:11:12:13");

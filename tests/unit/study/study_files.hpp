@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// A study in a folder of its own, and a program that stands in for hyperex.
+// A study in its own folder, and a program that takes the place of hyperex.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -33,7 +33,7 @@ class StudyFiles : public testing::Test {
   Study study(const std::string& text) const {
     return read_study(write("study.toml", "scene = \"scene.toml\"\n" + text));
   }
-  /// What reading it throws, without the folder.
+  /// The message of the error that reading it throws, without the folder.
   template <class Act>
   std::string refusal(Act act) const {
     std::string said = test::refusal(act);
