@@ -27,10 +27,11 @@ async function madeUp() {
     time_s, few_points: true,
     groups: [group('brow raisers', 0.1, 0.2), group('lip corner elevators', -0.9, 0.3),
       group('orbicularis oris', -0.95, -0.95)],
-    lines: [{ name: 'zyg_major_L', points: line(1) }, { name: 'zyg_major_R', points: line(-1) }],
+    lines: [{ name: 'zyg_major_L', latin: 'zygomaticus major', points: line(1) }, { name: 'zyg_major_R', latin: 'zygomaticus major', points: line(-1) }],
   };
   for (const variant of data.variants)
     variant.muscles = data.muscles.groups.map(({ left, right }) => ({ left, right: right.map((v) => 0.3 * v) }));
+  data.summary.variants.table[1].changes = { 'muscles.gain': { zyg_major_L: 0.3 } };
   const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'muscles.html');
   await writeFile(file, withData(html, data));
   return file;
@@ -48,6 +49,13 @@ const most = (values) => Math.max(...values.map(Math.abs));
 const extreme = (values) => (values.find((v) => Math.abs(v) === most(values)) ?? 0).toFixed(2).replace('-', '\u2212');
 
 describe('a report of a face that muscles drive', () => {
+  test('a change names the muscle in Latin', { skip: given }, async () => {
+    const { page, close } = await openPage(browser, report);
+    const told = await page.locator('.variants tbody tr').nth(1).locator('th small').allTextContents();
+    assert.ok(told.includes('Left zygomaticus major at 30 %'), told.join('; '));
+    await close();
+  });
+
   for (const colorScheme of ['light', 'dark'])
     test(`curves a side and lines over the face, ${colorScheme}`, async () => {
       const { page, complaints, close } = await openPage(browser, report, { colorScheme });

@@ -256,7 +256,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.waitForFunction(() => /zyg_major_R" = 0\.4/.test(document.getElementById('scene-text').textContent));
     await settled(page);
     assert.deepEqual(await faces(page), ['Base', 'zygomaticus major, right 40 %']);
-    assert.match(await page.locator('#whose').innerText(), /Its changes so far: Right zyg major at 40 %/);
+    assert.match(await page.locator('#whose').innerText(), /Its changes so far: Right zygomaticus major at 40 %/);
     await page.click('#undo');
     await page.click('#undo');
     await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "hyperex/anatomy/eyeballs.hpp"
@@ -49,8 +50,14 @@ FaceBacking face_backing(const simulate::Performance& performance);
 /// 1: all of it in front, 0.35 from 35 mm behind there on. `row`: the jaw's, for what is in front.
 Eigen::VectorXd light_in_mouth(const TriMesh& part, const TriMesh& row, const Vec3& forward);
 
-/// The pocket of an opening for vertices at `points`: two rings behind the edge and a point.
+/// The pocket of an opening for vertices at `points`: the edge, two rings behind it and a point. A
+/// linear function of `points` but for a constant.
 TriMesh pocket(const Opening& opening, const Points& points);
+
+/// sRGB of the edge and of each ring behind it; the point has the last. The same as the page's
+/// (web/src/replay/face/backing.ts).
+inline constexpr std::array<std::array<std::uint8_t, 3>, 3> kPocketColours = {
+    {{0x5e, 0x30, 0x29}, {0x32, 0x13, 0x0f}, {0x18, 0x08, 0x06}}};
 
 /// An eyeball as three meshes in the order sclera, iris, pupil: each of one colour.
 std::vector<TriMesh> eyeball_parts(const Eyeball& eyeball);

@@ -18,10 +18,9 @@ namespace {
 
 using Eigen::Index;
 
-/// glTF's COLOR_0 is linear, scans store sRGB; 16 bits keep the dark tones apart.
-int add_colours(GltfArrays& arrays, const simulate::Performance& performance,
-                const io::Scan& scan) {
-  const auto srgb = skin_colour(performance, scan);
+/// glTF's COLOR_0 is linear; 16 bits keep the dark tones apart. -1 where there are none.
+template <class Rows>
+int add_colours(GltfArrays& arrays, const Rows& srgb) {
   if (srgb.rows() == 0) return -1;
   const auto linear = [](std::uint8_t byte) {
     const double s = byte / 255.0;
@@ -164,7 +163,7 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
     skin.attributes["TEXCOORD_0"] =
         arrays.accessor(uv, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, view.uv.rows());
     texture = add_texture(model, arrays, *scan.texture);
-  } else if ((colours = add_colours(arrays, performance, scan)) >= 0) {
+  } else if ((colours = add_colours(arrays, skin_colour(performance, scan))) >= 0) {
     skin.attributes["COLOR_0"] = colours;
   }
   skin.material = 0;
@@ -172,18 +171,69 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
   return skin;
 }
 
+/// The pockets of all openings for a skin at `points`, one after the other.
+TriMesh pockets(const std::vector<Opening>& openings, const Points& points) {
+  TriMesh all;
+  for (const Opening& opening : openings) {
+    const TriMesh one = pocket(opening, points);
+    const Index vertices = all.points.rows(), triangles = all.triangles.rows();
+    all.points.conservativeResize(vertices + one.points.rows(), 3);
+    all.points.bottomRows(one.points.rows()) = one.points;
+    all.triangles.conservativeResize(triangles + one.triangles.rows(), 3);
+    all.triangles.bottomRows(one.triangles.rows()) = one.triangles.array() + int(vertices);
+  }
+  return all;
+}
+
+/// Dark pockets behind the openings: a part of the skin's mesh, as they go along with its poses.
+/// Unlit, as on the page: no light falls into a mouth.
+tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
+                                     const std::vector<Opening>& openings, const Points& rest) {
+  const TriMesh mesh = pockets(openings, rest);
+  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowMajor> srgb(mesh.points.rows(), 3);
+  Index row = 0;
+  for (const Opening& opening : openings) {
+    const auto edge = Index(opening.loop.size());
+    for (Index i = 0; i <= 3 * edge; ++i, ++row)
+      for (int k = 0; k < 3; ++k)
+        srgb(row, k) = kPocketColours[std::size_t(std::min(i / edge, Index(2)))][std::size_t(k)];
+  }
+  tinygltf::Primitive cavity;
+  cavity.mode = TINYGLTF_MODE_TRIANGLES;
+  cavity.attributes["POSITION"] = arrays.vectors(mesh.points.cast<float>(), true);
+  cavity.attributes["COLOR_0"] = add_colours(arrays, srgb);
+  cavity.indices = arrays.triangles(mesh.triangles);
+  cavity.material = static_cast<int>(model.materials.size());
+  tinygltf::Material material = plain_material("cavity", {1, 1, 1, 1}, 1);
+  material.doubleSided = true;
+  material.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object{});
+  model.materials.push_back(material);
+  model.extensionsUsed.emplace_back("KHR_materials_unlit");
+  return cavity;
+}
+
 /// Poses of the skin that fill what the others leave of the file, and how they follow each other.
 void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& mesh,
                      const simulate::Performance& performance, const SkinView& view,
-                     const GlbOptions& options, int lower_teeth, GlbReport& report) {
+                     const std::vector<Opening>& openings, const GlbOptions& options,
+                     int lower_teeth, GlbReport& report) {
+  const Points& rest = performance.skin_rest.points;
+  const Points cavity = pockets(openings, rest).points;
   const double copies =
-      double(view.skin_vertex.size()) / double(performance.skin_rest.points.rows());
+      double(Index(view.skin_vertex.size()) + cavity.rows()) / double(rest.rows());
   const PoseTargets targets =
       pose_targets(performance.skin_rest, performance.skin_displacement_m, performance.frame_time_s,
                    options.tolerance_m, options.max_bytes - double(arrays.bytes()), copies);
   report.keys = targets.names.size();
   report.max_error_m = targets.keys.max_error_m;
   add_morph_targets(mesh, arrays, targets, view.skin_vertex);
+  for (const PointsF& pose : targets.positions) {
+    if (openings.empty()) break;
+    const Points now = pockets(openings, rest + pose.cast<double>()).points;
+    const PointsF change = (now - cavity).cast<float>();
+    mesh.primitives[1].targets.push_back(
+        {{"POSITION", arrays.few_vectors(change, targets.least_move_m, true)}});
+  }
   tinygltf::Animation animation;
   animation.name = "performance";
   const double start_s = performance.frame_time_s.front();
@@ -206,7 +256,8 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   model.nodes[0].mesh = 0;
   model.meshes.emplace_back();
   // Before the poses, which fill what the others leave of the file.
-  add_eyes(model, arrays, face_backing(performance).eyeballs);
+  const FaceBacking backing = face_backing(performance);
+  add_eyes(model, arrays, backing.eyeballs);
   int lower_teeth = -1;
   if (options.teeth) {
     const int first = static_cast<int>(model.materials.size());
@@ -219,10 +270,15 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   tinygltf::Mesh mesh;
   mesh.name = "skin";
   mesh.primitives.push_back(skin);
+  if (!backing.openings.empty())
+    mesh.primitives.push_back(
+        cavity_primitive(model, arrays, backing.openings, performance.skin_rest.points));
   const bool moves =
       std::any_of(performance.skin_displacement_m.begin(), performance.skin_displacement_m.end(),
                   [](const PointsF& frame) { return !frame.isZero(0); });
-  if (moves) add_performance(model, arrays, mesh, performance, view, options, lower_teeth, report);
+  if (moves)
+    add_performance(model, arrays, mesh, performance, view, backing.openings, options, lower_teeth,
+                    report);
   model.meshes[0] = std::move(mesh);
   tinygltf::Scene scene;
   for (std::size_t n = 0; n < model.nodes.size(); ++n) scene.nodes.push_back(int(n));

@@ -166,7 +166,8 @@ json muscle_section(const ReportInput& input) {
   const simulate::MuscleCourse& muscles = input.performance.muscles;
   json lines = json::array();
   for (const ReportMuscle& muscle : input.muscles)
-    lines.push_back({{"name", muscle.name}, {"points", points_json(muscle.line)}});
+    lines.push_back(
+        {{"name", muscle.name}, {"latin", muscle.latin}, {"points", points_json(muscle.line)}});
   return {
       {"time_s", muscles.time_s},
       {"few_points", input.performance.driven_names.size() <= std::size_t(simulate::kFewPoints)},

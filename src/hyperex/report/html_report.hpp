@@ -40,8 +40,9 @@ struct ReportVariant {
 
 /// A muscle on this face, for the view.
 struct ReportMuscle {
-  std::string name;  ///< "zyg_major_L"
-  Points line;       ///< n x 3, from origin to insertion, at rest
+  std::string name;   ///< "zyg_major_L"
+  std::string latin;  ///< without side
+  Points line;        ///< n x 3, from origin to insertion, at rest
 };
 
 /// What the page shows. References must outlive the call.

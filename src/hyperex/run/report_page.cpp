@@ -83,9 +83,10 @@ report::DisplacementModes difference_of(const simulate::Performance& run,
 std::vector<report::ReportMuscle> muscles_of(const Results& r) {
   std::vector<report::ReportMuscle> muscles;
   if (r.simulation.performance.muscles.names.empty()) return muscles;
-  for (muscles::MuscleLine& one :
-       muscles::muscle_lines(r.scene.muscles.table(), r.mesh, r.inputs.landmarks))
-    muscles.push_back({std::move(one.name), std::move(one.line)});
+  const muscles::MuscleTable table = r.scene.muscles.table();
+  for (muscles::MuscleLine& one : muscles::muscle_lines(table, r.mesh, r.inputs.landmarks))
+    muscles.push_back(
+        {std::move(one.name), table[std::size_t(one.row)].latin, std::move(one.line)});
   return muscles;
 }
 

@@ -41,9 +41,10 @@ auto rows_of(const tinygltf::Model& model, int accessor) {
   return Rows(Eigen::Map<const Rows>(data, static_cast<Eigen::Index>(a.count), Columns));
 }
 
-/// What a player shows in a frame, from the file alone.
-PointsF played(const tinygltf::Model& model, const std::string& attribute, int frame) {
-  const auto& skin = model.meshes[0].primitives[0];
+/// What a player shows of a part of the skin's mesh in a frame, from the file alone.
+PointsF played(const tinygltf::Model& model, const std::string& attribute, int frame,
+               std::size_t part = 0) {
+  const auto& skin = model.meshes[0].primitives[part];
   const auto& sampler = model.animations.at(0).samplers.at(0);
   const auto weights = rows_of<float, 1>(model, sampler.output);
   PointsF out = rows_of<float, 3>(model, skin.attributes.at(attribute));
@@ -250,6 +251,42 @@ TEST(Glb, EyesAreThoseOfTheReportAndStandStill) {
   EXPECT_EQ(model.materials[std::size_t(crowns.material)].name, "teeth");
   for (const auto& channel : model.animations.at(0).channels)
     EXPECT_TRUE(channel.target_node == 0 || channel.target_node == 4) << channel.target_node;
+}
+
+TEST(Glb, PocketsBehindOpeningsHangOnTheMovingSkin) {
+  const auto face = made_up_face(Surface::plain);
+  const auto openings = face_backing(face.performance).openings;
+  ASSERT_EQ(openings.size(), 1u) << "the cut";
+  const auto file = scratch("pocket.glb");
+  write_glb(file, face.performance, face.scan);
+  const auto model = read_back(file);
+  ASSERT_EQ(model.meshes[0].primitives.size(), 2u);
+  const auto& cavity = model.meshes[0].primitives[1];
+  const auto& material = model.materials[std::size_t(cavity.material)];
+  EXPECT_EQ(material.name, "cavity");
+  EXPECT_TRUE(material.extensions.contains("KHR_materials_unlit"));
+  EXPECT_EQ(model.extensionsUsed, std::vector<std::string>{"KHR_materials_unlit"});
+  const auto colours = rows_of<std::uint16_t, 4>(model, cavity.attributes.at("COLOR_0"));
+  const auto edge = Eigen::Index(openings[0].loop.size());
+  ASSERT_EQ(colours.rows(), 3 * edge + 1);
+  EXPECT_NEAR(colours(edge - 1, 0) / 65535.0, std::pow((0x5e / 255.0 + 0.055) / 1.055, 2.4), 1e-4);
+  EXPECT_LT(colours(edge, 0), colours(edge - 1, 0));
+  EXPECT_EQ(colours.row(2 * edge), colours.row(3 * edge));
+  double moved_m = 0;
+  const auto frames = int(face.performance.frame_time_s.size());
+  for (int f = 0; f < frames; ++f) {
+    const Points skin = played(model, "POSITION", f).cast<double>();
+    const Points expected = pocket(openings[0], skin).points;
+    EXPECT_LT((played(model, "POSITION", f, 1).cast<double>() - expected).cwiseAbs().maxCoeff(),
+              2e-5)  // what moves less than a twentieth of the tolerance stands still
+        << f;
+    moved_m =
+        std::max(moved_m, (expected - pocket(openings[0], face.performance.skin_rest.points).points)
+                              .rowwise()
+                              .norm()
+                              .maxCoeff());
+  }
+  EXPECT_GT(moved_m, 1e-3);
 }
 
 TEST(Glb, StillSkinHasNoAnimation) {

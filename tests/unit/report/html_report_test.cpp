@@ -167,7 +167,7 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   muscles.group_sigma << 7, 8, 9, 1, 2, 3, 4, 5, 6;
   Points line(2, 3);
   line << 1, 2, 3, 4, 5, 6;
-  input.muscles = {{"zyg_major_L", line}};
+  input.muscles = {{"zyg_major_L", "zygomaticus major", line}};
   const json shown = manifest().at("muscles");
   EXPECT_EQ(shown.at("time_s").dump(), "[0.0,0.1,0.2]");
   EXPECT_EQ(shown.at("few_points"), true);
@@ -179,6 +179,7 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   EXPECT_EQ(group.at("sigma_left"), 2) << "where it acts most";
   EXPECT_EQ(group.at("sigma_right"), 6);
   EXPECT_EQ(shown.at("lines")[0].at("name"), "zyg_major_L");
+  EXPECT_EQ(shown.at("lines")[0].at("latin"), "zygomaticus major");
   EXPECT_EQ(shown.at("lines")[0].at("points").dump(), "[[1.0,2.0,3.0],[4.0,5.0,6.0]]");
   const std::vector<PointsF> none(face.performance.skin_displacement_m.size(),
                                   PointsF::Zero(face.performance.skin_rest.points.rows(), 3));

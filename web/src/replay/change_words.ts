@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a variant changes, in words: {"tissue.young_kpa": 1000} is "Young's modulus 1,000 instead of 192.4 kPa".
-import { landmarkName, nameAndUnit, number, upper } from '../page/format';
+import { landmarkName, nameAndUnit, number, upper, words } from '../page/format';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
@@ -43,12 +43,15 @@ function placeWords(entry: Json): string {
 
 const branches = new Set(['temporal', 'zygomatic', 'buccal', 'mandibular', 'cervical']);
 
+/** "zygomaticus major" of "zyg_major"; "" of what is no muscle. */
+export type LatinOf = (stem: string) => string;
+
 /** What a gain of muscles names: {"side_R": 0.3} is "muscles of the right side at 30 %". */
-function gainWords([name, gain]: [string, unknown]): string {
+function gainWords([name, gain]: [string, unknown], latinOf: LatinOf): string {
   const [, stem, side] = /^(\w+)_([LR])$/.exec(name) ?? [null, name, ''];
   const of = side === 'R' ? 'right' : side === 'L' ? 'left' : '';
   const what = stem === 'side' ? `muscles of the ${of} side`
-    : branches.has(stem) ? `${of} muscles of the ${stem} branch` : `${of} ${landmarkName(stem)}`;
+    : branches.has(stem) ? `${of} muscles of the ${stem} branch` : `${of} ${latinOf(stem) || words(stem)}`;
   return upper(`${what} at ${typeof gain === 'number' ? number(Number((100 * gain).toPrecision(4))) : String(gain)} %`.trim());
 }
 
@@ -57,12 +60,12 @@ function baseValue(options: unknown, path: string[]): unknown {
 }
 
 /** A sentence each. `changes`: dotted key and new value; `options`: those of base, nested. */
-export function changeWords(changes: Json, options: unknown): string[] {
+export function changeWords(changes: Json, options: unknown, latinOf: LatinOf): string[] {
   return Object.entries(changes).flatMap(([path, value]) => {
     const parts = path.split('.');
     const last = parts.pop()!;
     if (Array.isArray(value) && value.some(isObject)) return value.filter(isObject).map(placeWords);
-    if (path === 'muscles.gain' && isObject(value)) return Object.entries(value).map(gainWords);
+    if (path === 'muscles.gain' && isObject(value)) return Object.entries(value).map((gain) => gainWords(gain, latinOf));
     const { name, unit } = keyWords(last);
     // The tissue's parameters need no section.
     const room = parts[0] === 'tissue' ? '' : `${parts.join(' ')}: `;

@@ -57,7 +57,7 @@ export interface Muscles {
   timeS: number[];
   fewPoints: boolean;
   groups: MuscleGroup[];
-  lines: { name: string; points: Vec3[] }[];
+  lines: { name: string; latin: string; points: Vec3[] }[];
 }
 
 export interface Replay {

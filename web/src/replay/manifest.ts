@@ -46,7 +46,7 @@ export interface MuscleData {
   /** Sums over muscles that points can hardly distinguish; sigma: where the group acts most. */
   groups: { name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number }[];
   /** From origin to insertion, at rest. */
-  lines: { name: string; points: [number, number, number][] }[];
+  lines: { name: string; latin: string; points: [number, number, number][] }[];
 }
 
 /** Other tissue on the same mesh, moved by the same motion at the same times. */

@@ -30,5 +30,7 @@ export function changesOf(replay: Replay, i: number): string[] {
   const row = variantsOf(replay)?.table.find(({ name }) => name === replay.faces[i].name);
   if (Array.isArray(row?.changes)) return row.changes;
   if (!row?.changes) return replay.faces[i].changes;
-  return changeWords(row.changes, replay.summary.options);
+  const lines = replay.muscles?.lines ?? [];
+  const latinOf = (stem: string): string => lines.find(({ name }) => name.replace(/_[LR]$/, '') === stem)?.latin ?? '';
+  return changeWords(row.changes, replay.summary.options, latinOf);
 }

@@ -72,7 +72,8 @@ export class StudioState {
 
   /** What differs from base in a variant, a sentence each. */
   changesOf(face: number): string[] {
-    return changeWords(this.scene?.faces[face]?.changes ?? {}, nested(this.valuesOf(0)));
+    const latinOf = (stem: string): string => this.muscles.find(({ name }) => name === stem)?.latin ?? '';
+    return changeWords(this.scene?.faces[face]?.changes ?? {}, nested(this.valuesOf(0)), latinOf);
   }
 
   /** A name that no other face has yet. */
