@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How near muscles come to true faces, through the simulator that everybody has, for constants on
-// the command line: what docs/muscles.md says of choosing them.
+// Compares faces moved by muscles with true faces, through the simulator of the library, for
+// constants given on the command line. docs/muscles.md explains how to choose them.
 //   muscle_bench CASES.txt [key=value ...]
-// today=1: driven by displacement; show=1: activations; finite=1: finite strain; contact=1: lips
-// keep apart; teeth=1, eyes=1: tissue touches teeth (fitted as none are scanned), lids eyeballs.
-// muscles=FILE: with these muscles of the template; write=FOLDER: the skin at the peak
-// (NAME_7.ply). CASES: lines "name scene truth 7|all", or "name scene - markers" for the recording
-// of markers. The share of the warp's error over parts of the face, at the peak. Truths for other
-// expressions of a rig: bench/rig_cases.py.
+// today=1: driven by displacement; show=1: prints activations; finite=1: finite strain; contact=1:
+// the lips do not pass through each other; teeth=1, eyes=1: the tissue touches the teeth (an
+// average arch if none are scanned), the lids touch the eyeballs. muscles=FILE: with these muscles
+// of the template; write=FOLDER: writes the skin at the peak (NAME_7.ply). CASES has lines "name
+// scene truth 7|all", or "name scene - markers" for the recording of markers. Prints errors over
+// parts of the face at the peak, as shares of the error of the warp. bench/rig_cases.py makes
+// truths for other expressions of a rig.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -105,8 +106,8 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   return o;
 }
 
-/// With meshes and landmarks that were found before, as a run takes them; driven as the scene says,
-/// or by displacement.
+/// A session with the meshes and landmarks found earlier, as in a run; driven as the scene says, or
+/// by displacement.
 session::FaceSession session_of(const std::string& scene_file) {
   scene::Scene scene = scene::read_scene(scene_file);
   scene.kept = KeptResults(user_cache_folder());
@@ -118,12 +119,12 @@ session::FaceSession session_of(const std::string& scene_file) {
 
 struct Score {
   std::string name;
-  std::vector<double> share;    ///< of the warp's error
-  double apart = std::nan("");  ///< the same of the lips, where the truth's own are apart
+  std::vector<double> share;    ///< error divided by the warp's error
+  double apart = std::nan("");  ///< the same for the lips, where the true lips do not overlap
 };
 
-/// Vertices of the lips that pass through each other in a motion of the skin: of such a truth no
-/// face with contact can come near there.
+/// Vertices of the lips that pass through each other in a motion of the skin. If the truth has such
+/// vertices, no face with contact can come close to it there.
 std::vector<char> overlapping(const simulate::LipSurfaces& lips, const PointsF& motion) {
   constexpr double kDeep_m = 1e-4;
   std::vector<char> out(std::size_t(motion.rows()), 0);
@@ -173,10 +174,13 @@ Score score_scan(const std::string& name, const std::string& scene_file,
     return metrics::distance_to_corresponding(at, truth.points, rest.rows());
   };
   const Eigen::VectorXd ours = off(moved);
-  Eigen::VectorXd warps;
+  Eigen::VectorXd warps, shapes;
   for (const metrics::Baseline& b :
        metrics::baselines({rest, inputs.scan.mesh.triangles}, truth.points, inputs.landmarks))
-    if (b.key == (kind == "all" ? "warp_68" : "warp_7")) warps = off(b.moved);
+    if (b.key == (kind == "all" ? "warp_68" : "warp_7"))
+      warps = off(b.moved);
+    else if (b.key == (kind == "all" ? "shapes_68" : "shapes_7"))
+      shapes = off(b.moved);
   const metrics::Regions regions = metrics::regions_of(rest, inputs.landmarks);
   Score score{name + "/" + kind, {}};
   fmt::print("{:18}", score.name);
@@ -185,6 +189,9 @@ Score score_scan(const std::string& name, const std::string& scene_file,
     fmt::print("  {} {:.2f} of {:.2f} ({:.2f})", part, a, b, a / b);
     score.share.push_back(a / b);
   }
+  fmt::print("  blend shapes");
+  for (const char* part : {"face", "lips", "cheeks", "below_eyes", "chin"})
+    fmt::print(" {:.2f}", mean_mm(shapes, regions.find(part)) / mean_mm(warps, regions.find(part)));
   if (has("write"))
     io::write_ply(given["write"] + "/" + name + "_" + kind + ".ply",
                   {moved, inputs.scan.mesh.triangles}, *io::length_unit("mm"));
@@ -213,7 +220,8 @@ Score score_scan(const std::string& name, const std::string& scene_file,
   return score;
 }
 
-/// Rest, then each of `frames`, a second apart: the run passes through them one after the other.
+/// A motion with rest and then each of `frames`, a second apart, so that the run passes through
+/// them in turn.
 simulate::AlignedMotion through(const simulate::AlignedMotion& motion,
                                 const std::vector<std::size_t>& frames) {
   simulate::AlignedMotion out = motion;
@@ -226,7 +234,7 @@ simulate::AlignedMotion through(const simulate::AlignedMotion& motion,
   return out;
 }
 
-/// As score_markers.py of the data set does, at 5 of its 100 frames.
+/// Scores as score_markers.py of the data set does, at 5 of its 100 frames.
 Score score_markers(const std::string& name, const std::string& scene_file) {
   static const std::vector<std::pair<std::string, std::vector<std::string>>> groups = {
       {"cheeks",
@@ -258,7 +266,7 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
   std::vector<std::size_t> frames;
   for (std::size_t i = 0; i < 100; i += 20) frames.push_back(by[i].second);
 
-  // The markers are landmarks of the skin, so that the run tells where it carries them.
+  // The markers are used as landmarks of the skin, so that the run outputs their motion.
   io::Landmarks landmarks = inputs.landmarks;
   for (const std::string& point : test)
     landmarks[point] = motion.rest.row(motion.motion.index_of(point)).transpose();
@@ -305,7 +313,7 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
   return score;
 }
 
-/// Geometric means and the worst over the rig's cases, and the real faces once more.
+/// Geometric means and worst values over the rig's cases; the real faces separately.
 void summarise(const std::vector<Score>& scores) {
   for (const char* kind : {"/7", "/all"}) {
     double sum[3] = {0, 0, 0}, worst[2] = {0, 0}, apart = 0;

@@ -57,9 +57,11 @@ void bind_export(py::module_& m) {
       .def_readonly("keys", &report::GlbReport::keys, "Shape keys.")
       .def_readonly("max_error_m", &report::GlbReport::max_error_m, "Of any vertex in any frame.")
       .def_readonly("bytes", &report::GlbReport::bytes, "Of the file.");
-  m.def("write_glb", &glb, "file"_a, "performance"_a, "scan"_a, "tolerance_m"_a = 1e-4,
-        "max_mb"_a = 20.0, Unlocked(),
-        "The moving skin as binary glTF for Blender and the web, with the scan's colours.");
+  m.def(
+      "write_glb", &glb, "file"_a, "performance"_a, "scan"_a, "tolerance_m"_a = 1e-4,
+      "max_mb"_a = 20.0, Unlocked(),
+      "The moving skin as binary glTF for Blender and the web, with the scan's colours. That of a "
+      "FaceResult has its teeth too.");
   m.def("write_ply", &ply, "file"_a, "mesh"_a, "unit"_a = "mm",
         "scalars"_a = std::map<std::string, Eigen::VectorXf>{}, Unlocked(),
         "A TriMesh in `unit`, and values a vertex: {name: |V| numbers}.");

@@ -99,7 +99,7 @@ void print_table(const CompareOptions& options, const std::vector<Row>& rows,
   std::cout << '\n';
 }
 
-// The face alone is framed where it is known.
+// If the region "face" is known, the picture is filled with it alone.
 void write_picture(const CompareOptions& options, const ComparedSurfaces& surfaces,
                    const io::Landmarks& landmarks, const metrics::Regions& regions,
                    const Eigen::VectorXd& distance) {
@@ -177,8 +177,8 @@ void add_compare(CLI::App& program) {
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command->add_flag(
       "--baseline", options->baseline,
-      "Also score two baselines: no motion, and radial-basis warps of the scan at rest by the true "
-      "displacement of the landmarks (with --corresponding, --rest and --landmarks)");
+      "Also score baselines: no motion, and radial-basis warps and blend shapes that the true "
+      "displacement of the landmarks moves (with --corresponding, --rest and --landmarks)");
   command->footer(
       "Example:\n  hyperex compare --corresponding --rest scan.ply out/a/skin_peak.ply truth.ply "
       "--landmarks landmarks.json --picture distance.png");

@@ -17,7 +17,7 @@ namespace hyperex::capture {
 namespace {
 namespace fs = std::filesystem;
 
-/// A copy of its own: the capture may write into its buffer again.
+/// Returns a copy, because the capture may reuse its buffer.
 cv::Mat as_bgr(const cv::Mat& picture) {
   cv::Mat bgr;
   if (picture.type() == CV_8UC1)
@@ -29,7 +29,8 @@ cv::Mat as_bgr(const cv::Mat& picture) {
   return bgr;
 }
 
-/// What a file and a webcam share: the first picture is read early, as only it has the size.
+/// The common part of video files and webcams. The first picture is read in advance, because the
+/// picture size is known only from it.
 class Capture : public FrameSource {
  public:
   const Intrinsics& intrinsics() const override { return intrinsics_; }
@@ -44,7 +45,7 @@ class Capture : public FrameSource {
     if (!reader_->read(first_) || first_.empty()) throw InputError(name_ + ": gives no picture");
     intrinsics_ = intrinsics_of(name_, first_.cols, first_.rows, options, notes_);
   }
-  /// Empty at the end.
+  /// Returns an empty picture at the end.
   cv::Mat read() {
     cv::Mat picture = std::exchange(first_, cv::Mat());
     if (picture.empty() && !reader_->read(picture)) return {};
@@ -114,7 +115,8 @@ class VideoFile : public Capture {
     last_file_time_s_ = first_time_s_;
     return time_s_ = 0;
   }
-  /// The file's time goes on where it rises sensibly, else one period is added.
+  /// Advances the time of the frame: by the step of the file's own times if this is plausible,
+  /// otherwise by one frame period.
   double advance() {
     const double file_time_s = reader_->position_s();
     const double step_s = file_time_s - last_file_time_s_;
@@ -159,7 +161,7 @@ class Webcam : public Capture {
                                    number, device.string()));
     if (!options.camera_file.empty()) {
       const Intrinsics wanted = read_camera_file(options.camera_file).intrinsics;
-      reader->ask_for_size(wanted.width_px, wanted.height_px);
+      reader->request_size(wanted.width_px, wanted.height_px);
     }
     return reader;
   }

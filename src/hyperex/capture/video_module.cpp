@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// hx_video.so: all of the program that is linked to OpenCV's videoio.
+// hx_video.so: the only part of the program that is linked to OpenCV's videoio.
 #include <opencv2/videoio.hpp>
 
 #include "hyperex/capture/video_library.hpp"
@@ -14,7 +14,7 @@ class Reader : public VideoReader {
   double frames_a_second() const override { return capture_.get(cv::CAP_PROP_FPS); }
   double frame_count() const override { return capture_.get(cv::CAP_PROP_FRAME_COUNT); }
   double position_s() const override { return capture_.get(cv::CAP_PROP_POS_MSEC) / 1000; }
-  void ask_for_size(int width_px, int height_px) override {
+  void request_size(int width_px, int height_px) override {
     capture_.set(cv::CAP_PROP_FRAME_WIDTH, width_px);
     capture_.set(cv::CAP_PROP_FRAME_HEIGHT, height_px);
   }

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 
+#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
+#include "hyperex/simulate/load/carried_shapes.hpp"
+#include "hyperex/simulate/options.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -22,6 +25,13 @@ std::vector<int> run(int first, int last) {
 struct Carried {
   Points at, displacement;  // |points| x 3
 };
+
+Eigen::VectorXd flattened(const Points& rows) {
+  return Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size());
+}
+Points rows_of_three(const Eigen::VectorXd& values) {
+  return Eigen::Map<const Points>(values.data(), values.size() / 3, 3);
+}
 
 Carried landmarks_carried(const TriMesh& rest, const Points& truth, const io::Landmarks& landmarks,
                           const std::vector<int>& points, const std::vector<int>& moving) {
@@ -47,6 +57,29 @@ Carried landmarks_carried(const TriMesh& rest, const Points& truth, const io::La
   if (!missing.empty())
     throw InputError("landmarks", "the baseline needs points that are not there: " + missing);
   return carried;
+}
+
+/// `rest` moved by the shapes that explain the displacements, and by a warp of what remains.
+Points moved_by_shapes(const TriMesh& rest, const std::vector<double>& upper_margin,
+                       const io::Landmarks& landmarks, const std::vector<int>& ibug,
+                       Carried carried) {
+  constexpr double sigma_m = simulate::MuscleOptions{}.shape_sigma_m;
+  constexpr Eigen::Index most = 20000;  // vertices at once, for the memory's sake
+  std::vector<simulate::DrivenPoint> points;
+  for (std::size_t i = 0; i < ibug.size(); ++i)
+    points.push_back({face::ibug(ibug[i]), carried.at.row(Eigen::Index(i)).transpose()});
+  const Eigen::VectorXd seen = flattened(carried.displacement);
+  Points moved = rest.points;
+  for (Eigen::Index from = 0; from < moved.rows(); from += most) {
+    const Eigen::Index rows = std::min(most, moved.rows() - from);
+    const auto margin = upper_margin.begin() + from;
+    const simulate::CarriedShapes shapes(rest.points.middleRows(from, rows),
+                                         {margin, margin + rows}, landmarks, points, sigma_m);
+    const Eigen::VectorXd weights = shapes.weights_for(seen);
+    moved.middleRows(from, rows) += rows_of_three(shapes.at_nodes() * weights);
+    if (from == 0) carried.displacement -= rows_of_three(shapes.at_points() * weights);
+  }
+  return moved + Rbf(carried.at, carried.displacement, {}).at_all(rest.points);
 }
 
 Points warped(const TriMesh& rest, const Carried& carried, double smoothing_m = 0) {
@@ -78,10 +111,15 @@ std::vector<Baseline> baselines(const TriMesh& rest, const Points& truth,
   const Carried seven =
       landmarks_carried(rest, truth, landmarks, seven_and_still, driven_ibug_points());
   const Carried all = landmarks_carried(rest, truth, landmarks, run(0, 67), run(0, 67));
+  const std::vector<double> margin = anatomy::upper_lip_margin(rest, landmarks);
   return {{"standing still", "standing_still", rest.points},
           {"warp, 7 points", "warp_7", warped(rest, seven)},
           {"warp, all 68", "warp_68", warped(rest, all)},
-          {"the same, smoothed", "warp_68_smoothed", warped(rest, all, 1e-3)}};
+          {"the same, smoothed", "warp_68_smoothed", warped(rest, all, 1e-3)},
+          {"blend shapes, 7 points", "shapes_7",
+           moved_by_shapes(rest, margin, landmarks, seven_and_still, seven)},
+          {"blend shapes, all 68", "shapes_68",
+           moved_by_shapes(rest, margin, landmarks, run(0, 67), all)}};
 }
 
 }  // namespace hyperex::metrics

@@ -15,6 +15,7 @@
 #include "hyperex/session/read_recording.hpp"
 #include "hyperex/session/read_scan.hpp"
 #include "hyperex/session/teeth.hpp"
+#include "hyperex/simulate/drive/lid_aperture.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -98,6 +99,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   const FaceAtRest at_rest{in.landmarks, "the scan"};
   check_sides(steady, at_rest);
   in.motion = simulate::align(steady, in.landmarks, scene.alignment.method);
+  if (of_weights(scene)) simulate::match_lid_apertures(in.motion, steady);
   in.jitter_m *= in.motion.scan_from_motion.scale;
   in.notes.push_back(make_note(
       "recording.aligned",

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 #include "support/refusal.hpp"
@@ -52,6 +53,39 @@ TEST_P(OnSubjectA, ReproducesTheErrorsMeasuredBefore) {
   // The figures to meet took the landmarks' displacement from a recording; ours, from the surfaces,
   // has their noise of 0.12 mm.
   expect(2, "warp_68", GetParam().all, 0.08);
+}
+
+// The shapes are from the same rig as the truth. They must therefore do better than a warp here,
+// and pass through the given points.
+TEST(BlendShapes, ExplainTheRigTheyComeFrom) {
+  const fs::path data = fs::path(HYPEREX_SHARED_DIR) / "data/ict";
+  if (!fs::exists(data)) GTEST_SKIP() << "needs " << data;
+  const TriMesh rest = io::read_scan(data / "subject_A_neutral_scan.ply").mesh;
+  const Points truth = io::read_scan(data / "subject_A_talk_peak_truth.ply").mesh.points;
+  const io::Landmarks landmarks = io::read_landmarks(data / "subject_A_landmarks.json");
+  const Regions regions = regions_of(rest.points, landmarks);
+  const std::vector<Baseline> found = baselines(rest, truth, landmarks);
+  const auto mean_mm = [&](std::size_t i, const char* region) {
+    const auto distance = distance_to_corresponding(found.at(i).moved, truth, truth.rows());
+    return statistics_of(distance, regions.find(region)->vertices).mean_mm;
+  };
+  ASSERT_EQ(found.size(), 6u);
+  EXPECT_EQ(found[4].key, "shapes_7");
+  EXPECT_EQ(found[5].key, "shapes_68");
+  for (const char* region : {"face", "lips"}) {
+    EXPECT_LT(mean_mm(4, region), 0.8 * mean_mm(1, region)) << region;
+    EXPECT_LT(mean_mm(5, region), 0.8 * mean_mm(2, region)) << region;
+  }
+  const SurfaceTree tree(rest);
+  for (const char* point : {"ibug68_48", "ibug68_54", "ibug68_8"}) {
+    const ClosestPoint at = tree.query(landmarks.at(point));
+    Vec3 off = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const int v = rest.triangles(at.triangle, k);
+      off += at.weights[k] * (found[4].moved.row(v) - truth.row(v)).transpose();
+    }
+    EXPECT_LT(off.norm(), 0.7e-3) << point;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

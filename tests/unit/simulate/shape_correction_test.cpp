@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where shapes of real faces lead the skin between driven points, on a small face.
+// The correction of the skin between driven points by shapes of real faces, on a small face.
 #include "hyperex/simulate/load/shape_correction.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,11 @@ class ShapesOnAFace : public testing::Test {
     options_.drive.by = DriveBy::muscles;
     options_.drive.points = test::seven_points();
   }
-  CarriedShapes shapes() const { return {face_.mesh, face_.landmarks, points_, kSigma_m}; }
+  CarriedShapes shapes() const { return shapes_of(points_); }
+  CarriedShapes shapes_of(const std::vector<DrivenPoint>& points) const {
+    return {face_.mesh.volume.outer.points, face_.mesh.upper_margin, face_.landmarks, points,
+            kSigma_m};
+  }
   /// Weights of the named shapes.
   static Eigen::VectorXd weights(const std::vector<std::pair<std::string, double>>& of) {
     const auto& names = expression::shape_model().names;
@@ -188,7 +192,7 @@ TEST_F(LoadWithShapes, HoldingForcesMakeTheDisplacementThatTheyStateInEquilibriu
   }
 }
 
-/// The nodes that carry a point may lie far from it where elements are large.
+/// Where elements are large, the nodes that carry a point may be far from it.
 TEST_F(LoadWithShapes, APointBetweenFarNodesEndsWhereItDidWithout) {
   const Triangles& triangles = face_.mesh.skin.triangles;
   const Points& skin = face_.mesh.skin.points;
@@ -222,12 +226,12 @@ TEST_F(LoadWithShapes, APointBetweenFarNodesEndsWhereItDidWithout) {
   EXPECT_LT((ends[true] - ends[false]).norm(), 1e-5);
 }
 
-/// A smile with the cheek's raising, of one side, seen at seven points.
+/// A smile of one side with a raised cheek, given by seven points.
 TEST_F(LoadWithShapes, TheFaceComesNearerToARealOneAndThePointsStayWhereTheyAreDriven) {
   const Eigen::VectorXd truth = weights({{"mouthSmile_L", 0.7}, {"cheekSquint_L", 0.4}});
   std::vector<DrivenPoint> all;
   for (const auto& [name, at] : face_.landmarks) all.push_back({name, at});
-  const CarriedShapes at_landmarks(face_.mesh, face_.landmarks, all, kSigma_m);
+  const CarriedShapes at_landmarks = shapes_of(all);
   const Eigen::VectorXd landmarks_moved = at_landmarks.at_points() * truth;
   const AlignedMotion motion = test::motion_of(
       face_.landmarks, 2, 30, [&](const std::string& name, const Vec3&, int k) -> Vec3 {

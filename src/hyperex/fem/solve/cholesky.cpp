@@ -21,8 +21,8 @@ extern "C" void dpotri_(const char* part, const int* n, double* a, const int* st
 namespace hyperex::fem {
 namespace {
 
-/// A pivot this small against its own diagonal entry is rounding: the direction has no stiffness.
-/// (A free body leaves about 1e-15; a bar a hundred elements long still has 1e-8.)
+/// A pivot smaller than this share of its diagonal entry is rounding error: the direction has no
+/// stiffness. (A free body gives about 1e-15; a bar of a hundred elements still gives 1e-8.)
 constexpr double kLeastPivot = 1e-12;
 
 }  // namespace
@@ -47,7 +47,7 @@ struct Cholesky::Impl {
   std::vector<double> permuted;
   Multifrontal multifrontal;
   TriangularSolver triangular;
-  bool prepared = false;  // both
+  bool prepared = false;  // whether both blocks are prepared
   double entries_needed = 0, flops = 0;
 
   Impl() {
@@ -56,8 +56,8 @@ struct Cholesky::Impl {
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
     common.nmethods = 1;
-    // Measured against AMD: a little slower to order, but a step is 1.2 times (layers) to twice
-    // (blocks) as quick.
+    // Compared with AMD, METIS takes a little longer to order, but a step is then 1.2 times
+    // (layers) to 2 times (blocks) as fast.
     common.method[0].ordering = CHOLMOD_METIS;
     common.postorder = 1;
   }
@@ -75,7 +75,7 @@ struct Cholesky::Impl {
                                                                             : "CHOLMOD"));
   }
 
-  /// Makes room for the numbers of the analysed factor.
+  /// Allocates memory for the numbers of the analysed factor.
   void prepare(const SparseMatrix& lower) {
     if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common)) fail();
     factor->minor = factor->n;
@@ -84,7 +84,7 @@ struct Cholesky::Impl {
     prepared = true;
   }
 
-  /// Columns of B, solved for by CHOLMOD.
+  /// Solves for the columns of B by CHOLMOD.
   void solve(Block& part, double* columns, std::size_t count) const {
     if (count == 0) return;
     cholmod_dense b{};
@@ -102,7 +102,7 @@ struct Cholesky::Impl {
 
   Supernodes supernodes() const { return supernodes_of(*factor); }
 
-  /// The column of the first pivot that is nothing but rounding; -1: none.
+  /// The column of the first pivot that is only rounding error, or -1 if there is none.
   int lost_pivot(const SparseMatrix& lower) const {
     const Supernodes l = supernodes();
     const auto* perm = static_cast<const int*>(factor->Perm);
@@ -170,7 +170,7 @@ void Cholesky::solve(Eigen::MatrixXd& x) {
   Impl& m = *impl_;
   check_rows("the right-hand side", x.rows(), size());
   if (size() == 0 || x.cols() == 0) return;
-  // In two parts, whatever the number of threads, so that the numbers never change.
+  // Always in two parts, whatever the number of threads, so that the results are reproducible.
   const auto half = static_cast<std::size_t>(x.cols() / 2);
   tbb::parallel_invoke([&] { m.solve(m.block[0], x.data(), half); },
                        [&] {
@@ -182,7 +182,7 @@ void Cholesky::solve(Eigen::MatrixXd& x) {
 Eigen::MatrixXd Cholesky::inverse_of_last(const std::vector<int>& columns) const {
   const Impl& m = *impl_;
   const int n = static_cast<int>(columns.size()), before = size() - n;
-  require(n <= size(), "{} columns of {} were asked for", n, size());
+  require(n <= size(), "{} columns of {} are wanted", n, size());
   if (n == 0) return {};
   const auto* perm = static_cast<const int*>(m.factor->Perm);
   std::vector<int> last(perm + before, perm + size());
@@ -202,7 +202,8 @@ Eigen::MatrixXd Cholesky::inverse_of_last(const std::vector<int>& columns) const
   int info = 0;
   dpotri_("L", &n, inverse.data(), &n, &info);
   if (info != 0) throw NumericalError(m.purpose + ": a pivot of the factor is 0");
-  std::vector<int> place(static_cast<std::size_t>(n));  // of the k-th of the last among `columns`
+  // Position in `columns` of the k-th of the last columns.
+  std::vector<int> place(static_cast<std::size_t>(n));
   for (int k = 0; k < n; ++k)
     place[static_cast<std::size_t>(k)] = static_cast<int>(
         std::lower_bound(columns.begin(), columns.end(), perm[before + k]) - columns.begin());

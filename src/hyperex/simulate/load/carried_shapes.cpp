@@ -64,8 +64,9 @@ Eigen::MatrixXd shapes_at(const std::vector<Match>& places, const Eigen::Matrix3
 
 }  // namespace
 
-CarriedShapes::CarriedShapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                             const std::vector<DrivenPoint>& points, double sigma_m)
+CarriedShapes::CarriedShapes(const Points& nodes, const std::vector<double>& upper_margin,
+                             const io::Landmarks& landmarks, const std::vector<DrivenPoint>& points,
+                             double sigma_m)
     : sigma_m_(sigma_m) {
   const CarriedFace face(landmarks);
   const std::vector<int> vertex_side = contour_sides();
@@ -76,13 +77,12 @@ CarriedShapes::CarriedShapes(const tissue::TissueMesh& mesh, const io::Landmarks
     side.push_back(anatomy::lip_of(points[i].name));
   }
   at_points_ = shapes_at(match(rest, face.mesh, side, vertex_side), face.turn);
-  const std::vector<Match> nodes =
-      match(mesh.volume.outer.points, face.mesh, lip_sides(mesh.upper_margin), vertex_side);
-  at_nodes_ = shapes_at(nodes, face.turn);
-  cover_.resize(Eigen::Index(nodes.size()));
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+  const std::vector<Match> places = match(nodes, face.mesh, lip_sides(upper_margin), vertex_side);
+  at_nodes_ = shapes_at(places, face.turn);
+  cover_.resize(nodes.rows());
+  for (std::size_t i = 0; i < places.size(); ++i)
     cover_[Eigen::Index(i)] =
-        std::clamp((kOffSkin_m - nodes[i].distance_m) / (kOffSkin_m - kOnSkin_m), 0.0, 1.0);
+        std::clamp((kOffSkin_m - places[i].distance_m) / (kOffSkin_m - kOnSkin_m), 0.0, 1.0);
   information_ = expression::shape_model().covariance.inverse();
   information_ += at_points_.transpose() * at_points_ / (sigma_m * sigma_m);
 }

@@ -5,7 +5,6 @@
 
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/simulate/drive/drive.hpp"
-#include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::simulate {
 
@@ -13,15 +12,18 @@ namespace hyperex::simulate {
 /// canonical face by the landmarks that both have, and their weights found from driven points.
 class CarriedShapes {
  public:
-  /// `points`: those that drive. `sigma_m`: 1 sigma of the error of the shapes at a point.
-  CarriedShapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                const std::vector<DrivenPoint>& points, double sigma_m);
+  /// `nodes`: n x 3, where the shapes are wanted; `upper_margin`: of each, as
+  /// anatomy::upper_lip_margin(). `points`: those that are seen. `sigma_m`: 1 sigma of the error of
+  /// the shapes at a point.
+  CarriedShapes(const Points& nodes, const std::vector<double>& upper_margin,
+                const io::Landmarks& landmarks, const std::vector<DrivenPoint>& points,
+                double sigma_m);
 
   Eigen::Index count() const { return at_points_.cols(); }
-  /// 3 |points| and 3 |outer nodes| x count(), m: displacement where a shape's weight is 1.
+  /// 3 |points| and 3 |nodes| x count(), m: displacement where a shape's weight is 1.
   const Eigen::MatrixXd& at_points() const { return at_points_; }
   const Eigen::MatrixXd& at_nodes() const { return at_nodes_; }
-  /// Per outer node, 1 where the canonical face lies on the skin to 0 far off it (neck, ears).
+  /// Per node, 1 where the canonical face lies on the skin to 0 far off it (neck, ears).
   const Eigen::VectorXd& cover() const { return cover_; }
   /// The most probable weights, 0 or more, for displacements of the points (3 |points|, m).
   Eigen::VectorXd weights_for(const Eigen::VectorXd& displacement) const;

@@ -228,7 +228,8 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
   const Vec3 up = face::face_frame(landmarks).y;
   const DriveField field(driven.points, unmoved_places(driven.points, landmarks), mesh, up,
                          lip_parting(motion, driven.rows, up));
-  const CarriedShapes shapes(mesh, landmarks, driven.points, options.muscles.shape_sigma_m);
+  const CarriedShapes shapes(mesh.volume.outer.points, mesh.upper_margin, landmarks, driven.points,
+                             options.muscles.shape_sigma_m);
   if (between) between();
   const SkinCorrection correction = shape_correction(
       mesh, shapes, field, skin,
