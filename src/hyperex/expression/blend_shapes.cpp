@@ -203,7 +203,8 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
   for (std::size_t u = 0; u < model.animation_units.size(); ++u) {
     const DeformationUnit& unit = model.animation_units[u];
     alpha.col(static_cast<Eigen::Index>(u)) =
-        (mean_of(unit.arkit) - mean_of(unit.arkit_negative)) / unit.arkit_scale;
+        mean_of(unit.arkit) / unit.arkit_scale -
+        mean_of(unit.arkit_negative) / unit.arkit_negative_scale;
   }
   if (used.empty())
     throw InputError(shapes.file, fmt::format("moves nothing of the {} face: it has none of {}",

@@ -78,7 +78,7 @@ FaceModel candide_model(const std::string& wfm_file) {
     unit.facs = row.at(1);
     unit.arkit = row.at(2);
     unit.arkit_negative = row.at(3);
-    unit.arkit_scale = table_number(row.at(4));
+    unit.arkit_scale = unit.arkit_negative_scale = table_number(row.at(4));
     unit.typical = 0.5;
   }
   for (const auto& row : table_rows(candide_pairs_table(), "candide,network"))

@@ -41,7 +41,11 @@ UnitTable read_table(int vertices) {
       rows.unit.facs = row.at(2);
       rows.unit.arkit = row.at(3);
       rows.unit.arkit_negative = row.at(4);
-      rows.unit.arkit_scale = table_number(row.at(5));
+      const auto blank = row.at(5).find(' ');
+      rows.unit.arkit_scale = table_number(row[5].substr(0, blank));
+      rows.unit.arkit_negative_scale = blank == std::string::npos
+                                           ? rows.unit.arkit_scale
+                                           : table_number(row[5].substr(blank + 1));
       rows.unit.typical = table_number(row.at(6));
       rows.kind = row.at(7);
       rows.symmetry = row.at(8);

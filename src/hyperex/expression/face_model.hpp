@@ -16,7 +16,9 @@ struct DeformationUnit {
                      ///< empty
   /// Names of ARKit's blend shapes for positive and for negative weights; may be empty.
   std::string arkit, arkit_negative;
-  double arkit_scale = 1;     ///< ARKit's weight = arkit_scale * |weight|, at most 1
+  /// Weight of `arkit` = arkit_scale * weight, that of `arkit_negative` = arkit_negative_scale *
+  /// -weight; each from 0 to 1.
+  double arkit_scale = 1, arkit_negative_scale = 1;
   double typical = 0.3;       ///< prior standard deviation of the weight, > 0
   std::vector<int> vertices;  ///< n vertices, none twice
   Points displacement_m;      ///< n x 3

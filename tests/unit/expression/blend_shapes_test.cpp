@@ -31,6 +31,20 @@ motion::Motion moved_by(const BlendShapes& shapes) {
   return motion_of(shapes, canonical_model(), notes);
 }
 
+TEST_F(BlendShapesFile, ABlinkClosesTheEyeAndAWideEyeIsWiderByAThird) {
+  const motion::Motion motion =
+      moved_by(read_arkit(write("e.csv", "time_s,eyeBlinkLeft,eyeWideRight\n0,0,0\n0.1,1,1\n")));
+  const auto aperture_mm = [&](const char* upper, const char* lower, std::size_t frame) {
+    const Points& at = motion.positions[frame];
+    return 1e3 * (at(motion.index_of(upper), 1) - at(motion.index_of(lower), 1));
+  };
+  EXPECT_GT(aperture_mm("ibug68_44", "ibug68_46", 0), 5);
+  EXPECT_NEAR(aperture_mm("ibug68_43", "ibug68_47", 1), 0, 0.5);
+  EXPECT_NEAR(aperture_mm("ibug68_44", "ibug68_46", 1), 0, 0.5);
+  const double before = aperture_mm("ibug68_37", "ibug68_41", 0);
+  EXPECT_NEAR(aperture_mm("ibug68_37", "ibug68_41", 1) / before, 4.0 / 3, 0.05);
+}
+
 TEST_F(BlendShapesFile, OpenTheJawAndSmileOnTheRightSide) {
   const auto shapes = read_arkit(
       write("a.csv", "time_s,jawOpen,mouthSmileRight\n0,0,0\n0.1,0.5,0\n0.2,1,0\n0.3,0,1\n"));

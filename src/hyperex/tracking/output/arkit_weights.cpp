@@ -13,7 +13,7 @@ ArkitWeights::ArkitWeights(const expression::FaceModel& model) {
         parts_[name].push_back({Eigen::Index(k), factor});
     };
     add(unit.arkit, unit.arkit_scale);
-    add(unit.arkit_negative, -unit.arkit_scale);
+    add(unit.arkit_negative, -unit.arkit_negative_scale);
   }
 }
 
