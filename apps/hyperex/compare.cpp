@@ -83,12 +83,12 @@ void print_table(const CompareOptions& options, const std::vector<Row>& rows,
                              s.mean_mm, s.median_mm, s.rms_mm, s.p95_mm, s.max_mm, s.count);
   if (baselines.empty()) return;
   std::cout << "\nMeasured against (mean, mm; in brackets A's mean as a fraction of it)\n"
-            << fmt::format("{:<20}", "");
+            << fmt::format("{:<23}", "");
   for (const Row& row : rows) std::cout << fmt::format(" {:>14}", row.region);
-  std::cout << fmt::format("\n{:<20}", "A");
+  std::cout << fmt::format("\n{:<23}", "A");
   for (const Row& row : rows) std::cout << fmt::format(" {:>6.2f}{:8}", row.statistics.mean_mm, "");
   for (const BaselineRows& baseline : baselines) {
-    std::cout << fmt::format("\n{:<20}", baseline.name);
+    std::cout << fmt::format("\n{:<23}", baseline.name);
     for (size_t i = 0; i < rows.size(); ++i) {
       const double mean = baseline.rows[i].statistics.mean_mm;
       const std::string ratio =

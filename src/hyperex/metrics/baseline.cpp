@@ -11,7 +11,6 @@
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/simulate/load/carried_shapes.hpp"
-#include "hyperex/simulate/options.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -59,23 +58,27 @@ Carried landmarks_carried(const TriMesh& rest, const Points& truth, const io::La
   return carried;
 }
 
-/// `rest` moved by the shapes that explain the displacements, and by a warp of what remains.
+/// `rest` moved by the shapes that explain the displacements of the first `moving` points, and by a
+/// warp of what remains at all of them. `sigma_m`: of the shapes' error at a point.
 Points moved_by_shapes(const TriMesh& rest, const std::vector<double>& upper_margin,
                        const io::Landmarks& landmarks, const std::vector<int>& ibug,
-                       Carried carried) {
-  constexpr double sigma_m = simulate::MuscleOptions{}.shape_sigma_m;
-  constexpr Eigen::Index most = 20000;  // vertices at once, for the memory's sake
+                       std::size_t moving, double sigma_m, Carried carried) {
+  constexpr Eigen::Index most = 20000;  // vertices at once, which limits the memory
   std::vector<simulate::DrivenPoint> points;
   for (std::size_t i = 0; i < ibug.size(); ++i)
     points.push_back({face::ibug(ibug[i]), carried.at.row(Eigen::Index(i)).transpose()});
-  const Eigen::VectorXd seen = flattened(carried.displacement);
+  const std::vector<simulate::DrivenPoint> seen(points.begin(),
+                                                points.begin() + std::ptrdiff_t(moving));
+  const simulate::CarriedShapes at_seen(rest.points.topRows(1), {upper_margin[0]}, landmarks, seen,
+                                        sigma_m);
+  const Eigen::VectorXd weights =
+      at_seen.weights_for(flattened(carried.displacement.topRows(Eigen::Index(moving))));
   Points moved = rest.points;
   for (Eigen::Index from = 0; from < moved.rows(); from += most) {
     const Eigen::Index rows = std::min(most, moved.rows() - from);
     const auto margin = upper_margin.begin() + from;
     const simulate::CarriedShapes shapes(rest.points.middleRows(from, rows),
                                          {margin, margin + rows}, landmarks, points, sigma_m);
-    const Eigen::VectorXd weights = shapes.weights_for(seen);
     moved.middleRows(from, rows) += rows_of_three(shapes.at_nodes() * weights);
     if (from == 0) carried.displacement -= rows_of_three(shapes.at_points() * weights);
   }
@@ -117,9 +120,10 @@ std::vector<Baseline> baselines(const TriMesh& rest, const Points& truth,
           {"warp, all 68", "warp_68", warped(rest, all)},
           {"the same, smoothed", "warp_68_smoothed", warped(rest, all, 1e-3)},
           {"blend shapes, 7 points", "shapes_7",
-           moved_by_shapes(rest, margin, landmarks, seven_and_still, seven)},
+           moved_by_shapes(rest, margin, landmarks, seven_and_still, driven_ibug_points().size(),
+                           1.5e-3, seven)},
           {"blend shapes, all 68", "shapes_68",
-           moved_by_shapes(rest, margin, landmarks, run(0, 67), all)}};
+           moved_by_shapes(rest, margin, landmarks, run(0, 67), 68, 3e-3, all)}};
 }
 
 }  // namespace hyperex::metrics
