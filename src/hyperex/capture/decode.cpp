@@ -27,7 +27,7 @@ bool begins_with(Bytes bytes, std::string_view magic) {
                     [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
 }
 
-/// One or two superfluous bytes before the end. Webcams often write these; the picture is intact.
+/// Up to four superfluous bytes before the end. Webcams often write these; the picture is intact.
 bool is_harmless(const std::string& warning) {
   unsigned count = 0, marker = 0;
   return std::sscanf(warning.c_str(), "Corrupt JPEG data: %u extraneous bytes before marker 0x%x",

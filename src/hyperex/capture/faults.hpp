@@ -7,7 +7,7 @@
 
 namespace hyperex::capture {
 
-/// Counts faulty frames. A few are normal; if most frames are faulty, the source itself is wrong.
+/// Counts faulty frames. A few are normal; if nearly all are faulty, the source itself is wrong.
 class FaultCount {
  public:
   explicit FaultCount(std::string source) : source_(std::move(source)) {}

@@ -18,7 +18,8 @@ struct CleanMesh {
 };
 
 struct CleanOptions {
-  /// Components with less than this share of the total area are dropped as islands.
+  /// Components with less than this share of the total area are dropped as islands. A second
+  /// component that is larger is an error.
   double island_area_share = 0.2;
   /// Set to false for a surface that was cut on purpose: the two rims of a cut coincide and would
   /// be joined.
@@ -26,9 +27,9 @@ struct CleanOptions {
 };
 
 /// Joins duplicate vertices; drops degenerate triangles, duplicate triangles and unused vertices;
-/// resolves edges with more than two triangles and pinched vertices; drops small components. If
-/// several components are large, only the largest is kept. Throws std::invalid_argument (not
-/// InputError, as no file is known here) if nothing is left.
+/// resolves edges with more than two triangles and pinched vertices; keeps the largest component
+/// and drops the islands. Throws std::invalid_argument (not InputError, as no file is known here)
+/// if another component is too large to be an island, or if nothing is left.
 CleanMesh clean_mesh(const TriMesh& mesh, const CleanOptions& options = {});
 
 /// The mesh without the triangles for which `drop` is set, cleaned again. Vertices at the same

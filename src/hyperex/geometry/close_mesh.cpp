@@ -2,6 +2,7 @@
 #include "hyperex/geometry/close_mesh.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 #include "hyperex/geometry/clean_mesh.hpp"
@@ -86,7 +87,14 @@ Closing close_mesh(TriMesh& mesh) {
     out.why_not = "it has no triangles";
     return out;
   }
-  if (!oriented(mesh.triangles)) mesh = clean_mesh(mesh).mesh;
+  if (!oriented(mesh.triangles)) {
+    try {
+      mesh = clean_mesh(mesh).mesh;
+    } catch (const std::invalid_argument& error) {
+      out.why_not = std::string("it ") + error.what();
+      return out;
+    }
+  }
   for (const std::vector<int>& loop : boundary_loops(mesh.triangles)) {
     const double length = loop_length(loop, mesh.points);
     if (!fill(mesh, loop, length)) {

@@ -16,9 +16,9 @@ struct Closing {
 /// Makes a surface watertight with outward triangles. Each border is filled (fill_hole). If this
 /// would put a third triangle on an edge, a ring of triangles, half an edge wide, is first added
 /// along the border. If the enclosed volume is negative, all triangles are reversed. If the
-/// triangles are not consistently oriented, the mesh is first cleaned (clean_mesh), which keeps its
-/// largest component. Lengths in metres. Throws nothing but std::bad_alloc. If it fails, the mesh
-/// is left partly closed.
+/// triangles are not consistently oriented, the mesh is first cleaned (clean_mesh), which drops
+/// small components. Lengths in metres. Throws nothing but std::bad_alloc. If it fails, the mesh is
+/// left partly closed.
 Closing close_mesh(TriMesh& mesh);
 
 }  // namespace hyperex

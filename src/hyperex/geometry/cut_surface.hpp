@@ -20,7 +20,8 @@ struct CutSurface {
 /// Opens `mesh` (manifold, oriented) along `path`. Every vertex between the ends is duplicated; the
 /// triangles on the right of the path, seen from outside, get the copy. A path of fewer than three
 /// vertices opens nothing. Throws std::invalid_argument if two successive vertices of the path are
-/// not joined by an edge with a triangle on both sides.
+/// not joined by an edge with a triangle on both sides, or if the path touches a border between its
+/// ends.
 CutSurface cut_along(const TriMesh& mesh, const std::vector<int>& path);
 
 /// Opens `mesh` along `line`, which insert_line() projects onto the surface. The line may cross

@@ -30,9 +30,9 @@ struct LinedSurface {
 /// it a path along edges. A vertex is inserted wherever the line crosses an edge. If the crossing
 /// is within 15 % of the edge's length from a vertex, that vertex is used instead, to avoid
 /// slivers. If the surface is folded over itself, only the sheet that contains the ends of `line`
-/// is used. The path ends at the inserted vertices closest to the ends of `line`. `line` must lie
-/// within 15 % of its own length of the surface. Throws std::invalid_argument if the line cannot be
-/// followed from end to end on the surface.
+/// is used. The path ends at those vertices on the projected line that are closest to the ends of
+/// `line`. `line` must lie within 15 % of its own length of the surface. Throws
+/// std::invalid_argument if the line cannot be followed from end to end on the surface.
 LinedSurface insert_line(const TriMesh& mesh, const Points& line, const Vec3& towards_viewer);
 
 }  // namespace hyperex

@@ -19,7 +19,7 @@ class MeshDistance {
   /// finite or has a border.
   explicit MeshDistance(TriMesh closed);
 
-  /// `within`: a known upper bound of the distance, which shortens the search.
+  /// `within`: a known upper bound of the magnitude of the distance; it shortens the search.
   double at(const Vec3& place, double within = std::numeric_limits<double>::infinity()) const;
   /// False only outside the bounding box of the mesh, where at() is positive.
   bool may_hold(const Vec3& place) const;

@@ -15,7 +15,7 @@
 namespace hyperex::metrics {
 namespace {
 
-/// Marks the triangles without any vertex of side `barred`. Empty if there is no such vertex.
+/// Marks the triangles without any vertex of side `barred`. Empty if there is no such triangle.
 std::vector<char> triangles_without(const TriMesh& rest, const std::vector<int>& side, int barred) {
   std::vector<char> keep(static_cast<size_t>(rest.triangles.rows()), 1);
   bool any = false;

@@ -41,9 +41,9 @@ struct PairExcursion {
   double excursion_ratio = 0, path_ratio = 0, speed_ratio = 0;
   /// Pearson's correlation of the two speeds over time; NaN if one is constant.
   double speed_correlation = 0;
-  /// The values that jitter alone produces for a point at rest (speed_floor.hpp). They are
-  /// increased in proportion if both sides move faster than that even in their quietest half
-  /// second, because the jitter of trackers is not white. 0: unknown.
+  /// The values that jitter alone produces for a point at rest (speed_floor.hpp). If the quieter
+  /// side moves faster than this jitter even in its quietest half second, they are increased in
+  /// proportion, because the jitter of trackers is not white. 0: unknown.
   double peak_speed_floor_mm_s = 0, path_floor_mm = 0;
   /// The difference between the sides is below the floor.
   bool peak_speed_undecided = false, path_undecided = false;
@@ -58,7 +58,8 @@ struct PairExcursion {
   double mesh_floor_mm = std::numeric_limits<double>::quiet_NaN();
   bool undecided = false;  ///< the difference between the excursions is below the larger floor
   /// The excursion of the counterpart in the mirrored twin of the run (mesh_floor.hpp). In the
-  /// twin, the motion of this side is carried out by the other side. NaN without a twin.
+  /// twin, the other side carries out the motion of this side, so that on a mirrored mesh this
+  /// would equal the excursion of this side. NaN without a twin.
   double twin_left_mm = std::numeric_limits<double>::quiet_NaN();
   double twin_right_mm = std::numeric_limits<double>::quiet_NaN();
 

@@ -15,7 +15,7 @@ struct Lag {
 };
 
 /// Finds a lag by cross-correlation, with a resolution finer than the sampling step. The response
-/// is interpolated by a C2 cubic spline with zero rates at both ends (motion/resample.hpp).
+/// is interpolated by a C2 cubic spline with zero slope at both ends (motion/resample.hpp).
 /// Pearson's correlation of input(t_k) and response(t_k + lag) is maximised over |lag| <=
 /// most_lag_s, using the samples for which t_k - most_lag_s and t_k + most_lag_s lie within the
 /// signals. The search uses a grid of a quarter of the median step, then parabolas through three

@@ -34,12 +34,12 @@ struct Regions {
 ///   below_eyes  the part of the face that is lower than 15 mm above the tip of the nose
 ///             (pronasale, else 30) along the vertical axis of the face (face_frame_of_corners)
 /// Cheeks and chin may share vertices with neighbouring regions; the lips share none. If some of
-/// the 68 points are absent, the remaining ones are used. If none or too few remain for a region,
-/// anatomical landmarks are used: for the lips cheilion, labiale_superius, labiale_inferius,
-/// stomion, crista_philtri_inferior (at least four points); for the nose pronasale, subnasale,
-/// alare, nasion (two); for the eyes exocanthion, endocanthion, palpebrale_inferius (two); for the
-/// forehead glabella; for the chin pogonion, gnathion; for the face all landmarks. A region that
-/// cannot be defined is omitted, and `notes` says so.
+/// the 68 points of a region are absent, the remaining ones are used together with anatomical
+/// landmarks: for the lips cheilion, labiale_superius, labiale_inferius, stomion,
+/// crista_philtri_inferior (at least four points in all); for the nose subnasale, nasion (two); for
+/// the eyes exocanthion, endocanthion, palpebrale_inferius (two); for the forehead glabella; for
+/// the chin pogonion, gnathion. For the face, all landmarks are used if none of the 68 is given. A
+/// region that cannot be defined is omitted, and `notes` says so.
 Regions regions_of(const Points& rest, const io::Landmarks& landmarks);
 
 }  // namespace hyperex::metrics

@@ -19,8 +19,8 @@ struct MouthOpeningOptions {
 /// face not at all. Each condyle is assumed a tenth of the face's width inwards from the outline of
 /// the face beside the ears. Every landmark (metres) becomes a point of the motion; only the 68
 /// iBUG points and the points with anatomical names can follow the jaw. The first sample is in the
-/// frame of `landmarks`. Throws InputError where ibug68_1, 15, 8 or 27 is missing, or the options
-/// are not positive.
+/// frame of `landmarks`. Throws InputError where ibug68_1, 15, 8 or 27 is missing, where the angle
+/// or the rate is not positive, or where there would be fewer than three samples.
 Motion embedded_mouth_opening(const io::Landmarks& landmarks,
                               const MouthOpeningOptions& options = {});
 

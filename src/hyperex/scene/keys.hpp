@@ -80,8 +80,9 @@ std::string in_place_of(const std::string& name);
 bool speaks_of_displacement(const std::string& key);
 
 /// Whether a key, if it is given, decides what drives the face: drive.by, and the keys of
-/// speaks_of_displacement(). Where a scene has variants and none of these keys is given, muscles
-/// drive.
+/// speaks_of_displacement(). Where a scene has variants and none of these keys is given, in the
+/// scene or in a variant, muscles drive. (A FaceSession also chooses muscles where there are no
+/// variants: session/drive_choice.hpp.)
 bool decides_the_drive(const std::string& key);
 
 /// The expected text for an unknown name: the nearest of `names`, or all of them.

@@ -60,9 +60,9 @@ struct MotionOptions {
   Source source;                          ///< named points; embedded: a mouth opening of 2.7 s
   std::filesystem::path recording;        ///< of a camera: a folder or a file
   std::filesystem::path openface, arkit;  ///< expressions: action units, blend shapes
-  std::filesystem::path candide;          ///< face model, CANDIDE-3; empty: canonical face
-  std::optional<io::LengthUnit> unit;     ///< none: as the file says ("file")
-  bool mirrored = false;                  ///< whether the recording's pictures are mirrored
+  std::filesystem::path candide;       ///< file of the face model CANDIDE-3; empty: canonical face
+  std::optional<io::LengthUnit> unit;  ///< none: as the file says ("file")
+  bool mirrored = false;               ///< whether the recording's pictures are mirrored
   std::vector<std::string> rigid_points;  ///< determine the head pose; empty: chosen automatically
   /// When the face is at rest, in seconds from the start: empty (the first sample), one time, or a
   /// start and an end.

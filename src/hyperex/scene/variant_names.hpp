@@ -22,7 +22,7 @@ bool may_vary(const std::string& key);
 std::string what_may_vary();
 
 /// The folder of a variant's outputs: `name` with each run of spaces and characters awkward in
-/// paths replaced by one '_', and without '_' at its ends. "left zygomaticus at 30 %" gives
+/// paths replaced by one '_', and without '_' and '.' at its ends. "left zygomaticus at 30 %" gives
 /// "left_zygomaticus_at_30". A number is appended where one of `others` has the same folder.
 std::string variant_folder(const std::string& name, const std::vector<Variant>& others);
 

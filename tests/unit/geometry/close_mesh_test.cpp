@@ -92,6 +92,14 @@ TEST(CloseMesh, MendsTrianglesThatAreTurnedRound) {
 TEST(CloseMesh, SaysWhyNot) {
   TriMesh none;
   EXPECT_NE(close_mesh(none).why_not, "");
+  // Two cups of equal size, one of them with a triangle turned round: neither can be dropped.
+  const TriMesh one = cup(24, true);
+  TriMesh two{Points(2 * one.points.rows(), 3), Triangles(2 * one.triangles.rows(), 3)};
+  two.points << one.points, one.points.rowwise() + Eigen::RowVector3d(5, 0, 0);
+  two.triangles << one.triangles, one.triangles.array() + int(one.points.rows());
+  std::swap(two.triangles(0, 1), two.triangles(0, 2));
+  EXPECT_NE(close_mesh(two).why_not.find("it consists of several large separate"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -25,12 +25,12 @@ struct DilatationGroups {
 DilatationGroups dilatation_groups(ElementKind kind, Eigen::Index node_count,
                                    const Tetrahedra& tets);
 
-/// Partitions the mesh into disjoint patches. First, as many disjoint stars of nodes as possible
-/// are packed densely; the star of a node is the set of all tetrahedra around it, at least eight.
-/// Then each remaining tetrahedron joins the patch with which it shares most corners. In a star,
-/// the central node can move in response to the constant pressure of the patch. The patches are
-/// therefore stable, while patches of the same size that are formed by other rules are not. The
-/// same mesh always gives the same patches.
+/// Partitions the mesh into disjoint patches. First, disjoint stars of nodes are packed densely
+/// until no further star fits. The star of a node is the set of all tetrahedra around it; stars of
+/// fewer than eight tetrahedra are not used. Then each remaining tetrahedron joins the patch with
+/// which it shares most corners. In a star, the central node can move in response to the constant
+/// pressure of the patch. The patches are therefore stable, while patches of the same size that are
+/// formed by other rules are not. The same mesh always gives the same patches.
 DilatationGroups disjoint_stars(Eigen::Index node_count, const Tetrahedra& tets);
 
 /// For each tetrahedron, the list of its corners.

@@ -41,11 +41,11 @@ class FiniteStrain {
   ///   sum_e V_e eta J* now |E - E^|^2,  |X|^2 = tr(A X A X) - tr(A X)^2 / 3,  A = (C*)^-1.
   /// E is the Green-Lagrange strain. With E^ = -(last E(t) + before E(t-1)) / now, the strain rate
   /// is now (E - E^). C* is C = F^T F extrapolated to the end of the step, and J* = sqrt(det C*).
-  /// Backward Euler is used instead, with the rate (E - E(t)) / h and C* = C(t), if rule.before is
-  /// 0 and in elements whose strain changed by more than 0.1 in the previous step. The stress of
-  /// this potential is Stokes' law, 2 eta dev(D). At small strain it equals that of the linear
-  /// formulation, and a rigid rotation produces none. The potential of a Maxwell branch with ratio
-  /// g and time constant tau is, with h the step,
+  /// If rule.before is 0, and otherwise in elements whose strain changed by more than 0.1 in the
+  /// previous step, backward Euler is used instead: the rate (E - E(t)) / h and C* = C(t). The
+  /// stress of this potential is Stokes' law, 2 eta dev(D). At small strain it equals that of the
+  /// linear formulation, and a rigid rotation produces none. The potential of a Maxwell branch with
+  /// ratio g and time constant tau is, with h the step,
   ///   delta W + (exp(-h / tau) Q(t) - delta S(t)) : E,   delta = g (1 - exp(-h / tau)) tau / h.
   /// S is the second Piola-Kirchhoff stress of the law (of W alone, without the barrier and the
   /// volumetric parts); Q is that of the branch. This is exact if S is linear in time within the

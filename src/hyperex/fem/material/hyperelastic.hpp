@@ -8,11 +8,11 @@
 
 namespace hyperex::fem {
 
-/// The isochoric part of the material law: how the stress grows with a change of shape. mu = E / (2
-/// (1 + nu)) of the Material is the shear modulus of each law at rest, so that all laws have the
-/// same stiffness there as the linear formulation. I1 = |F|^2, I2 = |cof F|^2, J = det F. I1bar =
-/// J^(-2/3) I1 and I2bar = J^(-4/3) I2 do not depend on the change of volume, which the dilatation
-/// groups resist (form/finite_strain.hpp).
+/// The law of the resistance to a change of shape. mu = E / (2 (1 + nu)) of the Material is the
+/// shear modulus of each law at rest, so that all laws have the same stiffness there as the linear
+/// formulation. I1 = |F|^2, I2 = |cof F|^2, J = det F. I1bar = J^(-2/3) I1 and I2bar = J^(-4/3) I2
+/// do not depend on the change of volume, which the dilatation groups resist
+/// (form/finite_strain.hpp).
 ///  linear:        W = mu |dev e|^2 with the small strain e; the linear formulation
 ///  neo_hookean:   W = mu/2 (I1 - 3) - mu (J - 1) + mu/6 (J - 1)^2, finite for any F; the base of
 ///                 Smith, de Goes and Kim (Stable Neo-Hookean Flesh Simulation, ACM Trans. Graph.

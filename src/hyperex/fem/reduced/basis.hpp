@@ -12,8 +12,9 @@ class Basis {
 
   /// Extends the basis by directions of the given shapes (all unknowns) that it does not yet
   /// contain, in decreasing order of energy. A direction is skipped if its contribution to every
-  /// shape moves each unknown by less than `least` (m). The shapes are the columns of `w`, or those
-  /// of w `mix` if there are more shapes than directions; the rows of `mix` are orthonormal.
+  /// shape moves each unknown by less than `least` (m); for the first six added, a hundredth of it.
+  /// The shapes are the columns of `w`, or those of w `mix` if there are more shapes than
+  /// directions; the rows of `mix` are orthonormal.
   struct Grown {
     int taken = 0;  ///< number of directions added
     /// Bound of the motion of any unknown by all skipped directions together (m).

@@ -7,7 +7,8 @@ namespace hyperex::fem {
 /// Report on the solution of a linear complementarity problem.
 struct Complementarity {
   int sweeps = 0;
-  /// Greatest |min(w_i, a_ii z_i)| in the unit of w: the violation of w_i z_i = 0.
+  /// Greatest |min(w_i, a_ii z_i)| in the unit of w: how far any pair is from satisfying w >= 0,
+  /// z >= 0 and w_i z_i = 0. At an exact solution it is 0.
   double residual = 0;
 };
 

@@ -16,7 +16,7 @@ Eigen::MatrixXd condensed_inverse(PartitionedFactor& factor, const std::vector<i
 
 /// Adapts the elimination order `known`, which belongs to `known_prescribed`, to other prescribed
 /// unknowns (sorted), with `nodes` eliminated last. Unknowns that were not free before are
-/// eliminated just before those. `entries` and `flops` are not recomputed.
+/// eliminated just before `nodes`. `entries` and `flops` are not recomputed.
 NodeOrder order_with_last(const NodeOrder& known, const std::vector<int>& known_prescribed,
                           const std::vector<int>& prescribed, int unknowns,
                           const std::vector<int>& nodes);

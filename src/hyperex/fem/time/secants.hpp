@@ -6,8 +6,8 @@
 
 namespace hyperex::fem {
 
-/// L-BFGS updates of an old factor (Nocedal, Math. Comp. 35, 1980). Stores the last pairs of a
-/// correction and the change of the gradient along it.
+/// L-BFGS updates of an old factor (Nocedal, Math. Comp. 35, 1980). Stores the last kPairs pairs;
+/// a pair is a correction s and the change y of the gradient along it.
 class Secants {
  public:
   explicit Secants(Eigen::Index unknowns) {

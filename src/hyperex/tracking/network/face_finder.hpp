@@ -25,8 +25,8 @@ struct FaceFinderOptions {
   double least_score = 0.5;  ///< of a face, 0 to 1
   /// Boxes with a larger overlap (intersection over union) are merged.
   double same_face_overlap = 0.3;
-  /// If the whole picture shows no face, also search overlapping squares of half the shorter side,
-  /// for faces too small for the network's 128 pixels.
+  /// If the whole picture shows no face, also searches overlapping squares of two thirds of the
+  /// shorter side, for faces too small for the network's 128 pixels.
   bool look_closer = true;
 };
 

@@ -17,7 +17,7 @@ struct Candidate {
   Vec3 to_viewer, up;
 };
 
-/// The vertices of an icosahedron and the midpoints of its edges. No direction is more than 20
+/// The vertices of an icosahedron and the midpoints of its edges. No direction is more than 21
 /// degrees from one of these 42.
 std::vector<Vec3> sides() {
   constexpr double g = std::numbers::phi;

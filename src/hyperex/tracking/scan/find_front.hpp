@@ -14,7 +14,7 @@ namespace hyperex::tracking {
 /// returned.
 std::optional<FacePose> find_front(const ScanViewer& viewer, LandmarkTracker& tracker);
 
-/// The same if the pose of the face is known approximately, to within 20 degrees.
+/// The same if the pose of the face is known approximately, to within about 20 degrees.
 std::optional<FacePose> find_front_near(const ScanViewer& viewer, LandmarkTracker& tracker,
                                         const Similarity& scan_from_canonical);
 

@@ -17,11 +17,11 @@ struct ScanLandmarkOptions {
   /// left, pitch upwards, degrees. Each view is evaluated twice, the second time as a mirror image.
   std::vector<std::pair<double, double>> views_deg = {{0, 0},  {-12, 0}, {12, 0}, {-25, 0},
                                                       {25, 0}, {0, 12},  {0, -12}};
-  /// The approximate pose of the canonical face on the scan (to within 20 degrees), if known. It
-  /// saves the search from all directions, which takes most of the time. If no face is found there,
-  /// the search is done all the same.
+  /// The approximate pose of the canonical face on the scan (to within about 20 degrees), if known.
+  /// It saves the search from all directions, which takes most of the time. If no face is found
+  /// there, the search is done all the same.
   std::optional<Similarity> scan_from_canonical;
-  /// A view whose point is this far (m) from the common point of all views has half the weight.
+  /// A view whose ray is this far (m) from the common point of all views has half the weight.
   double tolerance_m = 4e-3;
 };
 

@@ -31,8 +31,9 @@ class ScanViewer {
   ScanView look(const render::Camera& camera, int size_px, int samples) const;
   /// A camera that shows the whole scan in a square picture.
   render::Camera whole(const Vec3& to_viewer, const Vec3& up) const;
-  /// The first surface points under the face points. The weight is 0 if there is none or if the
-  /// surface faces away.
+  /// The first surface points under the face points. The weight is the cosine of the surface's
+  /// inclination to the view; it is 0 if there is no point, if the inclination exceeds 75 degrees,
+  /// or if the surface faces away.
   Points on_surface(const ScanView& view, const FacePoints& points_px,
                     Eigen::VectorXd& weights) const;
 
