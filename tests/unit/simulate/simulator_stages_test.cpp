@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -370,7 +372,12 @@ TEST_F(SimulatorStagesOfAFace, WhereMusclesDriveTheOtherSectionsReachTheirStages
 
 TEST_F(SimulatorStagesOfAFace, GainsReachWhatTheyAdd) {
   options_.drive.by = DriveBy::muscles;
-  // One muscle adds few shapes to the motion: many are not added but run as a whole.
+  // What gains add is run on its own where it has at most half of the shapes of the whole motion:
+  // one muscle, in a motion whose points move independently.
+  motion_ = test::motion_of(face_.landmarks, 8, 30, [](const std::string&, const Vec3& at, int k) {
+    return Vec3(2e-3 * std::min(1.0, k / 2.0) *
+                Vec3(std::sin(k + 100 * at.x()), std::cos(2 * k + 90 * at.y()), 0));
+  });
   options_.muscles.gains = {{"zyg_major_L", 0.5}};
   expect_all_as_declared({{"another muscle",
                            {"muscles.gain"},
