@@ -18,8 +18,9 @@ mkdir -p build/fuzz/{corpus,found,log}
 one() {
   local corpus="build/fuzz/corpus/$1" limit=(-max_total_time="$2") as=()
   if [[ -n "${RUNS_EACH:-}" ]]; then
-    # The same inputs every time: from an empty corpus that is not read again by the clock, at the
-    # same addresses, as libFuzzer takes words for its inputs from what it sees compared.
+    # The same inputs every time. The corpus begins empty and is not read again, which libFuzzer
+    # would do after certain times. Addresses are not random, since it takes words for its inputs
+    # from values that the program compares.
     corpus="build/fuzz/fixed/$1"
     limit=(-runs="$RUNS_EACH" -seed=1 -reload=0)
     ! setarch -R true 2> /dev/null || as=(setarch -R)

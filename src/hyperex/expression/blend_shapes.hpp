@@ -38,9 +38,10 @@ BlendShapes read_arkit(const std::filesystem::path& file);
 BlendShapes read_openface(const std::filesystem::path& file);
 
 /// The motion of a model's landmarks that the blend shapes produce through the model's animation
-/// units. The weight of a unit is w+ / arkit_scale - w- / arkit_negative_scale, where w+ and w- are
-/// the means of the blend shapes named by its `arkit` and `arkit_negative` ("*" stands for Left and
-/// Right).
+/// units. The weight of a unit is w+ / arkit_scale - w- / arkit_negative_scale. Here w+ is the mean
+/// of the blend shapes that the unit's `arkit` names, and w- the mean of those that its
+/// `arkit_negative` names. A name with "*" means two blend shapes, one with Left and one with Right
+/// in its place.
 /// The points are in the model's frame and size, without head pose. They are NaN where the face was
 /// not seen. Adds a note on blend shapes that the model does not have. Throws InputError if no
 /// blend shape moves the model.

@@ -31,8 +31,9 @@ struct CsvTable {
 /// occurs twice, if there are numbers in place of names, if a row has another length, or if a cell
 /// is not a finite number.
 CsvTable read_csv(const std::filesystem::path& file);
-/// The same for a table that also contains text. For a cell that is not a number, `number_of` gives
-/// the number that it stands for in the column `name`, or nothing if it is invalid.
+/// The same for a table that also contains text. `number_of` is called with the name of the column
+/// and the text of each cell that is not a number. It returns the number that the text means, such
+/// as the frames of a timecode, or nothing if the text is invalid.
 using TextReader =
     std::function<std::optional<double>(const std::string& name, std::string_view cell)>;
 CsvTable read_csv(const std::filesystem::path& file, const TextReader& number_of);

@@ -109,14 +109,18 @@ std::string too_deep() {
   return fmt::format("nested deeper than {} levels", most_nested);
 }
 
+namespace {
+void refuse_if_any(int line, const std::filesystem::path& file) {
+  if (line > 0) throw InputError(file, fmt::format("line {} is {}", line, too_deep()));
+}
+}  // namespace
+
 void check_nesting_json(const std::filesystem::path& file, std::string_view text) {
-  if (const int line = line_nested_too_deep_json(text); line > 0)
-    throw InputError(file, fmt::format("line {} is {}", line, too_deep()));
+  refuse_if_any(line_nested_too_deep_json(text), file);
 }
 
 void check_nesting_toml(const std::filesystem::path& file, std::string_view text) {
-  if (const int line = line_nested_too_deep_toml(text); line > 0)
-    throw InputError(file, fmt::format("line {} is {}", line, too_deep()));
+  refuse_if_any(line_nested_too_deep_toml(text), file);
 }
 
 }  // namespace hyperex::io

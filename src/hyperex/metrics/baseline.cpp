@@ -58,8 +58,9 @@ Carried landmarks_carried(const TriMesh& rest, const Points& truth, const io::La
   return carried;
 }
 
-/// `rest` moved by the shapes that explain the displacements of the first `moving` points, and by a
-/// warp of what remains at all of them. `sigma_m`: of the shapes' error at a point.
+/// Moves `rest` in two steps. Blend shapes are fitted to the displacements of the first `moving`
+/// points. A warp then adds the displacement that they leave at all points. `sigma_m`: standard
+/// deviation of the shapes' error at a point.
 Points moved_by_shapes(const TriMesh& rest, const std::vector<double>& upper_margin,
                        const io::Landmarks& landmarks, const std::vector<int>& ibug,
                        std::size_t moving, double sigma_m, Carried carried) {
@@ -69,19 +70,20 @@ Points moved_by_shapes(const TriMesh& rest, const std::vector<double>& upper_mar
     points.push_back({face::ibug(ibug[i]), carried.at.row(Eigen::Index(i)).transpose()});
   const std::vector<simulate::DrivenPoint> seen(points.begin(),
                                                 points.begin() + std::ptrdiff_t(moving));
-  const simulate::CarriedShapes at_seen(rest.points.topRows(1), {upper_margin[0]}, landmarks, seen,
-                                        sigma_m);
+  const auto shapes_at = [&](Eigen::Index from, Eigen::Index rows, const auto& at) {
+    const auto margin = upper_margin.begin() + from;
+    return simulate::CarriedShapes(rest.points.middleRows(from, rows), {margin, margin + rows},
+                                   landmarks, at, sigma_m);
+  };
   const Eigen::VectorXd weights =
-      at_seen.weights_for(flattened(carried.displacement.topRows(Eigen::Index(moving))));
+      shapes_at(0, 0, seen)
+          .weights_for(flattened(carried.displacement.topRows(Eigen::Index(moving))));
   Points moved = rest.points;
   for (Eigen::Index from = 0; from < moved.rows(); from += most) {
     const Eigen::Index rows = std::min(most, moved.rows() - from);
-    const auto margin = upper_margin.begin() + from;
-    const simulate::CarriedShapes shapes(rest.points.middleRows(from, rows),
-                                         {margin, margin + rows}, landmarks, points, sigma_m);
-    moved.middleRows(from, rows) += rows_of_three(shapes.at_nodes() * weights);
-    if (from == 0) carried.displacement -= rows_of_three(shapes.at_points() * weights);
+    moved.middleRows(from, rows) += rows_of_three(shapes_at(from, rows, seen).at_nodes() * weights);
   }
+  carried.displacement -= rows_of_three(shapes_at(0, 0, points).at_points() * weights);
   return moved + Rbf(carried.at, carried.displacement, {}).at_all(rest.points);
 }
 

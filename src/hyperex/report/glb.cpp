@@ -188,8 +188,7 @@ TriMesh pockets(const std::vector<Opening>& openings, const Points& points) {
 /// Dark pockets behind the openings: a part of the skin's mesh, as they go along with its poses.
 /// Unlit, as on the page: no light falls into a mouth.
 tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
-                                     const std::vector<Opening>& openings, const Points& rest) {
-  const TriMesh mesh = pockets(openings, rest);
+                                     const std::vector<Opening>& openings, const TriMesh& mesh) {
   Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowMajor> srgb(mesh.points.rows(), 3);
   Index row = 0;
   for (const Opening& opening : openings) {
@@ -215,10 +214,9 @@ tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
 /// Poses of the skin that fill what the others leave of the file, and how they follow each other.
 void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& mesh,
                      const simulate::Performance& performance, const SkinView& view,
-                     const std::vector<Opening>& openings, const GlbOptions& options,
-                     int lower_teeth, GlbReport& report) {
+                     const std::vector<Opening>& openings, const Points& cavity,
+                     const GlbOptions& options, int lower_teeth, GlbReport& report) {
   const Points& rest = performance.skin_rest.points;
-  const Points cavity = pockets(openings, rest).points;
   const double copies =
       double(Index(view.skin_vertex.size()) + cavity.rows()) / double(rest.rows());
   const PoseTargets targets =
@@ -227,13 +225,13 @@ void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh&
   report.keys = targets.names.size();
   report.max_error_m = targets.keys.max_error_m;
   add_morph_targets(mesh, arrays, targets, view.skin_vertex);
-  for (const PointsF& pose : targets.positions) {
-    if (openings.empty()) break;
-    const Points now = pockets(openings, rest + pose.cast<double>()).points;
-    const PointsF change = (now - cavity).cast<float>();
-    mesh.primitives[1].targets.push_back(
-        {{"POSITION", arrays.few_vectors(change, targets.least_move_m, true)}});
-  }
+  if (!openings.empty())
+    for (const PointsF& pose : targets.positions) {
+      const Points now = pockets(openings, rest + pose.cast<double>()).points;
+      const PointsF change = (now - cavity).cast<float>();
+      mesh.primitives[1].targets.push_back(
+          {{"POSITION", arrays.few_vectors(change, targets.least_move_m, true)}});
+    }
   tinygltf::Animation animation;
   animation.name = "performance";
   const double start_s = performance.frame_time_s.front();
@@ -270,15 +268,15 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   tinygltf::Mesh mesh;
   mesh.name = "skin";
   mesh.primitives.push_back(skin);
+  const TriMesh cavity = pockets(backing.openings, performance.skin_rest.points);
   if (!backing.openings.empty())
-    mesh.primitives.push_back(
-        cavity_primitive(model, arrays, backing.openings, performance.skin_rest.points));
+    mesh.primitives.push_back(cavity_primitive(model, arrays, backing.openings, cavity));
   const bool moves =
       std::any_of(performance.skin_displacement_m.begin(), performance.skin_displacement_m.end(),
                   [](const PointsF& frame) { return !frame.isZero(0); });
   if (moves)
-    add_performance(model, arrays, mesh, performance, view, backing.openings, options, lower_teeth,
-                    report);
+    add_performance(model, arrays, mesh, performance, view, backing.openings, cavity.points,
+                    options, lower_teeth, report);
   model.meshes[0] = std::move(mesh);
   tinygltf::Scene scene;
   for (std::size_t n = 0; n < model.nodes.size(); ++n) scene.nodes.push_back(int(n));

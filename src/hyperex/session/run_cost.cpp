@@ -21,7 +21,7 @@ constexpr double kNodesOfArea = 0.51, kTrianglesOfNodes = 1.93;
 constexpr double kNodeBytes = 12.5, kTetBytes = 13.2, kStrainBytes = 24, kFiniteBytes = 60;
 /// Other files of each face, measured on faces of 7,000 and 36,000 vertices, in bytes: pictures;
 /// tables per frame (5 to 80 kB, by the number of points and muscles); a PLY file per vertex;
-/// performance.glb per vertex and pose, of which it holds at most kPoses.
+/// performance.glb per vertex and pose. That file has at most kPoses poses.
 constexpr double kPictureBytes = 1.7e6, kTableBytes = 20e3, kPlyBytes = 46;
 constexpr double kPoseBytes = 22, kPoses = 24;
 /// The report's page; of each face in it each vertex and each frame.

@@ -43,7 +43,7 @@ function placeWords(entry: Json): string {
 
 const branches = new Set(['temporal', 'zygomatic', 'buccal', 'mandibular', 'cervical']);
 
-/** "zygomaticus major" of "zyg_major"; "" of what is no muscle. */
+/** The Latin name of a muscle without side: "zygomaticus major" for "zyg_major". "" for any other name. */
 export type LatinOf = (stem: string) => string;
 
 /** What a gain of muscles names: {"side_R": 0.3} is "muscles of the right side at 30 %". */

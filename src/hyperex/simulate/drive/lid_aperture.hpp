@@ -8,10 +8,11 @@ namespace hyperex::simulate {
 /// Weights of blend shapes state how far an eye closes as a share of its aperture, not in
 /// millimetres. Moves the lids of `aligned` such that the distance between upper and lower lid
 /// changes in the same proportion as in `recorded`, the motion that was aligned (same points and
-/// samples). Eyes close at a share of 0 and do not pass through it. Corrects iBUG points 37, 38
+/// samples). A share below 0 counts as 0, a closed eye. Corrects iBUG points 37, 38
 /// (right upper lid) with 41, 40 and 43, 44 (left) with 47, 46, along the line between them at
 /// rest; upper and lower lid share the correction as they share the motion. Pairs that the motion
-/// lacks, or whose aperture at rest is below 2 mm or differs by more than a factor of 2, stay.
+/// lacks, or whose aperture at rest is below 2 mm or differs by more than a factor of 2, are left
+/// as they are.
 void match_lid_apertures(AlignedMotion& aligned, const motion::Motion& recorded);
 
 }  // namespace hyperex::simulate

@@ -65,7 +65,7 @@ struct FitOptions {
   /// PhotometricOptions::least_gradient for coarse pictures, relative to that for fine ones.
   double coarse_gradient = 0.5;
   int coarse_iterations = 1;
-  /// In the last so many iterations, the free displacements are fitted too.
+  /// Number of iterations, the last ones, in which the free displacements are fitted too.
   int free_iterations = 1;
   /// Standard deviation of a vertex from any combination of the units, relative to its typical
   /// displacement by them, and an additional length inside the lips. It limits the weight that many
