@@ -5,10 +5,11 @@
 // today=1: driven by displacement; show=1: prints activations; finite=1: finite strain; contact=1:
 // the lips do not pass through each other; teeth=1, eyes=1: the tissue touches the teeth (an
 // average arch if none are scanned), the lids touch the eyeballs. muscles=FILE: with these muscles
-// of the template; write=FOLDER: writes the skin at the peak (NAME_7.ply). CASES has lines "name
-// scene truth 7|all", or "name scene - markers" for the recording of markers. Prints errors over
-// parts of the face at the peak, as shares of the error of the warp. bench/rig_cases.py makes
-// truths for other expressions of a rig.
+// of the template; write=FOLDER: writes the skin at the peak (NAME_7.ply); coverage=1: prints how
+// often the truth lies in the 95 % ellipsoid of the shapes' posterior. CASES has lines "name scene
+// truth 7|all", or "name scene - markers" for the recording of markers. Prints errors over parts of
+// the face at the peak, as shares of the error of the warp. bench/rig_cases.py makes truths for
+// other expressions of a rig.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,6 +32,7 @@
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/simulate/contact/lip_surfaces.hpp"
+#include "hyperex/simulate/load/shape_posterior.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 
 namespace hyperex {
@@ -122,6 +124,61 @@ struct Score {
   std::vector<double> share;    ///< error divided by the warp's error
   double apart = std::nan("");  ///< the same for the lips, where the true lips do not overlap
 };
+
+/// The distance of a true displacement from the one found, in units of its uncertainty: squared.
+double squared_mahalanobis(const simulate::ShapePosterior& posterior, Eigen::Index place,
+                           const Vec3& error) {
+  return error.dot(posterior.covariance(place).ldlt().solve(error));
+}
+
+/// What is known of the skin between the driven points of a run. `motion_m`: of the places.
+simulate::ShapePosterior posterior_of(const simulate::Performance& p,
+                                      const simulate::MovedPlaces& places,
+                                      const std::vector<double>& upper_margin,
+                                      const io::Landmarks& landmarks) {
+  simulate::PosteriorOptions options;
+  take("misfit", options.misfit_m, 1e-3);
+  take("misfit_share", options.misfit_share);
+  take("misfit_length", options.misfit_length_m, 1e-3);
+  take("point", options.point_m, 1e-3);
+  std::vector<simulate::DrivenPoint> points;
+  simulate::MovedPlaces driven{p.driven_points_rest, Eigen::VectorXd(p.driven_points_rest.rows())};
+  const PointsF& motion = p.skin_displacement_m[std::size_t(p.peak_frame)];
+  for (std::size_t i = 0; i < p.driven_names.size(); ++i) {
+    const auto row = Eigen::Index(i);
+    points.push_back({p.driven_names[i], driven.rest.row(row).transpose()});
+    Eigen::Index vertex = 0;
+    (p.skin_rest.points.rowwise() - driven.rest.row(row)).rowwise().squaredNorm().minCoeff(&vertex);
+    driven.motion_m[row] = double(motion.row(vertex).norm());
+  }
+  const simulate::CarriedShapes shapes(places.rest, upper_margin, landmarks, points,
+                                       simulate::MuscleOptions{}.shape_sigma_m);
+  return simulate::ShapePosterior(shapes, places, driven, options);
+}
+
+constexpr double kWithin95 = 7.815;  // 95 % quantile of chi squared with three degrees of freedom
+
+/// Prints for each region the share of vertices in the 95 % ellipsoid, the error's root mean square
+/// and the expected one.
+void print_coverage(const simulate::ShapePosterior& posterior, const Points& error,
+                    const metrics::Regions& regions) {
+  const Eigen::VectorXd expected = posterior.distance_m(), determined = posterior.determined();
+  fmt::print("   coverage");
+  for (const metrics::Region& region : regions.regions) {
+    double within = 0, squared = 0, expected_squared = 0, known = 0;
+    for (const int v : region.vertices) {
+      within += squared_mahalanobis(posterior, v, error.row(v)) < kWithin95;
+      squared += error.row(v).squaredNorm();
+      expected_squared += expected[v] * expected[v];
+      known += determined[v];
+    }
+    const double n = double(region.vertices.size());
+    fmt::print("  {} {:.0f} % (rms {:.2f} mm, expected {:.2f}, determined {:.2f})", region.name,
+               100 * within / n, 1e3 * std::sqrt(squared / n),
+               1e3 * std::sqrt(expected_squared / n), known / n);
+  }
+  fmt::print("\n");
+}
 
 /// Vertices of the lips that pass through each other in a motion of the skin. If the truth has such
 /// vertices, no face with contact can come close to it there.
@@ -217,6 +274,12 @@ Score score_scan(const std::string& name, const std::string& scene_file,
   if (has("eyes")) fmt::print("  eyes {:.2f} -> {:.3f}", c.eyes_mm, c.eyes_left_mm);
   fmt::print("  residual {:.4f}, {} frames, {:.2f} s\n", c.residual_mm, c.frames, c.seconds);
   if (has("show") && !p.muscles.names.empty()) show(p.muscles);
+  if (has("coverage"))
+    print_coverage(posterior_of(p, {rest, (moved - rest).rowwise().norm()},
+                                {mesh->skin_upper_margin.begin(),
+                                 mesh->skin_upper_margin.begin() + mesh->scan_vertices},
+                                inputs.landmarks),
+                   moved - truth.points.topRows(rest.rows()), regions);
   return score;
 }
 
@@ -277,7 +340,19 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
       simulate::Simulator(session.shared_mesh(), landmarks, through(motion, frames), options).run();
   const motion::Motion& tracks = result.performance.landmarks;
 
-  std::map<std::string, double> run, warp;
+  Points places(Eigen::Index(test.size()), 3);
+  for (std::size_t i = 0; i < test.size(); ++i)
+    places.row(Eigen::Index(i)) = landmarks.at(test[i]).transpose();
+  Eigen::VectorXd of_places(places.rows());
+  for (std::size_t i = 0; i < test.size(); ++i) {
+    const int row = tracks.index_of(test[i]);
+    of_places[Eigen::Index(i)] =
+        (tracks.positions[1].row(row) - tracks.positions[0].row(row)).norm();
+  }
+  const simulate::ShapePosterior posterior =
+      posterior_of(result.performance, {places, of_places}, std::vector<double>(test.size(), 0.0),
+                   inputs.landmarks);
+  std::map<std::string, double> run, warp, within, squared_error;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     std::vector<std::string> held = inputs.driven;
     held.insert(held.end(), skull.begin(), skull.end());
@@ -294,6 +369,9 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
       const Vec3 ours =
           (tracks.positions[f + 1].row(row) - tracks.positions[0].row(row)).transpose();
       run[point] += (ours - truth).norm();
+      const auto place = std::find(test.begin(), test.end(), point) - test.begin();
+      within[point] += squared_mahalanobis(posterior, place, ours - truth) < kWithin95;
+      squared_error[point] += (ours - truth).squaredNorm();
       warp[point] += (rbf.at(landmarks[point]) - truth).norm();
     }
   }
@@ -307,6 +385,17 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
   for (const auto& [group, points] : groups) {
     score.share.push_back(share(points));
     fmt::print("  {} ({:.2f})", group, score.share.back());
+    if (!has("coverage")) continue;
+    double inside = 0, squared = 0, expected = 0;
+    for (const std::string& point : points) {
+      const auto place = std::find(test.begin(), test.end(), point) - test.begin();
+      inside += within[point];
+      squared += squared_error[point];
+      expected += posterior.covariance(place).trace();
+    }
+    const double n = double(points.size() * frames.size());
+    fmt::print(" {:.0f} % (rms {:.2f} mm, expected {:.2f})", 100 * inside / n,
+               1e3 * std::sqrt(squared / n), 1e3 * std::sqrt(expected / double(points.size())));
   }
   fmt::print("\n");
   if (has("show") && !result.performance.muscles.names.empty()) show(result.performance.muscles);

@@ -7,6 +7,7 @@
 
 #include "bind.hpp"
 #include "callbacks.hpp"
+#include "hyperex/metrics/skin_uncertainty.hpp"
 #include "hyperex/run/run_scene.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
@@ -251,6 +252,15 @@ void bind_parts(SessionClass bound, py::module_& m) {
       .def_property_readonly("variants", &S::variants,
                              "Name -> SimulationOptions of each variant, for "
                              "Simulator.set_options().")
+      .def_property_readonly(
+          "expected_error_mm",
+          [](const S& s) -> py::object {
+            const metrics::SkinUncertainty* known = s.session().skin_uncertainty();
+            return known ? py::cast(known->distance_mm) : py::none();
+          },
+          "Per vertex of the skin, once base was run: how far it is expected to be from the true "
+          "face, by what the driven points do not tell. None where shapes of real faces do not "
+          "take part.")
       .def_property_readonly(
           "jitter_m", [](const S& s) { return s.session().inputs().jitter_m; },
           "Of the recorded points; 0: none known.")

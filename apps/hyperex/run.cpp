@@ -38,6 +38,21 @@ std::string solver_line(const nlohmann::ordered_json& summary) {
   return line + " of the largest displacement\n";
 }
 
+/// How far the skin is expected to be from the true face, by region.
+std::string uncertainty_line(const nlohmann::ordered_json& summary) {
+  if (!summary.contains("uncertainty")) return "";
+  std::string errors, shares;
+  for (const char* region : {"lips", "cheeks", "eyes", "forehead"}) {
+    const auto at = summary["uncertainty"].find(region);
+    if (at == summary["uncertainty"].end()) continue;
+    const char* comma = errors.empty() ? "" : ", ";
+    errors += fmt::format("{}{} {:.1f} mm", comma, region, (*at)["distance_rms_mm"].get<double>());
+    shares += fmt::format("{}{:.0f}", comma, 100 * (*at)["determined"].get<double>());
+  }
+  return fmt::format("expected error: {}; the driven points determine {} % of their motion\n",
+                     errors, shares);
+}
+
 void run(const RunOptions& options) {
   take_library_memory();
   auto overrides = options.overrides;
@@ -52,12 +67,12 @@ void run(const RunOptions& options) {
   const auto summary = run::run_scene(scene, *options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
-      "{}{}{}"
+      "{}{}{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
-      run::variant_lines(summary), printable(options.out->string()));
+      run::variant_lines(summary), uncertainty_line(summary), printable(options.out->string()));
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},

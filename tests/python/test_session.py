@@ -50,6 +50,15 @@ class FaceSessions(unittest.TestCase):
         with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -3"):
             face.set("tissue.young_kpa", -3)
 
+    def test_expected_error(self):
+        face = hyperex.FaceSession(EXAMPLES / "stiff_cheek.toml", {"drive.by": "muscles", **COARSE})
+        face.run()
+        self.assertEqual(face.expected_error_mm.shape, face.performance().skin_displacement_m.shape[1:2])
+        self.assertGreater(face.expected_error_mm.min(), 0)
+        face = hyperex.FaceSession(EXAMPLES / "stiff_cheek.toml", {"drive.by": "displacement", **COARSE})
+        face.run()
+        self.assertIsNone(face.expected_error_mm)
+
     def test_from_memory(self):
         face = hyperex.embedded_face()
         session = hyperex.FaceSession(face, hyperex.embedded_mouth_opening(face.landmarks), COARSE)

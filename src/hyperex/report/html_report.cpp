@@ -40,22 +40,20 @@ json symmetry_section(const metrics::SymmetryCurve* curve) {
           {"jitter_mm", 1e3 * curve->jitter_m}};
 }
 
-json tissue_section(const std::vector<TissueMap>& maps, BinaryBlock& block) {
+json map_section(const SkinMap& map, BinaryBlock& block) {
+  const double span = map.greatest - map.least;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(map.values.size()));
+  std::transform(map.values.begin(), map.values.end(), bytes.begin(), [&](double value) {
+    const double share = span > 0 ? (value - map.least) / span : 0;
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0., 1.)));
+  });
+  return {{"key", map.key},     {"name", map.name},         {"unit", map.unit},
+          {"least", map.least}, {"greatest", map.greatest}, {"values", block.add(bytes)}};
+}
+
+json tissue_section(const std::vector<SkinMap>& maps, BinaryBlock& block) {
   json section = json::array();
-  for (const TissueMap& map : maps) {
-    const double span = map.greatest - map.least;
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(map.values.size()));
-    std::transform(map.values.begin(), map.values.end(), bytes.begin(), [&](double value) {
-      const double share = span > 0 ? (value - map.least) / span : 0;
-      return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0., 1.)));
-    });
-    section.push_back({{"key", map.key},
-                       {"name", map.name},
-                       {"unit", map.unit},
-                       {"least", map.least},
-                       {"greatest", map.greatest},
-                       {"values", block.add(bytes)}});
-  }
+  for (const SkinMap& map : maps) section.push_back(map_section(map, block));
   return section;
 }
 
@@ -193,6 +191,8 @@ json report_manifest(const ReportInput& input, BinaryBlock& block, bool face) {
                    {"symmetry", symmetry_section(input.symmetry)},
                    {"tissue", tissue_section(input.tissue, block)},
                    {"variants", variants_section(input, block)}};
+  if (input.uncertainty.values.size() > 0)
+    manifest["uncertainty"] = map_section(input.uncertainty, block);
   if (!performance.muscles.names.empty()) manifest["muscles"] = muscle_section(input);
   if (input.teeth) {
     manifest["motion"]["jaw"] = jaw_section(performance, block);
@@ -221,10 +221,11 @@ void check_input(const ReportInput& input) {
   };
   if (!fits(performance, input.modes))
     throw std::invalid_argument("write_html_report: performance and modes do not belong together");
-  const auto map_fits = [&](const TissueMap& map) { return map.values.size() == vertices; };
+  const auto map_fits = [&](const SkinMap& map) { return map.values.size() == vertices; };
   if (input.mirror && Index(input.mirror->pairs.found.size()) != vertices)
     throw std::invalid_argument("write_html_report: counterparts of another surface");
-  bool all = std::all_of(input.tissue.begin(), input.tissue.end(), map_fits);
+  bool all = std::all_of(input.tissue.begin(), input.tissue.end(), map_fits) &&
+             (input.uncertainty.values.size() == 0 || map_fits(input.uncertainty));
   for (const ReportVariant& variant : input.variants)
     all = all && fits(variant.performance, variant.difference) &&
           variant.tissue.size() == input.tissue.size() &&

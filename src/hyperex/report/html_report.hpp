@@ -15,10 +15,10 @@
 
 namespace hyperex::report {
 
-/// A parameter of the tissue over the skin.
-struct TissueMap {
-  std::string key;        ///< as the scene writes it: "young_kpa"
-  std::string name;       ///< "Young's modulus"
+/// A quantity over the skin, as a parameter of the tissue.
+struct SkinMap {
+  std::string key = {};   ///< as the scene writes it: "young_kpa"
+  std::string name = {};  ///< "Young's modulus"
   std::string unit = {};  ///< "kPa"
   /// Range over all maps of this key in the page, so that one colour bar serves all; least <=
   /// greatest.
@@ -33,7 +33,7 @@ struct ReportVariant {
   const simulate::Performance& performance;  ///< its landmarks are sampled as the scene's own
   DisplacementModes difference;              ///< of its displacement less the scene's own
   const metrics::SymmetryCurve* symmetry = nullptr;
-  std::vector<TissueMap> tissue;  ///< keys as the scene's own
+  std::vector<SkinMap> tissue;  ///< keys as the scene's own
   /// Where muscles drive: its activations, a row each of the scene's MuscleCourse::groups.
   Eigen::MatrixXd group_activation = {};
 };
@@ -57,7 +57,10 @@ struct ReportInput {
   std::vector<std::string> notes = {};               ///< warnings and remarks, a sentence each
   std::string title = {};
   /// Parameters that differ from place to place in any of the faces.
-  std::vector<TissueMap> tissue = {};
+  std::vector<SkinMap> tissue = {};
+  /// How far the scene's own skin is expected to be from the true one (key "uncertainty"); without
+  /// values where that is not known.
+  SkinMap uncertainty = {};
   std::vector<ReportVariant> variants = {};
   /// Where each vertex has its counterpart on the other side; no asymmetry is shown where null.
   const metrics::RestAsymmetry* mirror = nullptr;

@@ -47,14 +47,20 @@ void write_peak(const Results& r, const std::filesystem::path& directory) {
   const Eigen::VectorXf map_mm = metrics::asymmetry_mm(asymmetry.plane, asymmetry.pairs, d);
   if (const auto& full = r.mesh.full) {
     const PointsF all = session::on_full_skin(*full, d);
+    const auto on_scan = [&](const Eigen::VectorXf& values) {
+      return Eigen::VectorXf(session::on_full_skin(*full, values));
+    };
+    std::vector<io::VertexScalar> values = {{"displacement_mm", lengths_mm(all)},
+                                            {"asymmetry_mm", on_scan(map_mm)}};
+    if (r.uncertainty) values.push_back({"uncertainty_mm", on_scan(r.uncertainty->distance_mm)});
     io::write_ply(directory / "skin_peak.ply",
                   {full->skin.points + all.cast<double>(), full->skin.triangles},
-                  r.inputs.scan.unit,
-                  {{"displacement_mm", lengths_mm(all)},
-                   {"asymmetry_mm", Eigen::VectorXf(session::on_full_skin(*full, map_mm))}});
+                  r.inputs.scan.unit, values);
   } else {
-    io::write_ply(directory / "skin_peak.ply", skin, r.inputs.scan.unit,
-                  {{"displacement_mm", lengths_mm(d)}, {"asymmetry_mm", map_mm}});
+    std::vector<io::VertexScalar> values = {{"displacement_mm", lengths_mm(d)},
+                                            {"asymmetry_mm", map_mm}};
+    if (r.uncertainty) values.push_back({"uncertainty_mm", r.uncertainty->distance_mm});
+    io::write_ply(directory / "skin_peak.ply", skin, r.inputs.scan.unit, values);
   }
   const metrics::AsymmetrySummary& frame = asymmetry.frames[static_cast<std::size_t>(p.peak_frame)];
   std::string note = fmt::format(

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hyperex/anatomy/teeth/teeth.hpp"
+#include "hyperex/metrics/skin_uncertainty.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/report/displacement_modes.hpp"
 #include "hyperex/report/glb.hpp"
@@ -27,6 +28,7 @@ struct Results {
   report::DisplacementModes modes;              ///< of the skin; empty where no page is wanted
   const tissue::TissueField* tissue = nullptr;  ///< where the tissue differs from place to place
   const anatomy::Teeth* teeth = nullptr;        ///< null: none
+  const metrics::SkinUncertainty* uncertainty = nullptr;  ///< null: not known, as of a variant
 };
 
 /// Of base. What it refers to belongs to the session, which must outlive it and stay as it is.

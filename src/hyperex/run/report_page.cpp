@@ -40,9 +40,9 @@ Eigen::VectorXd values_of(const scene::Scene& scene, const tissue::TissueField* 
 
 /// Maps of the parameters that differ from place to place in any face: a list of the same keys for
 /// base, first, and for each variant.
-std::vector<std::vector<report::TissueMap>> tissue_maps(const Results& r,
-                                                        const std::vector<VariantRun>& variants) {
-  std::vector<std::vector<report::TissueMap>> faces(1 + variants.size());
+std::vector<std::vector<report::SkinMap>> tissue_maps(const Results& r,
+                                                      const std::vector<VariantRun>& variants) {
+  std::vector<std::vector<report::SkinMap>> faces(1 + variants.size());
   for (int q = 0; q < tissue::parameter_count; ++q) {
     const auto varies = [&](const tissue::TissueField* field) { return field && field->varies(q); };
     bool any = varies(r.tissue);
@@ -51,7 +51,7 @@ std::vector<std::vector<report::TissueMap>> tissue_maps(const Results& r,
     const tissue::ParameterInfo& info = tissue::parameter_info(q);
     const std::string title = info.title;  // "Young's modulus (kPa)"
     const auto bracket = title.find(" (");
-    report::TissueMap map{.key = info.key, .name = title.substr(0, bracket)};
+    report::SkinMap map{.key = info.key, .name = title.substr(0, bracket)};
     if (bracket != title.npos) map.unit = title.substr(bracket + 2, title.size() - bracket - 3);
     map.least = INFINITY;
     map.greatest = -INFINITY;
@@ -70,6 +70,14 @@ std::vector<std::vector<report::TissueMap>> tissue_maps(const Results& r,
     }
   }
   return faces;
+}
+
+report::SkinMap uncertainty_map(const Results& r) {
+  report::SkinMap map{.key = "uncertainty", .name = "Expected error", .unit = "mm"};
+  if (!r.uncertainty) return map;
+  map.values = r.uncertainty->distance_mm.cast<double>();
+  map.greatest = map.values.maxCoeff();
+  return map;
 }
 
 report::DisplacementModes difference_of(const simulate::Performance& run,
@@ -117,6 +125,7 @@ ReplayPage::ReplayPage(const Results& r, const std::vector<VariantRun>& variants
              .notes = texts_of(r.notes),
              .title = title_of(r),
              .tissue = {},
+             .uncertainty = uncertainty_map(r),
              .variants = {},
              .mirror = &*r.symmetry.map,
              .muscles = muscles_of(r),

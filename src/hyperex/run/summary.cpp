@@ -9,6 +9,7 @@
 #include "hyperex/metrics/mouth_outline.hpp"
 #include "hyperex/metrics/peak_tissue.hpp"
 #include "hyperex/metrics/roughness.hpp"
+#include "hyperex/metrics/skin_uncertainty.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/run/activations.hpp"
@@ -141,6 +142,8 @@ Json summary_of(const session::FaceSession& session, const Results& r) {
   s["head_turn_uncertainty_deg"] = r.inputs.head_turn_uncertainty_deg;
   s["mesh_quality"] = quality_json(r.mesh, session.skin_off());
   s["symmetry"] = metrics::summary_of(r.symmetry);
+  if (r.uncertainty)
+    s["uncertainty"] = metrics::json_of(*r.uncertainty, p.skin_rest, r.inputs.landmarks);
   if (!p.muscles.names.empty()) s["muscles"] = activations_json(p.muscles, p.driven_names.size());
   if (r.tissue) s["tissue"] = tissue_json(*r.tissue);
   return s;

@@ -268,6 +268,9 @@ const metrics::SymmetryMeasures& FaceSession::symmetry() const {
 const metrics::PeakTissue& FaceSession::tissue_at_peak() const {
   return impl_->peak();
 }
+const metrics::SkinUncertainty* FaceSession::skin_uncertainty() const {
+  return impl_->skin_uncertainty();
+}
 const std::vector<VariantRun>& FaceSession::variants() const {
   return impl_->runs;
 }

@@ -25,7 +25,8 @@ struct Scene;
 }
 namespace hyperex::metrics {
 struct PeakTissue;
-}
+struct SkinUncertainty;
+}  // namespace hyperex::metrics
 
 namespace hyperex::session {
 
@@ -169,6 +170,9 @@ class FaceSession {
   const simulate::SimulationResult& simulation() const;
   const metrics::SymmetryMeasures& symmetry() const;
   const metrics::PeakTissue& tissue_at_peak() const;  ///< strain and stress of base
+  /// How uncertain the skin of base is between the driven points; null where shapes of real faces
+  /// do not take part (drive.by, muscles.shape_prior).
+  const metrics::SkinUncertainty* skin_uncertainty() const;
   const std::vector<VariantRun>& variants() const;
   FaceResult result(std::size_t face) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 // What a FaceSession holds, stage by stage.
 #include "hyperex/metrics/peak_tissue.hpp"
+#include "hyperex/metrics/skin_uncertainty.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/drive_choice.hpp"
 #include "hyperex/session/face_session.hpp"
@@ -43,9 +44,10 @@ struct FaceSession::Impl {
   bool stale = true;
   simulate::SimulationResult simulation;
   metrics::SymmetryMeasures symmetry;
-  mutable std::optional<metrics::PeakTissue> tissue_at_peak;  // none: not computed yet
-  std::optional<MirroredTwin> twin;                           // of base as it is; none: not run
-  std::optional<simulate::Simulator> next_variant;            // of prepare_variant()
+  mutable std::optional<metrics::PeakTissue> tissue_at_peak;    // none: not computed yet
+  mutable std::optional<metrics::SkinUncertainty> uncertainty;  // the same
+  std::optional<MirroredTwin> twin;                             // of base as it is; none: not run
+  std::optional<simulate::Simulator> next_variant;              // of prepare_variant()
 
   // Of the variants: their results, and what each is computed from.
   std::vector<VariantRun> runs;
@@ -87,6 +89,7 @@ struct FaceSession::Impl {
   void find_bands(const std::function<bool()>& cancelled);
   void prepare_variant();
   const metrics::PeakTissue& peak() const;
+  const metrics::SkinUncertainty* skin_uncertainty() const;
   void note_base();
   bool up_to_date() const;
   std::vector<Note> notes() const;

@@ -79,6 +79,7 @@ void FaceSession::Impl::run_base(const simulate::RunCallbacks& callbacks) {
   symmetry = symmetry_measures(scene, inputs, face.at_rest, simulation.performance,
                                twin ? *twin : no_twin());
   tissue_at_peak.reset();
+  uncertainty.reset();
   stale = false;
   // At finite strain the run completed the load (what holds the patches): copies made before it
   // lack that.
@@ -90,6 +91,14 @@ void FaceSession::Impl::run_base(const simulate::RunCallbacks& callbacks) {
 const metrics::PeakTissue& FaceSession::Impl::peak() const {
   if (!tissue_at_peak) tissue_at_peak = metrics::peak_tissue(simulation.performance);
   return *tissue_at_peak;
+}
+
+const metrics::SkinUncertainty* FaceSession::Impl::skin_uncertainty() const {
+  const simulate::Performance& performance = simulation.performance;
+  if (performance.muscles.names.empty() || !scene.muscles.shape_prior) return nullptr;
+  if (!uncertainty)
+    uncertainty = metrics::skin_uncertainty(performance, *face.mesh, inputs.landmarks);
+  return &*uncertainty;
 }
 
 void FaceSession::Impl::run_variants(const simulate::RunCallbacks& callbacks) {

@@ -147,6 +147,33 @@ TEST(HtmlReport, HoldsVariantsAsTheirDifferenceFromTheSceneItself) {
   EXPECT_THROW(write_html_report(file, input), std::invalid_argument);
 }
 
+TEST(HtmlReport, HoldsTheExpectedErrorOfTheSkin) {
+  const auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  const auto file = test_file("report_uncertainty_test.html");
+  write_html_report(file, input);
+  EXPECT_FALSE(json::parse(element(read_file(file), "hyperex-manifest")).contains("uncertainty"));
+  const Eigen::Index vertices = face.performance.skin_rest.points.rows();
+  input.uncertainty = {.key = "uncertainty",
+                       .name = "Expected error",
+                       .unit = "mm",
+                       .greatest = 5,
+                       .values = Eigen::VectorXd::LinSpaced(vertices, 0, 5)};
+  write_html_report(file, input);
+  const std::string page = read_file(file);
+  const json map = json::parse(element(page, "hyperex-manifest")).at("uncertainty");
+  EXPECT_EQ(map.at("unit"), "mm");
+  const auto bytes =
+      stretch<std::uint8_t>(from_base64(element(page, "hyperex-binary")), map.at("values"));
+  ASSERT_EQ(Eigen::Index(bytes.size()), vertices);
+  for (std::size_t v = 0; v < bytes.size(); ++v)
+    ASSERT_NEAR(map.at("greatest").get<double>() * bytes[v] / 255,
+                input.uncertainty.values[Eigen::Index(v)], 0.01);
+  input.uncertainty.values.conservativeResize(vertices - 1);
+  EXPECT_THROW(write_html_report(file, input), std::invalid_argument);
+}
+
 TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   auto face = made_up_face(Surface::plain);
   const auto modes = displacement_modes(face.performance.skin_displacement_m);

@@ -205,13 +205,20 @@ anatomy::Teeth made_up_teeth() {
   return teeth;
 }
 
-std::vector<TissueMap> made_up_tissue(const MadeUpFace& face) {
+std::vector<SkinMap> made_up_tissue(const MadeUpFace& face) {
   return {{.key = "young_kpa",
            .name = "Young's modulus",
            .unit = "kPa",
            .least = 192.4,
            .greatest = 1924,
            .values = Eigen::VectorXd::Constant(face.performance.skin_rest.points.rows(), 192.4)}};
+}
+
+SkinMap made_up_uncertainty(const MadeUpFace& face) {
+  SkinMap map{.key = "uncertainty", .name = "Expected error", .unit = "mm"};
+  map.values = 40 * face.performance.skin_rest.points.col(1).cwiseAbs();  // in mm, by height
+  map.greatest = map.values.maxCoeff();
+  return map;
 }
 
 MadeUpVariant made_up_variant(const MadeUpFace& face, int which) {

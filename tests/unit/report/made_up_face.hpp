@@ -33,12 +33,13 @@ anatomy::Teeth made_up_teeth();
 struct MadeUpVariant {
   std::string name;
   MadeUpFace face;
-  std::vector<TissueMap> tissue;
+  std::vector<SkinMap> tissue;
 };
 inline constexpr int made_up_variants = 5;
 MadeUpVariant made_up_variant(const MadeUpFace& face, int which);
 /// Uniform: the tissue of the face itself.
-std::vector<TissueMap> made_up_tissue(const MadeUpFace& face);
+SkinMap made_up_uncertainty(const MadeUpFace& face);
+std::vector<SkinMap> made_up_tissue(const MadeUpFace& face);
 
 /// Each vertex of the grid with that at -x; those that the cut added have none.
 hyperex::metrics::RestAsymmetry made_up_mirror(const MadeUpFace& face);

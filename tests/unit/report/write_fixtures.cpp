@@ -24,6 +24,7 @@ void write_variants_page(const std::filesystem::path& folder) {
   ReportInput input{face.performance, face.scan, modes, &face.symmetry};
   input.title = "A made-up face, variants";
   input.tissue = testing::made_up_tissue(face);
+  input.uncertainty = testing::made_up_uncertainty(face);
   const auto mirror = testing::made_up_mirror(face);
   input.mirror = &mirror;
   nlohmann::json table = nlohmann::json::array();

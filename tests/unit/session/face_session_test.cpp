@@ -7,6 +7,7 @@
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/metrics/skin_uncertainty.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/scene/given_text.hpp"
 #include "hyperex/scene/scene.hpp"
@@ -151,6 +152,29 @@ TEST(FaceSession, ForgetsTheWarningsOfAVariantThatIsGone) {
   ASSERT_TRUE(face.set_scene(scene_of(kCoarse + kMuscles)));
   face.run();
   EXPECT_EQ(idle(face), 0);
+}
+
+TEST(FaceSession, KnowsWhatThePointsDoNotTellWhereShapesTakePart) {
+  FaceSession session = session_of(kCoarse + kMuscles);
+  session.run();
+  const metrics::SkinUncertainty* known = session.skin_uncertainty();
+  ASSERT_NE(known, nullptr);
+  ASSERT_EQ(known->distance_mm.size(), session.mesh().skin.points.rows());
+  EXPECT_TRUE(known->distance_mm.allFinite());
+  const auto regions = metrics::json_of(*known, session.mesh().skin, session.inputs().landmarks);
+  const auto value = [&](const char* region, const char* what) {
+    return regions.at(region).at(what).get<double>();
+  };
+  // Seven points of mouth and chin tell of the lips and hardly of the eyes.
+  EXPECT_GT(value("lips", "determined"), 0.8);
+  EXPECT_LT(value("eyes", "determined"), 0.2);
+  EXPECT_LT(value("lips", "distance_rms_mm"), value("cheeks", "distance_rms_mm") + 1);
+  for (const std::string& other : {kMuscles + "[muscles]\nshape_prior = false\n",
+                                   std::string("[drive]\nby = \"displacement\"\n")}) {
+    FaceSession without = session_of(kCoarse + other);
+    without.run();
+    EXPECT_EQ(without.skin_uncertainty(), nullptr) << other;
+  }
 }
 
 TEST(FaceSession, KnowsItsBandsWithTheRunOrOnRequest) {

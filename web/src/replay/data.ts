@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The replay's data as the other parts use them.
-import type { Manifest, ModeData, MuscleData, SymmetryCurve, TissueMapData } from './manifest';
+import type { Manifest, ModeData, MuscleData, SymmetryCurve, SkinMapData } from './manifest';
 import { usePointWords } from '../page/format';
 import type { Block, Stretch } from '../page/page_data';
 
@@ -11,8 +11,8 @@ export interface Mode {
   values: Int16Array;
 }
 
-/** A parameter of the tissue on the skin: least + bytes / 255 * (greatest - least). */
-export interface TissueMap {
+/** A quantity on the skin: least + bytes / 255 * (greatest - least). */
+export interface SkinMap {
   key: string;
   name: string;
   unit: string;
@@ -36,7 +36,7 @@ export interface Face {
   symmetry: SymmetryCurve | null;
   /** Samples x names x 3, as in `Replay.landmarks`. */
   landmarkPositions: Float32Array;
-  tissue: TissueMap[];
+  tissue: SkinMap[];
   /** Activations over time, as in `Muscles.groups`; [] where not known. */
   muscles: { left: number[]; right: number[] }[];
   /** Frames x 7: the jaw's quaternion x y z w and its translation since rest; null without teeth. */
@@ -89,6 +89,8 @@ export interface Replay {
   /** At rest. */
   teeth: { jaw: 'upper' | 'lower'; part: 'crowns' | 'gum'; points: Float32Array; triangles: Uint32Array; light: Uint8Array }[];
   muscles: Muscles | null;
+  /** How far base is expected to be from the true face; null where that is not known. */
+  uncertainty: SkinMap | null;
   /** Base first, then its variants in their order. */
   faces: Face[];
 }
@@ -100,8 +102,9 @@ const stepsOf = (values: Stretch, block: Block): Int16Array =>
 const modesOf = (modes: ModeData[], block: Block): Mode[] =>
   modes.map((m) => ({ stepM: m.step_m, values: stepsOf(m.values, block) }));
 
-const tissueOf = (maps: TissueMapData[] | undefined, block: Block): TissueMap[] =>
-  (maps ?? []).map(({ values, ...map }) => ({ ...map, bytes: block.uint8(values) }));
+const mapOf = ({ values, ...map }: SkinMapData, block: Block): SkinMap => ({ ...map, bytes: block.uint8(values) });
+
+const tissueOf = (maps: SkinMapData[] | undefined, block: Block): SkinMap[] => (maps ?? []).map((map) => mapOf(map, block));
 
 const musclesOf = ({ time_s, few_points, groups, lines }: MuscleData): Muscles => ({
   timeS: time_s,
@@ -215,6 +218,7 @@ export function movingOf(manifest: MovingManifest, block: Block): Moving {
     lipCut: manifest.lip_cut,
     symmetry: manifest.symmetry,
     muscles: manifest.muscles ? musclesOf(manifest.muscles) : null,
+    uncertainty: manifest.uncertainty ? mapOf(manifest.uncertainty, block) : null,
     faces: facesOf(manifest, block),
   };
 }

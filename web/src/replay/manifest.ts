@@ -10,13 +10,13 @@ export interface ModeData {
   values: Stretch;
 }
 
-/** A parameter of the tissue on the skin. */
-export interface TissueMapData {
+/** A quantity on the skin, as a parameter of the tissue. */
+export interface SkinMapData {
   key: string;
   /** In plain words: "Young's modulus". */
   name: string;
   unit: string;
-  /** Over all maps of this parameter in the page, so that one colour bar serves all. */
+  /** Over all maps of this key in the page, so that one colour bar serves all. */
   least: number;
   greatest: number;
   /** One byte per vertex: value = least + byte / 255 * (greatest - least). */
@@ -64,7 +64,7 @@ export interface VariantData {
   symmetry: SymmetryCurve | null;
   /** Samples x names x 3, of the names and times of the scene's landmarks. */
   landmarks: Stretch;
-  tissue: TissueMapData[];
+  tissue: SkinMapData[];
   /** Activations of the groups of the scene's own muscles; [] where unknown. */
   muscles?: { left: number[]; right: number[] }[];
   /** As motion.jaw. */
@@ -130,6 +130,8 @@ export interface Manifest {
   }[];
   variants?: VariantData[];
   muscles?: MuscleData;
+  /** How far the scene's own skin is expected to be from the true one; absent where that is not known. */
+  uncertainty?: SkinMapData;
   /** What differs from place to place in the scene or a variant: the same keys for all of them. */
-  tissue?: TissueMapData[];
+  tissue?: SkinMapData[];
 }

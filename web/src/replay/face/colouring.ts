@@ -3,7 +3,7 @@
 // compared, except for the difference from base, whose size varies too much between variants.
 import { asymmetry, usualAsymmetryMm } from './asymmetry';
 import { niceCeiling, type RampName } from './colour';
-import type { Face, Replay } from '../data';
+import type { Face, Replay, SkinMap } from '../data';
 import type { FaceShape } from './deform';
 import { faceWords, number } from '../../page/format';
 
@@ -110,6 +110,20 @@ function asymmetryOfMotion(replay: Replay, mirror: NonNullable<Replay['mirror']>
   return { key: 'asymmetry', label: 'Asymmetry', of: () => (painting ??= made()) };
 }
 
+function expectedError(map: SkinMap): Colouring {
+  const greatest = niceCeiling(map.greatest);
+  const factor = map.greatest / 255 / greatest;
+  const painting: Painting = {
+    scale: { ramp: 'plum', title: 'Expected distance from the true face', unit: 'mm', least: 0, greatest, remark: '' },
+    fill(_shape, out) {
+      for (let i = 0; i < out.length; ++i) out[i] = factor * map.bytes[i];
+    },
+    caution: 'Without errors of mesh and tissue.',
+    note: (face) => (face.difference ? 'that of base' : ''),
+  };
+  return { key: 'uncertainty', label: 'Expected error', of: () => painting };
+}
+
 function tissue(replay: Replay, key: string): Colouring {
   const { name, unit, least, greatest } = replay.faces[0].tissue.find((map) => map.key === key)!;
   const bytesOf = (face: Face) => face.tissue.find((map) => map.key === key)?.bytes;
@@ -138,6 +152,7 @@ export function colouringsOf(replay: Replay): Colouring[] {
     displacement(replay),
     ...(replay.faces.length > 1 ? [difference(replay)] : []),
     ...(replay.mirror ? [asymmetryOfMotion(replay, replay.mirror)] : []),
+    ...(replay.uncertainty ? [expectedError(replay.uncertainty)] : []),
     ...replay.faces[0].tissue.map((map) => tissue(replay, map.key)),
   ];
 }

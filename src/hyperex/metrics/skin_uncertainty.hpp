@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "hyperex/io/landmarks.hpp"
+#include "hyperex/simulate/performance.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
+
+namespace hyperex::metrics {
+
+/// What the driven points tell about the rest of the skin, given how real faces move
+/// (simulate/load/shape_posterior.hpp).
+struct SkinUncertainty {
+  Eigen::VectorXf distance_mm;  ///< per skin vertex: expected (rms) distance from the true face
+  Eigen::VectorXf determined;   ///< per skin vertex: share of the variance that points take away
+};
+
+/// `mesh`, `landmarks`: those of the run.
+SkinUncertainty skin_uncertainty(const simulate::Performance& performance,
+                                 const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+
+/// The entry "uncertainty" of summary.json: for each region of the face (regions.hpp)
+/// distance_rms_mm and determined, the mean share.
+nlohmann::ordered_json json_of(const SkinUncertainty& uncertainty, const TriMesh& skin,
+                               const io::Landmarks& landmarks);
+
+}  // namespace hyperex::metrics

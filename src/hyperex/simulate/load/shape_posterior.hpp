@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Dense>
+#include <vector>
+
+#include "hyperex/simulate/load/carried_shapes.hpp"
+
+namespace hyperex::simulate {
+
+/// How far true faces are from what shapes make of driven points.
+struct PosteriorOptions {
+  /// What no combination of shapes makes: 1 sigma of a coordinate is misfit_m and a share of how
+  /// far the skin moves there; the distance over which it is alike, m.
+  double misfit_m = 0.001, misfit_share = 0.17, misfit_length_m = 0.015;
+  double point_m = 0.0005;  ///< 1 sigma of the error of a coordinate of a driven point, m
+};
+
+/// Places of the skin and how far they move.
+struct MovedPlaces {
+  Points rest;               ///< n x 3, m
+  Eigen::VectorXd motion_m;  ///< n: length of the displacement
+};
+
+/// What driven points tell about the displacement u(x) of other places of the skin, given how real
+/// faces move. Before a point is seen,
+///   u(x) = S(x) w + r(x),  w ~ N(0, Sigma),  E r(x) r(y)^T = m(x) m(y) exp(-|x - y|^2 / 2 l^2) I,
+/// with the shapes S and the covariance Sigma of their weights (expression/shape_model.hpp; their
+/// bound, w >= 0, is not regarded), m(x) = misfit_m + misfit_share |u(x)|, of the motion found, and
+/// l = misfit_length_m. With P = E u u^T, the covariance is then
+///   P_xx - P_xp (P_pp + point_m^2 I)^-1 P_px.
+/// Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), eq. 2.24.
+class ShapePosterior {
+ public:
+  /// `shapes`: those with these places as nodes and these driven points.
+  ShapePosterior(const CarriedShapes& shapes, const MovedPlaces& places, const MovedPlaces& points,
+                 const PosteriorOptions& options = {});
+
+  Eigen::Index places() const { return before_.size(); }
+  /// 3 x 3, m^2: of the error of a place's displacement.
+  Eigen::Matrix3d covariance(Eigen::Index place) const;
+  /// Per place: the root mean square of the distance from the truth, m.
+  Eigen::VectorXd distance_m() const;
+  /// Per place: the share of the variance that the points take away, 0 to 1.
+  Eigen::VectorXd determined() const;
+
+ private:
+  Eigen::MatrixXd covariance_;  ///< 3 |places| x 3
+  Eigen::VectorXd before_;      ///< per place: trace before a point is seen
+};
+
+}  // namespace hyperex::simulate
