@@ -203,7 +203,7 @@ describe('a report with variants', () => {
     assert.equal(titles[0], 'Displacement from rest mm');
     assert.equal(titles[1], 'Distance from base mm');
     assert.equal(titles[2], 'Asymmetry of the motion mm');
-    assert.equal(titles[3], 'Expected distance from the true face mm');
+    assert.equal(titles[3], 'Expected error of the skin mm');
     assert.equal(titles[4], "Young's modulus kPa");
     const chosen = [];
     for (let i = 0; i < (await buttons.count()); ++i) {

@@ -110,18 +110,19 @@ function asymmetryOfMotion(replay: Replay, mirror: NonNullable<Replay['mirror']>
   return { key: 'asymmetry', label: 'Asymmetry', of: () => (painting ??= made()) };
 }
 
-function expectedError(map: SkinMap): Colouring {
+function expectedError(replay: Replay, map: SkinMap): Colouring {
+  const remark = replay.faces.length > 1 ? 'that of base' : '';
   const greatest = niceCeiling(map.greatest);
   const factor = map.greatest / 255 / greatest;
   const painting: Painting = {
-    scale: { ramp: 'plum', title: 'Expected distance from the true face', unit: 'mm', least: 0, greatest, remark: '' },
+    scale: { ramp: 'plum', title: 'Expected error of the skin', unit: 'mm', least: 0, greatest, remark },
     fill(_shape, out) {
       for (let i = 0; i < out.length; ++i) out[i] = factor * map.bytes[i];
     },
     caution: 'Without errors of mesh and tissue.',
-    note: (face) => (face.difference ? 'that of base' : ''),
+    note: without,
   };
-  return { key: 'uncertainty', label: 'Expected error', of: () => painting };
+  return { key: 'uncertainty', label: 'Error', of: () => painting };
 }
 
 function tissue(replay: Replay, key: string): Colouring {
@@ -152,7 +153,7 @@ export function colouringsOf(replay: Replay): Colouring[] {
     displacement(replay),
     ...(replay.faces.length > 1 ? [difference(replay)] : []),
     ...(replay.mirror ? [asymmetryOfMotion(replay, replay.mirror)] : []),
-    ...(replay.uncertainty ? [expectedError(replay.uncertainty)] : []),
+    ...(replay.uncertainty ? [expectedError(replay, replay.uncertainty)] : []),
     ...replay.faces[0].tissue.map((map) => tissue(replay, map.key)),
   ];
 }
