@@ -256,10 +256,17 @@ Score score_scan(const std::string& name, const std::string& scene_file,
   PointsF true_motion = PointsF::Zero(mesh->skin.points.rows(), 3);
   true_motion.topRows(mesh->scan_vertices) =
       (truth.points.topRows(mesh->scan_vertices) - rest).cast<float>();
-  fmt::print(
-      "  rough {:.3f} (truth {:.3f})",
-      metrics::roughness(mesh->skin, p.skin_displacement_m[std::size_t(p.peak_frame)]).rms_mm,
-      metrics::roughness(mesh->skin, true_motion).rms_mm);
+  const auto rough = [&](const PointsF& motion) { return metrics::roughness(mesh->skin, motion); };
+  const metrics::Roughness own_rough = rough(p.skin_displacement_m[std::size_t(p.peak_frame)]),
+                           true_rough = rough(true_motion);
+  fmt::print("  rough {:.3f} (truth {:.3f}), over the truth's:", own_rough.rms_mm,
+             true_rough.rms_mm);
+  const auto own_parts = metrics::roughness_by_part(own_rough, mesh->skin.points, inputs.landmarks),
+             true_parts =
+                 metrics::roughness_by_part(true_rough, mesh->skin.points, inputs.landmarks);
+  for (std::size_t i = 0; i < own_parts.size(); ++i)
+    fmt::print(" {} {:.2f} of {:.3f}", own_parts[i].part,
+               own_parts[i].rms_mm / true_parts[i].rms_mm, true_parts[i].rms_mm);
   const std::vector<char> mask = overlapping(lips, true_motion);
   const metrics::Region* both = regions.find("lips");
   const double a = mean_mm(ours, both, mask), b = mean_mm(warps, both, mask);

@@ -15,6 +15,7 @@ void add_landmarks(CLI::App& program);
 void add_mesh(CLI::App& program);
 void add_new(CLI::App& program);
 void add_presets(CLI::App& program);
+void add_rig(CLI::App& program);
 void add_run(CLI::App& program);
 void add_sample(CLI::App& program);
 void add_scene_reference(CLI::App& program);

@@ -70,6 +70,7 @@ void log_to_standard_error() {
 void add_subcommands(CLI::App& program) {
   hyperex::cli::add_new(program);
   hyperex::cli::add_sample(program);
+  hyperex::cli::add_rig(program);
   hyperex::cli::add_run(program);
   hyperex::cli::add_check(program);
   hyperex::cli::add_studio(program);

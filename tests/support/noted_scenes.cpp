@@ -68,7 +68,7 @@ void start_with_the_mouth_open(const fs::path& folder) {
 /// A smile, a shape that the canonical face lacks, and a column with a misspelt name.
 void write_weights(const fs::path& folder) {
   std::ostringstream table;
-  table << "time_s,mouthSmileLeft,mouthClose,mouthSmilRight\n";
+  table << "time_s,mouthSmileLeft,tongueOut,mouthSmilRight\n";
   for (int k = 0; k < 16; ++k)
     table << k / 30.0 << ',' << k / 15.0 << ',' << 0.6 * k / 15 << ',' << k / 15.0 << '\n';
   put(folder / "weights.csv", table.str());

@@ -34,31 +34,13 @@ void check_time(const io::CsvTable& table, const std::vector<double>& time_s) {
   if (time_s.size() < 2) throw InputError(table.file, "fewer than two rows; expected a recording");
 }
 
-/// The names of ARKit's 52 blend shapes.
-const std::set<std::string>& all_blend_shapes() {
-  static const std::set<std::string> names = [] {
-    std::set<std::string> all;
-    for (const char* pattern :
-         {"browDown*",      "browInnerUp",     "browOuterUp*",    "cheekPuff",       "cheekSquint*",
-          "eyeBlink*",      "eyeLookDown*",    "eyeLookIn*",      "eyeLookOut*",     "eyeLookUp*",
-          "eyeSquint*",     "eyeWide*",        "jawForward",      "jawLeft",         "jawOpen",
-          "jawRight",       "mouthClose",      "mouthDimple*",    "mouthFrown*",     "mouthFunnel",
-          "mouthLeft",      "mouthLowerDown*", "mouthPress*",     "mouthPucker",     "mouthRight",
-          "mouthRollLower", "mouthRollUpper",  "mouthShrugLower", "mouthShrugUpper", "mouthSmile*",
-          "mouthStretch*",  "mouthUpperUp*",   "noseSneer*",      "tongueOut"})
-      for (const auto& name : arkit_names(pattern)) all.insert(name);
-    return all;
-  }();
-  return names;
-}
-
 /// The blend shape without a column whose name the column probably misspells; empty if there is
 /// none.
 std::string shape_meant(const std::string& column, const std::vector<std::string>& there) {
   constexpr std::size_t most_slips = 2, shortest = 6;
   std::string best;
   std::size_t least = most_slips + 1;
-  for (const std::string& name : all_blend_shapes()) {
+  for (const std::string& name : arkit_shapes()) {
     const std::size_t far = slips(lower_case(column), lower_case(name));
     if (column.size() < shortest || far >= least ||
         std::find(there.begin(), there.end(), name) != there.end())
@@ -83,6 +65,23 @@ void note_left_out(const std::vector<std::string>& columns, BlendShapes& out) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& arkit_shapes() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const char* pattern :
+         {"browDown*",      "browInnerUp",     "browOuterUp*",    "cheekPuff",       "cheekSquint*",
+          "eyeBlink*",      "eyeLookDown*",    "eyeLookIn*",      "eyeLookOut*",     "eyeLookUp*",
+          "eyeSquint*",     "eyeWide*",        "jawForward",      "jawLeft",         "jawOpen",
+          "jawRight",       "mouthClose",      "mouthDimple*",    "mouthFrown*",     "mouthFunnel",
+          "mouthLeft",      "mouthLowerDown*", "mouthPress*",     "mouthPucker",     "mouthRight",
+          "mouthRollLower", "mouthRollUpper",  "mouthShrugLower", "mouthShrugUpper", "mouthSmile*",
+          "mouthStretch*",  "mouthUpperUp*",   "noseSneer*",      "tongueOut"})
+      for (const auto& name : arkit_names(pattern)) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
 
 BlendShapes read_arkit(const std::filesystem::path& file) {
   const io::CsvTable table = io::read_csv(file, [](const std::string& name, std::string_view cell) {
@@ -116,7 +115,7 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
   for (std::size_t c = 0; c < table.names.size(); ++c) {
     std::string name = table.names[c];
     name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
-    if (all_blend_shapes().contains(name)) {
+    if (std::ranges::find(arkit_shapes(), name) != arkit_shapes().end()) {
       out.names.push_back(name);
       columns.push_back(static_cast<int>(c));
     } else if (static_cast<int>(c) != time.value_or(-1) && name != "timecode") {
@@ -198,10 +197,11 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
         }
     return sum;
   };
-  Eigen::MatrixXd alpha(shapes.weights.rows(),
-                        static_cast<Eigen::Index>(model.animation_units.size()));
-  for (std::size_t u = 0; u < model.animation_units.size(); ++u) {
-    const DeformationUnit& unit = model.animation_units[u];
+  std::vector<DeformationUnit> units = model.animation_units;
+  units.insert(units.end(), model.recorded_units.begin(), model.recorded_units.end());
+  Eigen::MatrixXd alpha(shapes.weights.rows(), static_cast<Eigen::Index>(units.size()));
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    const DeformationUnit& unit = units[u];
     alpha.col(static_cast<Eigen::Index>(u)) =
         mean_of(unit.arkit) / unit.arkit_scale -
         mean_of(unit.arkit_negative) / unit.arkit_negative_scale;
@@ -225,8 +225,7 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
   for (Eigen::Index k = 0; k < alpha.rows(); ++k) {
     Points at = Points::Constant(static_cast<Eigen::Index>(out.names.size()), 3, kNan);
     if (alpha.row(k).allFinite())
-      at = landmarks_on(
-          model, deformed(model.mesh.points, model.animation_units, alpha.row(k).transpose()));
+      at = landmarks_on(model, deformed(model.mesh.points, units, alpha.row(k).transpose()));
     out.positions.push_back(std::move(at));
   }
   return out;

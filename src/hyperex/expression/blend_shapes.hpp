@@ -22,6 +22,9 @@ struct BlendShapes {
   std::vector<std::string> misspelt;
 };
 
+/// The names of ARKit's 52 blend shapes, in alphabetical order, left before right.
+const std::vector<std::string>& arkit_shapes();
+
 /// Reads a CSV of blend-shape weights. It has a column of time (`time_s`, `time` or `timestamp` in
 /// seconds, or `Timecode` as Live Link Face writes it) and columns named after blend shapes; the
 /// first letter of a name may be small or capital. Other columns are ignored and named in a note.
@@ -38,13 +41,12 @@ BlendShapes read_arkit(const std::filesystem::path& file);
 BlendShapes read_openface(const std::filesystem::path& file);
 
 /// The motion of a model's landmarks that the blend shapes produce through the model's animation
-/// units. The weight of a unit is w+ / arkit_scale - w- / arkit_negative_scale. Here w+ is the mean
-/// of the blend shapes that the unit's `arkit` names, and w- the mean of those that its
-/// `arkit_negative` names. A name with "*" means two blend shapes, one with Left and one with Right
-/// in its place.
-/// The points are in the model's frame and size, without head pose. They are NaN where the face was
-/// not seen. Adds a note on blend shapes that the model does not have. Throws InputError if no
-/// blend shape moves the model.
+/// units and recorded units. The weight of a unit is w+ / arkit_scale - w- / arkit_negative_scale.
+/// Here w+ is the mean of the blend shapes that the unit's `arkit` names, and w- the mean of those
+/// that its `arkit_negative` names. A name with "*" means two blend shapes, one with Left and one
+/// with Right in its place. The points are in the model's frame and size, without head pose. They
+/// are NaN where the face was not seen. Adds a note on blend shapes that the model does not have.
+/// Throws InputError if no blend shape moves the model.
 motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
                          std::vector<std::string>& notes);
 

@@ -41,15 +41,12 @@ UnitTable read_table(int vertices) {
       rows.unit.facs = row.at(2);
       rows.unit.arkit = row.at(3);
       rows.unit.arkit_negative = row.at(4);
-      const auto blank = row.at(5).find(' ');
-      rows.unit.arkit_scale = table_number(row[5].substr(0, blank));
-      rows.unit.arkit_negative_scale = blank == std::string::npos
-                                           ? rows.unit.arkit_scale
-                                           : table_number(row[5].substr(blank + 1));
-      rows.unit.typical = table_number(row.at(6));
-      rows.kind = row.at(7);
-      rows.symmetry = row.at(8);
-      rows.reach_m = table_number(row.at(9)) * 1e-3;
+      rows.unit.arkit_scale = table_number(row.at(5));
+      rows.unit.arkit_negative_scale = table_number(row.at(6));
+      rows.unit.typical = table_number(row.at(7));
+      rows.kind = row.at(8);
+      rows.symmetry = row.at(9);
+      rows.reach_m = table_number(row.at(10)) * 1e-3;
       table.units.push_back(rows);
     } else {
       const std::size_t first = row[0] == "at" ? 2 : 1;
@@ -165,7 +162,8 @@ const FaceModel& canonical_model() {
     const UnitTable table = read_table(int(points.rows()));
     for (const auto& rows : table.units)
       for (const auto& whole : both_sides(rows, mirror))
-        made.animation_units.push_back(spread(whole, points, smoothness, table.jaw_axis_m));
+        (rows.unit.typical > 0 ? made.animation_units : made.recorded_units)
+            .push_back(spread(whole, points, smoothness, table.jaw_axis_m));
     made.jaw_drop = made.animation_unit("jawOpen");
     return made;
   }();

@@ -19,7 +19,7 @@ struct DeformationUnit {
   /// Weight of `arkit` = arkit_scale * weight, that of `arkit_negative` = arkit_negative_scale *
   /// -weight; each from 0 to 1.
   double arkit_scale = 1, arkit_negative_scale = 1;
-  double typical = 0.3;       ///< prior standard deviation of the weight, > 0
+  double typical = 0.3;       ///< prior standard deviation of the weight; 0: not tracked
   std::vector<int> vertices;  ///< n vertices, none twice
   Points displacement_m;      ///< n x 3
 };
@@ -37,6 +37,8 @@ struct FaceModel {
   std::string name;
   TriMesh mesh;  ///< g_mean and its triangles; eyes and mouth are open if the model has openings
   std::vector<DeformationUnit> shape_units, animation_units;
+  /// Units that recorded weights of blend shapes move and that tracking does not estimate.
+  std::vector<DeformationUnit> recorded_units;
   std::vector<NetworkPair> pairs;
   /// Maps a landmark's name to the vertices whose mean it is. Contains the iBUG and anatomical
   /// landmarks that the model defines.

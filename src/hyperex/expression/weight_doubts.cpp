@@ -40,9 +40,10 @@ std::optional<Eigen::RowVectorXd> mean_weights(const BlendShapes& shapes, double
 
 std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model) {
   std::set<std::string> made;
-  for (const DeformationUnit& unit : model.animation_units)
-    for (const std::string& pattern : {unit.arkit, unit.arkit_negative})
-      for (const std::string& name : arkit_names(pattern)) made.insert(name);
+  for (const auto* units : {&model.animation_units, &model.recorded_units})
+    for (const DeformationUnit& unit : *units)
+      for (const std::string& pattern : {unit.arkit, unit.arkit_negative})
+        for (const std::string& name : arkit_names(pattern)) made.insert(name);
   std::string text;
   for (std::size_t c = 0; c < shapes.names.size(); ++c) {
     if (made.contains(shapes.names[c]) || is_gaze(shapes.names[c])) continue;

@@ -7,7 +7,7 @@
 
 namespace hyperex::expression {
 
-/// The shapes whose weight exceeds 0.3 but which the model does not have, as in "mouthClose up to
+/// The shapes whose weight exceeds 0.3 but which the model does not have, as in "tongueOut up to
 /// 0.65 at 83.2 s; ..."; empty if there are none. Gaze is excluded, because it does not move the
 /// skin.
 std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model);

@@ -8,11 +8,14 @@
 #include <cmath>
 #include <vector>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/metrics/regions.hpp"
 
 namespace hyperex::metrics {
 namespace {
 
+constexpr double kNearPoint_m = 0.012;
 /// The least number of neighbours for the fit.
 constexpr std::size_t kFewest = 8;
 
@@ -75,11 +78,13 @@ Roughness roughness(const TriMesh& skin, const PointsF& displacement) {
     }
   });
   Roughness out;
+  out.vertex_mm = Eigen::VectorXd::Constant(Eigen::Index(count), std::nan(""));
   std::vector<double> judged;
   double squares = 0;
   for (std::size_t v = 0; v < count; ++v) {
     if (rough_m[v] < 0) continue;
     judged.push_back(rough_m[v]);
+    out.vertex_mm[Eigen::Index(v)] = 1e3 * rough_m[v];
     squares += rough_m[v] * rough_m[v];
     if (out.roughest < 0 || rough_m[v] > rough_m[std::size_t(out.roughest)]) out.roughest = int(v);
   }
@@ -91,6 +96,36 @@ Roughness roughness(const TriMesh& skin, const PointsF& displacement) {
   std::nth_element(judged.begin(), at, judged.end());
   out.p99_mm = 1e3 * *at;
   return out;
+}
+
+std::vector<PartRoughness> roughness_by_part(const Roughness& rough, const Points& rest,
+                                             const io::Landmarks& landmarks) {
+  std::vector<PartRoughness> parts;
+  const auto add = [&](const char* part, const std::vector<int>& vertices) {
+    double squares = 0;
+    int count = 0;
+    for (const int v : vertices)
+      if (const double value = rough.vertex_mm[v]; !std::isnan(value))
+        squares += value * value, ++count;
+    if (count > 0) parts.push_back({part, std::sqrt(squares / count)});
+  };
+  const auto near = [&](const std::vector<int>& points) {
+    std::vector<int> vertices;
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+      if (std::any_of(points.begin(), points.end(), [&](int k) {
+            const auto at = landmarks.find(face::ibug(k));
+            return at != landmarks.end() &&
+                   (rest.row(v).transpose() - at->second).norm() < kNearPoint_m;
+          }))
+        vertices.push_back(int(v));
+    return vertices;
+  };
+  const Regions regions = regions_of(rest, landmarks);
+  add("brows", near({17, 18, 19, 20, 21, 22, 23, 24, 25, 26}));
+  if (const Region* forehead = regions.find("forehead")) add("forehead", forehead->vertices);
+  add("corners", near({48, 54}));
+  if (const Region* chin = regions.find("chin")) add("chin", chin->vertices);
+  return parts;
 }
 
 }  // namespace hyperex::metrics

@@ -103,6 +103,9 @@ void add_peak_shape(const Results& r, Json& s) {
   const metrics::Roughness rough = metrics::roughness(p.skin_rest, displacement);
   if (rough.judged > 0)
     s["roughness_at_peak"] = {{"rms_mm", rough.rms_mm}, {"p99_mm", rough.p99_mm}};
+  for (const metrics::PartRoughness& part :
+       metrics::roughness_by_part(rough, p.skin_rest.points, r.inputs.landmarks))
+    s["roughness_at_peak"][part.part + "_rms_mm"] = part.rms_mm;
 }
 
 /// Least and greatest value of each parameter over the elements.

@@ -252,6 +252,9 @@ struct GivenFace {
   std::shared_ptr<const io::Scan> scan;          ///< null: the files that the scene names are read
   io::Landmarks landmarks;                       ///< metres, the scan's frame; empty: found on it
   std::shared_ptr<const motion::Motion> motion;  ///< as recorded, in metres, with the head pose
+  /// The motion was made of weights of blend shapes (expression::motion_of()), as that of
+  /// motion.arkit.
+  bool of_weights = false;
 };
 
 /// Where a value came from.

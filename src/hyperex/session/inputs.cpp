@@ -110,8 +110,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
     append(in.notes, anatomy::landmark_doubts(given, in.scan.mesh));
   add(in.notes, idle_law_warning(scene));
   const scene::MotionOptions& recorded = scene.motion;
-  add(in.notes, misfit_warning(in.motion, !recorded.arkit.empty() || !recorded.openface.empty() ||
-                                              !recorded.candide.empty()));
+  add(in.notes, misfit_warning(in.motion, of_weights(scene) || !recorded.candide.empty()));
   if (!of_weights(scene)) add(in.notes, start_warning(steady, at_rest));
   add(in.notes, exchanged_warning(steady, at_rest));
 }

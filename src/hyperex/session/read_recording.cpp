@@ -125,7 +125,7 @@ bool is_read_whole(const scene::Scene& scene, Extent extent) {
 }  // namespace
 
 bool of_weights(const scene::Scene& scene) {
-  return !scene.motion.arkit.empty() || !scene.motion.openface.empty();
+  return !scene.motion.arkit.empty() || !scene.motion.openface.empty() || scene.given.of_weights;
 }
 
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in) {

@@ -92,11 +92,48 @@ TEST_F(BlendShapesFile, NamesTheShapeThatAColumnWasMeantToBe) {
   EXPECT_EQ(shapes.notes[0], "columns left out: jawOpn, HeadYaw");
 }
 
+TEST_F(BlendShapesFile, MouthCloseUndoesWhatJawOpenParts) {
+  const motion::Motion motion = moved_by(read_arkit(
+      write("c.csv", "time_s,jawOpen,mouthClose\n0,0,0\n1,0.7,0\n2,0.7,0.7\n3,0.3,0.3\n")));
+  for (const auto& [upper, lower] : {std::pair{"ibug68_61", "ibug68_67"},
+                                     {"ibug68_62", "ibug68_66"},
+                                     {"ibug68_63", "ibug68_65"}}) {
+    const auto parted_mm = [&](std::size_t frame) {
+      return 1e3 * (moved(motion, upper, frame) - moved(motion, lower, frame)).norm();
+    };
+    EXPECT_GT(parted_mm(1), 10) << upper;
+    EXPECT_LT(parted_mm(2), 0.6) << upper;
+    EXPECT_LT(parted_mm(3), 0.3) << upper;
+  }
+  EXPECT_LT((moved(motion, "ibug68_8", 2) - moved(motion, "ibug68_8", 1)).norm(), 1e-4)
+      << "the chin stays down";
+}
+
+TEST_F(BlendShapesFile, EveryShapeOfTheSkinMovesTheFace) {
+  ASSERT_EQ(arkit_shapes().size(), 52u);
+  for (const std::string& shape : arkit_shapes()) {
+    if (shape.starts_with("eyeLook") || shape == "tongueOut") continue;
+    const motion::Motion motion =
+        moved_by(read_arkit(write("s.csv", "time_s," + shape + "\n0,0\n1,1\n")));
+    double most_m = 0, right_m = 0;
+    for (const std::string& name : motion.names) {
+      const double far_m = moved(motion, name, 1).norm();
+      most_m = std::max(most_m, far_m);
+      if (motion.positions[0](motion.index_of(name), 0) < -0.012)
+        right_m = std::max(right_m, far_m);
+    }
+    EXPECT_GT(most_m, 1e-3) << shape;
+    if (shape.ends_with("Left") && shape != "jawLeft" && shape != "mouthLeft") {
+      EXPECT_LT(right_m, 0.1 * most_m) << shape;
+    }
+  }
+}
+
 TEST_F(BlendShapesFile, NamesTheShapesThatTheFaceLacks) {
   const auto shapes = read_arkit(write("a.csv",
-                                       "time_s,jawOpen,mouthClose,mouthDimpleLeft,eyeLookUpLeft\n"
+                                       "time_s,jawOpen,tongueOut,cheekPuff,eyeLookUpLeft\n"
                                        "0,0.9,0.1,0.2,0\n82.5,0,0.65,0.3,0.9\n83,0,0.2,0,0\n"));
-  EXPECT_EQ(lost_shapes(shapes, canonical_model()), "mouthClose up to 0.65 at 82.50 s");
+  EXPECT_EQ(lost_shapes(shapes, canonical_model()), "tongueOut up to 0.65 at 82.50 s");
 }
 
 /// 4 s at 10 Hz: a smile over the first second, a pucker from the third second on.

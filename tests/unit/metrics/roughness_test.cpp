@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/metrics/roughness.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,6 +52,30 @@ TEST(Roughness, OfAShiftATurnAndASlopeIsNone) {
   EXPECT_LT(roughness(mesh, turned.cast<float>()).rms_mm, 5e-3);
   EXPECT_LT(of(mesh, [](double, double y) { return 0.2 * y; }).rms_mm, 5e-3);
   EXPECT_GT(roughness(mesh, shift).judged, 40 * 40);
+}
+
+/// Brows at y = 10 mm, the corners of the mouth at y = 45 mm.
+TEST(Roughness, OfADentIsThatOfItsPart) {
+  const TriMesh mesh = sheet();
+  io::Landmarks landmarks;
+  for (int k = 17; k < 27; ++k) landmarks[fmt::format("ibug68_{}", k)] = Vec3(0, 0.010, 0.08);
+  for (const int k : {48, 54}) landmarks[fmt::format("ibug68_{}", k)] = Vec3(0, 0.045, 0.08);
+  const auto parts_of = [&](double at_mm) {
+    PointsF d = PointsF::Zero(mesh.points.rows(), 3);
+    for (Eigen::Index v = 0; v < mesh.points.rows(); ++v) {
+      const Vec3 p = 1e3 * mesh.points.row(v).transpose();
+      d(v, 2) = float(1e-3 * std::exp(-(p.x() * p.x() + std::pow(p.y() - at_mm, 2)) / 9));
+    }
+    return roughness_by_part(roughness(mesh, d), mesh.points, landmarks);
+  };
+  const auto brows = parts_of(15), corners = parts_of(45);
+  ASSERT_EQ(brows.size(), 2u) << "no forehead and no chin";
+  EXPECT_EQ(brows[0].part, "brows");
+  EXPECT_EQ(brows[1].part, "corners");
+  EXPECT_GT(brows[0].rms_mm, 0.05);
+  EXPECT_LT(brows[1].rms_mm, 1e-6);
+  EXPECT_LT(corners[0].rms_mm, 1e-6);
+  EXPECT_GT(corners[1].rms_mm, 0.05);
 }
 
 TEST(Roughness, OfADentIsItsDepthAndWhereItIs) {

@@ -119,7 +119,24 @@ TEST_F(Drive, StillPlacesHoldTheRestOfTheFace) {
   }
   EXPECT_LT(field.weights(at, margin).cwiseAbs().maxCoeff(), 1e-9);
   auto brow = at_nodes({"ibug68_19", "ibug68_8"});
-  EXPECT_EQ(still_places(brow, face_.landmarks).size(), 38u) << "a driven one is not still";
+  EXPECT_EQ(still_places(brow, face_.landmarks).size(), 38u + 1u)
+      << "a driven one is not still, the forehead above it is";
+}
+
+/// All brows rise by 1: halfway up the forehead about half of it is left, at its top nothing.
+TEST_F(Drive, ForeheadEndsTheMotionOfBrows) {
+  std::vector<std::string> brows;
+  for (int k = 17; k < 27; ++k) brows.push_back(face::ibug(k));
+  const auto points = at_nodes(brows);
+  const DriveField field = field_of(points, still_places(points, face_.landmarks));
+  const Vec3 up = face::face_frame(face_.landmarks).y;
+  Points at(3, 3);
+  for (int i = 0; i < 3; ++i)
+    at.row(i) = (face_.landmarks.at("ibug68_19") + 0.015 * i * up).transpose();
+  const Eigen::VectorXd raised = field.weights(at, {0.1, 0.1, 0.1}).rowwise().sum();
+  EXPECT_NEAR(raised[0], 1, 0.05);
+  EXPECT_NEAR(raised[1], 0.5, 0.15);
+  EXPECT_NEAR(raised[2], 0, 0.05);
 }
 
 TEST_F(Drive, LipsPart) {

@@ -9,6 +9,7 @@
 
 #include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
@@ -16,6 +17,8 @@
 namespace hyperex::simulate {
 namespace {
 
+/// Skin this far above the brows does not move with them (ICT-FaceKit: 0.3 of 9 mm at 30 mm).
+constexpr double still_above_brows_m = 0.030;
 constexpr double greatest_shift_m = 0.010;
 /// How far the correction of a patch reaches from its point: farther gives smoother skin, but the
 /// points of both lips' ends then work against each other.
@@ -151,14 +154,21 @@ double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_r
 
 std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
                                const io::Landmarks& landmarks) {
+  const auto drives = [&](const std::string& name) {
+    return std::any_of(points.begin(), points.end(),
+                       [&](const DrivenPoint& p) { return p.name == name; });
+  };
   std::vector<Vec3> still;
   for (int k = 0; k < 48; ++k) {
     if (k > 3 && k < 13) continue;
     const std::string name = face::ibug(k);
-    const bool drives = std::any_of(points.begin(), points.end(),
-                                    [&](const DrivenPoint& p) { return p.name == name; });
-    if (!drives && landmarks.count(name)) still.push_back(landmarks.at(name));
+    if (!drives(name) && landmarks.count(name)) still.push_back(landmarks.at(name));
   }
+  // Where brows are driven, the field would else be nearly the same up to the end of the scan.
+  for (const int k : {17, 19, 21, 22, 24, 26})
+    if (drives(face::ibug(k)) && landmarks.count(face::ibug(k)))
+      still.push_back(landmarks.at(face::ibug(k)) +
+                      still_above_brows_m * face::face_frame(landmarks).y);
   return still;
 }
 

@@ -48,7 +48,7 @@ double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_r
                    const Vec3& up);
 
 /// Places that do not move between the driven points: brows, eyes, nose and temples (ibug68_0 to 3,
-/// 13 to 16, 17 to 47), without those that are driven.
+/// 13 to 16, 17 to 47), without those that are driven, and places 30 mm above the brows that are.
 std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
                                const io::Landmarks& landmarks);
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/memory.hpp"
+#include "hyperex/core/output_file.hpp"
+#include "hyperex/core/printable.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/rig/face_rig.hpp"
+
+namespace hyperex::cli {
+namespace {
+
+struct RigOptions {
+  std::filesystem::path scan, landmarks, out;
+  std::string unit;
+  std::vector<std::string> overrides;
+};
+
+/// KEY=VALUE, the value as JSON or a bare word.
+session::Changes changes_of(const std::vector<std::string>& overrides) {
+  session::Changes changes;
+  for (const std::string& text : overrides) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError({"--set", 0, text, "no value", "KEY=VALUE, as in tissue.young_kpa=300"});
+    const std::string value = text.substr(equals + 1);
+    changes.insert_or_assign(text.substr(0, equals), nlohmann::json::accept(value)
+                                                         ? session::Value::from_json(value)
+                                                         : session::Value(value));
+  }
+  return changes;
+}
+
+session::Face face_of(const RigOptions& options) {
+  if (options.scan == "embedded") {
+    anatomy::EmbeddedFace embedded = anatomy::embedded_face();
+    session::Face face;
+    face.scan.mesh = std::move(embedded.mesh);
+    face.landmarks = std::move(embedded.landmarks);
+    return face;
+  }
+  session::Face face;
+  const auto unit = options.unit.empty() ? std::nullopt : io::length_unit(options.unit);
+  face.scan = io::read_scan(options.scan, unit);
+  if (face.scan.unit_guessed)
+    std::cerr << fmt::format("{}: unit {}\n", printable(options.scan.string()),
+                             io::unit_note(face.scan));
+  if (!options.landmarks.empty()) face.landmarks = io::read_landmarks(options.landmarks);
+  return face;
+}
+
+void run(const RigOptions& options) {
+  check_outputs({options.out}, {options.scan, options.landmarks});
+  check_output_kinds({{options.out, {".glb"}, "glTF", {"hyperex"}}});
+  take_library_memory();
+  const rig::FaceRig made = rig::make_rig(face_of(options), changes_of(options.overrides));
+  double bytes = 0;
+  {
+    Progress progress("writing the rig", 0);
+    bytes = report::write_rig_glb(options.out, made.performance, *made.scan, made.teeth.get(),
+                                  made.jaw_axis_m, made.shapes);
+  }
+  for (const report::RigShape& shape : made.shapes)
+    std::cout << fmt::format("{:<20} {:5.1f} mm\n", shape.name,
+                             1e3 * shape.displacement_m.rowwise().norm().maxCoeff());
+  std::cout << fmt::format(
+      "{} shapes of {} vertices (greatest displacement at weight 1); tongueOut moves nothing, as "
+      "there is no tongue\n"
+      "written to {}: {:.1f} MB\n",
+      made.shapes.size(), made.performance.skin_rest.points.rows(), printable(options.out.string()),
+      bytes / 1e6);
+}
+
+}  // namespace
+
+void add_rig(CLI::App& program) {
+  auto options = std::make_shared<RigOptions>();
+  CLI::App* command = program.add_subcommand(
+      "rig", "Make ARKit's 52 blend shapes of a scan, by its muscles and its jaw");
+  command
+      ->add_option("SCAN", options->scan,
+                   "PLY, OBJ, STL, glTF or GLB; or embedded, the face that comes with the program")
+      ->required();
+  command->add_option("--out", options->out, "Where to write it (.glb)")->required();
+  command->add_option("--landmarks", options->landmarks,
+                      "Landmarks on the scan (default: they are found on the scan)");
+  command->add_option("--unit", options->unit, "Unit of the scan")
+      ->check(CLI::IsMember({"mm", "cm", "m"}));
+  command
+      ->add_option("--set", options->overrides,
+                   "Override a key of a scene (docs/scene.md), as of muscles or tissue; can be "
+                   "repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->footer("Example: hyperex rig me.ply --out me_rig.glb");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hyperex::cli

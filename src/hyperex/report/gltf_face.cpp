@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/report/gltf_face.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperex::report {
+
+using Eigen::Index;
+
+namespace {
+
+/// glTF's COLOR_0 is linear; 16 bits keep the dark tones apart. -1 where there are none.
+template <class Rows>
+int add_colours(GltfArrays& arrays, const Rows& srgb) {
+  if (srgb.rows() == 0) return -1;
+  const auto linear = [](std::uint8_t byte) {
+    const double s = byte / 255.0;
+    const double l = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    return static_cast<std::uint16_t>(std::lround(65535 * l));
+  };
+  std::vector<std::uint16_t> values;
+  values.reserve(srgb.size());
+  for (Index v = 0; v < srgb.rows(); ++v) {
+    for (int k = 0; k < 3; ++k) values.push_back(linear(srgb(v, k)));
+    values.push_back(65535);  // a face is opaque, whatever a scanner left in alpha
+  }
+  const int view = arrays.view(values.data(), values.size() * 2, TINYGLTF_TARGET_ARRAY_BUFFER);
+  return arrays.accessor(view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
+                         srgb.rows(), true);
+}
+
+int add_texture(tinygltf::Model& model, GltfArrays& arrays, const io::Image& picture) {
+  tinygltf::Image image;
+  image.mimeType = picture.mime_type;
+  image.bufferView = arrays.view(picture.bytes.data(), picture.bytes.size());
+  model.images.push_back(image);
+  tinygltf::Sampler sampler;
+  sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+  sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+  model.samplers.push_back(sampler);
+  tinygltf::Texture texture;
+  texture.source = 0;
+  texture.sampler = 0;
+  model.textures.push_back(texture);
+  return 0;
+}
+
+tinygltf::Material plain_material(const char* name, std::vector<double> colour, double roughness) {
+  tinygltf::Material material;
+  material.name = name;
+  material.pbrMetallicRoughness.metallicFactor = 0;
+  material.pbrMetallicRoughness.roughnessFactor = roughness;
+  material.pbrMetallicRoughness.baseColorFactor = std::move(colour);
+  return material;
+}
+
+/// Adds a node with crowns and gum of one jaw; its number, -1 where there are none.
+int add_jaw(tinygltf::Model& model, GltfArrays& arrays, const anatomy::JawTeeth& jaw,
+            const std::string& name, int first_material) {
+  tinygltf::Mesh mesh;
+  mesh.name = name;
+  for (const TriMesh* part : {&jaw.crowns, &jaw.gum}) {
+    if (part->triangles.rows() == 0) continue;
+    const PointsF points = part->points.cast<float>();
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.attributes["POSITION"] = arrays.vectors(points, true);
+    primitive.attributes["NORMAL"] = arrays.vectors(vertex_normals(points, part->triangles), false);
+    primitive.indices = arrays.triangles(part->triangles);
+    primitive.material = first_material + (part == &jaw.gum ? 1 : 0);
+    mesh.primitives.push_back(std::move(primitive));
+  }
+  if (mesh.primitives.empty()) return -1;
+  model.meshes.push_back(std::move(mesh));
+  tinygltf::Node node;
+  node.name = name;
+  node.mesh = static_cast<int>(model.meshes.size()) - 1;
+  model.nodes.push_back(node);
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+}  // namespace
+
+void begin_face(tinygltf::Model& model) {
+  model.asset.version = "2.0";
+  model.asset.generator = "hyperex";
+  model.nodes.emplace_back();
+  model.nodes[0].name = "face";
+  model.nodes[0].mesh = 0;
+  model.meshes.emplace_back();
+}
+
+void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeball>& eyeballs,
+              FaceNodes& nodes) {
+  if (eyeballs.empty()) return;
+  const int first = static_cast<int>(model.materials.size());
+  model.materials.push_back(plain_material("sclera", {0.85, 0.82, 0.78, 1}, 0.35));
+  model.materials.push_back(plain_material("iris", {0.153, 0.105, 0.065, 1}, 0.35));
+  model.materials.push_back(plain_material("pupil", {0.007, 0.006, 0.005, 1}, 0.35));
+  for (std::size_t side = 0; side < eyeballs.size(); ++side) {
+    const Eyeball& eye = eyeballs[side];
+    tinygltf::Mesh mesh;
+    mesh.name = side == 0 ? "eye_R" : "eye_L";
+    for (const TriMesh& part : eyeball_parts(eye)) {
+      tinygltf::Primitive primitive;
+      primitive.mode = TINYGLTF_MODE_TRIANGLES;
+      const Points about = part.points.rowwise() - eye.centre.transpose();
+      const Points out = about / eye.radius_m;
+      primitive.attributes["POSITION"] = arrays.vectors(about.cast<float>(), true);
+      primitive.attributes["NORMAL"] = arrays.vectors(out.cast<float>(), false);
+      primitive.indices = arrays.triangles(part.triangles);
+      primitive.material = first + static_cast<int>(mesh.primitives.size());
+      mesh.primitives.push_back(std::move(primitive));
+    }
+    tinygltf::Node node;
+    node.name = mesh.name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    node.translation = {eye.centre.x(), eye.centre.y(), eye.centre.z()};
+    model.meshes.push_back(std::move(mesh));
+    (side == 0 ? nodes.eye_R : nodes.eye_L) = static_cast<int>(model.nodes.size());
+    model.nodes.push_back(node);
+  }
+}
+
+void add_teeth(tinygltf::Model& model, GltfArrays& arrays, const anatomy::Teeth& teeth,
+               FaceNodes& nodes) {
+  const int first = static_cast<int>(model.materials.size());
+  model.materials.push_back(plain_material("teeth", {0.82, 0.74, 0.58, 1}, 0.35));
+  model.materials.push_back(plain_material("gum", {0.48, 0.11, 0.11, 1}, 0.45));
+  nodes.upper_teeth = add_jaw(model, arrays, teeth.upper, "upper_teeth", first);
+  nodes.lower_teeth = add_jaw(model, arrays, teeth.lower, "lower_teeth", first);
+}
+
+tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, const SkinView& view,
+                                   const simulate::Performance& performance, const io::Scan& scan) {
+  const PointsF rest = performance.skin_rest.points.cast<float>();
+  const PointsF rest_normals = vertex_normals(rest, performance.skin_rest.triangles);
+  tinygltf::Primitive skin;
+  skin.mode = TINYGLTF_MODE_TRIANGLES;
+  skin.attributes["POSITION"] = arrays.vectors(spread(rest, view.skin_vertex), true);
+  skin.attributes["NORMAL"] = arrays.vectors(spread(rest_normals, view.skin_vertex), false);
+  skin.indices = arrays.triangles(view.triangles);
+  int texture = -1, colours = -1;
+  if (view.uv.rows() > 0) {
+    const int uv =
+        arrays.view(view.uv.data(), view.uv.size() * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER);
+    skin.attributes["TEXCOORD_0"] =
+        arrays.accessor(uv, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, view.uv.rows());
+    texture = add_texture(model, arrays, *scan.texture);
+  } else if ((colours = add_colours(arrays, skin_colour(performance, scan))) >= 0) {
+    skin.attributes["COLOR_0"] = colours;
+  }
+  skin.material = 0;
+  model.materials.push_back(skin_material(texture >= 0 || colours >= 0, texture));
+  return skin;
+}
+
+TriMesh pockets(const std::vector<Opening>& openings, const Points& points) {
+  TriMesh all;
+  for (const Opening& opening : openings) {
+    const TriMesh one = pocket(opening, points);
+    const Index vertices = all.points.rows(), triangles = all.triangles.rows();
+    all.points.conservativeResize(vertices + one.points.rows(), 3);
+    all.points.bottomRows(one.points.rows()) = one.points;
+    all.triangles.conservativeResize(triangles + one.triangles.rows(), 3);
+    all.triangles.bottomRows(one.triangles.rows()) = one.triangles.array() + int(vertices);
+  }
+  return all;
+}
+
+tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
+                                     const std::vector<Opening>& openings, const TriMesh& mesh) {
+  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowMajor> srgb(mesh.points.rows(), 3);
+  Index row = 0;
+  for (const Opening& opening : openings) {
+    const auto edge = Index(opening.loop.size());
+    for (Index i = 0; i <= 3 * edge; ++i, ++row)
+      for (int k = 0; k < 3; ++k)
+        srgb(row, k) = kPocketColours[std::size_t(std::min(i / edge, Index(2)))][std::size_t(k)];
+  }
+  tinygltf::Primitive cavity;
+  cavity.mode = TINYGLTF_MODE_TRIANGLES;
+  cavity.attributes["POSITION"] = arrays.vectors(mesh.points.cast<float>(), true);
+  cavity.attributes["COLOR_0"] = add_colours(arrays, srgb);
+  cavity.indices = arrays.triangles(mesh.triangles);
+  cavity.material = static_cast<int>(model.materials.size());
+  tinygltf::Material material = plain_material("cavity", {1, 1, 1, 1}, 1);
+  material.doubleSided = true;
+  material.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object{});
+  model.materials.push_back(material);
+  model.extensionsUsed.emplace_back("KHR_materials_unlit");
+  return cavity;
+}
+
+void end_face(tinygltf::Model& model) {
+  tinygltf::Scene scene;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) scene.nodes.push_back(int(n));
+  model.scenes.push_back(scene);
+  model.defaultScene = 0;
+}
+
+}  // namespace hyperex::report

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/rig/face_rig.hpp"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/rig/shape_motion.hpp"
+#include "hyperex/session/face_session.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/session/scene_source.hpp"
+#include "hyperex/simulate/drive/jaw.hpp"
+
+namespace hyperex::rig {
+namespace {
+
+using report::RigShape;
+
+/// A frame falls on each pose's time.
+constexpr double kFrameRate_hz = 5;
+/// Weight at which open mouths with open and closed lips are compared.
+constexpr double kClosedAt = 0.7;
+/// Angles of the eyes at weight 1, degrees.
+constexpr double kLookUp_deg = 20, kLookDown_deg = 25, kLookAside_deg = 30;
+/// Shares of eyeWide and eyeBlink in which the lids follow.
+constexpr double kLidsUp = 0.5, kLidsDown = 0.4;
+
+bool moves_skin(const std::string& shape) {
+  return !shape.starts_with("eyeLook") && shape != "tongueOut";
+}
+
+/// The poses that are simulated, by name: every shape that moves skin alone, and those of
+/// mouthClose.
+std::vector<Pose> poses_of(std::map<std::string, std::size_t>& place) {
+  std::vector<Pose> poses;
+  const auto add = [&](const std::string& name, Pose pose) {
+    place[name] = poses.size();
+    poses.push_back(std::move(pose));
+  };
+  for (const std::string& shape : expression::arkit_shapes())
+    if (moves_skin(shape) && shape != "mouthClose") add(shape, {.weights = {{shape, 1.0}}});
+  add("open", {.weights = {{"jawOpen", kClosedAt}}});
+  add("closed", {.weights = {{"jawOpen", kClosedAt}, {"mouthClose", kClosedAt}}});
+  return poses;
+}
+
+/// How an eye turns: about the face's x axis (up) and y axis (to the subject's left), radians.
+void look(RigShape& shape) {
+  constexpr double deg = std::numbers::pi / 180;
+  const bool left = shape.name.ends_with("Left");
+  report::Gaze gaze;
+  if (shape.name.starts_with("eyeLookUp")) gaze.up_rad = kLookUp_deg * deg;
+  if (shape.name.starts_with("eyeLookDown")) gaze.up_rad = -kLookDown_deg * deg;
+  if (shape.name.starts_with("eyeLookOut")) gaze.left_rad = (left ? 1 : -1) * kLookAside_deg * deg;
+  if (shape.name.starts_with("eyeLookIn")) gaze.left_rad = (left ? -1 : 1) * kLookAside_deg * deg;
+  (left ? shape.left_eye : shape.right_eye) = gaze;
+}
+
+/// The simulated shapes as those of the rig.
+class Shapes {
+ public:
+  Shapes(const simulate::Performance& performance, std::map<std::string, std::size_t> frame)
+      : performance_(performance), frame_(std::move(frame)) {}
+
+  RigShape named(const std::string& name) const {
+    RigShape shape{.name = name};
+    shape.displacement_m = PointsF::Zero(skin("open").rows(), 3);
+    if (name == "mouthClose") {
+      shape.displacement_m = (skin("closed") - skin("open")) / float(kClosedAt);
+    } else if (name.starts_with("eyeLook")) {
+      look(shape);
+      const std::string side = name.ends_with("Left") ? "Left" : "Right";
+      if (name.starts_with("eyeLookUp"))
+        shape.displacement_m = float(kLidsUp) * skin("eyeWide" + side);
+      if (name.starts_with("eyeLookDown"))
+        shape.displacement_m = float(kLidsDown) * skin("eyeBlink" + side);
+    } else if (moves_skin(name)) {
+      shape.displacement_m = skin(name);
+      if (name.starts_with("jaw"))
+        shape.jaw_now_from_rest = performance_.jaw_now_from_rest[frame_.at(name)];
+    }
+    return shape;
+  }
+
+ private:
+  const PointsF& skin(const std::string& pose) const {
+    return performance_.skin_displacement_m[frame_.at(pose)];
+  }
+  const simulate::Performance& performance_;
+  std::map<std::string, std::size_t> frame_;
+};
+
+}  // namespace
+
+FaceRig make_rig(session::Face face, const session::Changes& changes) {
+  std::map<std::string, std::size_t> place;
+  std::vector<Pose> poses = poses_of(place);
+  motion::Motion motion = motion_through(poses);
+  session::Changes all = {{"drive.points", "all"},
+                          {"contact.lips", true},
+                          {"time.step_s", 0.02},
+                          {"time.frame_rate_hz", kFrameRate_hz}};
+  for (const auto& [key, value] : changes) all.insert_or_assign(key, value);
+  scene::GivenFace given;
+  given.scan = std::make_shared<const io::Scan>(std::move(face.scan));
+  given.landmarks = std::move(face.landmarks);
+  given.motion = std::make_shared<const motion::Motion>(std::move(motion));
+  given.of_weights = true;
+  session::FaceSession session(session::SceneSource(std::move(given), all).scene(),
+                               {.certainty = session::Certainty::on_request});
+  session.run_base();
+  for (auto& [name, at] : place) at = std::size_t(std::lround(poses[at].time_s * kFrameRate_hz));
+  const Shapes simulated(session.simulation().performance, std::move(place));
+  FaceRig rig;
+  rig.scan = std::make_shared<const io::Scan>(session.inputs().scan);
+  rig.teeth = session.teeth();
+  rig.jaw_axis_m = simulate::JawHinge(session.inputs().landmarks).centre;
+  rig.notes = session.notes();
+  for (const std::string& name : expression::arkit_shapes())
+    rig.shapes.push_back(simulated.named(name));
+  rig.performance = session.simulation().performance;
+  return rig;
+}
+
+}  // namespace hyperex::rig

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A rig of a coarse mesh of the embedded face: its shapes, and the file that is written.
+#include "hyperex/rig/face_rig.hpp"
+
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+
+#include <cmath>
+
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/core/error.hpp"
+#include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+
+namespace hyperex::rig {
+namespace {
+
+session::Face embedded() {
+  anatomy::EmbeddedFace face = anatomy::embedded_face();
+  session::Face out;
+  out.scan.mesh = std::move(face.mesh);
+  out.landmarks = std::move(face.landmarks);
+  return out;
+}
+
+class RigOfAFace : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    rig_ = std::make_unique<FaceRig>(
+        make_rig(embedded(), {{"mesh.element_size_mm", 8}, {"mesh.layers", 1}}));
+  }
+  static void TearDownTestSuite() { rig_.reset(); }
+  static const report::RigShape& shape(const std::string& name) {
+    for (const report::RigShape& one : rig_->shapes)
+      if (one.name == name) return one;
+    throw std::out_of_range(name);
+  }
+  /// Displacement at weight 1 of the vertex next to a landmark, mm.
+  static Vec3 moved_mm(const std::string& name, const std::string& landmark) {
+    static const io::Landmarks landmarks = anatomy::embedded_face().landmarks;
+    Eigen::Index vertex = 0;
+    (skin().rowwise() - landmarks.at(landmark).transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&vertex);
+    return 1e3 * shape(name).displacement_m.row(vertex).cast<double>().transpose();
+  }
+  static const Points& skin() { return rig_->performance.skin_rest.points; }
+  static inline std::unique_ptr<FaceRig> rig_;
+};
+
+TEST_F(RigOfAFace, HasAllNamesInOrderAndNothingAtTheTongue) {
+  ASSERT_EQ(rig_->shapes.size(), 52u);
+  for (std::size_t i = 0; i < 52; ++i) {
+    const report::RigShape& one = rig_->shapes[i];
+    EXPECT_EQ(one.name, expression::arkit_shapes()[i]);
+    EXPECT_TRUE(one.displacement_m.allFinite()) << one.name;
+    const double most_mm = 1e3 * double(one.displacement_m.rowwise().norm().maxCoeff());
+    const bool eyes_alone = one.name.starts_with("eyeLookIn") || one.name.starts_with("eyeLookOut");
+    if (eyes_alone || one.name == "tongueOut")
+      EXPECT_EQ(most_mm, 0) << one.name;
+    else
+      EXPECT_GT(most_mm, 0.5) << one.name;
+  }
+}
+
+TEST_F(RigOfAFace, MovesItsPlaces) {
+  EXPECT_GT(moved_mm("mouthSmileLeft", "ibug68_54").y(), 3);
+  EXPECT_GT(moved_mm("mouthSmileLeft", "ibug68_54").x(), 1);
+  EXPECT_LT(moved_mm("mouthSmileLeft", "ibug68_48").norm(), 1.5);
+  EXPECT_LT(moved_mm("jawOpen", "ibug68_8").y(), -15);
+  EXPECT_GT(moved_mm("browInnerUp", "ibug68_21").y(), 2);
+  EXPECT_GT(moved_mm("jawLeft", "ibug68_8").x(), 5);
+}
+
+TEST_F(RigOfAFace, MouthCloseClosesAnOpenMouth) {
+  const auto parted_mm = [&](double jaw, double close) {
+    const auto at = [&](const char* landmark) -> Vec3 {
+      return jaw * moved_mm("jawOpen", landmark) + close * moved_mm("mouthClose", landmark);
+    };
+    return at("ibug68_62").y() - at("ibug68_66").y();
+  };
+  EXPECT_GT(parted_mm(0.7, 0), 8);
+  EXPECT_NEAR(parted_mm(0.7, 0.7), 0, 1.5);
+}
+
+TEST_F(RigOfAFace, EyesAndJawTurn) {
+  EXPECT_GT(shape("eyeLookUpLeft").left_eye->up_rad, 0.2);
+  EXPECT_FALSE(shape("eyeLookUpLeft").right_eye);
+  EXPECT_GT(shape("eyeLookOutLeft").left_eye->left_rad, 0.2) << "to the subject's left";
+  EXPECT_LT(shape("eyeLookInLeft").left_eye->left_rad, -0.2);
+  EXPECT_GT(shape("eyeLookInRight").right_eye->left_rad, 0.2);
+  EXPECT_GT(Eigen::AngleAxisd(shape("jawOpen").jaw_now_from_rest.linear()).angle(), 0.15);
+  EXPECT_TRUE(shape("mouthSmileLeft").jaw_now_from_rest.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST_F(RigOfAFace, IsWrittenWithNamedTargets) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "face_rig_test.glb";
+  const double bytes = report::write_rig_glb(file, rig_->performance, *rig_->scan,
+                                             rig_->teeth.get(), rig_->jaw_axis_m, rig_->shapes);
+  EXPECT_EQ(bytes, double(std::filesystem::file_size(file)));
+  tinygltf::Model model;
+  std::string error, warning;
+  ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromFile(&model, &error, &warning, file)) << error;
+  std::map<std::string, const tinygltf::Mesh*> meshes;
+  for (const tinygltf::Node& node : model.nodes)
+    meshes[node.name] = &model.meshes[std::size_t(node.mesh)];
+  const auto names = [&](const std::string& node) {
+    std::vector<std::string> out;
+    const tinygltf::Value& list = meshes.at(node)->extras.Get("targetNames");
+    for (std::size_t i = 0; i < list.ArrayLen(); ++i)
+      out.push_back(list.Get(int(i)).Get<std::string>());
+    return out;
+  };
+  EXPECT_EQ(names("face"), expression::arkit_shapes());
+  for (const tinygltf::Primitive& part : meshes.at("face")->primitives)
+    EXPECT_EQ(part.targets.size(), 52u) << "the pockets move along";
+  EXPECT_EQ(names("eye_L"), (std::vector<std::string>{"eyeLookDownLeft", "eyeLookInLeft",
+                                                      "eyeLookOutLeft", "eyeLookUpLeft"}));
+  EXPECT_EQ(names("lower_teeth"),
+            (std::vector<std::string>{"jawForward", "jawLeft", "jawOpen", "jawRight"}));
+  for (const tinygltf::Node& node : model.nodes)
+    if (node.name == "eye_L") {
+      ASSERT_EQ(node.translation.size(), 3u);
+      EXPECT_GT(node.translation[0], 0.02) << "turned about its own middle";
+    }
+  std::filesystem::remove(file);
+}
+
+TEST_F(RigOfAFace, ShapesOfAnotherSkinAreRefused) {
+  auto shapes = rig_->shapes;
+  shapes[3].displacement_m.conservativeResize(10, 3);
+  EXPECT_THROW(report::write_rig_glb("never.glb", rig_->performance, *rig_->scan, nullptr,
+                                     rig_->jaw_axis_m, shapes),
+               std::invalid_argument);
+}
+
+TEST(Rig, RefusesKeysThatAreNone) {
+  EXPECT_THROW(make_rig(embedded(), {{"tissue.yung_kpa", 3}}), InputError);
+}
+
+}  // namespace
+}  // namespace hyperex::rig
