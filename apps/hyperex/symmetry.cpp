@@ -220,9 +220,11 @@ void run(const SymmetryOptions& options) {
   const motion::Motion& motion = mended.motion;
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(motion, options.floor);  // throws where points are missing
+  // Before a reading that is far off spoils the head's pose.
+  motion::check_reach_beside_head(motion);
   const motion::Motion steady = without_head(motion, options);
-  if (!options.keep_head) motion::check_reach(steady);
-  for (const auto& warning : {session::wild_samples_warning(mended),
+  if (!steady.head_pose.empty()) motion::check_reach(steady);
+  for (const auto& warning : {session::wild_samples_warning(mended), session::jumps_warning(mended),
                               session::exchanged_warning(motion, session::average_face()),
                               session::timing_warning(motion)})
     if (warning) spdlog::warn("{}", warning->text);

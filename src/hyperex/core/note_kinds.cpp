@@ -31,6 +31,9 @@ constexpr NoteKind kKinds[] = {
   warning("recording.wild_samples", "motion.file",
     "A point jumps away and comes back within one or two samples, by more than 20 mm and faster "
     "than 0.6 m/s. The readings were left out and interpolated."),
+  warning("recording.jumps", "motion.file",
+    "A point moves by more than 20 mm and faster than 0.6 m/s from one reading to the next, and "
+    "stays away too long to be mended. The readings were kept."),
   warning("recording.nothing_moves", "motion.unit",
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",
