@@ -117,6 +117,22 @@ class Setters(unittest.TestCase):
         self.assertLess(after, 0.7 * before)
         self.assertGreater(after, 0.3 * before)
 
+    def test_all_points_are_those_that_skin_can_follow(self):
+        opening = hyperex.embedded_mouth_opening(face().landmarks)
+        names = [f"ibug68_{k}" for k in range(68)] + ["stomion"]
+        rows = [opening.names.index(name) for name in names]
+        skull = ["ibug68_27", "ibug68_28", "ibug68_36", "ibug68_45"]
+        prepared = hyperex.prepare_motion(
+            hyperex.Motion(names, opening.time_s, opening.positions_m[:, rows]), face().landmarks,
+            rigid_points=skull)
+        of_skin = [name for name in names[:-1] if name not in skull]
+        runs = []
+        for drive in (hyperex.DriveOptions(all_points=True), hyperex.DriveOptions(points=of_skin)):
+            simulator = small_simulator(drive=drive)
+            simulator.set_motion(prepared)
+            runs.append(simulator.run().skin_displacement_m)
+        np.testing.assert_array_equal(*runs)
+
     def test_out_of_range_changes_nothing(self):
         simulator = small_simulator()
         options = simulator.options

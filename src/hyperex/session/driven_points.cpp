@@ -51,13 +51,6 @@ bool keeps_to_its_model(const scene::Scene& scene) {
   return !scene.motion.candide.empty() && by_default(scene);
 }
 
-/// Points that skin cannot follow: those of the skull, and the middle of the slit between the lips,
-/// which belongs to neither of them.
-bool is_off_the_skin(const scene::Scene& scene, const std::string& name) {
-  const auto& rigid = scene.motion.rigid_points;
-  return name == "stomion" || std::ranges::find(rigid, name) != rigid.end();
-}
-
 void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& points) {
   for (const FacePart& part : kParts) {
     if (!part.joins || reach_m(motion, part) < part.moves_m) continue;
@@ -71,9 +64,11 @@ void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& po
 }  // namespace
 
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion) {
-  std::vector<std::string> points = scene.drive.all_points ? motion.names : scene.drive.points;
+  std::vector<std::string> points = scene.drive.names_in(motion);
   if (scene.drive.all_points)
-    std::erase_if(points, [&](const std::string& name) { return is_off_the_skin(scene, name); });
+    std::erase_if(points, [&](const std::string& name) {
+      return std::ranges::count(scene.motion.rigid_points, name) > 0;
+    });
   if (keeps_to_its_model(scene))
     std::erase_if(points, [&](const std::string& name) { return motion.index_of(name) < 0; });
   if (by_default(scene)) add_moving_parts(motion, points);

@@ -30,6 +30,15 @@ fem::Material TissueValues::material(std::size_t tets, fem::ViscousForm viscous_
   return out;
 }
 
+std::vector<std::string> DriveOptions::names_in(const motion::Motion& motion) const {
+  if (!all_points) return points;
+  std::vector<std::string> names = motion.names;
+  std::erase_if(names, [&](const std::string& name) {
+    return name == "stomion" || std::ranges::count(motion.skull_points, name) > 0;
+  });
+  return names;
+}
+
 MuscleOptions as_recorded(MuscleOptions options) {
   options.gains.clear();
   options.mirrored = false;

@@ -124,13 +124,18 @@ TEST(SimulationOptions, NewmarksGammaIsAtMostTwiceBeta) {
   EXPECT_EQ(said_of(options), "");
 }
 
-TEST(SimulationOptions, AllPointsAreThoseOfTheMotion) {
+TEST(SimulationOptions, AllPointsAreThoseThatSkinCanFollow) {
   motion::Motion motion;
-  motion.names = {"a", "b"};
+  motion.names = {"a", "head_1", "b", "stomion"};
   DriveOptions drive;
   EXPECT_EQ(drive.names_in(motion).size(), 7u);
   drive.all_points = true;
-  EXPECT_EQ(drive.names_in(motion), motion.names);
+  EXPECT_EQ(drive.names_in(motion), (std::vector<std::string>{"a", "head_1", "b"}));
+  motion.skull_points = {"head_1"};
+  EXPECT_EQ(drive.names_in(motion), (std::vector<std::string>{"a", "b"}));
+  drive.all_points = false;
+  drive.points = {"stomion", "head_1"};
+  EXPECT_EQ(drive.names_in(motion), drive.points) << "what is named is taken";
 }
 
 }  // namespace

@@ -130,6 +130,20 @@ TEST_F(SimulatorOfAFace, EachPartSetIsAsASimulatorMadeWithIt) {
   }));
 }
 
+TEST_F(SimulatorOfAFace, AllPointsLeaveOutTheSkullAndTheSlitBetweenTheLips) {
+  io::Landmarks measured = landmarks_;
+  measured["stomion"] = (landmarks_.at("ibug68_62") + landmarks_.at("ibug68_66")) / 2;
+  measured["head_1"] = landmarks_.at("ibug68_27") + Vec3(0, 0.1, -0.05);
+  AlignedMotion motion = test::mouth_opening(measured, 10, 13, 30);
+  motion.motion.skull_points = {"head_1"};
+  SimulationOptions all = options_, named = options_;
+  all.drive.all_points = true;
+  named.drive.points.clear();
+  for (const auto& [name, at] : landmarks_) named.drive.points.push_back(name);
+  expect_equal(Simulator(mesh_, landmarks_, motion, all).run(),
+               Simulator(mesh_, landmarks_, motion, named).run());
+}
+
 TEST_F(SimulatorOfAFace, TheDirectMethodToo) {
   options_.solver.method = SolverMethod::direct;
   SimulationOptions next = options_;
