@@ -273,8 +273,20 @@ class Stream(unittest.TestCase):
         simulator.start_stream(1 / 30)
         with self.assertRaisesRegex(hyperex.InputError, "3 rows: expected 92 points"):
             simulator.step(np.zeros((3, 3)))
-        with self.assertRaisesRegex(hyperex.InputError, "all finite"):
-            simulator.step(np.full((92, 3), np.nan))
+        unmeasured = np.zeros((92, 3))
+        unmeasured[11] = np.nan
+        with self.assertRaisesRegex(hyperex.InputError, "point 12 of 92 is not finite"):
+            simulator.step(unmeasured)
+
+    def test_millimetres_are_refused(self):
+        simulator = small_simulator()
+        followed = motion().motion
+        simulator.start_stream(1 / 30)
+        opened_m = followed.positions_m[40] - followed.positions_m[0]
+        with self.assertRaisesRegex(hyperex.InputError,
+                                    r"point \w+ is displaced by .*; displacements are in metres"):
+            simulator.step(1e3 * opened_m)
+        self.assertGreater(np.abs(simulator.step(opened_m)).max(), 1e-3)
 
 
 class Threads(unittest.TestCase):
