@@ -140,13 +140,15 @@ class Setters(unittest.TestCase):
         with self.assertRaisesRegex(hyperex.InputError,
                                     r"time.step_s = 7: expected a number from 1e-06 to 0.1"):
             simulator.set_options(options)
-        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -1: expected a number"):
-            simulator.set_tissue(hyperex.Tissue(young_pa=-1e3))
+        with self.assertRaisesRegex(
+                hyperex.InputError, r"tissue.young_pa = -5: expected a number from 1 to 1e\+09 Pa"):
+            simulator.set_tissue(hyperex.Tissue(young_pa=-5))
         with self.assertRaisesRegex(hyperex.InputError, "3 values: expected one for each"):
             simulator.set_tissue(hyperex.Tissue(young_pa=[1e5, 1e5, 1e5]))
         values = np.full(len(coarse_mesh().tets), 1e5)
         values[7] = -1
-        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa"):
+        with self.assertRaisesRegex(hyperex.InputError,
+                                    "tissue.young_pa = -1: expected numbers from 1 to"):
             simulator.set_tissue(hyperex.Tissue(young_pa=values))
         self.assertEqual(simulator.options, hyperex.SimulationOptions())
 

@@ -70,9 +70,9 @@ void check_tissue(const tissue::TissueParameters& uniform, std::vector<InputProb
   for (int p = 0; p < tissue::parameter_count; ++p) {
     const tissue::ParameterInfo& info = tissue::parameter_info(p);
     if (!tissue::is_allowed(p, uniform[std::size_t(p)]))
-      problems.push_back(wrong(("tissue." + info.key).c_str(),
-                               fmt::format("{:g}", uniform[std::size_t(p)] / info.si),
-                               "a number " + info.allowed));
+      problems.push_back(wrong(("tissue." + info.name).c_str(),
+                               fmt::format("{:g}", uniform[std::size_t(p)]),
+                               "a number " + info.allowed_si));
   }
 }
 

@@ -31,10 +31,12 @@ TEST(SimulationOptions, NamesEachValueOutOfRange) {
   options.drive.patch_radius_m = 0.05;
   options.time.step_s = 0;
   options.tissue.uniform[tissue::poisson] = 0.5;
+  options.tissue.uniform[tissue::young] = -5;
   EXPECT_THAT(said_of(options),
               AllOf(HasSubstr("drive.patch_radius_m = 0.05: expected a number from 0 to 0.03"),
                     HasSubstr("time.step_s = 0: expected"),
-                    HasSubstr("tissue.poisson = 0.5: expected a number from -0.99 to 0.4999")));
+                    HasSubstr("tissue.poisson = 0.5: expected a number from -0.99 to 0.4999"),
+                    HasSubstr("tissue.young_pa = -5: expected a number from 1 to 1e+09 Pa")));
 }
 
 /// Calls `visit(name, at, details)` for each described number, also in rows; to each list of rows
