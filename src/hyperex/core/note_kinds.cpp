@@ -148,6 +148,9 @@ constexpr NoteKind kKinds[] = {
     "The layer of tissue was turned or thinned where it would have folded."),
   note("tissue.few_inverted", "",
     "At most 0.1 % of the tetrahedra are turned inside out in some frame: too few to matter."),
+  note("tissue.large_strain", "tissue.strain",
+    "At small strain a tetrahedron's greatest principal strain at the peak is above 0.5: "
+    "tissue.strain = \"finite\" is for such strains."),
   note("contact.none", "contact", "Contact is switched on, and nothing touches in any frame."),
   note("symmetry.no_mesh_floor", "",
     "The run has no mirrored twin, so that the floor of the mesh (docs/symmetry.md) is not known."),
