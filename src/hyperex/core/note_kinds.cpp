@@ -126,7 +126,8 @@ constexpr NoteKind kKinds[] = {
   note("drive.parts_joined", "drive.points",
     "The scene names no driven points, and brows, nostrils or lids move: they are driven too."),
   note("drive.measured_not_driven", "drive.points",
-    "The scene names no driven points, and the outline of the face moves: it is not driven."),
+    "The scene names no driven points, and the outline of the face or further points move by 2 mm: "
+    "they are not driven. Four of them are named."),
   note("drive.points_left_out", "drive.points",
     "The face model lacks some of the default points."),
   note("teeth.closed", "teeth", "Borders of a scan of teeth were filled."),
