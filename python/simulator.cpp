@@ -33,7 +33,7 @@ TissueValues completed(TissueValues values, std::size_t tets) {
     const tissue::ParameterInfo& info = tissue::parameter_info(p);
     auto& element = values.element[p];
     const auto refuse = [&](const std::string& value, const std::string& expected) {
-      throw InputError(InputProblem{{}, 0, std::string("tissue.") + info.key, value, expected});
+      throw InputError(InputProblem{{}, 0, "tissue." + info.name, value, expected});
     };
     if (element.empty()) element.assign(tets, values.uniform[p]);
     if (element.size() != tets)
@@ -41,7 +41,7 @@ TissueValues completed(TissueValues values, std::size_t tets) {
              fmt::format("one for each of the {} tetrahedra", tets));
     for (const double value : element)
       if (!tissue::is_allowed(p, value))
-        refuse(fmt::format("{:g}", value / info.si), std::string("numbers ") + info.allowed);
+        refuse(fmt::format("{:g}", value), "numbers " + info.allowed_si);
   }
   return values;
 }

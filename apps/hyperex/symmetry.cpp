@@ -108,6 +108,21 @@ motion::Motion without_head(const motion::Motion& motion, const SymmetryOptions&
   }
 }
 
+/// S(t). Where its points are missing, the excursions of those that are there can be told all the
+/// same, though not drawn below S.
+metrics::SymmetryCurve curve_of(const motion::Motion& motion, const SymmetryOptions& options) {
+  const bool excursions_alone = options.picture.empty() &&
+                                metrics::symmetry_columns(motion).empty() &&
+                                !metrics::excursions_of(motion, 0, 0).pairs.empty();
+  try {
+    return metrics::symmetry_of(motion, options.floor);
+  } catch (const InputError& error) {
+    if (!excursions_alone) throw;
+    std::cerr << "S(t) is left out: " << error.what() << '\n';
+    return metrics::symmetry_without_points(motion, options.floor);
+  }
+}
+
 void write_map(const SymmetryOptions& options, const SurfaceFrames& frames,
                const std::vector<PointsF>& displacement, const metrics::Asymmetry& map) {
   const auto worst = static_cast<size_t>(map.worst_frame);
@@ -136,10 +151,10 @@ void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all
                       draw(all, "Symmetry of " + options.motion.filename().string()));
   if (!options.excursions.empty())
     metrics::write_excursions_csv(options.excursions, all.excursions);
-  if (options.out.empty())
-    print_curve(all.curve);
-  else
+  if (!options.out.empty())
     metrics::write_symmetry_csv(options.out, all);
+  else if (all.curve.known())
+    print_curve(all.curve);
   print_excursions(all.excursions);
   print_summary(all, jitter);
 }
@@ -219,16 +234,19 @@ void run(const SymmetryOptions& options) {
       motion::without_wild_samples(until(motion::read_motion(file, unit), options.end_s));
   const motion::Motion& motion = mended.motion;
   metrics::SymmetryMeasures all;
-  all.curve = metrics::symmetry_of(motion, options.floor);  // throws where points are missing
+  all.curve = curve_of(motion, options);
+  // Before a reading that is far off spoils the head's pose.
+  motion::check_reach_beside_head(motion);
   const motion::Motion steady = without_head(motion, options);
-  if (!options.keep_head) motion::check_reach(steady);
-  for (const auto& warning : {session::wild_samples_warning(mended),
+  if (!steady.head_pose.empty()) motion::check_reach(steady);
+  for (const auto& warning : {session::wild_samples_warning(mended), session::jumps_warning(mended),
                               session::exchanged_warning(motion, session::average_face()),
                               session::timing_warning(motion)})
     if (warning) spdlog::warn("{}", warning->text);
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);
   warn_of_unknown(jitter);
-  if (jitter.jitter_m > 0) all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
+  if (jitter.jitter_m > 0 && all.curve.known())
+    all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
   all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);
   report(options, all, jitter);
 }

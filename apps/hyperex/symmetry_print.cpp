@@ -69,11 +69,13 @@ void print_summary(const metrics::SymmetryMeasures& all, const session::Recorded
   const metrics::SymmetryCurve& curve = all.curve;
   size_t undecided = 0;
   for (size_t i = 1; i < curve.time_s.size(); ++i) undecided += curve.undecided(i);
-  std::cout << fmt::format("\nstretch: {}", metrics::verdict_of(curve));
+  std::cout << '\n';
+  if (curve.known()) std::cout << "stretch: " << metrics::verdict_of(curve);
   if (curve.jitter_m > 0)
     std::cout << fmt::format("; jitter {:.2f} mm leaves {} of {} samples undecided",
                              1e3 * curve.jitter_m, undecided, curve.time_s.size() - 1);
-  std::cout << '\n' << jitter.how << '\n';
+  if (curve.known()) std::cout << '\n';
+  std::cout << jitter.how << '\n';
   if (all.map && !all.map->frames.empty()) {
     const auto& worst = all.map->frames[static_cast<size_t>(all.map->worst_frame)];
     std::cout << fmt::format(

@@ -233,5 +233,55 @@ TEST_F(Program, SymmetryLooksAtTheFirstMovementAlone) {
               HasSubstr("--end-s = 0.001: expected at least the second sample's time, "));
 }
 
+TEST_F(Program, SymmetryTakesTheHeadOutByNamedPoints) {
+  write_good_inputs(in(""));
+  write_opening(in(""), 0, 16, keep_mouth_and_headband);
+  const std::string heads = " --rigid-points head_1,head_2,head_3,head_4,head_5,head_6";
+  const Outcome found = call("symmetry motion.csv --out s.csv --excursions named.csv" + heads);
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.err, testing::AllOf(HasSubstr("S(t) is left out: motion.csv: symmetry needs"),
+                                        HasSubstr("exocanthion_L (or ibug68_45)"),
+                                        testing::Not(HasSubstr("head pose is not taken out"))));
+  EXPECT_THAT(found.out,
+              testing::AllOf(HasSubstr("excursion (mm)"), testing::Not(HasSubstr("stretch: "))));
+  const io::CsvTable curves = io::read_csv(in("s.csv"));
+  ASSERT_EQ(curves.values.rows(), 16);
+  EXPECT_TRUE(std::isnan(curves.values(15, curves.column("xi_L"))));
+  EXPECT_GT(curves.values(15, curves.column("commissure_L_mm")), 1);
+  // The headband does not move in the head: its points are where the skull is.
+  const auto corner_mm = [&](const std::string& file) {
+    const std::string text = read_file(in(file));
+    const auto row = text.find("\nibug68_48/54,");
+    return row == std::string::npos ? -1 : std::stod(text.substr(row + 14));
+  };
+  EXPECT_THAT(call("symmetry motion.csv").err,
+              testing::AllOf(HasSubstr("head pose is not taken out"),
+                             HasSubstr("--rigid-points names others; these keep their distances"),
+                             HasSubstr(": head_1, head_2, head_3, head_4, head_5, head_6")));
+  write_opening(in(""), 0, 16);
+  ASSERT_EQ(call("symmetry motion.csv --excursions whole.csv --rigid-points "
+                 "ibug68_17,ibug68_21,ibug68_26,ibug68_27,ibug68_36,ibug68_45")
+                .status,
+            0);
+  EXPECT_GT(corner_mm("whole.csv"), 1);
+  EXPECT_NEAR(corner_mm("named.csv"), corner_mm("whole.csv"), 1e-3);
+}
+
+TEST_F(Program, SymmetryNamesTheRigidPointThatIsNotThere) {
+  write_good_inputs(in(""));
+  const Outcome wrong = call("symmetry motion.csv --rigid-points ibug68_27,ibug68_36,head_9");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("there is no point head_9"));
+  EXPECT_EQ(call("symmetry motion.csv --rigid-points ibug68_27 --keep-head").status, 2);
+}
+
+TEST_F(Program, SymmetryWithoutThePointsOfSDrawsNoPicture) {
+  write_good_inputs(in(""));
+  write_opening(in(""), 0, 16, keep_mouth_and_headband);
+  const Outcome drawn = call("symmetry motion.csv --picture s.png --keep-head");
+  EXPECT_EQ(drawn.status, 2);
+  EXPECT_THAT(drawn.err, HasSubstr("symmetry needs points that are not there"));
+}
+
 }  // namespace
 }  // namespace hyperex

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/files.hpp"
@@ -60,6 +62,24 @@ void write_opening(const fs::path& folder, std::size_t first, std::size_t count,
   cut(m.positions);
   change(m);
   motion::write_motion_csv(folder / "motion.csv", m);
+}
+
+void keep_mouth_and_headband(motion::Motion& m) {
+  const std::vector<std::pair<std::string, std::string>> kept = {
+      {"ibug68_48", "ibug68_48"}, {"ibug68_54", "ibug68_54"}, {"ibug68_51", "ibug68_51"},
+      {"ibug68_57", "ibug68_57"}, {"ibug68_8", "ibug68_8"},   {"ibug68_58", "ibug68_58"},
+      {"ibug68_56", "ibug68_56"}, {"ibug68_17", "head_1"},    {"ibug68_21", "head_2"},
+      {"ibug68_26", "head_3"},    {"ibug68_27", "head_4"},    {"ibug68_36", "head_5"},
+      {"ibug68_45", "head_6"}};
+  const motion::Motion whole = m;
+  m.names.clear();
+  for (Points& sample : m.positions) sample.resize(Eigen::Index(kept.size()), 3);
+  for (const auto& [from, to] : kept) {
+    for (std::size_t k = 0; k < m.positions.size(); ++k)
+      m.positions[k].row(Eigen::Index(m.names.size())) =
+          whole.positions[k].row(whole.index_of(from));
+    m.names.push_back(to);
+  }
 }
 
 void write_good_inputs(const fs::path& folder) {

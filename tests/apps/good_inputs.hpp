@@ -22,6 +22,10 @@ void write_opening(
     const std::filesystem::path& folder, std::size_t first, std::size_t count,
     const std::function<void(motion::Motion&)>& change = [](motion::Motion&) {});
 
+/// Keeps seven points of the mouth and chin, and six of a headband, called head_1 to head_6. A
+/// change for write_opening().
+void keep_mouth_and_headband(motion::Motion& m);
+
 TriMesh good_face();             ///< metres
 io::Landmarks good_landmarks();  ///< metres
 

@@ -35,6 +35,21 @@ TEST_F(NewCommand, NamesFilesAsSeenFromTheScenesFolder) {
   EXPECT_EQ(call("check scenes/me.toml").status, 0);
 }
 
+TEST_F(NewCommand, NamesTheStillPointsOfAFileThatHasItsOwn) {
+  write_opening(in(""), 0, 16, keep_mouth_and_headband);
+  const Outcome made = call("new face.ply motion.csv --out me.toml");
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string scene = read_file(in("me.toml"));
+  for (int i = 1; i <= 6; ++i) EXPECT_THAT(scene, HasSubstr("\"head_" + std::to_string(i) + "\""));
+  const Outcome checked = call("check me.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("no problems found"));
+  // The same with landmarks, by which the recording is laid on the scan.
+  const Outcome aligned = call("check me.toml --set scan.landmarks=face_landmarks.json");
+  EXPECT_EQ(aligned.status, 0) << aligned.err;
+  EXPECT_THAT(aligned.out, HasSubstr("aligned by 7 common points"));
+}
+
 TEST_F(NewCommand, RefusesANameThatASceneCannotHoldInOneLine) {
   std::filesystem::copy_file(in("face.ply"), in("caf\xe9.ply"));
   const Outcome made = call("new 'caf\xe9.ply' motion.csv --out a.toml");

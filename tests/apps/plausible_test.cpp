@@ -146,6 +146,54 @@ TEST_F(Plausible, SymmetryWarnsOfMillisecondsAndOfAPairExchanged) {
               AllOf(HasSubstr("warning: "), HasSubstr("cheilion_L and cheilion_R")));
 }
 
+TEST_F(Plausible, SymmetryMendsAReadingThatJumpsAndNamesThoseThatStayAway) {
+  write_motion(0, 16);
+  const Outcome sound = call("symmetry motion.csv --jitter-mm 0 --excursions sound.csv");
+  ASSERT_EQ(sound.status, 0) << sound.err;
+  const auto off_by = [&](double off_m, std::size_t last) {
+    write_motion(0, 16, [&](motion::Motion& m) {
+      for (std::size_t k = 8; k <= last; ++k) m.positions[k](m.index_of("cheilion_L"), 2) += off_m;
+    });
+  };
+  for (const std::string keep : {"", " --keep-head"}) {
+    off_by(0.3, 8);
+    const Outcome mended = call("symmetry motion.csv --jitter-mm 0 --excursions e.csv" + keep);
+    EXPECT_EQ(mended.status, 0) << mended.err;
+    EXPECT_THAT(mended.err, AllOf(HasSubstr("warning: a point jumps away and back"),
+                                  HasSubstr("motion.csv:10, point cheilion_L at 0.267 s")));
+    off_by(0.05, 11);
+    const Outcome away = call("symmetry motion.csv --jitter-mm 0 --out s.csv" + keep);
+    EXPECT_EQ(away.status, 0) << away.err;
+    EXPECT_THAT(away.err, AllOf(HasSubstr("warning: a point moves farther between two readings"),
+                                HasSubstr("motion.csv:10, point cheilion_L at 0.267 s")));
+  }
+  // What was mended moves the corner as far as the sound recording does.
+  off_by(0.3, 8);
+  call("symmetry motion.csv --jitter-mm 0 --excursions mended.csv");
+  const auto excursion_mm = [&](const char* file) {
+    const std::string text = read_file(in(file));
+    const auto row = text.find("\ncheilion,");
+    return row == std::string::npos ? -1 : std::stod(text.substr(row + 10));
+  };
+  EXPECT_GT(excursion_mm("sound.csv"), 1);
+  EXPECT_NEAR(excursion_mm("mended.csv"), excursion_mm("sound.csv"), 0.5);
+}
+
+TEST_F(Plausible, SymmetryRefusesWhatNoFaceCanReachWithTheHeadToo) {
+  for (const double off_m : {0.3, 1e3}) {
+    write_motion(0, 16, [&](motion::Motion& m) {
+      for (std::size_t k = 8; k < 16; ++k) m.positions[k](m.index_of("cheilion_L"), 2) += off_m;
+    });
+    for (const std::string keep : {"", " --keep-head"}) {
+      const Outcome far = call("symmetry motion.csv --out s.csv" + keep);
+      EXPECT_EQ(far.status, 2) << off_m << keep;
+      EXPECT_THAT(far.err, AllOf(HasSubstr("motion.csv:10, point cheilion_L at 0.267 s"),
+                                 HasSubstr("as no point of a face moves farther")));
+      EXPECT_FALSE(fs::exists(in("s.csv")));
+    }
+  }
+}
+
 TEST_F(Plausible, TheDifferenceOfTheCornersIsJudgedAloud) {
   const Outcome alike = call("run scene.toml --out alike");
   EXPECT_THAT(alike.out,

@@ -117,6 +117,22 @@ class Setters(unittest.TestCase):
         self.assertLess(after, 0.7 * before)
         self.assertGreater(after, 0.3 * before)
 
+    def test_all_points_are_those_that_skin_can_follow(self):
+        opening = hyperex.embedded_mouth_opening(face().landmarks)
+        names = [f"ibug68_{k}" for k in range(68)] + ["stomion"]
+        rows = [opening.names.index(name) for name in names]
+        skull = ["ibug68_27", "ibug68_28", "ibug68_36", "ibug68_45"]
+        prepared = hyperex.prepare_motion(
+            hyperex.Motion(names, opening.time_s, opening.positions_m[:, rows]), face().landmarks,
+            rigid_points=skull)
+        of_skin = [name for name in names[:-1] if name not in skull]
+        runs = []
+        for drive in (hyperex.DriveOptions(all_points=True), hyperex.DriveOptions(points=of_skin)):
+            simulator = small_simulator(drive=drive)
+            simulator.set_motion(prepared)
+            runs.append(simulator.run().skin_displacement_m)
+        np.testing.assert_array_equal(*runs)
+
     def test_out_of_range_changes_nothing(self):
         simulator = small_simulator()
         options = simulator.options
@@ -124,13 +140,15 @@ class Setters(unittest.TestCase):
         with self.assertRaisesRegex(hyperex.InputError,
                                     r"time.step_s = 7: expected a number from 1e-06 to 0.1"):
             simulator.set_options(options)
-        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -1: expected a number"):
-            simulator.set_tissue(hyperex.Tissue(young_pa=-1e3))
+        with self.assertRaisesRegex(
+                hyperex.InputError, r"tissue.young_pa = -5: expected a number from 1 to 1e\+09 Pa"):
+            simulator.set_tissue(hyperex.Tissue(young_pa=-5))
         with self.assertRaisesRegex(hyperex.InputError, "3 values: expected one for each"):
             simulator.set_tissue(hyperex.Tissue(young_pa=[1e5, 1e5, 1e5]))
         values = np.full(len(coarse_mesh().tets), 1e5)
         values[7] = -1
-        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa"):
+        with self.assertRaisesRegex(hyperex.InputError,
+                                    "tissue.young_pa = -1: expected numbers from 1 to"):
             simulator.set_tissue(hyperex.Tissue(young_pa=values))
         self.assertEqual(simulator.options, hyperex.SimulationOptions())
 
@@ -257,8 +275,20 @@ class Stream(unittest.TestCase):
         simulator.start_stream(1 / 30)
         with self.assertRaisesRegex(hyperex.InputError, "3 rows: expected 92 points"):
             simulator.step(np.zeros((3, 3)))
-        with self.assertRaisesRegex(hyperex.InputError, "all finite"):
-            simulator.step(np.full((92, 3), np.nan))
+        unmeasured = np.zeros((92, 3))
+        unmeasured[11] = np.nan
+        with self.assertRaisesRegex(hyperex.InputError, "point 12 of 92 is not finite"):
+            simulator.step(unmeasured)
+
+    def test_millimetres_are_refused(self):
+        simulator = small_simulator()
+        followed = motion().motion
+        simulator.start_stream(1 / 30)
+        opened_m = followed.positions_m[40] - followed.positions_m[0]
+        with self.assertRaisesRegex(hyperex.InputError,
+                                    r"point \w+ is displaced by .*; displacements are in metres"):
+            simulator.step(1e3 * opened_m)
+        self.assertGreater(np.abs(simulator.step(opened_m)).max(), 1e-3)
 
 
 class Threads(unittest.TestCase):

@@ -61,6 +61,12 @@ void let_a_marker_jump(const fs::path& folder) {
                 [](motion::Motion& m) { m.positions[8](m.index_of("cheilion_L"), 2) += 0.3; });
 }
 
+void let_a_marker_stay_away(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (std::size_t k = 8; k < 12; ++k) m.positions[k](m.index_of("cheilion_L"), 2) += 0.03;
+  });
+}
+
 void start_with_the_mouth_open(const fs::path& folder) {
   write_opening(folder, 40, 41);
 }
@@ -111,6 +117,7 @@ const std::vector<NotedScene>& noted_scenes() {
        write_video},
       {"recording.time_unit_doubtful", true, "", time_in_milliseconds},
       {"recording.wild_samples", true, "", let_a_marker_jump},
+      {"recording.jumps", true, "", let_a_marker_stay_away},
       {"recording.nothing_moves", true, "", hold_still},
       {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
       {"recording.column_misspelt", true, "motion.file=\nmotion.arkit=\"weights.csv\"",

@@ -31,6 +31,9 @@ constexpr NoteKind kKinds[] = {
   warning("recording.wild_samples", "motion.file",
     "A point jumps away and comes back within one or two samples, by more than 20 mm and faster "
     "than 0.6 m/s. The readings were left out and interpolated."),
+  warning("recording.jumps", "motion.file",
+    "A point moves by more than 20 mm and faster than 0.6 m/s from one reading to the next, and "
+    "stays away too long to be mended. The readings were kept."),
   warning("recording.nothing_moves", "motion.unit",
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",
@@ -123,7 +126,8 @@ constexpr NoteKind kKinds[] = {
   note("drive.parts_joined", "drive.points",
     "The scene names no driven points, and brows, nostrils or lids move: they are driven too."),
   note("drive.measured_not_driven", "drive.points",
-    "The scene names no driven points, and the outline of the face moves: it is not driven."),
+    "The scene names no driven points, and the outline of the face or further points move by 2 mm: "
+    "they are not driven. Four of them are named."),
   note("drive.points_left_out", "drive.points",
     "The face model lacks some of the default points."),
   note("teeth.closed", "teeth", "Borders of a scan of teeth were filled."),
@@ -145,6 +149,9 @@ constexpr NoteKind kKinds[] = {
     "The layer of tissue was turned or thinned where it would have folded."),
   note("tissue.few_inverted", "",
     "At most 0.1 % of the tetrahedra are turned inside out in some frame: too few to matter."),
+  note("tissue.large_strain", "tissue.strain",
+    "At small strain a tetrahedron's greatest principal strain at the peak is above 0.5: "
+    "tissue.strain = \"finite\" is for such strains."),
   note("contact.none", "contact", "Contact is switched on, and nothing touches in any frame."),
   note("symmetry.no_mesh_floor", "",
     "The run has no mirrored twin, so that the floor of the mesh (docs/symmetry.md) is not known."),

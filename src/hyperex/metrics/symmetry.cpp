@@ -117,6 +117,10 @@ std::array<std::array<Vec3, 4>, 2> rest_rays(const motion::Motion& motion, const
 
 }  // namespace
 
+bool SymmetryCurve::known() const {
+  return !s.empty() && !std::isnan(s.front());
+}
+
 std::vector<double> SymmetryCurve::floors() const {
   if (noise.empty()) return mesh_noise;
   std::vector<double> larger = noise;
@@ -164,6 +168,15 @@ SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor, double 
   curve.s.front() = std::log(floor);
   curve.jitter_m = jitter_m;
   if (jitter_m != 0) curve.noise = symmetry_noise(landmarks, jitter_m);
+  return curve;
+}
+
+SymmetryCurve symmetry_without_points(const motion::Motion& landmarks, double floor) {
+  SymmetryCurve curve;
+  curve.floor = floor;
+  curve.time_s = landmarks.time_s;
+  curve.xi_left.assign(curve.time_s.size(), std::numeric_limits<double>::quiet_NaN());
+  curve.xi_right = curve.s = curve.xi_left;
   return curve;
 }
 

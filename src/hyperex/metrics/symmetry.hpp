@@ -36,6 +36,8 @@ struct SymmetryCurve {
   std::vector<double> mesh_noise;
   std::vector<Stretches> mesh_remainder;  ///< twin_remainders(), from which mesh_noise is computed
 
+  /// Whether the motion has the points that S(t) is made of (symmetry_without_points).
+  bool known() const;
   /// The larger of the two floors, one value per sample; empty if neither is known.
   std::vector<double> floors() const;
   /// Whether |xi_L - xi_R| of this sample is below either floor, so that it is undecided which side
@@ -52,6 +54,9 @@ struct SymmetryCurve {
 /// Later samples without a measurement are NaN.
 SymmetryCurve symmetry_of(const motion::Motion& landmarks, double floor = 1e-6,
                           double jitter_m = 0);
+
+/// For a motion without these points: its times, and NaN in place of xi and S.
+SymmetryCurve symmetry_without_points(const motion::Motion& landmarks, double floor = 1e-6);
 
 /// The columns of the points used for S(t), increasing; empty if a point is absent.
 std::vector<int> symmetry_columns(const motion::Motion& landmarks);

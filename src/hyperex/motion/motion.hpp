@@ -18,6 +18,9 @@ struct Motion {
   /// N poses reference_from_head where the head pose has been removed from `positions` (which then
   /// are in the face's frame); empty where it has not been removed.
   std::vector<Eigen::Isometry3d> head_pose;
+  /// The points that were stated to move with the skull alone when the head pose was removed; empty
+  /// where none were stated.
+  std::vector<std::string> skull_points;
   std::vector<int> lines;  ///< line of `source` of each sample, for errors; empty where not known
   std::string source;      ///< what to name in errors: the file, or empty
   std::string unit_note;   ///< which length unit was read and why, for the log

@@ -237,6 +237,7 @@ StabilisedMotion stabilise(const Motion& motion, const StabiliseOptions& options
   StabilisedMotion result;
   result.motion = motion;
   result.motion.head_pose.clear();
+  result.motion.skull_points = options.rigid_points;
   std::vector<UncertainPose> poses;
   if (options.rigid_points.empty()) {
     const std::vector<KnownLandmark> landmarks = known_landmarks(motion);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
@@ -61,6 +62,59 @@ void interpolate(const Motion& sound, const WildSample& wild, Motion& to) {
       (1 - share) * sound.positions[before].row(row) + share * sound.positions[after].row(row);
 }
 
+/// The positions, each sample less the median displacement of its points since the first sample.
+std::vector<Points> without_shift(const Motion& m) {
+  std::vector<Points> out = m.positions;
+  for (Points& sample : out) {
+    std::vector<Eigen::RowVector3d> moved;
+    for (Eigen::Index p = 0; p < sample.rows(); ++p) {
+      const Eigen::RowVector3d since = sample.row(p) - m.positions.front().row(p);
+      if (since.allFinite()) moved.push_back(since);
+    }
+    sample.rowwise() -= median_row(moved);
+  }
+  return out;
+}
+
+/// The least distance within `step_s` that no face moves.
+double implausible_m(double step_s) {
+  return std::max(kWildJump_m, kWildSpeed_m_s * step_s);
+}
+
+std::vector<WildSample> jumps_of(const Motion& m) {
+  std::vector<WildSample> jumps;
+  const std::vector<Points> at = without_shift(m);
+  std::vector<std::size_t> before(m.names.size(), at.size());  // of each point's last reading
+  for (std::size_t k = 0; k < at.size(); ++k)
+    for (std::size_t p = 0; p < m.names.size(); ++p) {
+      const auto row = Eigen::Index(p);
+      if (!at[k].row(row).allFinite()) continue;
+      const std::size_t last = std::exchange(before[p], k);
+      if (last == at.size()) continue;
+      const double far_m = (at[k].row(row) - at[last].row(row)).norm();
+      if (far_m > implausible_m(m.time_s[k] - m.time_s[last]))
+        jumps.push_back({m.names[p], k, far_m});
+    }
+  return jumps;
+}
+
+/// `at`: the motion's positions, as they are to be judged.
+void check_reach(const Motion& motion, const std::vector<Points>& at, double farthest_m) {
+  std::vector<std::size_t> first(motion.names.size(), at.size());  // sample of the first reading
+  for (std::size_t k = 0; k < at.size(); ++k)
+    for (std::size_t p = 0; p < motion.names.size(); ++p) {
+      const auto row = Eigen::Index(p);
+      if (!at[k].row(row).allFinite()) continue;
+      if (first[p] == at.size()) first[p] = k;
+      const double far_m = (at[k].row(row) - at[first[p]].row(row)).norm();
+      if (far_m > farthest_m)
+        throw InputError(fmt::format(
+            "{}: {:.4g} mm from its first place: expected at most {:g} mm, as no point of a face "
+            "moves farther; correct the reading or leave its cells empty",
+            place_of(motion, motion.names[p], k), 1e3 * far_m, 1e3 * farthest_m));
+    }
+}
+
 }  // namespace
 
 std::string place_of(const Motion& motion, const std::string& point, std::size_t sample) {
@@ -70,10 +124,14 @@ std::string place_of(const Motion& motion, const std::string& point, std::size_t
 }
 
 MendedMotion without_wild_samples(const Motion& motion) {
-  MendedMotion out{motion, {}};
+  MendedMotion out{motion, {}, {}};
   const auto points = Eigen::Index(motion.names.size());
-  if (motion.positions.size() < 2 * kHalfWindow + 1 || points < 3) return out;
-  const double least_m = std::max(kWildJump_m, kWildSpeed_m_s * median_step(motion.time_s));
+  if (points < 3) return out;
+  if (motion.positions.size() < 2 * kHalfWindow + 1) {
+    out.jumps = jumps_of(motion);
+    return out;
+  }
+  const double least_m = implausible_m(median_step(motion.time_s));
   Motion sound = motion;
   Points off(points, 3);
   std::vector<Eigen::RowVector3d> measured;
@@ -91,21 +149,16 @@ MendedMotion without_wild_samples(const Motion& motion) {
       }
   }
   for (const WildSample& wild : out.wild) interpolate(sound, wild, out.motion);
+  out.jumps = jumps_of(out.motion);
   return out;
 }
 
 void check_reach(const Motion& steady) {
-  for (std::size_t k = 1; k < steady.positions.size(); ++k)
-    for (std::size_t p = 0; p < steady.names.size(); ++p) {
-      const auto row = Eigen::Index(p);
-      const double far_m =
-          (steady.positions[k].row(row) - steady.positions.front().row(row)).norm();
-      if (far_m > kFarthest_m)
-        throw InputError(fmt::format(
-            "{}: {:.4g} mm from its place in the first sample: expected at most {:g} mm, as no "
-            "point of a face moves farther; correct the reading or leave its cells empty",
-            place_of(steady, steady.names[p], k), 1e3 * far_m, 1e3 * kFarthest_m));
-    }
+  check_reach(steady, steady.positions, kFarthest_m);
+}
+
+void check_reach_beside_head(const Motion& motion) {
+  check_reach(motion, without_shift(motion), kFarthestBesideHead_m);
 }
 
 }  // namespace hyperex::motion

@@ -20,6 +20,9 @@ struct WildSample {
 struct MendedMotion {
   Motion motion;                 ///< wild readings interpolated; at the ends the nearest one held
   std::vector<WildSample> wild;  ///< in the order of time, then of the points
+  /// Readings of `motion` that are as far and as fast from the point's reading before, off_m, in
+  /// the same order: points that jump away and stay there longer than can be mended.
+  std::vector<WildSample> jumps;
 };
 
 /// A jump counts if it exceeds both this length (m) and this speed (m/s). Lips and jaw reach about
@@ -30,16 +33,20 @@ inline constexpr double kWildJump_m = 0.02, kWildSpeed_m_s = 0.6;
 /// median of the five readings of its point around it, and replaces it by linear interpolation in
 /// time. The median of the same difference over all points is subtracted first, so that a jump of
 /// the whole head does not count as a jump of a point. At most two samples in a row can be mended.
-/// With fewer than three points or five samples nothing is mended.
+/// With fewer than three points or five samples nothing is mended, and with fewer than three points
+/// no jump is found.
 MendedMotion without_wild_samples(const Motion& motion);
 
-/// The largest distance of a point of a face from its position in the first sample, m.
-inline constexpr double kFarthest_m = 0.15;
+/// The largest distance of a point of a face from its first reading, m; and the same beside the
+/// median of all points where the head's motion is in it: a head that turns adds to it.
+inline constexpr double kFarthest_m = 0.15, kFarthestBesideHead_m = 0.25;
 
 /// Throws InputError naming the line, the point, the time and the distance of the first reading
-/// farther than kFarthest_m from the point's position in the first sample. `steady`: a motion
-/// without head pose.
+/// farther than kFarthest_m from the point's first reading. `steady`: a motion without head pose.
 void check_reach(const Motion& steady);
+/// The same before the head's pose is taken out: the median displacement of all points is
+/// subtracted, and kFarthestBesideHead_m is the bound.
+void check_reach_beside_head(const Motion& motion);
 
 /// "FILE:LINE, point NAME at 0.467 s"; without the line where it is not known.
 std::string place_of(const Motion& motion, const std::string& point, std::size_t sample);

@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/same_place.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -43,19 +47,71 @@ double reach_m(const motion::Motion& motion, const FacePart& part) {
   return most_m;
 }
 
+/// Other points that go farther than this are told, as many as kMostNamed by name.
+constexpr double kMoves_m = 2e-3;
+constexpr std::size_t kMostNamed = 4;
+
+/// The number of an iBUG point, by either of its names.
+std::optional<int> number_of(const std::string& name) {
+  const auto own = face::ibug_number(name);
+  return own ? own : face::ibug_number(face::other_name(name));
+}
+
+bool is_of_a_part(int number) {
+  return std::ranges::any_of(kParts, [number](const FacePart& part) {
+    return part.first <= number && number <= part.last;
+  });
+}
+
+/// Whether a point is one of those that are not told by parts, that are not driven, and that skin
+/// could follow.
+bool is_further(const scene::Scene& scene, const motion::Motion& motion,
+                const std::vector<std::string>& driven, const std::string& name) {
+  const auto has = [](const std::vector<std::string>& names, const std::string& one) {
+    return std::ranges::find(names, one) != names.end();
+  };
+  const std::string other = face::other_name(name);
+  if (has(driven, name) || has(driven, other) || has(scene.motion.rigid_points, name)) return false;
+  const bool told_as_other = !face::ibug_number(name) && motion.index_of(other) >= 0;
+  const auto number = number_of(name);
+  return name != "stomion" && !told_as_other && !(number && is_of_a_part(*number));
+}
+
+/// "cheek_L (5.1 mm)", "glabella (3.0 mm)" and "and 9 more": first those away from the lips, where
+/// nothing else is driven, then those that go farthest.
+std::vector<std::string> further_points(const scene::Scene& scene, const motion::Motion& motion,
+                                        const std::vector<std::string>& driven) {
+  struct Point {
+    bool of_lips;
+    double far_m;
+    std::string name;
+  };
+  std::vector<Point> points;
+  for (std::size_t p = 0; p < motion.names.size(); ++p) {
+    const std::string& name = motion.names[p];
+    const bool of_tracked_mesh = (motion.triangles.array() == int(p)).any();
+    if (of_tracked_mesh || !is_further(scene, motion, driven, name)) continue;
+    if (const double far_m = reach_m(motion, name); far_m >= kMoves_m)
+      points.push_back({number_of(name).value_or(0) >= 48, far_m, name});
+  }
+  std::ranges::stable_sort(points, [](const Point& a, const Point& b) {
+    return std::pair(a.of_lips, -a.far_m) < std::pair(b.of_lips, -b.far_m);
+  });
+  std::vector<std::string> told;
+  for (const Point& point : points)
+    if (told.size() < kMostNamed)
+      told.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.far_m));
+  if (points.size() > told.size())
+    told.push_back(fmt::format("and {} more", points.size() - told.size()));
+  return told;
+}
+
 bool by_default(const scene::Scene& scene) {
   return !scene.drive.all_points && !scene.origins.contains("drive.points");
 }
 
 bool keeps_to_its_model(const scene::Scene& scene) {
   return !scene.motion.candide.empty() && by_default(scene);
-}
-
-/// Points that skin cannot follow: those of the skull, and the middle of the slit between the lips,
-/// which belongs to neither of them.
-bool is_off_the_skin(const scene::Scene& scene, const std::string& name) {
-  const auto& rigid = scene.motion.rigid_points;
-  return name == "stomion" || std::ranges::find(rigid, name) != rigid.end();
 }
 
 void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& points) {
@@ -71,9 +127,11 @@ void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& po
 }  // namespace
 
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion) {
-  std::vector<std::string> points = scene.drive.all_points ? motion.names : scene.drive.points;
+  std::vector<std::string> points = scene.drive.names_in(motion);
   if (scene.drive.all_points)
-    std::erase_if(points, [&](const std::string& name) { return is_off_the_skin(scene, name); });
+    std::erase_if(points, [&](const std::string& name) {
+      return std::ranges::count(scene.motion.rigid_points, name) > 0;
+    });
   if (keeps_to_its_model(scene))
     std::erase_if(points, [&](const std::string& name) { return motion.index_of(name) < 0; });
   if (by_default(scene)) add_moving_parts(motion, points);
@@ -105,6 +163,7 @@ void note_left_out_points(const scene::Scene& scene, const motion::Motion& motio
     notes.push_back(make_note("drive.parts_joined",
                               fmt::format("driven in addition to the mouth, since they move: {}",
                                           fmt::join(joined, ", "))));
+  std::ranges::copy(further_points(scene, motion, driven), std::back_inserter(left_out));
   if (!left_out.empty())
     notes.push_back(make_note(
         "drive.measured_not_driven",

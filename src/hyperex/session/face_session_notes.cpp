@@ -34,7 +34,8 @@ void FaceSession::Impl::note_base() {
       notes_on_contact_and_elements(simulation.report, simulation.performance, scene.contact));
   append(base_notes, run_warnings(simulation.report, simulation.performance));
   append(base_notes, symmetry_notes(symmetry, twin ? twin->why_not : ""));
-  if (scene.model.strain == simulate::Strain::finite) append(base_notes, volume_warnings(peak()));
+  append(base_notes, volume_warnings(peak()));
+  append(base_notes, strain_notes(peak()));
   std::vector<Note> added;
   std::copy_if(base_notes.begin(), base_notes.end(), std::back_inserter(added),
                [&](const Note& note) {

@@ -46,6 +46,10 @@ std::optional<Note> timing_warning(const motion::Motion& m);
 /// `recording.wild_samples`: names the first samples that were left out, since no face moves so.
 std::optional<Note> wild_samples_warning(const motion::MendedMotion& mended);
 
+/// `recording.jumps`: names the first readings to which a point moves as no face does, and which
+/// were kept.
+std::optional<Note> jumps_warning(const motion::MendedMotion& mended);
+
 /// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
 std::optional<Note> stillness_warning(const motion::Motion& stabilised);
 

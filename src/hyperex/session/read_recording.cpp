@@ -157,6 +157,9 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   }
   const motion::MendedMotion mended = motion::without_wild_samples(m);
   add(in.notes, wild_samples_warning(mended));
+  add(in.notes, jumps_warning(mended));
+  // Before a reading that is far off spoils the head's pose.
+  motion::check_reach_beside_head(mended.motion);
   motion::GapOptions gaps;
   gaps.max_gap_s = scene.motion.max_gap_s;
   const motion::FilledMotion filled = motion::fill_gaps(mended.motion, gaps);

@@ -97,6 +97,18 @@ std::vector<Note> volume_warnings(const metrics::PeakTissue& tissue) {
       "mesh.element_size_mm")};
 }
 
+std::vector<Note> strain_notes(const metrics::PeakTissue& tissue) {
+  constexpr double kLarge = 0.5;
+  if (tissue.finite || !tissue.principal_strain) return {};
+  const metrics::TetSpread& strain = *tissue.principal_strain;
+  if (strain.max_not_inverted <= kLarge) return {};
+  return {make_note(
+      "tissue.large_strain",
+      fmt::format("at the peak the greatest principal strain is {:.2f} (99 % below {:.2f}): small "
+                  "strain is not accurate there; tissue.strain = \"finite\" is for such strains",
+                  strain.max_not_inverted, strain.p99))};
+}
+
 std::vector<Note> idle_variants(const simulate::Performance& base,
                                 const std::vector<VariantRun>& runs) {
   constexpr double kSame_m = 1e-6;

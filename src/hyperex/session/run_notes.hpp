@@ -32,6 +32,9 @@ std::vector<Note> symmetry_notes(const metrics::SymmetryMeasures& symmetry,
 /// affected.
 std::vector<Note> volume_warnings(const metrics::PeakTissue& tissue);
 
+/// `tissue.large_strain` (a note): at small strain, a principal strain above 0.5 at the peak.
+std::vector<Note> strain_notes(const metrics::PeakTissue& tissue);
+
 /// `variant.no_effect`: a variant that moves as base does, to 0.001 mm. It is probably a mistake.
 std::vector<Note> idle_variants(const simulate::Performance& base,
                                 const std::vector<VariantRun>& runs);

@@ -30,6 +30,15 @@ fem::Material TissueValues::material(std::size_t tets, fem::ViscousForm viscous_
   return out;
 }
 
+std::vector<std::string> DriveOptions::names_in(const motion::Motion& motion) const {
+  if (!all_points) return points;
+  std::vector<std::string> names = motion.names;
+  std::erase_if(names, [&](const std::string& name) {
+    return name == "stomion" || std::ranges::count(motion.skull_points, name) > 0;
+  });
+  return names;
+}
+
 MuscleOptions as_recorded(MuscleOptions options) {
   options.gains.clear();
   options.mirrored = false;
@@ -61,9 +70,9 @@ void check_tissue(const tissue::TissueParameters& uniform, std::vector<InputProb
   for (int p = 0; p < tissue::parameter_count; ++p) {
     const tissue::ParameterInfo& info = tissue::parameter_info(p);
     if (!tissue::is_allowed(p, uniform[std::size_t(p)]))
-      problems.push_back(wrong(("tissue." + info.key).c_str(),
-                               fmt::format("{:g}", uniform[std::size_t(p)] / info.si),
-                               "a number " + info.allowed));
+      problems.push_back(wrong(("tissue." + info.name).c_str(),
+                               fmt::format("{:g}", uniform[std::size_t(p)]),
+                               "a number " + info.allowed_si));
   }
 }
 

@@ -138,17 +138,18 @@ constexpr auto words_of(DriveBy) {
 
 struct DriveOptions {
   DriveBy by = DriveBy::displacement;
-  bool all_points = false;  ///< every point of the motion, whatever `points` holds
+  /// Whatever `points` holds: every point of the motion that skin can follow.
+  bool all_points = false;
   std::vector<std::string> points = {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57",
                                      "ibug68_8",  "ibug68_58", "ibug68_56"};
   std::vector<std::string> still_points;  ///< landmarks of the skin that are kept where they are
   double patch_radius_m = 0.008;          ///< of the skin that a point moves; 0: the nearest node
   double gain = 1;                        ///< on all displacements
 
-  /// Names of the points of `motion` that drive, as given; not checked to be in it.
-  const std::vector<std::string>& names_in(const motion::Motion& motion) const {
-    return all_points ? motion.names : points;
-  }
+  /// Names of the points of `motion` that drive, as given; not checked to be in it. With
+  /// `all_points` those of the skull (Motion::skull_points) are left out, and `stomion`, the middle
+  /// of the slit between the lips, which belongs to neither of them.
+  std::vector<std::string> names_in(const motion::Motion& motion) const;
   bool operator==(const DriveOptions&) const = default;
 
   static constexpr const char* about = "What moves the face.";

@@ -22,10 +22,12 @@ const ParameterInfo& parameter_info(int parameter) {
       const OptionDetails details = parameter_details(int(all.size()));
       const Unit& unit = details.unit;
       const Bounds& bounds = details.bounds;
-      std::string allowed = "from " + unit.from_si(bounds).text();
-      if (*unit.name) allowed += std::string(" ") + unit.name;
-      all.push_back(
-          {key_of("", details), title, unit.to_si(1), bounds.least, bounds.most, allowed});
+      const auto words = [](const Bounds& of, const char* in) {
+        return "from " + of.text() + (*in ? std::string(" ") + in : "");
+      };
+      all.push_back({key_of("", details), title, unit.to_si(1), bounds.least, bounds.most,
+                     words(unit.from_si(bounds), unit.name), python_name("", details),
+                     words(bounds, unit.si_name)});
     }
     return all;
   }();

@@ -25,11 +25,13 @@ using GivenParameters = std::array<std::optional<double>, parameter_count>;
 inline constexpr TissueParameters default_parameters = {192.4e3, 476.8, 0.495, 1100};
 
 struct ParameterInfo {
-  std::string key;      ///< of scene files and tables: "young_kpa"
-  const char* title;    ///< "Young's modulus (kPa)"
-  double si;            ///< SI = value in the key's unit * si
-  double least, most;   ///< allowed, SI
-  std::string allowed;  ///< in words, in the key's unit
+  std::string key;         ///< of scene files and tables: "young_kpa"
+  const char* title;       ///< "Young's modulus (kPa)"
+  double si;               ///< SI = value in the key's unit * si
+  double least, most;      ///< allowed, SI
+  std::string allowed;     ///< in words, in the key's unit
+  std::string name;        ///< of C++ and Python: "young_pa"
+  std::string allowed_si;  ///< in words, in the unit of `name`
 };
 /// Name ("young_pa"), unit and bounds of a parameter. Outside of its bounds K is not positive
 /// definite, or C or M not semi-definite.

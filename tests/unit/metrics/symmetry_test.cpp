@@ -105,6 +105,19 @@ TEST(Symmetry, NamesWhatIsMissing) {
                                ::testing::Not(HasSubstr("exocanthion_R"))));
 }
 
+TEST(Symmetry, IsNotKnownWithoutItsPoints) {
+  motion::Motion motion = mirrored();
+  EXPECT_TRUE(symmetry_of(motion).known());
+  const SymmetryCurve none = symmetry_without_points(motion, 1e-4);
+  EXPECT_FALSE(none.known());
+  EXPECT_FALSE(SymmetryCurve{}.known());
+  EXPECT_EQ(none.time_s, motion.time_s);
+  for (const auto* values : {&none.xi_left, &none.xi_right, &none.s}) {
+    ASSERT_EQ(values->size(), motion.time_s.size());
+    EXPECT_TRUE(std::isnan(values->back()));
+  }
+}
+
 TEST(Symmetry, RefusesABadFloorAndAnUnmeasuredStart) {
   motion::Motion motion = mirrored();
   EXPECT_THROW(symmetry_of(motion, 0), InputError);

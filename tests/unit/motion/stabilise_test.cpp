@@ -75,6 +75,12 @@ TEST(Stabilise, WithoutNoiseOnlyDeformationIsLeft) {
   }
 }
 
+TEST(Stabilise, TellsWhichPointsWereStatedToBeOfTheSkull) {
+  const std::vector<std::string> skull = {"ibug68_27", "ibug68_36", "ibug68_45", "ibug68_0"};
+  EXPECT_EQ(stabilise(posed_face(0, 1), {.rigid_points = skull}).motion.skull_points, skull);
+  EXPECT_TRUE(stabilise(posed_face(0, 1)).motion.skull_points.empty());
+}
+
 TEST(Stabilise, PoseAndDeformationGiveTheInputBack) {
   const Motion motion = posed_face(0.001, 2);
   const StabilisedMotion stable = stabilise(motion);

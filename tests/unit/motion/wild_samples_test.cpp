@@ -57,14 +57,47 @@ TEST(WildSamples, TheFirstAndTheLastReadingAreHeld) {
   }
 }
 
-TEST(WildSamples, WhatStaysAwayIsNoJump) {
-  EXPECT_TRUE(without_wild_samples(with_jump(0.03, 10, 30)).wild.empty());
+TEST(WildSamples, WhatStaysAwayIsKeptAndNamedOnTheWayThereAndBack) {
+  const Motion motion = with_jump(0.03, 10, 14);
+  const MendedMotion mended = without_wild_samples(motion);
+  EXPECT_TRUE(mended.wild.empty());
+  EXPECT_EQ(greatest_difference(mended.motion, motion), 0);
+  ASSERT_EQ(mended.jumps.size(), 2u);
+  EXPECT_EQ(mended.jumps[0].point, "lip");
+  EXPECT_EQ(mended.jumps[0].sample, 10u);
+  EXPECT_EQ(mended.jumps[1].sample, 15u);
+  EXPECT_NEAR(mended.jumps[0].off_m, 0.03, 1e-3);
+  EXPECT_EQ(without_wild_samples(with_jump(0.03, 10, 30)).jumps.size(), 1u);
+}
+
+TEST(WildSamples, JumpsAreFasterThanAFaceAcrossGapsToo) {
+  Motion motion = with_jump(0.03, 10, 30);
+  motion.positions[9].row(3).setConstant(testing::nan);
+  EXPECT_TRUE(without_wild_samples(motion).jumps.empty()) << "30 mm in two steps";
+  EXPECT_TRUE(without_wild_samples(with_jump(0.018, 10, 14)).jumps.empty());
+  EXPECT_TRUE(without_wild_samples(with_jump(0.05, 10, 14, 0.1)).jumps.empty());
+  EXPECT_FALSE(without_wild_samples(with_jump(0.07, 10, 14, 0.1)).jumps.empty());
+}
+
+TEST(WildSamples, ShortRecordingsAreSearchedForJumps) {
+  Motion motion = with_jump(0.3, 2, 2);
+  motion.time_s.resize(4);
+  motion.positions.resize(4);
+  const MendedMotion mended = without_wild_samples(motion);
+  EXPECT_TRUE(mended.wild.empty());
+  EXPECT_EQ(mended.jumps.size(), 2u);
+}
+
+TEST(WildSamples, SoundAndMendedReadingsAreNoJumps) {
+  EXPECT_TRUE(without_wild_samples(opening()).jumps.empty());
+  EXPECT_TRUE(without_wild_samples(with_jump(0.3, 10, 11)).jumps.empty());
 }
 
 TEST(WildSamples, TheHeadMayJump) {
   Motion motion = opening();
   motion.positions[10].col(0).array() += 0.05;
   EXPECT_TRUE(without_wild_samples(motion).wild.empty());
+  EXPECT_TRUE(without_wild_samples(motion).jumps.empty());
 }
 
 TEST(WildSamples, SlowRecordingsMayMoveFartherInASample) {
@@ -89,6 +122,21 @@ TEST(WildSamples, WhatNoFaceCanReachIsRefusedByLinePointTimeAndDistance) {
   testing::expect_refused([&] { check_reach(motion); },
                           {"markers.csv:12", "point lip at 0.333 s", "155", "150 mm"});
   EXPECT_NO_THROW(check_reach(with_jump(0.1, 10, 30)));
+}
+
+TEST(WildSamples, AHeadMayGoFarAndTurn) {
+  Motion walking = opening(kStep_s, 1);
+  EXPECT_NO_THROW(check_reach_beside_head(walking)) << "by 1 m";
+  EXPECT_NO_THROW(check_reach_beside_head(with_jump(0.2, 10, 30)));
+  for (std::size_t k = 10; k < 31; ++k) walking.positions[k](3, 2) += 0.26;
+  testing::expect_refused([&] { check_reach_beside_head(walking); },
+                          {"point lip at 0.333 s", "250 mm"});
+}
+
+TEST(WildSamples, APointThatIsMeasuredLaterIsJudgedByItsFirstReading) {
+  Motion motion = with_jump(0.2, 10, 30);
+  motion.positions[0].row(3).setConstant(testing::nan);
+  testing::expect_refused([&] { check_reach(motion); }, {"point lip at 0.333 s"});
 }
 
 }  // namespace

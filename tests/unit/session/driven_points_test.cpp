@@ -63,6 +63,73 @@ TEST(DrivenPoints, TheOutlineOfTheFaceIsSaidAndNotDriven) {
   EXPECT_THAT(ids(scene, moving(3, 9e-3)), testing::ElementsAre("drive.measured_not_driven"));
 }
 
+/// The text of `drive.measured_not_driven`; empty where there is none.
+std::string not_driven(const scene::Scene& scene, const motion::Motion& m) {
+  std::vector<Note> notes;
+  note_left_out_points(scene, m, notes);
+  for (const Note& note : notes)
+    if (note.id == "drive.measured_not_driven") return note.text;
+  return "";
+}
+
+/// Points that are called `names`, each moved by its number of millimetres, added to whole_face().
+motion::Motion with_moving(const std::vector<std::pair<std::string, double>>& names) {
+  motion::Motion m = whole_face();
+  for (const auto& [name, far_mm] : names) {
+    int row = m.index_of(name);
+    if (row < 0) {
+      row = int(m.names.size());
+      m.names.push_back(name);
+      for (Points& at : m.positions) {
+        at.conservativeResize(row + 1, 3);
+        at.row(row).setZero();
+      }
+    }
+    m.positions[1](row, 1) = 1e-3 * far_mm;
+  }
+  return m;
+}
+
+TEST(DrivenPoints, WhatElseMovesIsSaidAwayFromTheLipsFirst) {
+  const scene::Scene scene;
+  EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_62", 6}, {"cheek_L", 3}, {"my_mark", 4.26}})),
+            "recorded, but not driven: my_mark (4.3 mm), cheek_L (3.0 mm), ibug68_62 (6.0 mm); "
+            "drive.points selects the driven points");
+  EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_3", 9}, {"glabella", 2.1}})),
+            "recorded, but not driven: outline of the face (9.0 mm), glabella (2.1 mm); "
+            "drive.points selects the driven points");
+  EXPECT_EQ(not_driven(scene, with_moving({{"cheek_L", 1.9}})), "") << "as noise does";
+}
+
+TEST(DrivenPoints, OfManyThatMoveFourAreNamed) {
+  std::vector<std::pair<std::string, double>> points = {{"ibug68_62", 8}};
+  for (int i = 1; i <= 6; ++i) points.emplace_back("mark_" + std::to_string(i), 2 + i);
+  EXPECT_EQ(not_driven(scene::Scene(), with_moving(points)),
+            "recorded, but not driven: mark_6 (8.0 mm), mark_5 (7.0 mm), mark_4 (6.0 mm), mark_3 "
+            "(5.0 mm), and 3 more; drive.points selects the driven points");
+}
+
+TEST(DrivenPoints, WhatNeedsNoDriveIsNotSaid) {
+  scene::Scene scene;
+  scene.motion.rigid_points = {"head_1"};
+  // A driven point under its other name, the slit between the lips, the skull, nostrils that a lip
+  // carries along, and the vertices of a tracked mesh.
+  motion::Motion m = with_moving({{"cheilion_L", 5},
+                                  {"stomion", 5},
+                                  {"head_1", 5},
+                                  {"ibug68_31", 2.5},
+                                  {"vertex_0", 5},
+                                  {"vertex_1", 5},
+                                  {"vertex_2", 5}});
+  const int first = m.index_of("vertex_0");
+  m.triangles.resize(1, 3);
+  m.triangles << first, first + 1, first + 2;
+  EXPECT_EQ(not_driven(scene, m), "");
+  // A landmark of two names is said once.
+  EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_30", 3}, {"pronasale", 3}})),
+            "recorded, but not driven: ibug68_30 (3.0 mm); drive.points selects the driven points");
+}
+
 TEST(DrivenPoints, NamedOnesAreKept) {
   scene::Scene scene;
   scene.drive.points = {"ibug68_48"};

@@ -98,6 +98,29 @@ TEST_F(InputNotes, SayHowBadlyTheRecordingFits) {
   EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.fits_badly"), says("0.667"))));
 }
 
+TEST_F(InputNotes, TellAnotherPersonsFaceFromTheOwnAsADepthCameraSeesIt) {
+  // A face that is `share` taller than the scan's.
+  const auto read_taller = [&](double share) {
+    open(0, 16, [&](motion::Motion& m) {
+      const double middle = m.positions.front().col(1).mean();
+      for (auto& sample : m.positions)
+        sample.col(1).array() += share * (sample.col(1).array() - middle);
+    });
+    return read_inputs(scene::read_scene(folder_ / "scene.toml"), Extent::quick);
+  };
+  const auto off_by = [&](double rms_mm) {
+    double share = 0.1;
+    for (int i = 0; i < 4; ++i) share *= rms_mm / read_taller(share).motion.rms_mm;
+    Inputs in = read_taller(share);
+    EXPECT_NEAR(in.motion.rms_mm, rms_mm, 0.1);
+    EXPECT_GE(in.motion.common.size(), 20u);
+    return in.notes;
+  };
+  EXPECT_THAT(off_by(5.5), Contains(AllOf(is_warning("recording.fits_badly"), says("5.5 mm rms"),
+                                          says("under 5 mm"))));
+  EXPECT_THAT(off_by(3.5), Not(Contains(has_id("recording.fits_badly"))));
+}
+
 TEST_F(InputNotes, ComeAfterNamesOfRegionsWhereLandmarksAreNotKnown) {
   replace_in(folder_ / "scene.toml", "landmarks = \"face_landmarks.json\"\n", "");
   const auto refusal = [&](const std::vector<std::string>& overrides) -> std::string {

@@ -82,6 +82,25 @@ TEST(AverageFace, TellsHowRealRecordingsStart) {
   }
 }
 
+TEST(MisfitWarning, DependsOnHowManyPointsAreCommon) {
+  const auto warned = [](double rms_mm, std::size_t common, bool of_a_model, double scale = 1) {
+    simulate::AlignedMotion aligned;
+    aligned.rms_mm = rms_mm;
+    aligned.common.assign(common, "a point");
+    aligned.scan_from_motion.scale = scale;
+    return misfit_warning(aligned, of_a_model).has_value();
+  };
+  EXPECT_TRUE(warned(5.1, 20, false));
+  EXPECT_FALSE(warned(4.9, 20, false));
+  EXPECT_FALSE(warned(9.9, 19, false)) << "few points say less";
+  EXPECT_TRUE(warned(10.1, 19, false));
+  EXPECT_FALSE(warned(9.9, 68, true)) << "a model's face is nobody's";
+  EXPECT_TRUE(warned(10.1, 68, true));
+  EXPECT_TRUE(warned(1, 68, false, 0.79));
+  EXPECT_TRUE(warned(1, 68, false, 1.26));
+  EXPECT_FALSE(warned(1, 68, false, 1.24));
+}
+
 TEST(IdleLawWarning, NamesKeysOfFiniteStrainWhereNothingHasIt) {
   Scene scene;
   EXPECT_EQ(idle_law_warning(scene), std::nullopt);

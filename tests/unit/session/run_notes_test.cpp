@@ -97,6 +97,23 @@ TEST(VolumeWarning, IsGivenFromAThreefoldChangeOn) {
                 ElementsAre(AllOf(test::is_warning("tissue.volume_changed"), says("1.20"))));
 }
 
+TEST(StrainNotes, AreOfSmallStrainAboveOneHalf) {
+  const auto notes = [](double greatest, bool finite) {
+    metrics::PeakTissue tissue;
+    tissue.finite = finite;
+    // An inverted element, which has a note of its own, does not count.
+    tissue.principal_strain =
+        metrics::TetSpread{.p99 = 0.31, .max = 5, .max_not_inverted = greatest};
+    return strain_notes(tissue);
+  };
+  EXPECT_THAT(notes(0.5, false), ElementsAre());
+  EXPECT_THAT(notes(0.99, true), ElementsAre());
+  EXPECT_THAT(strain_notes({}), ElementsAre());
+  EXPECT_THAT(notes(0.99, false),
+              ElementsAre(AllOf(test::is_note("tissue.large_strain"), says("0.99"), says("0.31"),
+                                says("tissue.strain = \"finite\""))));
+}
+
 TEST(LipsThatPass, AreThoseOfVariantsThatPassFartherThanBase) {
   std::vector<VariantRun> runs(4);
   const double overlap_mm[] = {0.4, 0.6, 1.4, 2};

@@ -31,10 +31,12 @@ TEST(SimulationOptions, NamesEachValueOutOfRange) {
   options.drive.patch_radius_m = 0.05;
   options.time.step_s = 0;
   options.tissue.uniform[tissue::poisson] = 0.5;
+  options.tissue.uniform[tissue::young] = -5;
   EXPECT_THAT(said_of(options),
               AllOf(HasSubstr("drive.patch_radius_m = 0.05: expected a number from 0 to 0.03"),
                     HasSubstr("time.step_s = 0: expected"),
-                    HasSubstr("tissue.poisson = 0.5: expected a number from -0.99 to 0.4999")));
+                    HasSubstr("tissue.poisson = 0.5: expected a number from -0.99 to 0.4999"),
+                    HasSubstr("tissue.young_pa = -5: expected a number from 1 to 1e+09 Pa")));
 }
 
 /// Calls `visit(name, at, details)` for each described number, also in rows; to each list of rows
@@ -124,13 +126,18 @@ TEST(SimulationOptions, NewmarksGammaIsAtMostTwiceBeta) {
   EXPECT_EQ(said_of(options), "");
 }
 
-TEST(SimulationOptions, AllPointsAreThoseOfTheMotion) {
+TEST(SimulationOptions, AllPointsAreThoseThatSkinCanFollow) {
   motion::Motion motion;
-  motion.names = {"a", "b"};
+  motion.names = {"a", "head_1", "b", "stomion"};
   DriveOptions drive;
   EXPECT_EQ(drive.names_in(motion).size(), 7u);
   drive.all_points = true;
-  EXPECT_EQ(drive.names_in(motion), motion.names);
+  EXPECT_EQ(drive.names_in(motion), (std::vector<std::string>{"a", "head_1", "b"}));
+  motion.skull_points = {"head_1"};
+  EXPECT_EQ(drive.names_in(motion), (std::vector<std::string>{"a", "b"}));
+  drive.all_points = false;
+  drive.points = {"stomion", "head_1"};
+  EXPECT_EQ(drive.names_in(motion), drive.points) << "what is named is taken";
 }
 
 }  // namespace

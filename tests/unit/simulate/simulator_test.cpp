@@ -4,11 +4,13 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <thread>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/simulate/drive/point_curve.hpp"
 #include "simulate/small_face.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -128,6 +130,20 @@ TEST_F(SimulatorOfAFace, EachPartSetIsAsASimulatorMadeWithIt) {
     o.region.measured = Measured::points;
     o.region.measured_points = {"ibug68_8"};
   }));
+}
+
+TEST_F(SimulatorOfAFace, AllPointsLeaveOutTheSkullAndTheSlitBetweenTheLips) {
+  io::Landmarks measured = landmarks_;
+  measured["stomion"] = (landmarks_.at("ibug68_62") + landmarks_.at("ibug68_66")) / 2;
+  measured["head_1"] = landmarks_.at("ibug68_27") + Vec3(0, 0.1, -0.05);
+  AlignedMotion motion = test::mouth_opening(measured, 10, 13, 30);
+  motion.motion.skull_points = {"head_1"};
+  SimulationOptions all = options_, named = options_;
+  all.drive.all_points = true;
+  named.drive.points.clear();
+  for (const auto& [name, at] : landmarks_) named.drive.points.push_back(name);
+  expect_equal(Simulator(mesh_, landmarks_, motion, all).run(),
+               Simulator(mesh_, landmarks_, motion, named).run());
 }
 
 TEST_F(SimulatorOfAFace, TheDirectMethodToo) {
@@ -292,6 +308,27 @@ TEST_F(SimulatorOfAFace, AStreamComesToRestWhereItsTissueNowRests) {
   EXPECT_LT((later - settled(anew)).rowwise().norm().maxCoeff(), 1e-4F * most);
   EXPECT_GT((later - soft).rowwise().norm().maxCoeff(), 1e-2F * most);
   EXPECT_LT((at_once - soft).rowwise().norm().maxCoeff(), 0.5F * most) << "it does not begin anew";
+}
+
+TEST_F(SimulatorOfAFace, AStreamNamesThePointThatCannotBe) {
+  Simulator simulator = made(options_);
+  simulator.start_stream(1.0 / 30);
+  const Points open = PointCurve(motion_, 1).at(0.2);
+  const auto said = [&](const Points& points) {
+    return hyperex::test::refusal([&] { simulator.step(points); });
+  };
+  EXPECT_THAT(said(open.topRows(3)), testing::HasSubstr("3 rows: expected 68 points"));
+  Points unmeasured = open;
+  unmeasured(11, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(said(unmeasured), testing::HasSubstr("point 12 of 68 is not finite (" +
+                                                   motion_.motion.names[11] + ")"));
+  const int chin = motion_.motion.index_of("ibug68_8");
+  Points far = Points::Zero(68, 3);
+  far(chin, 1) = -0.16;
+  EXPECT_THAT(said(far), testing::HasSubstr("point ibug68_8 is displaced by 160 mm: expected at "
+                                            "most 150; displacements are in metres"));
+  EXPECT_THAT(said(1e3 * open), testing::HasSubstr("displacements are in metres"));
+  EXPECT_EQ(said(open), "") << "it goes on";
 }
 
 /// A change of the matrices' pattern, or of the set of prescribed unknowns, starts the stream

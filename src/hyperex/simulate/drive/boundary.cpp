@@ -53,7 +53,7 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
                        const DriveOptions& drive) {
   DrivenSkin driven;
   std::vector<DrivenPoint> points;
-  const std::vector<std::string>& names = drive.names_in(motion.motion);
+  const std::vector<std::string> names = drive.names_in(motion.motion);
   for (const std::string& name : names) {
     const int row = motion.motion.index_of(name);
     if (row < 0)

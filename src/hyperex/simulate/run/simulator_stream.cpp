@@ -49,9 +49,15 @@ void Simulator::Impl::ensure_stream() {
 
 PointsF Simulator::Impl::step(const Points& displacement_m) {
   if (!stream_interval_s) throw std::logic_error("Simulator::step before start_stream");
-  if (displacement_m.rows() != motion->rest.rows() || !displacement_m.allFinite())
-    throw InputError("stream", fmt::format("{} rows: expected {} points, all finite",
-                                           displacement_m.rows(), motion->rest.rows()));
+  if (displacement_m.rows() != motion->rest.rows())
+    throw InputError("stream", fmt::format("{} rows: expected {} points", displacement_m.rows(),
+                                           motion->rest.rows()));
+  for (Eigen::Index row = 0; row < displacement_m.rows(); ++row)
+    if (!displacement_m.row(row).allFinite())
+      throw InputError("stream", fmt::format("point {} of {} is not finite ({}): expected three "
+                                             "numbers, metres",
+                                             row + 1, displacement_m.rows(),
+                                             motion->motion.names[std::size_t(row)]));
   if (Eigen::Index row = 0; displacement_m.rowwise().norm().maxCoeff(&row) > motion::kFarthest_m)
     throw InputError(
         "stream",
