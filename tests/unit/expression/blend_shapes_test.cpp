@@ -215,9 +215,7 @@ TEST(OpenFaceTable, NamesUnitsThatTheFaceHas) {
   all.weights = Eigen::MatrixXd::Ones(2, static_cast<Eigen::Index>(all.names.size()));
   std::vector<std::string> notes;
   motion_of(all, canonical_model(), notes);
-  // The canonical face has no dimples; all else moves it.
-  ASSERT_EQ(notes.size(), 1u);
-  EXPECT_EQ(notes[0], "the canonical face does not move with mouthDimpleLeft");
+  EXPECT_TRUE(notes.empty()) << notes.front();
 }
 
 TEST_F(BlendShapesFile, RefusesWhatItCannotRead) {

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plays a recording of ARKit's weights on a rig of `hyperex rig`, in Blender:
+
+    blender --background --python examples/blender/play_weights.py -- RIG.glb WEIGHTS.csv OUT.blend
+
+WEIGHTS.csv has a column time_s, time or timestamp (seconds), or Timecode as Live Link Face writes it, and columns named
+after blend shapes. Each mesh of the rig takes the shapes that it has: the skin all of them, the eyes those of gaze, the
+lower teeth those of the jaw.
+"""
+import csv
+import os
+import sys
+
+import numpy
+
+numpy.bool = bool  # Blender 3.4's importer uses a name that newer NumPy has dropped
+
+import bpy  # noqa: E402
+
+FRAME_RATE = 60
+
+
+def seconds(row, first):
+    """Time of a row; a timecode is HH:MM:SS:FF.fff at 60 frames a second."""
+    for name in ("time_s", "time", "timestamp"):
+        if row.get(name):
+            return float(row[name])
+    hours, minutes, whole, frames = row["Timecode"].split(":")
+    now = 3600 * int(hours) + 60 * int(minutes) + int(whole) + float(frames) / FRAME_RATE
+    return now if first is None else now - first
+
+
+def read_weights(file):
+    """Times in seconds from the first row, and for each column its values; empty cells repeat the last value."""
+    with open(file, newline="", encoding="utf-8-sig") as stream:
+        rows = list(csv.DictReader(stream))
+    first = seconds(rows[0], None)
+    times = [seconds(row, None) - first for row in rows]
+    weights = {}
+    for name in rows[0]:
+        values, last = [], 0.0
+        for row in rows:
+            try:
+                last = float(row[name])
+            except (TypeError, ValueError):
+                pass
+            values.append(last)
+        weights[name[:1].lower() + name[1:]] = values
+    return times, weights
+
+
+def key_shapes(mesh, times, weights):
+    """Animates the shapes that both have; how many."""
+    animated = 0
+    for key in mesh.shape_keys.key_blocks:
+        values = weights.get(key.name)
+        if values is None or not any(values):
+            continue
+        curve = mesh.shape_keys.animation_data_create()
+        curve.action = curve.action or bpy.data.actions.new(f"{mesh.name} weights")
+        points = curve.action.fcurves.new(f'key_blocks["{key.name}"].value').keyframe_points
+        points.add(len(times))
+        for point, time, value in zip(points, times, values):
+            point.co = (1 + time * FRAME_RATE, value)
+            point.interpolation = "LINEAR"
+        animated += 1
+    return animated
+
+
+def main(rig, recording, out):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=rig)
+    times, weights = read_weights(recording)
+    scene = bpy.context.scene
+    scene.render.fps = FRAME_RATE
+    scene.frame_start, scene.frame_end = 1, 1 + round(times[-1] * FRAME_RATE)
+    for item in bpy.data.objects:
+        if item.type == "MESH" and item.data.shape_keys:
+            print(f"{item.name}: {key_shapes(item.data, times, weights)} shapes move")
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(out))
+    print(f"{len(times)} samples over {times[-1]:.1f} s, written to {out}")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[sys.argv.index("--") + 1:])
