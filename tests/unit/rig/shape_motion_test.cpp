@@ -98,7 +98,7 @@ TEST(ShapeMotion, ASidesShapeLeavesTheOtherSideAlone) {
       if (x > 0) left_m = std::max(left_m, far_m);
       if (x < -0.012) right_m = std::max(right_m, far_m);
     }
-    EXPECT_LT(right_m, 0.1 * left_m) << shape;
+    EXPECT_LT(right_m, 0.15 * left_m) << shape;
   }
 }
 
