@@ -70,7 +70,6 @@ void log_to_standard_error() {
 void add_subcommands(CLI::App& program) {
   hyperex::cli::add_new(program);
   hyperex::cli::add_sample(program);
-  hyperex::cli::add_rig(program);
   hyperex::cli::add_run(program);
   hyperex::cli::add_check(program);
   hyperex::cli::add_studio(program);
@@ -80,6 +79,7 @@ void add_subcommands(CLI::App& program) {
   hyperex::cli::add_compare(program);
   hyperex::cli::add_symmetry(program);
   hyperex::cli::add_track(program);
+  hyperex::cli::add_rig(program);
   hyperex::cli::add_presets(program);
   hyperex::cli::add_scene_reference(program);
   hyperex::cli::add_notes_reference(program);

@@ -235,6 +235,9 @@ TEST(Glb, EyesAreThoseOfTheReportAndStandStill) {
   for (std::size_t side = 0; side < 2; ++side) {
     const auto& node = model.nodes[1 + side];
     EXPECT_EQ(node.name, names[side]);
+    ASSERT_EQ(node.translation.size(), 3u) << "it turns about its middle";
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(node.translation[std::size_t(k)], eyeballs[side].centre[k]);
     const auto& mesh = model.meshes[std::size_t(node.mesh)];
     ASSERT_EQ(mesh.primitives.size(), 3u);
     const char* colours[] = {"sclera", "iris", "pupil"};
@@ -243,8 +246,7 @@ TEST(Glb, EyesAreThoseOfTheReportAndStandStill) {
       EXPECT_EQ(model.materials[std::size_t(primitive.material)].name, colours[part]);
       const PointsF points = rows_of<float, 3>(model, primitive.attributes.at("POSITION"));
       const PointsF normals = rows_of<float, 3>(model, primitive.attributes.at("NORMAL"));
-      const PointsF from = points.rowwise() - eyeballs[side].centre.cast<float>().transpose();
-      EXPECT_LT((from - float(eyeballs[side].radius_m) * normals).norm(), 1e-5);
+      EXPECT_LT((points - float(eyeballs[side].radius_m) * normals).norm(), 1e-5);
     }
   }
   const auto& crowns = model.meshes[std::size_t(model.nodes[3].mesh)].primitives[0];

@@ -10,7 +10,7 @@
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
-#include "hyperex/geometry/closest_point.hpp"
+#include "unit/report/gltf_vectors.hpp"
 
 namespace hyperex::rig {
 namespace {
@@ -122,6 +122,24 @@ TEST_F(RigOfAFace, IsWrittenWithNamedTargets) {
                                                       "eyeLookOutLeft", "eyeLookUpLeft"}));
   EXPECT_EQ(names("lower_teeth"),
             (std::vector<std::string>{"jawForward", "jawLeft", "jawOpen", "jawRight"}));
+  // Places of the lists above: down, in, out, up; forward, left, open, right.
+  const auto mean_mm = [&](const std::string& node, std::size_t part, std::size_t target) -> Vec3 {
+    const tinygltf::Primitive& primitive = meshes.at(node)->primitives.at(part);
+    return 1e3 * report::testing::vectors_of(model, primitive.targets.at(target).at("POSITION"))
+                     .cast<double>()
+                     .colwise()
+                     .mean()
+                     .transpose();
+  };
+  constexpr std::size_t iris = 1, crowns = 0;
+  EXPECT_LT(mean_mm("eye_L", iris, 0).y(), -2);
+  EXPECT_LT(mean_mm("eye_L", iris, 1).x(), -2) << "in: to the subject's right";
+  EXPECT_GT(mean_mm("eye_L", iris, 2).x(), 2);
+  EXPECT_GT(mean_mm("eye_L", iris, 3).y(), 2);
+  EXPECT_GT(mean_mm("eye_R", iris, 1).x(), 2);
+  EXPECT_GT(mean_mm("lower_teeth", crowns, 0).z(), 3);
+  EXPECT_GT(mean_mm("lower_teeth", crowns, 1).x(), 3);
+  EXPECT_LT(mean_mm("lower_teeth", crowns, 2).y(), -5);
   for (const tinygltf::Node& node : model.nodes)
     if (node.name == "eye_L") {
       ASSERT_EQ(node.translation.size(), 3u);

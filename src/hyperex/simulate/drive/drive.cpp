@@ -9,7 +9,6 @@
 
 #include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/error.hpp"
-#include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
@@ -18,7 +17,7 @@ namespace hyperex::simulate {
 namespace {
 
 /// Skin this far above the brows does not move with them (ICT-FaceKit: 0.3 of 9 mm at 30 mm).
-constexpr double still_above_brows_m = 0.030;
+constexpr double forehead_m = 0.030;
 constexpr double greatest_shift_m = 0.010;
 /// How far the correction of a patch reaches from its point: farther gives smoother skin, but the
 /// points of both lips' ends then work against each other.
@@ -113,10 +112,23 @@ DriveField::DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>&
     }
     return margin;
   };
-  centres_.resize(points_.size() + still.size(), 3);
+  const auto row_of = [&](int k) {
+    const auto at = std::find_if(points_.begin(), points_.end(),
+                                 [&](const DrivenPoint& p) { return p.name == face::ibug(k); });
+    return at == points_.end() ? -1 : int(at - points_.begin());
+  };
+  std::vector<Vec3> forehead;
+  for (const int k : {17, 19, 21, 22, 24, 26})
+    if (const int brow = row_of(k); brow >= 0)
+      forehead.push_back(points_[std::size_t(brow)].rest + forehead_m * up);
+  for (const int k : {0, 16, 27})
+    if (const int row = row_of(k); row >= 0) forehead_follows_.push_back(row);
+  forehead_ = Eigen::Index(forehead.size());
+  centres_.resize(Eigen::Index(points_.size() + forehead.size() + still.size()), 3);
   Eigen::Index row = 0;
   for (const DrivenPoint& p : points_)
     centres_.row(row++) = opened(p.rest, margin_at(p.rest, anatomy::lip_of(p.name))).transpose();
+  for (const Vec3& p : forehead) centres_.row(row++) = opened(p, full_margin_m).transpose();
   for (const Vec3& p : still) centres_.row(row++) = opened(p, margin_at(p, 0)).transpose();
 }
 
@@ -132,7 +144,13 @@ Eigen::MatrixXd DriveField::weights(const Points& places, const std::vector<doub
   Points at(places.rows(), 3);
   for (Eigen::Index j = 0; j < at.rows(); ++j)
     at.row(j) = opened(places.row(j), margin[j]).transpose();
-  return rbf_weights(centres_, static_cast<Eigen::Index>(points_.size()), at);
+  const auto count = static_cast<Eigen::Index>(points_.size());
+  const Eigen::MatrixXd all = rbf_weights(centres_, count + forehead_, at);
+  Eigen::MatrixXd out = all.leftCols(count);
+  const Eigen::VectorXd of_forehead = all.rightCols(forehead_).rowwise().sum();
+  for (const int row : forehead_follows_)
+    out.col(row) += of_forehead / double(forehead_follows_.size());
+  return out;
 }
 
 double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_rows,
@@ -164,11 +182,6 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
     const std::string name = face::ibug(k);
     if (!drives(name) && landmarks.count(name)) still.push_back(landmarks.at(name));
   }
-  // Where brows are driven, the field would else be nearly the same up to the end of the scan.
-  for (const int k : {17, 19, 21, 22, 24, 26})
-    if (drives(face::ibug(k)) && landmarks.count(face::ibug(k)))
-      still.push_back(landmarks.at(face::ibug(k)) +
-                      still_above_brows_m * face::face_frame(landmarks).y);
   return still;
 }
 

@@ -19,7 +19,9 @@ struct DrivenPoint {
 /// their displacements and of `still` places, which do not move. It meets every driven point and is
 /// linear in their displacements. So that the lips can part, it is interpolated on a face whose
 /// mouth is opened: skin above the mouth is shifted up and skin below it down, each by up to
-/// `mouth_shift_m`.
+/// `mouth_shift_m`. Where points of the brows are driven, places 30 mm above them move as the mean
+/// of those of ibug68_0, 16 and 27 that are driven, or not at all: else the motion of the brows
+/// would reach nearly unchanged to the end of the scan.
 class DriveField {
  public:
   DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>& still,
@@ -37,8 +39,10 @@ class DriveField {
 
  private:
   std::vector<DrivenPoint> points_;
-  Points centres_;  // opened: the points, then the still places
-  Vec3 shift_;      // of what lies wholly above the mouth
+  Points centres_;             // opened: the points, the forehead's places, the still places
+  Eigen::Index forehead_ = 0;  // number of the forehead's places
+  std::vector<int> forehead_follows_;  // points that they follow
+  Vec3 shift_;                         // of what lies wholly above the mouth
 };
 
 /// How far the lips part in a motion, m: the greatest upward difference between the mean
@@ -48,7 +52,7 @@ double lip_parting(const AlignedMotion& motion, const std::vector<int>& driven_r
                    const Vec3& up);
 
 /// Places that do not move between the driven points: brows, eyes, nose and temples (ibug68_0 to 3,
-/// 13 to 16, 17 to 47), without those that are driven, and places 30 mm above the brows that are.
+/// 13 to 16, 17 to 47), without those that are driven.
 std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
                                const io::Landmarks& landmarks);
 
