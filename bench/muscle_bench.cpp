@@ -20,6 +20,7 @@
 #include <memory>
 #include <sstream>
 
+#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/geometry/rbf.hpp"
@@ -150,6 +151,7 @@ simulate::ShapePosterior posterior_of(const simulate::Performance& p,
     Eigen::Index vertex = 0;
     (p.skin_rest.points.rowwise() - driven.rest.row(row)).rowwise().squaredNorm().minCoeff(&vertex);
     driven.motion_m[row] = double(motion.row(vertex).norm());
+    driven.upper_margin.push_back(0.01 * anatomy::lip_of(p.driven_names[i]));
   }
   const simulate::CarriedShapes shapes(places.rest, upper_margin, landmarks, points,
                                        simulate::MuscleOptions{}.shape_sigma_m);
@@ -282,7 +284,11 @@ Score score_scan(const std::string& name, const std::string& scene_file,
   fmt::print("  residual {:.4f}, {} frames, {:.2f} s\n", c.residual_mm, c.frames, c.seconds);
   if (has("show") && !p.muscles.names.empty()) show(p.muscles);
   if (has("coverage"))
-    print_coverage(posterior_of(p, {rest, (moved - rest).rowwise().norm()},
+    print_coverage(posterior_of(p,
+                                {rest,
+                                 (moved - rest).rowwise().norm(),
+                                 {mesh->skin_upper_margin.begin(),
+                                  mesh->skin_upper_margin.begin() + mesh->scan_vertices}},
                                 {mesh->skin_upper_margin.begin(),
                                  mesh->skin_upper_margin.begin() + mesh->scan_vertices},
                                 inputs.landmarks),

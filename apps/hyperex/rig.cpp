@@ -17,6 +17,7 @@
 #include "hyperex/core/printable.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/rig/face_rig.hpp"
+#include "hyperex/session/log_note.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -44,6 +45,9 @@ session::Changes changes_of(const std::vector<std::string>& overrides) {
 
 session::Face face_of(const RigOptions& options) {
   if (options.scan == "embedded") {
+    if (!options.landmarks.empty() || !options.unit.empty())
+      throw InputError(
+          "embedded has its own landmarks and unit; expected a scan with --landmarks or --unit");
     anatomy::EmbeddedFace embedded = anatomy::embedded_face();
     session::Face face;
     face.scan.mesh = std::move(embedded.mesh);
@@ -64,7 +68,12 @@ void run(const RigOptions& options) {
   check_outputs({options.out}, {options.scan, options.landmarks});
   check_output_kinds({{options.out, {".glb"}, "glTF", {"hyperex"}}});
   take_library_memory();
-  const rig::FaceRig made = rig::make_rig(face_of(options), changes_of(options.overrides));
+  const rig::FaceRig made =
+      rig::make_rig(face_of(options), changes_of(options.overrides), session::log_note);
+  for (const std::string& side : made.closed_eyes)
+    std::cerr << fmt::format(
+        "warning: the scan's {} eye is closed: shapes of its lids and of gaze move nothing\n",
+        side == "Left" ? "left" : "right");
   double bytes = 0;
   {
     Progress progress("writing the rig", 0);

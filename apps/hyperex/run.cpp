@@ -49,7 +49,8 @@ std::string uncertainty_line(const nlohmann::ordered_json& summary) {
     errors += fmt::format("{}{} {:.1f} mm", comma, region, (*at)["distance_rms_mm"].get<double>());
     shares += fmt::format("{}{:.0f}", comma, 100 * (*at)["determined"].get<double>());
   }
-  return fmt::format("expected error: {}; the driven points determine {} % of their motion\n",
+  if (errors.empty()) return "";
+  return fmt::format("expected error: {}; the driven points determine {} % of their variance\n",
                      errors, shares);
 }
 

@@ -20,22 +20,23 @@ import bpy  # noqa: E402
 FRAME_RATE = 60
 
 
-def seconds(row, first):
+def seconds(row):
     """Time of a row; a timecode is HH:MM:SS:FF.fff at 60 frames a second."""
     for name in ("time_s", "time", "timestamp"):
         if row.get(name):
             return float(row[name])
     hours, minutes, whole, frames = row["Timecode"].split(":")
-    now = 3600 * int(hours) + 60 * int(minutes) + int(whole) + float(frames) / FRAME_RATE
-    return now if first is None else now - first
+    return 3600 * int(hours) + 60 * int(minutes) + int(whole) + float(frames) / FRAME_RATE
 
 
 def read_weights(file):
     """Times in seconds from the first row, and for each column its values; empty cells repeat the last value."""
     with open(file, newline="", encoding="utf-8-sig") as stream:
         rows = list(csv.DictReader(stream))
-    first = seconds(rows[0], None)
-    times = [seconds(row, None) - first for row in rows]
+    if not rows or not {"time_s", "time", "timestamp", "Timecode"} & set(rows[0]):
+        sys.exit(f"{file}: expected rows, and a column time_s, time, timestamp or Timecode")
+    first = seconds(rows[0])
+    times = [seconds(row) - first for row in rows]
     weights = {}
     for name in rows[0]:
         values, last = [], 0.0
@@ -74,12 +75,20 @@ def main(rig, recording, out):
     scene = bpy.context.scene
     scene.render.fps = FRAME_RATE
     scene.frame_start, scene.frame_end = 1, 1 + round(times[-1] * FRAME_RATE)
+    moving = 0
     for item in bpy.data.objects:
         if item.type == "MESH" and item.data.shape_keys:
-            print(f"{item.name}: {key_shapes(item.data, times, weights)} shapes move")
+            animated = key_shapes(item.data, times, weights)
+            moving += animated
+            print(f"{item.name}: {animated} shapes move")
+    if moving == 0:
+        sys.exit(f"{recording}: no column is named after a shape of {rig} with a weight other than 0")
     bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(out))
     print(f"{len(times)} samples over {times[-1]:.1f} s, written to {out}")
 
 
 if __name__ == "__main__":
-    main(*sys.argv[sys.argv.index("--") + 1:])
+    given = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    if len(given) != 3:
+        sys.exit("expected after --: RIG.glb WEIGHTS.csv OUT.blend")
+    main(*given)

@@ -2,12 +2,32 @@
 #include "hyperex/metrics/skin_uncertainty.hpp"
 
 #include <cmath>
+#include <limits>
 
-#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/simulate/load/shape_posterior.hpp"
 
 namespace hyperex::metrics {
+namespace {
+
+/// The vertex next to a point; of a lip's point, on that lip.
+Eigen::Index nearest_on_its_lip(const Points& skin, const std::vector<double>& upper_margin,
+                                const simulate::DrivenPoint& point) {
+  const int lip = anatomy::lip_of(point.name);
+  Eigen::Index nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index v = 0; v < skin.rows(); ++v) {
+    if (lip != 0 && (upper_margin[std::size_t(v)] > 0) != (lip > 0)) continue;
+    if (const double far = (skin.row(v).transpose() - point.rest).squaredNorm(); far < least) {
+      least = far;
+      nearest = v;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
 
 SkinUncertainty skin_uncertainty(const simulate::Performance& performance,
                                  const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
@@ -18,23 +38,23 @@ SkinUncertainty skin_uncertainty(const simulate::Performance& performance,
           .cast<double>()
           .rowwise()
           .norm();
-  const SurfaceTree tree(performance.skin_rest);
   std::vector<simulate::DrivenPoint> points;
-  simulate::MovedPlaces driven{performance.driven_points_rest,
-                               Eigen::VectorXd(performance.driven_points_rest.rows())};
+  simulate::MovedPlaces driven = {.rest = performance.driven_points_rest, .motion_m = {}};
+  driven.motion_m.resize(driven.rest.rows());
   for (std::size_t i = 0; i < performance.driven_names.size(); ++i) {
-    const Vec3 rest = driven.rest.row(Eigen::Index(i)).transpose();
-    points.push_back({performance.driven_names[i], rest});
-    const int triangle = tree.query(rest).triangle;
-    driven.motion_m[Eigen::Index(i)] =
-        motion_m(performance.skin_rest.triangles.row(triangle).transpose()).mean();
+    const auto row = Eigen::Index(i);
+    points.push_back({performance.driven_names[i], driven.rest.row(row).transpose()});
+    const Eigen::Index vertex = nearest_on_its_lip(skin, mesh.skin_upper_margin, points.back());
+    driven.motion_m[row] = motion_m[vertex];
+    driven.upper_margin.push_back(mesh.skin_upper_margin[std::size_t(vertex)]);
   }
   SkinUncertainty out{Eigen::VectorXf(skin.rows()), Eigen::VectorXf(skin.rows())};
   for (Eigen::Index from = 0; from < skin.rows(); from += most) {
     const Eigen::Index rows = std::min(most, skin.rows() - from);
-    const simulate::MovedPlaces places{skin.middleRows(from, rows), motion_m.segment(from, rows)};
     const auto margin = mesh.skin_upper_margin.begin() + from;
-    const simulate::CarriedShapes shapes(places.rest, {margin, margin + rows}, landmarks, points,
+    const simulate::MovedPlaces places{
+        skin.middleRows(from, rows), motion_m.segment(from, rows), {margin, margin + rows}};
+    const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, points,
                                          simulate::MuscleOptions{}.shape_sigma_m);
     const simulate::ShapePosterior posterior(shapes, places, driven);
     out.distance_mm.segment(from, rows) = (1e3 * posterior.distance_m()).cast<float>();

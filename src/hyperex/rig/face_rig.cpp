@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/rig/face_rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "hyperex/rig/shape_motion.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
@@ -24,7 +28,11 @@ constexpr double kClosedAt = 0.7;
 /// Angles of the eyes at weight 1, degrees.
 constexpr double kLookUp_deg = 20, kLookDown_deg = 25, kLookAside_deg = 30;
 /// Shares of eyeWide and eyeBlink in which the lids follow.
-constexpr double kLidsUp = 0.5, kLidsDown = 0.4;
+constexpr double kLidsUp = 0.5, kLidsDown = 0.55;
+/// A jaw that turns by less stands still.
+constexpr double kJaw_rad = 0.005;
+/// Sections of a scene whose keys may change a rig.
+constexpr const char* kSections[] = {"tissue", "muscles", "contact", "support", "mesh", "teeth"};
 
 bool moves_skin(const std::string& shape) {
   return !shape.starts_with("eyeLook") && shape != "tongueOut";
@@ -77,23 +85,62 @@ class Shapes {
         shape.displacement_m = float(kLidsDown) * skin("eyeBlink" + side);
     } else if (moves_skin(name)) {
       shape.displacement_m = skin(name);
-      if (name.starts_with("jaw"))
-        shape.jaw_now_from_rest = performance_.jaw_now_from_rest[frame_.at(name)];
+      const Eigen::Isometry3d& jaw = performance_.jaw_now_from_rest.at(frame_.at(name));
+      if (name.starts_with("jaw") || Eigen::AngleAxisd(jaw.linear()).angle() > kJaw_rad)
+        shape.jaw_now_from_rest = jaw;
     }
     return shape;
   }
 
  private:
   const PointsF& skin(const std::string& pose) const {
-    return performance_.skin_displacement_m[frame_.at(pose)];
+    return performance_.skin_displacement_m.at(frame_.at(pose));
   }
   const simulate::Performance& performance_;
   std::map<std::string, std::size_t> frame_;
 };
 
+/// Whether the scan has an opening between the corners of an eye. "36" and "39": those of the
+/// right.
+bool is_open(const report::FaceBacking& backing, const Points& skin, const io::Landmarks& landmarks,
+             const char* outer, const char* inner) {
+  const Vec3 middle = (landmarks.at(outer) + landmarks.at(inner)) / 2;
+  const double width = (landmarks.at(outer) - landmarks.at(inner)).norm();
+  return std::ranges::any_of(backing.openings, [&](const report::Opening& opening) {
+    const Points loop = skin(opening.loop, Eigen::all);
+    return (loop.colwise().mean().transpose() - middle).norm() < width / 2;
+  });
+}
+
+/// A scan with closed eyes has no lids to move: their shapes are taken away, with a note.
+void close_eyes(FaceRig& rig, const io::Landmarks& landmarks) {
+  const Points& skin = rig.performance.skin_rest.points;
+  const report::FaceBacking backing = report::face_backing(rig.performance);
+  for (const auto& [side, outer, inner] :
+       {std::tuple{"Right", "ibug68_36", "ibug68_39"}, {"Left", "ibug68_45", "ibug68_42"}}) {
+    if (is_open(backing, skin, landmarks, outer, inner)) continue;
+    for (RigShape& shape : rig.shapes)
+      if (shape.name.starts_with("eye") && shape.name.ends_with(side)) {
+        shape.displacement_m.setZero();
+        shape.left_eye = shape.right_eye = std::nullopt;
+      }
+    rig.closed_eyes.emplace_back(side);
+  }
+}
+
+void refuse_other_keys(const session::Changes& changes) {
+  for (const auto& [key, value] : changes)
+    if (const std::string section = key.substr(0, key.find('.'));
+        std::ranges::find(kSections, section) == std::end(kSections))
+      throw InputError({"the rig's scene", 0, key, value.json(),
+                        "a key of tissue, muscles, contact, support, mesh or teeth"});
+}
+
 }  // namespace
 
-FaceRig make_rig(session::Face face, const session::Changes& changes) {
+FaceRig make_rig(session::Face face, const session::Changes& changes,
+                 const std::function<void(const Note&)>& note) {
+  refuse_other_keys(changes);
   std::map<std::string, std::size_t> place;
   std::vector<Pose> poses = poses_of(place);
   motion::Motion motion = motion_through(poses);
@@ -108,7 +155,7 @@ FaceRig make_rig(session::Face face, const session::Changes& changes) {
   given.motion = std::make_shared<const motion::Motion>(std::move(motion));
   given.of_weights = true;
   session::FaceSession session(session::SceneSource(std::move(given), all).scene(),
-                               {.certainty = session::Certainty::on_request});
+                               {.certainty = session::Certainty::on_request, .note = note});
   session.run_base();
   for (auto& [name, at] : place) at = std::size_t(std::lround(poses[at].time_s * kFrameRate_hz));
   const Shapes simulated(session.simulation().performance, std::move(place));
@@ -116,10 +163,10 @@ FaceRig make_rig(session::Face face, const session::Changes& changes) {
   rig.scan = std::make_shared<const io::Scan>(session.inputs().scan);
   rig.teeth = session.teeth();
   rig.jaw_axis_m = simulate::JawHinge(session.inputs().landmarks).centre;
-  rig.notes = session.notes();
   for (const std::string& name : expression::arkit_shapes())
     rig.shapes.push_back(simulated.named(name));
   rig.performance = session.simulation().performance;
+  close_eyes(rig, session.inputs().landmarks);
   return rig;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,7 +22,9 @@ struct FaceRig {
   simulate::Performance performance;            ///< the run that the shapes come from
   Vec3 jaw_axis_m;                              ///< the middle between the condyles
   std::vector<report::RigShape> shapes;         ///< in the order of expression::arkit_shapes()
-  std::vector<Note> notes;                      ///< of the session
+  /// "Right", "Left": sides on which the scan's eye is closed, so that shapes of lids and gaze move
+  /// nothing there.
+  std::vector<std::string> closed_eyes;
 };
 
 /// The shapes of one face. Each is the face under the muscles and the jaw that move its landmarks
@@ -30,12 +32,13 @@ struct FaceRig {
 /// in contact. Exceptions:
 ///   mouthClose    what is left of an open mouth with closed lips when the open mouth is taken away
 ///                 (both at weight 0.7), so that mouthClose with the weight of jawOpen closes it
-///   eyeLook...    the eyes turn; the lids follow a gaze up by 0.5 of eyeWide and one down by 0.4
-///   of
-///                 eyeBlink
+///   eyeLook...    the eyes turn; the lids take 0.5 of eyeWide with a gaze up and 0.55 of eyeBlink
+///                 with one down
 ///   tongueOut     nothing: there is no tongue
-/// `changes`: of keys of the scene (docs/scene.md), as of muscles or tissue. Throws InputError,
+/// `changes`: of keys of the sections tissue, muscles, contact, support, mesh and teeth of a scene
+/// (docs/scene.md). `note`: called with what is assumed and doubtful. Throws InputError,
 /// NumericalError.
-FaceRig make_rig(session::Face face, const session::Changes& changes = {});
+FaceRig make_rig(session::Face face, const session::Changes& changes = {},
+                 const std::function<void(const Note&)>& note = {});
 
 }  // namespace hyperex::rig

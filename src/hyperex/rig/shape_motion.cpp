@@ -71,6 +71,7 @@ motion::Motion motion_through(std::vector<Pose>& poses) {
       out.positions.push_back(at);
     };
     add(reached_s, moved);
+    add((reached_s + left_s) / 2, moved);
     add(left_s, moved);
     add(rest_s, rest);
     poses[i].time_s = double(i) + left_s;

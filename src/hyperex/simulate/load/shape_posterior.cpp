@@ -16,8 +16,17 @@ Eigen::VectorXd misfit(const MovedPlaces& at, const PosteriorOptions& options) {
   return (options.misfit_m + options.misfit_share * at.motion_m.array()).matrix();
 }
 
+/// A place of the skin at rest, and a fourth coordinate by which the two lips are apart.
+Eigen::Vector4d apart(const MovedPlaces& at, Eigen::Index i) {
+  constexpr double full_m = 0.010, lips_m = 0.016;
+  const double margin = at.upper_margin.empty() ? 0 : at.upper_margin[std::size_t(i)];
+  Eigen::Vector4d out;
+  out << at.rest.row(i).transpose(), lips_m / 2 * std::clamp(margin / full_m, -1.0, 1.0);
+  return out;
+}
+
 /// How alike the misfits of two places are.
-double alike(const Vec3& a, const Vec3& b, double length_m) {
+double alike(const Eigen::Vector4d& a, const Eigen::Vector4d& b, double length_m) {
   return std::exp(-(a - b).squaredNorm() / (2 * length_m * length_m));
 }
 
@@ -35,19 +44,21 @@ ShapePosterior::ShapePosterior(const CarriedShapes& shapes, const MovedPlaces& p
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j < count; ++j)
       seen.block<3, 3>(3 * i, 3 * j).diagonal().array() +=
-          of_point[i] * of_point[j] * alike(points.rest.row(i), points.rest.row(j), length);
+          of_point[i] * of_point[j] * alike(apart(points, i), apart(points, j), length);
   seen.diagonal().array() += options.point_m * options.point_m;
   const Eigen::LLT<Eigen::MatrixXd> factor(seen);
 
   constexpr Eigen::Index block = 256;  // places at once, which limits the memory
   run_each(std::size_t((rows + block - 1) / block), [&](std::size_t b) {
     const Eigen::Index from = block * Eigen::Index(b), end = std::min(from + block, rows);
-    const auto here = shapes.at_nodes().middleRows(3 * from, 3 * (end - from));
+    Eigen::MatrixXd here = shapes.at_nodes().middleRows(3 * from, 3 * (end - from));
+    for (Eigen::Index p = from; p < end; ++p)
+      here.middleRows<3>(3 * (p - from)) *= shapes.cover()[p];
     Eigen::MatrixXd with_points = of_points * here.transpose();  // 3 |points| x 3 |places|
     for (Eigen::Index p = from; p < end; ++p)
       for (Eigen::Index i = 0; i < count; ++i)
         with_points.block<3, 3>(3 * i, 3 * (p - from)).diagonal().array() +=
-            of_point[i] * of_place[p] * alike(points.rest.row(i), places.rest.row(p), length);
+            of_point[i] * of_place[p] * alike(apart(points, i), apart(places, p), length);
     factor.matrixL().solveInPlace(with_points);
     for (Eigen::Index p = from; p < end; ++p) {
       const auto own = here.middleRows<3>(3 * (p - from));

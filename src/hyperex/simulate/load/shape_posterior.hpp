@@ -19,13 +19,17 @@ struct PosteriorOptions {
 struct MovedPlaces {
   Points rest;               ///< n x 3, m
   Eigen::VectorXd motion_m;  ///< n: length of the displacement
+  /// n: TissueMesh::upper_margin, m; empty: all 0. Lips that touch at rest are counted as apart.
+  std::vector<double> upper_margin = {};
 };
 
 /// What driven points tell about the displacement u(x) of other places of the skin, given how real
 /// faces move. Before a point is seen,
-///   u(x) = S(x) w + r(x),  w ~ N(0, Sigma),  E r(x) r(y)^T = m(x) m(y) exp(-|x - y|^2 / 2 l^2) I,
-/// with the shapes S and the covariance Sigma of their weights (expression/shape_model.hpp; their
-/// bound, w >= 0, is not regarded), m(x) = misfit_m + misfit_share |u(x)|, of the motion found, and
+///   u(x) = c(x) S(x) w + r(x),  w ~ N(0, Sigma),  E r(x) r(y)^T = m(x) m(y) exp(-|x - y|^2 / 2
+///   l^2) I,
+/// with the shapes S, 1 (on the face) to 0 (off it) as CarriedShapes::cover() for c, and the
+/// covariance Sigma of their weights (expression/shape_model.hpp; their bound, w >= 0, is not
+/// regarded), m(x) = misfit_m + misfit_share |u(x)|, of the motion found, and
 /// l = misfit_length_m. With P = E u u^T, the covariance is then
 ///   P_xx - P_xp (P_pp + point_m^2 I)^-1 P_px.
 /// Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), eq. 2.24.
