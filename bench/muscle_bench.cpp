@@ -132,10 +132,9 @@ double squared_mahalanobis(const simulate::ShapePosterior& posterior, Eigen::Ind
   return error.dot(posterior.covariance(place).ldlt().solve(error));
 }
 
-/// What is known of the skin between the driven points of a run. `motion_m`: of the places.
+/// What is known of the skin between the driven points of a run.
 simulate::ShapePosterior posterior_of(const simulate::Performance& p,
                                       const simulate::MovedPlaces& places,
-                                      const std::vector<double>& upper_margin,
                                       const io::Landmarks& landmarks) {
   simulate::PosteriorOptions options;
   take("misfit", options.misfit_m, 1e-3);
@@ -153,7 +152,7 @@ simulate::ShapePosterior posterior_of(const simulate::Performance& p,
     driven.motion_m[row] = double(motion.row(vertex).norm());
     driven.upper_margin.push_back(0.01 * anatomy::lip_of(p.driven_names[i]));
   }
-  const simulate::CarriedShapes shapes(places.rest, upper_margin, landmarks, points,
+  const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, points,
                                        simulate::MuscleOptions{}.shape_sigma_m);
   return simulate::ShapePosterior(shapes, places, driven, options);
 }
@@ -289,8 +288,6 @@ Score score_scan(const std::string& name, const std::string& scene_file,
                                  (moved - rest).rowwise().norm(),
                                  {mesh->skin_upper_margin.begin(),
                                   mesh->skin_upper_margin.begin() + mesh->scan_vertices}},
-                                {mesh->skin_upper_margin.begin(),
-                                 mesh->skin_upper_margin.begin() + mesh->scan_vertices},
                                 inputs.landmarks),
                    moved - truth.points.topRows(rest.rows()), regions);
   return score;
@@ -363,7 +360,7 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
         (tracks.positions[1].row(row) - tracks.positions[0].row(row)).norm();
   }
   const simulate::ShapePosterior posterior =
-      posterior_of(result.performance, {places, of_places}, std::vector<double>(test.size(), 0.0),
+      posterior_of(result.performance, {places, of_places, std::vector<double>(test.size(), 0.0)},
                    inputs.landmarks);
   std::map<std::string, double> run, warp, within, squared_error;
   for (std::size_t f = 0; f < frames.size(); ++f) {

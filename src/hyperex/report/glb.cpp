@@ -60,12 +60,7 @@ void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh&
   report.max_error_m = targets.keys.max_error_m;
   add_morph_targets(mesh, arrays, targets, view.skin_vertex);
   if (!openings.empty())
-    for (const PointsF& pose : targets.positions) {
-      const Points now = pockets(openings, rest + pose.cast<double>()).points;
-      const PointsF change = (now - cavity).cast<float>();
-      mesh.primitives[1].targets.push_back(
-          {{"POSITION", arrays.few_vectors(change, targets.least_move_m, true)}});
-    }
+    add_pocket_targets(mesh.primitives[1], arrays, openings, rest, cavity, targets);
   tinygltf::Animation animation;
   animation.name = "performance";
   const double start_s = performance.frame_time_s.front();

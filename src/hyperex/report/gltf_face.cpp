@@ -193,6 +193,16 @@ tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
   return cavity;
 }
 
+void add_pocket_targets(tinygltf::Primitive& pocket_part, GltfArrays& arrays,
+                        const std::vector<Opening>& openings, const Points& skin_rest,
+                        const Points& at_rest, const PoseTargets& targets) {
+  for (const PointsF& pose : targets.positions) {
+    const Points now = pockets(openings, skin_rest + pose.cast<double>()).points;
+    pocket_part.targets.push_back({{"POSITION", arrays.few_vectors((now - at_rest).cast<float>(),
+                                                                   targets.least_move_m, true)}});
+  }
+}
+
 void end_face(tinygltf::Model& model) {
   tinygltf::Scene scene;
   for (std::size_t n = 0; n < model.nodes.size(); ++n) scene.nodes.push_back(int(n));

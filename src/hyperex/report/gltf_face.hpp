@@ -36,6 +36,12 @@ TriMesh pockets(const std::vector<Opening>& openings, const Points& points);
 tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
                                      const std::vector<Opening>& openings, const TriMesh& mesh);
 
+/// Morph targets of the pockets for those of the skin: `pocket_part` is the cavity_primitive() of
+/// `openings`, and `at_rest` its points.
+void add_pocket_targets(tinygltf::Primitive& pocket_part, GltfArrays& arrays,
+                        const std::vector<Opening>& openings, const Points& skin_rest,
+                        const Points& at_rest, const PoseTargets& targets);
+
 /// Nodes eye_R and eye_L in the colours of the report's (web/src/replay/face/backing.ts), turned
 /// about their centres.
 void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeball>& eyeballs,

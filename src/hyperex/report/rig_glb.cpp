@@ -116,12 +116,8 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
   const PoseTargets targets = targets_of(rest, shapes);
   add_morph_targets(skin, arrays, targets, view.skin_vertex);
   if (!backing.openings.empty())
-    for (const PointsF& pose : targets.positions) {
-      const Points now = pockets(backing.openings, rest.points + pose.cast<double>()).points;
-      skin.primitives[1].targets.push_back(
-          {{"POSITION",
-            arrays.few_vectors((now - cavity.points).cast<float>(), kLeastMove_m, true)}});
-    }
+    add_pocket_targets(skin.primitives[1], arrays, backing.openings, rest.points, cavity.points,
+                       targets);
   FaceNodes nodes;
   add_eyes(model, arrays, backing.eyeballs, nodes);
   if (teeth) {
