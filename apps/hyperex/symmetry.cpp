@@ -108,8 +108,8 @@ motion::Motion without_head(const motion::Motion& motion, const SymmetryOptions&
   }
 }
 
-/// S(t). Where its points are missing, the excursions of those that are there can be told all the
-/// same, though not drawn below S.
+/// S(t). If the motion lacks points that S(t) needs but has a pair of points to measure, a message
+/// says so and the curve stays empty; the excursions are still printed. A picture needs S(t).
 metrics::SymmetryCurve curve_of(const motion::Motion& motion, const SymmetryOptions& options) {
   const bool excursions_alone = options.picture.empty() &&
                                 metrics::symmetry_columns(motion).empty() &&

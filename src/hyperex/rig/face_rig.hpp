@@ -30,8 +30,10 @@ struct FaceRig {
 /// The shapes of one face. Each is the face under the muscles and the jaw that move its landmarks
 /// as the shape moves those of real faces (shape_motion.hpp), lids by shares of the aperture, lips
 /// in contact. Exceptions:
-///   mouthClose    what is left of an open mouth with closed lips when the open mouth is taken away
-///                 (both at weight 0.7), so that mouthClose with the weight of jawOpen closes it
+///   mouthClose    the displacement of the open mouth with closed lips minus that with open lips,
+///   at
+///                 jawOpen = 0.7, divided by 0.7; added to jawOpen of the same weight it closes the
+///                 mouth
 ///   eyeLook...    the eyes turn; the lids take 0.5 of eyeWide with a gaze up and 0.55 of eyeBlink
 ///                 with one down
 ///   tongueOut     nothing: there is no tongue

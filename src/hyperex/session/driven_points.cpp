@@ -47,7 +47,7 @@ double reach_m(const motion::Motion& motion, const FacePart& part) {
   return most_m;
 }
 
-/// Other points that go farther than this are told, as many as kMostNamed by name.
+/// The note counts other points that move farther than this, and names at most kMostNamed of them.
 constexpr double kMoves_m = 2e-3;
 constexpr std::size_t kMostNamed = 4;
 
@@ -63,8 +63,8 @@ bool is_of_a_part(int number) {
   });
 }
 
-/// Whether a point is one of those that are not told by parts, that are not driven, and that skin
-/// could follow.
+/// Whether a point belongs to no part that the note names as a whole, is not driven, and lies on
+/// the skin.
 bool is_further(const scene::Scene& scene, const motion::Motion& motion,
                 const std::vector<std::string>& driven, const std::string& name) {
   const auto has = [](const std::vector<std::string>& names, const std::string& one) {

@@ -125,7 +125,7 @@ TEST(DrivenPoints, WhatNeedsNoDriveIsNotSaid) {
   m.triangles.resize(1, 3);
   m.triangles << first, first + 1, first + 2;
   EXPECT_EQ(not_driven(scene, m), "");
-  // A landmark of two names is said once.
+  // A landmark that has two names is listed once.
   EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_30", 3}, {"pronasale", 3}})),
             "recorded, but not driven: ibug68_30 (3.0 mm); drive.points selects the driven points");
 }

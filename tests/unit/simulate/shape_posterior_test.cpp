@@ -91,7 +91,8 @@ TEST_F(PosteriorOnAFace, IsSmallAtDrivenPointsAndGreatWhereNothingTells) {
   EXPECT_LT(distance_mm_at("ibug68_19"), 0.7 * brow);
 }
 
-/// The left corner tells of the left cheek alone: shapes of the two sides are not correlated.
+/// The left corner of the mouth determines little of the right side, since the shapes of the two
+/// sides are not correlated.
 TEST_F(PosteriorOnAFace, OneSideTellsLittleOfTheOther) {
   see({"ibug68_54"});  // the subject's left
   const Eigen::VectorXd determined = posterior().determined();

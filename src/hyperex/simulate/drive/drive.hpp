@@ -42,7 +42,7 @@ class DriveField {
   Points centres_;             // opened: the points, the forehead's places, the still places
   Eigen::Index forehead_ = 0;  // number of the forehead's places
   std::vector<int> forehead_follows_;  // points that they follow
-  Vec3 shift_;                         // of what lies wholly above the mouth
+  Vec3 shift_;                         // of skin above the mouth, when it is opened
 };
 
 /// How far the lips part in a motion, m: the greatest upward difference between the mean

@@ -11,7 +11,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// 1 sigma of a coordinate of what no shapes make.
+/// Standard deviation (per coordinate) of the motion that no combination of shapes represents.
 Eigen::VectorXd misfit(const MovedPlaces& at, const PosteriorOptions& options) {
   return (options.misfit_m + options.misfit_share * at.motion_m.array()).matrix();
 }

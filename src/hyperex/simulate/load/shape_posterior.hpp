@@ -7,10 +7,11 @@
 
 namespace hyperex::simulate {
 
-/// How far true faces are from what shapes make of driven points.
+/// The assumed errors of the shape model and of the driven points.
 struct PosteriorOptions {
-  /// What no combination of shapes makes: 1 sigma of a coordinate is misfit_m and a share of how
-  /// far the skin moves there; the distance over which it is alike, m.
+  /// Motion that no combination of shapes represents. Its standard deviation (per coordinate) is
+  /// misfit_m + misfit_share x the length of the displacement there; its correlation length is
+  /// misfit_length_m.
   double misfit_m = 0.001, misfit_share = 0.17, misfit_length_m = 0.015;
   double point_m = 0.0005;  ///< 1 sigma of the error of a coordinate of a driven point, m
 };
